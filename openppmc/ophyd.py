@@ -19,11 +19,10 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from .errors import needs
-from .host.axis.device import Device
 from .host.axis.motion import AnyMotion
+from .host.axis.part import Device
 from .host.basis.ending import StoppedEarly
-from .host.basis.errors import LinkError, OutOfRange, PpmcError
-from .host.basis.refusals import NothingToStop, NotWhileBusy
+from .host.basis.errors import LinkError, NothingToStop, NotWhileBusy, OutOfRange, PpmcError
 
 needs("ophyd", "openppmc.ophyd", "ophyd")
 

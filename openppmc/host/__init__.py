@@ -22,9 +22,10 @@ if TYPE_CHECKING:
     from .axis.axis import CCW, CW, Axis
     from .axis.motion import Motion, Progress
     from .axis.part import Part as AnyPart
+    from .axis.part import open_part
     from .bank.axis import BankAxis
     from .bank.driver import PpmcBank
-    from .bank.errors import GroupRefused
+    from .bank.registers import GroupRefused
     from .basis.ending import (
         AlarmStop,
         Cause,
@@ -36,48 +37,42 @@ if TYPE_CHECKING:
         StoppedEarly,
     )
     from .basis.errors import (
+        AlreadyDecelerating,
+        BadRamp,
+        CommandRefused,
         Disconnected,
         LinkError,
         Misused,
         NoAnswer,
         NoSuchName,
+        NothingToStop,
+        NotInitialised,
+        NotWhileBusy,
         OutOfRange,
         PortError,
         PpmcError,
         ProtocolError,
-        Timeout,
-        WrongDevice,
-    )
-    from .basis.refusals import (
-        AlreadyDecelerating,
-        BadRamp,
-        CommandRefused,
-        NothingToStop,
-        NotInitialised,
-        NotWhileBusy,
         RampTooLong,
         StartRefused,
+        Timeout,
         UnexpectedData,
         UnexpectedDataBusy,
         UnknownCode,
+        WrongDevice,
     )
     from .bridge.link import Link
-    from .bridge.port import open_port
-    from .opening import open_part
     from .pmc006.axis import BACKWARD, FORWARD
-    from .pmc006.bus import Pmc006Bus
-    from .pmc006.driver import Pmc006
-    from .ports.transport import serial_ports
+    from .pmc006.driver import Pmc006, Pmc006Bus
+    from .ports.transport import open_port, serial_ports
     from .ppmc104.driver import Ppmc104
     from .ppmc312.driver import Ppmc312
-    from .ppmc312.line.ascii import SumMode
     from .ppmc312.line.bus import Ppmc312Bus
+    from .ppmc312.line.serial import SumMode
     from .ppmc312.line.station import Station312
     from .ppmc2104.axis import Axis2104
     from .ppmc2104.driver import Ppmc2104
     from .ppmc2104.errors import BadSwitching, CutCommand, TooFast
-    from .stmc.driver import Stmc
-    from .stmc.kind import BOARD_CLOCK
+    from .stmc.driver import BOARD_CLOCK, Stmc
     from .stopping import Signalled, stop_on_signals
 else:
     __getattr__, __dir__ = lazy(
@@ -86,32 +81,28 @@ else:
         . units
         .axis.axis CCW CW Axis
         .axis.motion Motion Progress
-        .axis.part AnyPart=Part
+        .axis.part AnyPart=Part open_part
         .bank.axis BankAxis
         .bank.driver PpmcBank
-        .bank.errors GroupRefused
+        .bank.registers GroupRefused
         .basis.ending AlarmStop Cause End EndUnknown LimitReached MotionError OriginNotFound StoppedEarly
         .basis.errors Disconnected LinkError Misused NoAnswer NoSuchName OutOfRange PortError PpmcError
-        .basis.errors ProtocolError Timeout WrongDevice
-        .basis.refusals AlreadyDecelerating BadRamp CommandRefused NothingToStop NotInitialised NotWhileBusy
-        .basis.refusals RampTooLong StartRefused UnexpectedData UnexpectedDataBusy UnknownCode
+        .basis.errors ProtocolError Timeout WrongDevice AlreadyDecelerating BadRamp CommandRefused
+        .basis.errors NothingToStop NotInitialised NotWhileBusy RampTooLong StartRefused UnexpectedData
+        .basis.errors UnexpectedDataBusy UnknownCode
         .bridge.link Link
-        .bridge.port open_port
-        .opening open_part
+        .ports.transport open_port serial_ports
         .pmc006.axis BACKWARD FORWARD
-        .pmc006.bus Pmc006Bus
-        .pmc006.driver Pmc006
-        .ports.transport serial_ports
+        .pmc006.driver Pmc006Bus Pmc006
         .ppmc104.driver Ppmc104
         .ppmc312.driver Ppmc312
-        .ppmc312.line.ascii SumMode
+        .ppmc312.line.serial SumMode
         .ppmc312.line.bus Ppmc312Bus
         .ppmc312.line.station Station312
         .ppmc2104.axis Axis2104
         .ppmc2104.driver Ppmc2104
         .ppmc2104.errors BadSwitching CutCommand TooFast
-        .stmc.driver Stmc
-        .stmc.kind BOARD_CLOCK
+        .stmc.driver Stmc BOARD_CLOCK
         .stopping Signalled stop_on_signals
         """,
     )

@@ -12,8 +12,8 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .axis.device import Device, Turning
     from .axis.motion import Progress
+    from .axis.part import Device, Turning
 
 # The command line imports this file first: what the functions need is imported in them.
 
@@ -75,8 +75,7 @@ def bring_to_rest(
     seconds: longest wait, then they are stopped at once. hurry: asked about ten times a second; True stops
     them at once. every: also motions that these objects do not know of. Errors are in the line.
     """
-    from .basis.errors import PpmcError, Timeout
-    from .basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised
+    from .basis.errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
 
     axes: list[Turning] = [axis for device in devices for axis in device.axes]
     moving: list[tuple[Device, Turning]] = []

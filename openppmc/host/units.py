@@ -3,7 +3,7 @@
 They are in `basis.units`; times that only one part has are in that part's folder.
 """
 
-from .axis.chopping import chop_byte
+from .axis.axis import chop_byte
 from .basis.units import (
     BaseClock,
     Setup,
@@ -15,7 +15,7 @@ from .basis.units import (
     pin_period,
     plan_setup,
 )
-from .ppmc2104.times import half_us_byte, hold_byte
+from .ppmc2104.errors import half_us_byte, hold_byte
 
 __all__ = [
     "BaseClock",

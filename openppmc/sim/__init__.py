@@ -24,9 +24,9 @@ else:
         __name__,
         """
         .common.board AxisStatus SimBoard Status start
+        .common.known KNOWN
         .common.line_child LineStatus SimLine start_line
         .common.lines part_of
-        .common.known KNOWN
         .common.spec Spec SpecError parse_spec
         .common.verilator SimError
         """,

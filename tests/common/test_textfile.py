@@ -9,7 +9,7 @@ import pytest
 from openppmc.capture.common.pinmap import read_map
 from openppmc.cli.common.program import read_file, read_program
 from openppmc.cli.pmc006.program import _read
-from openppmc.host.ppmc312.free import read_stages
+from openppmc.host.ppmc312.profile import read_stages
 from openppmc.textfile import NotTextError, chunks, decode_text, read_text
 
 ENCODINGS = ("utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "latin-1")

@@ -8,7 +8,7 @@ import cocotb
 from cocotb.triggers import FallingEdge
 
 from cocotb_tests.harness.config import configs
-from openppmc.host.bridge.records import Recorded
+from openppmc.host.selftest.recording import Recorded
 
 from .bench import Bench, same
 from .settings import FAST, REC, TWO

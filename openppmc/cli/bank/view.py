@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...host import End, NothingToStop, PpmcBank
-from ...host.axis.moves import OnProgress
+from ...host.axis.axis import OnProgress
 from ...host.axis.part import AnyAxis
 from ..common.view import RampView
 

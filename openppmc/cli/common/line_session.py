@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 
 import typer
 
-from ...host.axis.device import Turning
 from ...host.axis.motion import Progress
+from ...host.axis.part import Turning
 from ...host.line.bus import LineBus
 from .guard import Guard
 

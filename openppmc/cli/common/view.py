@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
 from ...host import End, OutOfRange
-from ...host.axis.moves import OnProgress
+from ...host.axis.axis import OnProgress
 from ...host.axis.part import AnyAxis
 from ...host.basis import units
 from ...host.basis.kind import Kind

@@ -7,8 +7,8 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ...host import End, Pmc006
-from ...host.pmc006.bus import Found
 from ...host.pmc006.codes import Flags, Modes
+from ...host.pmc006.driver import Found
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from ...host.ppmc312.answers import (
     Report,
     Stopped,
 )
-from ...host.ppmc312.axis import Axis
+from ...host.ppmc312.core import TableRead
+from ...host.ppmc312.driver import Axis
 from ...host.ppmc312.profile import Setup
-from ...host.ppmc312.settings import TableRead
 from ...model.ppmc312.codes import Code, Source
 from ..common import show
 

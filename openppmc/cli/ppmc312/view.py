@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...host import Ppmc312
-from ...host.axis.moves import OnProgress
+from ...host.axis.axis import OnProgress
 from ...host.axis.part import AnyAxis
 from ...host.basis import units
 from ...host.ppmc312.answers import Alarm, Failed

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...host import Ppmc312
 from ...host.basis.kind import Kind
 from ...host.ppmc312 import blocks
-from ...host.ppmc312.kind import KIND
+from ...host.ppmc312.profile import KIND
 from ..common.options import Side
 from ..common.override import parse_override
 from ..common.reading import Values

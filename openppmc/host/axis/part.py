@@ -2,16 +2,86 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, TypeVar
+from types import TracebackType
+from typing import Any, Protocol, TypeVar, cast
 
+from ...parts import by_number, having
 from ..basis import units
+from ..basis.arguments import Checked
 from ..basis.ending import End
-from ..basis.kind import AnySetup, Kind
+from ..basis.errors import Disconnected, PpmcError, WrongDevice
+from ..basis.kind import AnySetup, Kind, RateKind, name_of
 from ..bridge.link import DEFAULT_BAUD, Link, Talk
+from ..bridge.script import Script
 from ..ports.transport import Port
-from .device import Device, Turning
+from .axis import Axis, OnProgress
 from .motion import AnyMotion
-from .moves import OnProgress
+from .registers import Status
+
+# What a program holds open: closing it, and no motion of ours left running after an error.
+
+DeviceT = TypeVar("DeviceT", bound="Device")
+
+
+class Way(Protocol):
+    """The way to the hardware: a bridge's link or the master's end of a line."""
+
+    @property
+    def name(self) -> str: ...
+    def clock(self) -> float: ...
+    def pause(self, seconds: float) -> None: ...
+    def close(self) -> None: ...
+
+
+class Turning(Protocol):
+    """An axis of any part, as far as it takes to bring it to rest."""
+
+    @property
+    def who(self) -> str: ...
+    @property
+    def position(self) -> int: ...
+    @property
+    def motion(self) -> AnyMotion | None: ...
+    def stop(self, wait: bool = True) -> End | None: ...
+    def halt(self, wait: bool = True) -> End | None: ...
+    def brake(self, now: bool = False) -> None: ...
+
+
+class Device(Checked):
+    """A context manager: leaving the block by an exception decelerates motions that this object started;
+    leaving it normally lets them go on. Both close the port."""
+
+    kind: Kind
+    link: Way
+
+    @property
+    def axes(self) -> tuple[Turning, ...]:
+        """Its axes, number 1 first."""
+        raise NotImplementedError
+
+    def attend(self, seconds: float) -> None:
+        """Let time of the board pass, and read what the part says by itself."""
+        self.link.pause(seconds)
+
+    def close(self) -> None:
+        """Close the port; a motion goes on."""
+        self.link.close()
+
+    def __enter__(self: DeviceT) -> DeviceT:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if error is not None and not isinstance(error, Disconnected):
+            for axis in self.axes:
+                if axis.motion is not None and not axis.motion.over:
+                    try:
+                        axis.brake()
+                    except PpmcError:
+                        pass  # the first error is the one to tell
+        self.close()
+
 
 PartT = TypeVar("PartT", bound="Part")
 
@@ -98,3 +168,71 @@ class Part(Device):
     def reset(self) -> None:
         """Reset of the part, in any state: pulses end at once, nothing initialised."""
         raise NotImplementedError
+
+
+# What the drivers of the parts with one axis share.
+
+
+class OneAxis(Part, Axis):
+    """Part and axis in one object; see `part.Part` and `axis.Axis`."""
+
+    kind: RateKind
+    link: Link
+
+    def __init__(self, link: Link) -> None:
+        Axis.__init__(self, link)
+
+    @property
+    def axes(self) -> tuple[Axis, ...]:
+        return (self,)
+
+    def straps(self, clock: units.BaseClock | None) -> Script:
+        return Script()
+
+    def apply(self, setup: units.Setup) -> units.Setup:
+        """Initialise with a setup that was planned before."""
+        self.link.execute(self.straps(setup.clock).call(setup.code, *setup.data))
+        self.setup = setup
+        return setup
+
+    def reset(self) -> None:
+        """Reset of the part, in any state: pulses end at once, coils off, nothing initialised."""
+        self.link.execute(Script().reset())
+        self.forget()
+
+    def status(self) -> Status:
+        """Status register; allowed at any time."""
+        return Status.parse(self.link.execute(Script().read(1)).byte(0))
+
+    def pins(self) -> int:
+        """The bridge's view of interrupt, HOLD and switches; allowed at any time."""
+        return self.link.execute(Script().pins()).byte(0)
+
+
+# Opens a board with whatever part it carries.
+
+
+def driver_of(number: int, where: str = "") -> type[Part]:
+    """The driver of the part with this number; WrongDevice if there is none."""
+    row = by_number(number)
+    if row is None or not row.driver:
+        *most, last = (one.title for one in having("number", "driver"))
+        raise WrongDevice(
+            f"{where}: the part is a {name_of(number)}; there are drivers for {', '.join(most)} and {last}: "
+            "renew the package"
+        )
+    return cast("type[Part]", row.load("driver"))
+
+
+def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> Part:
+    """Open a port and take the driver of the part that is there (IDENT). number: the part that it must be.
+
+    Raises WrongDevice for another part, or one without a driver.
+    """
+    link = Link(spec, baud, number)
+    try:
+        driver = driver_of(link.identity.part, link.name)
+    except BaseException:
+        link.close()
+        raise
+    return driver.on(link)

@@ -6,15 +6,14 @@ from collections.abc import Callable
 from typing import Protocol
 
 from ...model.motion.codes import CONTINUOUS
-from ..axis.axis import CW, Axis
-from ..axis.chopping import Chopping
-from ..axis.kind import RateKind
+from ..axis.axis import CW, Axis, Chopping
 from ..axis.motion import Motion, Order, Progress
 from ..axis.registers import Inputs, Status
 from ..basis import units
 from ..basis.arguments import within
 from ..basis.ending import End
 from ..basis.errors import Misused, ProtocolError
+from ..basis.kind import RateKind
 from ..bridge.link import Link
 from ..bridge.script import Script
 from .registers import CONFIG, POSITION, POSITION_BYTES, STATUS, Config

@@ -6,28 +6,28 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from ..axis.axis import OnProgress
 from ..axis.motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Order
-from ..axis.moves import OnProgress
 from ..axis.part import Part
 from ..axis.registers import Inputs, Status
 from ..basis import units
 from ..basis.arguments import whole
 from ..basis.ending import End
-from ..basis.errors import OutOfRange
+from ..basis.errors import CommandRefused, OutOfRange
 from ..basis.kind import PULSE_ONLY
-from ..basis.refusals import CommandRefused
 from ..bridge.link import Link
 from ..bridge.script import Script
 from .axis import BankAxis
 from .group import Group, numbers_of, write_mask
-from .kind import KIND, BankKind
 from .registers import (
+    KIND,
     PENDING,
     POSITION,
     POSITION_BYTES,
     SELECT,
     STATUS,
     STOP,
+    BankKind,
     BankStatus,
     Info,
     Look,

@@ -7,16 +7,14 @@ from types import TracebackType
 from typing import Protocol
 
 from ..axis.axis import STOP_NOW
-from ..axis.kind import RateKind
 from ..axis.motion import READ_FINISH
 from ..basis.arguments import Checked, whole
-from ..basis.errors import OutOfRange, PpmcError
-from ..basis.refusals import CommandRefused, NotWhileBusy
+from ..basis.errors import CommandRefused, NotWhileBusy, OutOfRange, PpmcError
+from ..basis.kind import RateKind
 from ..bridge.link import Link
 from ..bridge.script import Script
 from .axis import BankAxis
-from .errors import GroupRefused, go_refused
-from .registers import GO, MASK, STATUS, bit_bytes
+from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 from .window import visit
 
 BUSY, ERR = 0x04, 0x80

@@ -1,11 +1,43 @@
 """The registers of a bank's window, and what they tell, as dataclasses (BANK-WIN-02, -03, -07). Pure."""
 
+# ruff: noqa: N818
+
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ...parts import part
 from ..axis.registers import Inputs, Status
+from ..basis import units
+from ..basis.errors import BY_NUMBER, CommandRefused, NothingToStop, PpmcError
+from ..basis.kind import COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
+
+# What a bank refuses, by axis.
+
+NOTHING_HELD = "GO found no motion that it holds: start one while it is in the group"
+
+
+def refused(status: int, number: int) -> CommandRefused:
+    """The exception for a status byte with ERR = 1 of the axis with this number."""
+    kind = BY_NUMBER[status >> 4 & 7]
+    return kind(status, f"axis {number}: {kind.text}")
+
+
+def go_refused(status: int, number: int) -> CommandRefused:
+    """The same after GO (BANK-GRP-02)."""
+    error = refused(status, number)
+    return NothingToStop(status, f"axis {number}: {NOTHING_HELD}") if type(error) is NothingToStop else error
+
+
+class GroupRefused(PpmcError):
+    """Axes of a group did not begin with the others, which run. refusals: the reason of each, by number."""
+
+    def __init__(self, refusals: Mapping[int, CommandRefused]) -> None:
+        super().__init__("; ".join(str(one) for one in refusals.values()))
+        self.refusals = dict(refusals)
+
 
 STATUS, CONFIG, SELECT, POSITION = 0x1, 0x2, 0x3, 0x4
 """Of an axis. SELECT is the bridge's view of the window: the axis whose registers all others are."""
@@ -71,3 +103,27 @@ def members(raw: bytes) -> tuple[int, ...]:
 def bit_bytes(numbers: tuple[int, ...], axes: int) -> bytes:
     """A register of a bit an axis with those of these axes 1, byte 0 first."""
     return sum(1 << number - 1 for number in numbers).to_bytes((axes + 7) // 8, "little")
+
+
+# What a bank of PPMC-104 axes allows. Pure.
+
+SIZES = (4, 8, 16, 32, 64)
+"""Numbers of axes that there are (BANK-GEN-01)."""
+
+
+class BankKind(RateKind):
+    """As a PPMC-104, but for what BANK-GEN-03 leaves out."""
+
+    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> units.BaseClock:
+        if wanted.external_clock is not None:
+            self.need("external clock")
+        return super().ramp_clock(xtal_hz, wanted)
+
+
+KIND = BankKind(
+    part("bank"),
+    axes=SIZES[-1],
+    has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF)),
+    outputs=0,
+)
+"""Of the largest one; a driver has that of its bank."""

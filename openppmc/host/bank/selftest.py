@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.single.codes import decode
-from ..bridge.answer import Identity
-from ..bridge.script import Script
+from ..bridge.script import Identity, Script
 from ..selftest.bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from ..selftest.plan import MOVES, REGISTERS, SWITCHES, Section, Talk, Wire
 from .registers import CONFIG, GO, INFO, MASK, PENDING, POSITION, POSITION_BYTES, SELECT, STOP

@@ -9,12 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ..basis.errors import WrongDevice
-from ..bridge.answer import Answer, Identity, Result
 from ..bridge.link import Link
-from ..bridge.script import LONGEST_SCRIPT, MOST_DATA, Script
-from .errors import refused
-from .kind import SIZES
-from .registers import INFO, MARK, SELECT, VERSION, Info
+from ..bridge.script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
+from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]

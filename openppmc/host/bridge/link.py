@@ -14,13 +14,11 @@ from ..basis.errors import (
     ProtocolError,
     Timeout,
     WrongDevice,
+    refused,
 )
 from ..basis.kind import name_of
-from ..basis.refusals import refused
-from ..ports.transport import BASE_BAUD, Port
-from .answer import PROTOCOL_VERSION, Answer, BadAnswer, Build, Identity, Result, parse_answer
-from .port import open_port
-from .script import RATES, Script
+from ..ports.transport import BASE_BAUD, Port, open_port
+from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity, Result, Script, parse_answer
 from .session import WAKE_UP, GaveUp, Nak, Session
 
 DEFAULT_BAUD = 1_000_000

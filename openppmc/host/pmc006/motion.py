@@ -8,10 +8,10 @@ from dataclasses import replace
 from ..axis.motion import Handle, Progress
 from ..basis import ending
 from ..basis.ending import AlarmStop, Cause, EndUnknown, LimitReached, MotionError, StoppedEarly
-from ..line.motion import wait_all
+from ..line.bus import wait_all
 from .codes import Code, Flags
-from .line import Line
 from .settings import Settings
+from .talk import Line
 
 
 class End(ending.End):

@@ -9,8 +9,7 @@ from typing import overload
 
 from ..basis.arguments import whole
 from ..basis.errors import OutOfRange
-from .codes import STATUS_1_BITS, STATUS_2_BITS, Code
-from .errors import SettingRefused
+from .codes import STATUS_1_BITS, STATUS_2_BITS, Code, SettingRefused
 from .talk import Talk
 
 MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)

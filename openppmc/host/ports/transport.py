@@ -176,3 +176,19 @@ def _how_to_get_permission(path: str) -> str:
     except (OSError, KeyError):
         group = "dialout"
     return f"add yourself to its group ({group}): sudo usermod -aG {group} $USER, then log in again"
+
+
+# Opening the port that a user names: a serial device, the virtual board (`sim:`), the model (`model:`).
+
+
+def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
+    """Open a port: device path, `sim:plant text` or `model:plant text`. Raises PortError."""
+    if not spec:
+        raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
+    if spec.startswith(MODEL):
+        from ..bridge.loopback import ModelPort
+
+        return ModelPort(spec.removeprefix(MODEL), baud)
+    if spec.startswith(SIM):
+        return SimPort(spec.removeprefix(SIM), baud)
+    return SerialPort(spec, baud)

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from ..axis.chopping import Chopping
+from ...parts import part
+from ..axis.axis import Chopping
+from ..axis.part import OneAxis
 from ..axis.registers import Inputs
-from ..axis.single import OneAxis
 from ..basis import units
-from ..basis.errors import OutOfRange
-from ..basis.refusals import NotWhileBusy
-from ..bridge.answer import Result
-from ..bridge.script import Script
-from .kind import KIND
+from ..basis.errors import NotWhileBusy, OutOfRange
+from ..basis.kind import AUX, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind
+from ..bridge.script import Result, Script
+
+# What a PPMC-104 allows. Pure.
+
+KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, AUX)))
+
 
 READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.single.codes import decode
-from ..bridge.answer import Identity
+from ..bridge.script import Identity
 from ..selftest.bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from ..selftest.plan import MOVES, SWITCHES, Section, Talk, Wire, timed
 

@@ -8,19 +8,16 @@ from typing import Protocol
 from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
 from ..axis.axis import CCW, Axis
-from ..axis.kind import AXIS_BIT
 from ..axis.motion import Motion, Order
 from ..axis.registers import Inputs
 from ..basis import units
 from ..basis.ending import Cause, End
-from ..basis.errors import Timeout
-from ..basis.refusals import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused
+from ..basis.errors import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused, Timeout
+from ..basis.kind import AXIS_BIT
 from ..bridge.link import Link
 from ..bridge.script import Script
-from . import times
-from .errors import CutCommand
-from .kind import KIND
-from .registers import Status
+from . import errors
+from .errors import KIND, CutCommand, Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
@@ -152,14 +149,14 @@ class Axis2104(Axis):
     def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: 32 to 127.5 each); returns those reached.
         Only at rest."""
-        on = times.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
-        off = times.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        on = errors.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = errors.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
         self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
         return on[1], off[1]
 
     def hold_delay(self, microseconds: units.Number) -> Fraction:
         """Time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); returns the one reached. Only
         at rest."""
-        byte, reached = times.hold_byte(self.link.identity.xtal_hz, microseconds)
+        byte, reached = errors.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
         return reached

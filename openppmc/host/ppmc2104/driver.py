@@ -5,23 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ...model.ppmc2104.codes import CMND
-from ..axis.axis import Axis
-from ..axis.kind import AXIS_BIT
+from ..axis.axis import Axis, OnProgress
 from ..axis.motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
-from ..axis.moves import OnProgress
 from ..axis.part import Part
 from ..basis import units
 from ..basis.arguments import whole, within
 from ..basis.ending import End, EndUnknown
-from ..basis.errors import PpmcError, ProtocolError
-from ..basis.refusals import AlreadyDecelerating, CommandRefused
-from ..bridge.answer import Answer
+from ..basis.errors import AlreadyDecelerating, CommandRefused, PpmcError, ProtocolError
+from ..basis.kind import AXIS_BIT
 from ..bridge.link import Link
-from ..bridge.script import Script
+from ..bridge.script import Answer, Script
 from .axis import Axis2104
-from .errors import BY_NUMBER, refused
-from .kind import KIND
-from .registers import Status
+from .errors import BY_NUMBER, KIND, Status, refused
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 IBF = 0x02

@@ -4,19 +4,27 @@
 
 from __future__ import annotations
 
-from ...model.ppmc2104.codes import Error
-from ..basis.refusals import (
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...model.motion.codes import IBF, OBF
+from ...model.ppmc2104.codes import BUSY, CMND, ERROR, Error
+from ...parts import part
+from ..basis.errors import (
     AlreadyDecelerating,
     BadRamp,
     CommandRefused,
     NothingToStop,
     NotInitialised,
     NotWhileBusy,
+    OutOfRange,
     RampTooLong,
     StartRefused,
     UnexpectedData,
     UnknownCode,
 )
+from ..basis.kind import COILS_OFF, PULSE_ONLY, RateKind
+from ..basis.units import Number, exact, nearby
 
 
 class CutCommand(CommandRefused):
@@ -81,3 +89,73 @@ def refused(number: int, status: int, axis: int) -> CommandRefused:
     """The exception for the error register of an axis that reads `number`, 1 to 13."""
     kind, text = BY_NUMBER[number]
     return kind(status, f"axis {axis}: {text or kind.text}")
+
+
+# The PPMC-2104's status register as a dataclass (P2104-STA-01). Pure.
+
+
+@dataclass(frozen=True)
+class Status:
+    """Status register. busy, working: of axis 1 and 2; working: data are wanted, or a command is under way.
+    error: an error register is not 0."""
+
+    raw: int
+    busy: tuple[bool, bool]
+    working: tuple[bool, bool]
+    error: bool
+    input_full: bool
+    output_full: bool
+
+    @classmethod
+    def parse(cls, raw: int) -> Status:
+        """From the byte."""
+        return cls(
+            raw,
+            busy=(bool(raw & BUSY[0]), bool(raw & BUSY[1])),
+            working=(bool(raw & CMND[0]), bool(raw & CMND[1])),
+            error=bool(raw & ERROR),
+            input_full=bool(raw & IBF),
+            output_full=bool(raw & OBF),
+        )
+
+
+# Times of a PPMC-2104 in microseconds to parameter bytes and back, exactly. Pure.
+
+
+def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, Fraction]:
+    """Parameter byte of the chopper nearest to a time, and the time it makes in us
+    (P2104-AUX-04): 0.5 us a unit at 16 MHz, 64 to 255  Raises OutOfRange with the possible range."""
+    unit = Fraction(8_000_000, xtal_hz)
+    asked = exact(microseconds, f"{phase} time")
+    low, high = 64 * unit, 255 * unit
+    if not low <= asked <= high:
+        raise OutOfRange(
+            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
+        )
+    byte = int(asked / unit + Fraction(1, 2))
+    return byte, byte * unit
+
+
+def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
+    """Parameter byte of the hold delay nearest to a time, and the time it makes in us
+    (P2104-AUX-05): 128 to 32 768 us at 16 MHz. Raises OutOfRange with the possible range."""
+    unit = Fraction(2048_000_000, xtal_hz)
+    asked = exact(microseconds, "hold delay")
+    if not unit <= asked <= 256 * unit:
+        raise OutOfRange(
+            f"hold delay {nearby(microseconds)} us is outside {nearby(unit)} to {nearby(256 * unit)} us"
+        )
+    byte = int(asked / unit + Fraction(1, 2)) - 1
+    return byte, (byte + 1) * unit
+
+
+# What a PPMC-2104 allows. Pure.
+
+KIND = RateKind(
+    part("ppmc2104"),
+    axes=2,
+    has=frozenset((PULSE_ONLY, COILS_OFF)),
+    outputs=3,
+    least_rate=1,
+    rate_gap=2,
+)

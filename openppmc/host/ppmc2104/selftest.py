@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.ppmc2104.codes import CMND, decode
-from ..bridge.answer import Identity
-from ..bridge.script import Script
+from ..bridge.script import Identity, Script
 from ..selftest.bytes import AXIS_2, CCW, CONSTANT, CONTINUOUS, DATA, ORIGIN, RAMP, ByteBus
 from ..selftest.plan import MOVES, REGISTERS, SWITCHES, Section, Talk, Wire, timed
 

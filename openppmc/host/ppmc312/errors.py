@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 from ...model.ppmc312.codes import Answer, State
-from ..basis.refusals import (
+from ..basis.errors import (
     CommandRefused,
     NothingToStop,
     NotInitialised,

@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ...model.ppmc312.codes import Code
-from ..bridge.answer import Identity
-from ..bridge.script import Script
+from ..bridge.script import Identity, Script
 from ..selftest.plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Section, Talk, Wire, timed
 from . import blocks
 from .blocks import CCW, CW, WINDOW, block, bus_order, start_address

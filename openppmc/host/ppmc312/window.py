@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from ..basis.errors import ProtocolError, Timeout
-from ..bridge.answer import Answer, Result
 from ..bridge.link import Link
-from ..bridge.script import Script
+from ..bridge.script import Answer, Result, Script
 from .answers import BadResponse, Response
 from .blocks import WINDOW, bus_order, start_address
 

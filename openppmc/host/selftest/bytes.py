@@ -9,8 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ...model.motion.codes import IBF, Command, Kind
-from ..bridge.answer import Identity
-from ..bridge.script import Script
+from ..bridge.script import Identity, Script
 from .plan import COMMANDS, MOVES, REGISTERS, Section, Talk
 
 DATA, COMMAND = 0, 1

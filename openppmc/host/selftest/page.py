@@ -11,8 +11,8 @@ from typing import Any
 from ... import __version__
 from ...parts import by_number
 from ..basis.kind import name_of
-from ..bridge.answer import Build
 from ..bridge.link import Link
+from ..bridge.script import Build
 from .run import Findings, Outcome
 
 BOARDS = {

@@ -11,9 +11,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from ..bridge.answer import Identity
 from ..bridge.link import Link
-from ..bridge.script import Script
+from ..bridge.script import Identity, Script
 
 REGISTERS, COMMANDS, MOVES, SWITCHES = "registers", "commands", "moves", "switches"
 _GAP = 4

@@ -14,12 +14,10 @@ from ...check.replay import compare_recording, new_model
 from ...check.report import report, write_report
 from ...errors import MissingExtraError
 from ..basis.errors import LinkError, PpmcError
-from ..bridge.answer import Build, Result
 from ..bridge.link import Link
-from ..bridge.records import Recorded
-from ..bridge.script import RATES, Script
+from ..bridge.script import RATES, Build, Result, Script
 from .plan import MOVES, SWITCHES, Plan, Section, Talk
-from .recording import NoReset, recording_of, reset_levels
+from .recording import NoReset, Recorded, recording_of, reset_levels
 
 ECHOES, ECHO_BYTES = 8, 48
 TRIES = 3

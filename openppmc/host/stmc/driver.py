@@ -2,14 +2,112 @@
 
 from __future__ import annotations
 
-from ..axis.registers import FAMILY, ReadCodes
-from ..axis.single import OneAxis
-from ..bridge.answer import Result
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...model.single.codes import Error
+from ...model.stmc.codes import BOARD_CLOCK_HZ, TICK_XT
+from ...parts import part
+from ..axis.part import OneAxis
+from ..axis.registers import FAMILY, ReadCodes, Switches
+from ..basis import units
+from ..basis.errors import BY_NUMBER, CommandRefused, OutOfRange
+from ..basis.kind import POSITIVE, Kind, RateKind, Wanted
+from ..basis.units import BaseClock, Number, pin_period
 from ..bridge.link import Link
-from ..bridge.script import Script
-from .errors import refused
-from .kind import KIND
-from .registers import Inputs
+from ..bridge.script import Result, Script
+
+# What an STMC refuses: the numbers of the family, two of them with another meaning.
+
+_TEXTS = {
+    Error.NOT_INITIALISED: "the part is not initialised (power-up or reset): initialise it first",
+    Error.BAD_RAMP: "the part refuses a divisor: 1 or more, and that of the high speed not above the other",
+}
+
+
+def refused(status: int) -> CommandRefused:
+    """The exception for a status byte of an STMC with ERR = 1."""
+    number = status >> 4 & 7
+    return BY_NUMBER[number](status, _TEXTS.get(Error(number), ""))
+
+
+# What can be read of an STMC at any time, where it differs from the family. Pure.
+
+
+@dataclass(frozen=True)
+class Inputs(Switches):
+    """Switches of an STMC; motor_off: MON is low."""
+
+    motor_off: bool
+
+
+# Step clocks of an STMC: a speed is the clock over a divisor (STMC-INI-01). Pure.
+
+LEAST_DIVISOR = 5
+"""The sheet advises against lower ones; the part would take them."""
+
+
+def divided(hertz: Number, external: bool = True) -> BaseClock:
+    """Step clock, 0 < hertz <= 1e6 (else OutOfRange); rate bytes are divisors, up to 255. external: it is the
+    one that the board makes, or the `ext_clk` pin.
+
+    The worked examples of the sheet, with the external clock of its board:
+
+    >>> clock = divided(48_675)
+    >>> clock.choose(345).rate, clock.choose(825).rate
+    (141, 59)
+    >>> clock.speed(59)
+    Fraction(825, 1)
+
+    Divisors below 5 are left out, as the sheet advises:
+
+    >>> float(clock.slowest), float(clock.fastest)
+    (190.88235294117646, 9735.0)
+    >>> float(divided(12_500, external=False).fastest)
+    2500.0
+    """
+    return BaseClock(pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
+
+
+# What an STMC on the J105 board allows. Pure.
+
+BOARD_CLOCK = BOARD_CLOCK_HZ
+"""Second step clock of the J105 board: 48 675 Hz."""
+
+
+class StmcKind(RateKind):
+    """Speeds are a step clock over a divisor, and the clock is chosen by the initialisation."""
+
+    def constant_clock(
+        self, xtal_hz: int, ramp: units.BaseClock | None, pps: units.Number
+    ) -> units.BaseClock:
+        return Kind.constant_clock(self, xtal_hz, ramp, pps)
+
+    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> units.BaseClock:
+        if wanted.external_clock is not None:
+            return divided(wanted.external_clock)
+        internal = divided(Fraction(xtal_hz, TICK_XT), external=False)
+        board = divided(BOARD_CLOCK)
+        if wanted.base_clock is None:
+            return board if board.slowest <= units.exact(wanted.start_pps, "start speed") else internal
+        for clock in (internal, board):
+            if clock.hertz == units.exact(wanted.base_clock, "base clock"):
+                return clock
+        raise OutOfRange(
+            f"base clock {units.nearby(wanted.base_clock)} Hz: this board has {units.nearby(internal.hertz)} "
+            f"and {BOARD_CLOCK} Hz"
+        )
+
+
+KIND = StmcKind(
+    part("stmc"),
+    has=frozenset((POSITIVE,)),
+    outputs=0,
+    lengths=(0, 65_535),
+    alarm=("MON input", "switch the motor on (MON high)"),
+    origin_between=True,
+)
+
 
 READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
 """What the codes of its read commands may be, the default first (ruling R-01)."""

@@ -10,8 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from ...model.stmc.codes import READ_MAPS, decode
-from ..bridge.answer import Identity
-from ..bridge.script import Script
+from ..bridge.script import Identity, Script
 from ..selftest.bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
 from ..selftest.plan import MOVES, SWITCHES, Section, Talk, Wire, timed
 

@@ -10,10 +10,8 @@ import pytest
 import serial
 
 from openppmc.host import Link, Ppmc104
-from openppmc.host.bridge.answer import Result
-from openppmc.host.bridge.frames import Deframer, Frame, encode
-from openppmc.host.bridge.script import Script
-from openppmc.host.bridge.session import MESSAGE_NAK, WAKE_UP, Nak
+from openppmc.host.bridge.script import Result, Script
+from openppmc.host.bridge.session import MESSAGE_NAK, WAKE_UP, Deframer, Frame, Nak, encode
 from openppmc.sim import SimBoard
 
 from .fixtures import PATIENCE, SETUP

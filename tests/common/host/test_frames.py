@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.bridge.frames import (
+from openppmc.host.bridge.session import (
     ANSWER_LIMIT,
     REQUEST_LIMIT,
     Broken,

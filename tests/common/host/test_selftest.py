@@ -11,11 +11,10 @@ from openppmc.check.pins import pins_of
 from openppmc.check.records import Change
 from openppmc.check.replay import compare_recording, expected_edges, new_model
 from openppmc.cli.common.version import misfit
-from openppmc.host.bridge.answer import BadAnswer, Build, Identity
-from openppmc.host.bridge.records import Recorded
+from openppmc.host.bridge.script import BadAnswer, Build, Identity
 from openppmc.host.selftest.page import board_name, built
 from openppmc.host.selftest.plan import Plan
-from openppmc.host.selftest.recording import Layout, NoReset, recording_of, reset_levels
+from openppmc.host.selftest.recording import Layout, NoReset, Recorded, recording_of, reset_levels
 
 PLANS = [row.name for row in parts.having("selftest")]
 WIDTHS = {"ppmc104": 49, "ppmc2104": 63, "stmc": 36, "ppmc312": 63, "bank": 144}

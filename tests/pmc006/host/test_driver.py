@@ -25,9 +25,11 @@ from openppmc.host import (
     StoppedEarly,
     Timeout,
 )
-from openppmc.host.line.errors import DuplicateAddress, StationSilent
-from openppmc.host.pmc006 import codes, errors, settings, wire
-from openppmc.host.pmc006.errors import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
+from openppmc.host.line.bus import DuplicateAddress, StationSilent
+from openppmc.host.pmc006 import codes, settings
+from openppmc.host.pmc006 import codes as errors
+from openppmc.host.pmc006 import codes as wire
+from openppmc.host.pmc006.codes import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
 from openppmc.host.pmc006.settings import SETTINGS, drive_current, setting
 from openppmc.model.pmc006.program import Instruction, Program, assemble
 from openppmc.model.pmc006.settings import LEGAL, PLACES
@@ -349,7 +351,7 @@ def test_homing_with_a_dead_switch(
     motor: tuple[SpoiledLine, Pmc006], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _, part = motor
-    monkeypatch.setattr("openppmc.host.pmc006.homing.LONGEST_WAY_OFF", 200)
+    monkeypatch.setattr("openppmc.host.pmc006.axis.LONGEST_WAY_OFF", 200)
     monkeypatch.setattr(Pmc006, "on_switch", lambda self, number: True)
     with pytest.raises(OriginNotFound, match="EXT1 is still active 300 steps away"):
         part.home(1, off=100, slow=2000)

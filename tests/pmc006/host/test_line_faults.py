@@ -8,11 +8,19 @@ from collections.abc import Callable
 import pytest
 
 from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc006, Pmc006Bus, PpmcError
-from openppmc.host.line.errors import GarbledReply, LostReply, StationSilent
-from openppmc.host.pmc006.codes import Flags
-from openppmc.host.pmc006.errors import LockedByExt, ProgramDiffers, ProgramRuns, StorageBusy
-from openppmc.host.pmc006.line import Line
-from openppmc.host.pmc006.wire import Receiver, Reply, command, reply
+from openppmc.host.line.bus import GarbledReply, LostReply, StationSilent
+from openppmc.host.pmc006.codes import (
+    Flags,
+    LockedByExt,
+    ProgramDiffers,
+    ProgramRuns,
+    Receiver,
+    Reply,
+    StorageBusy,
+    command,
+    reply,
+)
+from openppmc.host.pmc006.talk import Line
 from openppmc.model.pmc006.program import Program, assemble
 from tests.common.host.line_ports import Played
 from tests.pmc006.host.line_ports import (

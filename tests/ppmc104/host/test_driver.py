@@ -30,7 +30,7 @@ from openppmc.host import (
     UnexpectedData,
     UnexpectedDataBusy,
 )
-from openppmc.host.basis.refusals import BY_NUMBER, CommandRefused
+from openppmc.host.basis.errors import BY_NUMBER, CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
 

@@ -36,7 +36,7 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.refusals import CommandRefused
+from openppmc.host.basis.errors import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
 from openppmc.host.ppmc2104.errors import BY_NUMBER as BY_NUMBER_2104

@@ -9,22 +9,16 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, CW, OutOfRange
+from openppmc.host.basis.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
 from openppmc.host.basis.kind import Wanted
-from openppmc.host.basis.refusals import (
-    CommandRefused,
-    NotInitialised,
-    NotWhileBusy,
-    StartRefused,
-    UnknownCode,
-)
-from openppmc.host.ppmc312 import answers, errors, free, profile, registers
+from openppmc.host.ppmc312 import answers, errors, profile
+from openppmc.host.ppmc312 import answers as registers
 from openppmc.host.ppmc312 import blocks as blocks312
-from openppmc.host.ppmc312.answers import BadResponse, Response
+from openppmc.host.ppmc312 import profile as free
+from openppmc.host.ppmc312.answers import BadResponse, EventBuffer, Inputs, Response, Status
 from openppmc.host.ppmc312.blocks import Trigger
-from openppmc.host.ppmc312.free import plan_curve, read_stages
-from openppmc.host.ppmc312.kind import KIND as PPMC312
-from openppmc.host.ppmc312.profile import base_clocks, plan_setup
-from openppmc.host.ppmc312.registers import EventBuffer, Inputs, Status
+from openppmc.host.ppmc312.profile import KIND as PPMC312
+from openppmc.host.ppmc312.profile import base_clocks, plan_curve, plan_setup, read_stages
 from openppmc.model import Timebase, predict_move
 from openppmc.model.ppmc312.carrier import TableMove
 from openppmc.model.ppmc312.codes import Cause, State

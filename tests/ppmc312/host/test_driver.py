@@ -29,13 +29,14 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.refusals import StartRefused
+from openppmc.host.basis.errors import StartRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,
     EncoderChange,
+    EventBuffer,
     Executed,
     Failed,
     HoldExecuted,
@@ -57,7 +58,6 @@ from openppmc.host.ppmc312.errors import (
     RegistrationRefused,
     TableRefused,
 )
-from openppmc.host.ppmc312.registers import EventBuffer
 from openppmc.model.ppmc312.carrier import Carrier
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Code, Source, State

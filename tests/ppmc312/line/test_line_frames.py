@@ -9,8 +9,12 @@ from hypothesis import strategies as st
 from openppmc.host import CCW, CW, OutOfRange
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.blocks import Trigger
-from openppmc.host.ppmc312.line.ascii import (
+from openppmc.host.ppmc312.line.serial import (
     DATA,
+    DATA_BYTES,
+    END_STATUS,
+    ERROR_CODE,
+    ERROR_COUNTS,
     INSTRUCTION,
     POLL,
     READY,
@@ -21,15 +25,9 @@ from openppmc.host.ppmc312.line.ascii import (
     SumMode,
     checksum,
     frame,
-    station_number,
-)
-from openppmc.host.ppmc312.line.serial import (
-    DATA_BYTES,
-    END_STATUS,
-    ERROR_CODE,
-    ERROR_COUNTS,
     line_data,
     response,
+    station_number,
 )
 from openppmc.model.ppmc312.codes import Code
 

@@ -31,13 +31,13 @@ from openppmc.host import (
     open_part,
 )
 from openppmc.host.basis import units
+from openppmc.host.basis.errors import CommandRefused
 from openppmc.host.basis.kind import Wanted
-from openppmc.host.basis.refusals import CommandRefused
 from openppmc.host.bridge.loopback import ModelPort
 from openppmc.host.bridge.script import Script
-from openppmc.host.stmc import clock
-from openppmc.host.stmc.errors import refused as refused_stmc
-from openppmc.host.stmc.kind import KIND as STMC
+from openppmc.host.stmc import driver
+from openppmc.host.stmc.driver import KIND as STMC
+from openppmc.host.stmc.driver import refused as refused_stmc
 from openppmc.model.carrier.carrier import Plant
 from openppmc.model.stmc.carrier import Carrier
 
@@ -102,7 +102,7 @@ def gaps(axis: Stmc, steps: int, pps: units.Number | None = None) -> list[int]:
 
 def test_the_worked_examples_of_the_sheet() -> None:
     """345/s and 825/s at 48 675 Hz: the doctests of `clock` are run, and there are some."""
-    failed, attempted = doctest.testmod(clock)
+    failed, attempted = doctest.testmod(driver)
     assert not failed and attempted >= 5
 
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from ....host import Ppmc312Bus, Station312
-from ....host.ppmc312.line.kind import KIND
+from ....host.ppmc312.line.line import KIND
 from ...common import output
 from ...common.guard import Guard
 from ...common.options import with_setup

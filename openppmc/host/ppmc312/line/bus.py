@@ -13,18 +13,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ...basis.refusals import CommandRefused
-from ...line.bus import LineBus
-from ...line.errors import DuplicateAddress, GarbledReply, StationSilent
-from ...line.faults import Counters
-from ...line.master import PATIENCE
+from ...basis.errors import CommandRefused
+from ...line.bus import PATIENCE, DuplicateAddress, GarbledReply, LineBus, StationSilent
+from ...line.ports import Counters
 from ...ports.transport import Port
-from ..answers import Report
-from ..registers import Status
-from .ascii import SPEEDS, STATIONS, SumMode
-from .kind import KIND
-from .line import XTAL_HZ, Line
-from .serial import VERSION
+from ..answers import Report, Status
+from .line import KIND, XTAL_HZ, Line
+from .serial import SPEEDS, STATIONS, VERSION, SumMode
 from .station import ErrorCounts, Station312
 
 if TYPE_CHECKING:

@@ -8,17 +8,13 @@ from typing import NamedTuple
 from ....model.ppmc312.codes import Cause, Code, Source, State
 from ...axis.motion import Progress
 from ...basis.ending import End
-from ...line.errors import StationSilent
-from ...line.faults import Counters
-from ...line.motion import POLL_EVERY, wait_all
-from ..answers import Executed, Report, Stopped, signed
-from ..axis import Axis
+from ...line.bus import POLL_EVERY, StationSilent, wait_all
+from ...line.ports import Counters
+from ..answers import Executed, Report, Status, Stopped, signed
+from ..driver import Axis
 from ..motion import Motion
-from ..registers import Status
-from .ascii import station_number
-from .kind import KIND
-from .line import Line
-from .serial import ERROR_CODE, ERROR_COUNTS
+from .line import KIND, Line
+from .serial import ERROR_CODE, ERROR_COUNTS, station_number
 from .talk import ATTEMPTS, Talk
 
 _MOST_PPS = 4_000_000

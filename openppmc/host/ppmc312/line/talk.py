@@ -7,10 +7,10 @@ from collections.abc import Callable
 from operator import eq
 from typing import Protocol, TypeVar
 
-from ....model.ppmc312.codes import Cause, Code, Source, State
-from ...basis.errors import OutOfRange, ProtocolError
-from ...line.errors import GarbledReply, unanswered
-from ...line.faults import Fault, Miss
+from ....model.ppmc312.codes import MOTION_STARTS, OV, Cause, Code, Source, State
+from ...basis.errors import CommandRefused, NoAnswer, OutOfRange, ProtocolError
+from ...line.bus import GarbledReply, LostReply, unanswered
+from ...line.ports import Fault, Miss
 from ..answers import (
     Alarm,
     EncoderChange,
@@ -22,15 +22,141 @@ from ..answers import (
     InterlockEnded,
     Report,
     Response,
+    Status,
     Stopped,
 )
-from ..registers import Status
+from ..motion import Motion
 from ..window import ANSWER_MS, SHORTEST
-from . import doubt
-from .ascii import BUSY, DATA, INPUTS_CHANGED, READY, SPECIFIC, Reply
-from .errors import Error, failed_serial, refused_serial
-from .line import Line
-from .serial import DATA_BYTES, END_STATUS, line_data, response
+from .line import Error, Line, failed_serial, refused_serial
+from .serial import (
+    BUSY,
+    DATA,
+    DATA_BYTES,
+    END_STATUS,
+    INPUTS_CHANGED,
+    READY,
+    SPECIFIC,
+    Reply,
+    line_data,
+    response,
+)
+
+# A reply was lost: was the instruction carried out? Found out by looking, so that nothing moves twice.
+#
+# Repeating is harmless for what reads, sets a value or stops. A start is judged by state and position, a
+# toggle and a registration by what the station shows before and after. What cannot be seen is told:
+# LostReply.
+
+_TOGGLES = {Code.INTERLOCK: "interlock", Code.RUN_MONITOR: "run_monitored"}
+_REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
+_DELETE = 2
+
+
+class Asking(Protocol):
+    """The way to a station, which is a `talk.Talk`. answers: of the station so far. busy: a motion, says the
+    last poll."""
+
+    answers: int
+    busy: bool
+
+    def status(self) -> Status: ...
+    def collect(self) -> None: ...
+
+
+class Reporting(Protocol):
+    """What is known of a station, which is a `station.Station312`."""
+
+    @property
+    def who(self) -> str: ...
+    @property
+    def window(self) -> Asking: ...
+    @property
+    def motion(self) -> Motion | None: ...
+    @property
+    def position(self) -> int: ...
+
+
+class Doubt:
+    """One instruction block to a station. repeated: a reply to it was lost."""
+
+    def __init__(self, station: Reporting, block: bytes) -> None:
+        self._station = station
+        self._block = block
+        self.repeated = False
+        motion = station.motion
+        self._motion = motion if motion is not None and not motion.over else None
+        self._was_busy = station.window.busy
+        self._before: Status | None = None
+        if block[2] in _TOGGLES or block[2] == Code.EVENT_SET or self._is_override:
+            self._before = station.window.status()
+
+    @property
+    def _is_override(self) -> bool:
+        return self._block[2] in _REGISTERED and bool(self._block[3] & OV)
+
+    def settle(self) -> bool:
+        """Whether it was carried out. Raises LostReply if nobody can know."""
+        self.repeated = True
+        code = self._block[2]
+        try:
+            if code in MOTION_STARTS:
+                return self._started()
+            if self._before is None:
+                return False
+            now = self._station.window.status()
+            if code in _TOGGLES:
+                toggled = _TOGGLES[Code(code)]
+                return bool(getattr(now, toggled) != getattr(self._before, toggled))
+            if code == Code.EVENT_SET:
+                return self._buffered(now)
+            return self._registered(now)
+        except NoAnswer as error:
+            raise self._lost("the station has been silent since") from error
+
+    def explain(self, refusal: CommandRefused) -> Exception:
+        """What to raise for a refusal: of a repeated change of speed it says nothing about the first one."""
+        if self.repeated and self._block[2] == Code.RAMP_CHANGE:
+            return self._lost(f"sent again, it was refused ({refusal})")
+        return refusal
+
+    def _started(self) -> bool:
+        """Motions are known by the state, by the report of their end, or by the position."""
+        station, motion = self._station, self._motion
+        if motion is None or self._was_busy:
+            raise self._lost("it is not known what the motor did before")
+        if station.window.status().busy:
+            return True
+        station.window.answers += 1  # the end of this motion may be reported now
+        station.window.collect()
+        return motion.over or station.position != motion.begin
+
+    def _registered(self, now: Status) -> bool:
+        assert self._before is not None
+        added = now.overrides - self._before.overrides
+        if added == 1:
+            return True
+        if added == 0 and not now.busy and not now.override_events:
+            return False  # nothing can have happened meanwhile
+        raise self._lost("overrides may have happened meanwhile")
+
+    def _buffered(self, now: Status) -> bool:
+        assert self._before is not None
+        number = (self._block[3] & 1) + 1
+        filled, was = number in now.events, number in self._before.events
+        if self._block[3] & _DELETE:
+            if was and filled:
+                raise self._lost(f"event buffer {number} still holds something")
+            return was
+        if was:
+            raise self._lost(f"event buffer {number} held something before")
+        return filled
+
+    def _lost(self, why: str) -> LostReply:
+        return LostReply(
+            f"{self._station.who}the reply to an instruction was lost, it may have been carried out; {why}: "
+            "look at the station (status) before you repeat it"
+        )
+
 
 T = TypeVar("T")
 ATTEMPTS = 5
@@ -52,7 +178,7 @@ _CHECK = "is it there and powered, are speed (MOD), address and the two wires ri
 _OTHERS = "noise, another speed or checksum rule, or two stations with this address"
 
 
-class Station(doubt.Reporting, Protocol):
+class Station(Reporting, Protocol):
     """What the talk with a station needs of it, which is a `station.Station312`."""
 
     @property
@@ -92,7 +218,7 @@ class Talk:
         GarbledReply and the errors of the line.
         """
         data = line_data(block)
-        unsure = doubt.Doubt(self._station, block)
+        unsure = Doubt(self._station, block)
         reply = self.request(data, max(0, milliseconds - ANSWER_MS) / 1000, unsure.settle)
         self.answers += 1
         error = reply.error
