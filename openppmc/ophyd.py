@@ -19,10 +19,10 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from .errors import needs
-from .host.axis.motion import AnyMotion
-from .host.axis.part import Device
-from .host.basis.ending import StoppedEarly
-from .host.basis.errors import LinkError, NothingToStop, NotWhileBusy, OutOfRange, PpmcError
+from .host.ending import StoppedEarly
+from .host.errors import LinkError, NothingToStop, NotWhileBusy, OutOfRange, PpmcError
+from .host.motion import AnyMotion
+from .host.part import Device
 
 needs("ophyd", "openppmc.ophyd", "ophyd")
 

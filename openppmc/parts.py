@@ -10,7 +10,8 @@ an environment:
     python3 openppmc/parts.py names --tops               … with a top module of their own
     python3 openppmc/parts.py show NAME                  one row, a column a line
 
-Places in the columns of LAYER_OF are "module:name" below the part's folder in that layer; `load` imports them
+Places in the columns of LAYER_OF are "module:name" below the part's folder in that layer, or ":name" if the
+part is a module there; `load` imports them
 when they are asked for. view: what it shows on the command line; words: those of its own in script files.
 """
 
@@ -31,7 +32,7 @@ LAYER_OF = {
     "predict": "openppmc.model",
     "driver": "openppmc.host",
     "kind": "openppmc.host",
-    "selftest": "openppmc.host",
+    "selftest": "openppmc.host.selftest",
     "view": "openppmc.cli",
     "words": "openppmc.cli",
     "machine": "openppmc.sim",
@@ -107,7 +108,7 @@ class Row:
             raise UnknownPartError(f"part {self.name} has no {column}")
         module, _, name = place.partition(":")
         package = f"{LAYER_OF[column]}.{self.folder}"
-        return getattr(importlib.import_module(f"{package}.{module}"), name)
+        return getattr(importlib.import_module(f"{package}.{module}".rstrip(".")), name)
 
 
 BOTH = ("ecp5", "ice40")
@@ -120,9 +121,9 @@ ROWS = (
         families=BOTH,
         model="part:Ppmc104",
         predict="part:predict",
-        driver="driver:Ppmc104",
-        kind="driver:KIND",
-        selftest="selftest:PLAN",
+        driver=":Ppmc104",
+        kind=":KIND",
+        selftest=":PLAN",
         machine="machine:MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md"),
@@ -142,9 +143,9 @@ ROWS = (
         families=BOTH,
         model="part:Ppmc2104",
         predict="carrier:predict",
-        driver="driver:Ppmc2104",
-        kind="errors:KIND",
-        selftest="selftest:PLAN",
+        driver="part:Ppmc2104",
+        kind="words:KIND",
+        selftest=":PLAN",
         view="view:VIEW",
         machine="machine:MACHINE",
         decode="decode:DECODER",
@@ -172,9 +173,9 @@ ROWS = (
         families=BOTH,
         model="part:Stmc",
         predict="carrier:predict",
-        driver="driver:Stmc",
-        kind="driver:KIND",
-        selftest="selftest:PLAN",
+        driver=":Stmc",
+        kind=":KIND",
+        selftest=":PLAN",
         machine="machine:MACHINE",
         decode="decode:DECODER",
         docs=("replace.md", "examples.md", "rulings.md"),
@@ -203,9 +204,9 @@ ROWS = (
         families=("ecp5",),
         model="part:Ppmc312",
         predict="carrier:predict",
-        driver="driver:Ppmc312",
+        driver="part:Ppmc312",
         kind="profile:KIND",
-        selftest="selftest:PLAN",
+        selftest=":PLAN",
         view="view:VIEW",
         words="words:WORDS",
         machine="machine:MACHINE",
@@ -241,9 +242,9 @@ ROWS = (
         top="ppmc_bank",
         families=("ecp5",),
         model="part:PpmcBank",
-        driver="driver:PpmcBank",
-        kind="registers:KIND",
-        selftest="selftest:PLAN",
+        driver="part:PpmcBank",
+        kind="words:KIND",
+        selftest=":PLAN",
         view="view:VIEW",
         machine="machine:MACHINE",
         docs=("carrier.md", "spi.md"),
@@ -261,8 +262,8 @@ ROWS = (
         rules=("P006",),
         families=BOTH,
         model="part:Pmc006",
-        driver="driver:Pmc006Bus",
-        kind="codes:KIND",
+        driver="part:Pmc006Bus",
+        kind="wire:KIND",
         machine="line:MACHINE",
         decode="decode:DECODER",
         docs=("design.md", "rulings.md"),

@@ -13,8 +13,8 @@ from cocotb_tests.gates.uart import Uart
 from cocotb_tests.harness.bench import Bench
 from cocotb_tests.harness.config import configs
 from cocotb_tests.harness.part import PARTS
-from openppmc.host.bridge.script import RATES, Identity, Result, Script
-from openppmc.host.bridge.session import encode
+from openppmc.host.frames import encode
+from openppmc.host.script import RATES, Identity, Result, Script
 from openppmc.model.ppmc104.part import Ppmc104
 
 INIT = (0x0A, 9, 4, 4, 0)

@@ -7,8 +7,8 @@ from typing import Any
 from cocotb.triggers import Event, First, Timer
 
 from cocotb_tests.harness.wire import Wire
-from openppmc.host.bridge.script import Answer, Script, parse_answer
-from openppmc.host.bridge.session import REQUEST_LIMIT, Broken, Deframer, Frame, encode
+from openppmc.host.frames import REQUEST_LIMIT, Broken, Deframer, Frame, encode
+from openppmc.host.script import Answer, Script, parse_answer
 
 
 class Uart(Wire):

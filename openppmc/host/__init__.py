@@ -19,14 +19,11 @@ from ..lazy import lazy
 
 if TYPE_CHECKING:
     from . import units as units
-    from .axis.axis import CCW, CW, Axis
-    from .axis.motion import Motion, Progress
-    from .axis.part import Part as AnyPart
-    from .axis.part import open_part
+    from .axis import CCW, CW, Axis
     from .bank.axis import BankAxis
-    from .bank.driver import PpmcBank
-    from .bank.registers import GroupRefused
-    from .basis.ending import (
+    from .bank.part import PpmcBank
+    from .bank.words import GroupRefused
+    from .ending import (
         AlarmStop,
         Cause,
         End,
@@ -36,7 +33,7 @@ if TYPE_CHECKING:
         OriginNotFound,
         StoppedEarly,
     )
-    from .basis.errors import (
+    from .errors import (
         AlreadyDecelerating,
         BadRamp,
         CommandRefused,
@@ -60,49 +57,51 @@ if TYPE_CHECKING:
         UnknownCode,
         WrongDevice,
     )
-    from .bridge.link import Link
+    from .link import Link
+    from .motion import Motion, Progress
+    from .part import Part as AnyPart
+    from .part import open_part
     from .pmc006.axis import BACKWARD, FORWARD
-    from .pmc006.driver import Pmc006, Pmc006Bus
-    from .ports.transport import open_port, serial_ports
-    from .ppmc104.driver import Ppmc104
-    from .ppmc312.driver import Ppmc312
+    from .pmc006.part import Pmc006, Pmc006Bus
+    from .port import open_port, serial_ports
+    from .ppmc104 import Ppmc104
     from .ppmc312.line.bus import Ppmc312Bus
-    from .ppmc312.line.serial import SumMode
     from .ppmc312.line.station import Station312
+    from .ppmc312.line.wire import SumMode
+    from .ppmc312.part import Ppmc312
     from .ppmc2104.axis import Axis2104
-    from .ppmc2104.driver import Ppmc2104
-    from .ppmc2104.errors import BadSwitching, CutCommand, TooFast
-    from .stmc.driver import BOARD_CLOCK, Stmc
+    from .ppmc2104.part import Ppmc2104
+    from .ppmc2104.words import BadSwitching, CutCommand, TooFast
+    from .stmc import BOARD_CLOCK, Stmc
     from .stopping import Signalled, stop_on_signals
 else:
     __getattr__, __dir__ = lazy(
         __name__,
         """
         . units
-        .axis.axis CCW CW Axis
-        .axis.motion Motion Progress
-        .axis.part AnyPart=Part open_part
+        .axis CCW CW Axis
+        .motion Motion Progress
+        .part AnyPart=Part open_part
         .bank.axis BankAxis
-        .bank.driver PpmcBank
-        .bank.registers GroupRefused
-        .basis.ending AlarmStop Cause End EndUnknown LimitReached MotionError OriginNotFound StoppedEarly
-        .basis.errors Disconnected LinkError Misused NoAnswer NoSuchName OutOfRange PortError PpmcError
-        .basis.errors ProtocolError Timeout WrongDevice AlreadyDecelerating BadRamp CommandRefused
-        .basis.errors NothingToStop NotInitialised NotWhileBusy RampTooLong StartRefused UnexpectedData
-        .basis.errors UnexpectedDataBusy UnknownCode
-        .bridge.link Link
-        .ports.transport open_port serial_ports
+        .bank.part PpmcBank
+        .bank.words GroupRefused
+        .ending AlarmStop Cause End EndUnknown LimitReached MotionError OriginNotFound StoppedEarly
+        .errors AlreadyDecelerating BadRamp CommandRefused Disconnected LinkError Misused NoAnswer NoSuchName
+        .errors NothingToStop NotInitialised NotWhileBusy OutOfRange PortError PpmcError ProtocolError
+        .errors RampTooLong StartRefused Timeout UnexpectedData UnexpectedDataBusy UnknownCode WrongDevice
+        .link Link
         .pmc006.axis BACKWARD FORWARD
-        .pmc006.driver Pmc006Bus Pmc006
-        .ppmc104.driver Ppmc104
-        .ppmc312.driver Ppmc312
-        .ppmc312.line.serial SumMode
+        .pmc006.part Pmc006 Pmc006Bus
+        .port open_port serial_ports
+        .ppmc104 Ppmc104
+        .ppmc312.part Ppmc312
         .ppmc312.line.bus Ppmc312Bus
+        .ppmc312.line.wire SumMode
         .ppmc312.line.station Station312
         .ppmc2104.axis Axis2104
-        .ppmc2104.driver Ppmc2104
-        .ppmc2104.errors BadSwitching CutCommand TooFast
-        .stmc.driver Stmc BOARD_CLOCK
+        .ppmc2104.part Ppmc2104
+        .ppmc2104.words BadSwitching CutCommand TooFast
+        .stmc BOARD_CLOCK Stmc
         .stopping Signalled stop_on_signals
         """,
     )

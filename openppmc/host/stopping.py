@@ -12,8 +12,8 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .axis.motion import Progress
-    from .axis.part import Device, Turning
+    from .motion import Progress
+    from .part import Device, Turning
 
 # The command line imports this file first: what the functions need is imported in them.
 
@@ -75,7 +75,7 @@ def bring_to_rest(
     seconds: longest wait, then they are stopped at once. hurry: asked about ten times a second; True stops
     them at once. every: also motions that these objects do not know of. Errors are in the line.
     """
-    from .basis.errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
+    from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
 
     axes: list[Turning] = [axis for device in devices for axis in device.axes]
     moving: list[tuple[Device, Turning]] = []
@@ -147,8 +147,8 @@ def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator
         with Ppmc104.open("/dev/ttyUSB0") as axis, stop_on_signals(axis):
             axis.move(100_000)
     """
-    from .basis.arguments import exact
-    from .basis.errors import OutOfRange
+    from .check import exact
+    from .errors import OutOfRange
 
     if exact(seconds, "seconds") <= 0:
         raise OutOfRange(f"seconds {seconds} is not more than 0")

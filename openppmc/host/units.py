@@ -3,8 +3,9 @@
 They are in `basis.units`; times that only one part has are in that part's folder.
 """
 
-from .axis.axis import chop_byte
-from .basis.units import (
+from .axis import chop_byte
+from .ppmc2104.words import half_us_byte, hold_byte
+from .speeds import (
     BaseClock,
     Setup,
     Speed,
@@ -15,7 +16,6 @@ from .basis.units import (
     pin_period,
     plan_setup,
 )
-from .ppmc2104.errors import half_us_byte, hold_byte
 
 __all__ = [
     "BaseClock",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from openppmc import sim
 from openppmc.host import Ppmc104
-from openppmc.host.bridge.script import Script
+from openppmc.host.script import Script
 
 BLOCK = 255
 CLK_HZ = 8_000_000

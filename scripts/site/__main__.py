@@ -31,13 +31,13 @@ OTHERS = (
 )
 LINK = re.compile(r"\]\(([^)#?\s:]+)(?:#[^)]*)?\)")
 API = {
-    "Host: PPMC-104": ("openppmc.host.ppmc104.driver",),
-    "Host: PPMC-2104": ("openppmc.host.ppmc2104.driver", "openppmc.host.ppmc2104.axis"),
-    "Host: J105 STMC": ("openppmc.host.stmc.driver",),
-    "Host: PPMC-312": ("openppmc.host.ppmc312.driver",),
-    "Host: PMC006B4": ("openppmc.host.pmc006.driver", "openppmc.host.pmc006.axis"),
-    "Host: bank": ("openppmc.host.bank.driver", "openppmc.host.bank.axis", "openppmc.host.bank.group"),
-    "Host: what all have": ("openppmc.host.axis.part", "openppmc.host.units", "openppmc.host.axis.axis"),
+    "Host: PPMC-104": ("openppmc.host.ppmc104",),
+    "Host: PPMC-2104": ("openppmc.host.ppmc2104.part", "openppmc.host.ppmc2104.axis"),
+    "Host: J105 STMC": ("openppmc.host.stmc",),
+    "Host: PPMC-312": ("openppmc.host.ppmc312.part",),
+    "Host: PMC006B4": ("openppmc.host.pmc006.part", "openppmc.host.pmc006.axis"),
+    "Host: bank": ("openppmc.host.bank.part", "openppmc.host.bank.axis", "openppmc.host.bank.group"),
+    "Host: what all have": ("openppmc.host.part", "openppmc.host.units", "openppmc.host.axis"),
     "Golden models": tuple(f"openppmc.model.{part}.part" for part in
                            ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")),
     "Predictions": tuple(f"openppmc.model.{part}.predict" for part in

@@ -15,7 +15,7 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness import watchdog
 from cocotb_tests.harness.clockwork import clockwork
 from cocotb_tests.harness.config import Config
-from openppmc.host.bridge.session import Broken, Deframer, encode
+from openppmc.host.frames import Broken, Deframer, encode
 
 from .settings import baud_of
 from .slave import Toy

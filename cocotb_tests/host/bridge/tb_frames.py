@@ -5,7 +5,7 @@ from __future__ import annotations
 import cocotb
 
 from cocotb_tests.harness.config import configs
-from openppmc.host.bridge.session import crc16, encode
+from openppmc.host.frames import crc16, encode
 
 from .bench import SECOND, Bench, now, same
 from .settings import FAST, SLOW

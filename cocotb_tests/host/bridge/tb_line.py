@@ -7,7 +7,7 @@ import math
 import cocotb
 
 from cocotb_tests.harness.config import configs
-from openppmc.host.bridge.session import encode
+from openppmc.host.frames import encode
 
 from .bench import SECOND, Bench, now, same
 from .settings import ALL_RATES, FAST, SLOW, baud_of, rates_of

@@ -8,7 +8,7 @@ import cocotb
 from cocotb.triggers import Timer
 
 from cocotb_tests.harness.config import configs
-from openppmc.host.bridge.session import encode
+from openppmc.host.frames import encode
 from openppmc.model.carrier.bridge import Bridge
 
 from .bench import Bench, same

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cocotb
 
 from cocotb_tests.harness.config import configs
-from openppmc.host.bridge.session import encode
+from openppmc.host.frames import encode
 
 from .bench import SECOND, Bench, now, same
 from .settings import FAST, SLOW

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...host import End, NothingToStop, PpmcBank
-from ...host.axis.axis import OnProgress
-from ...host.axis.part import AnyAxis
+from ...host.axis import OnProgress
+from ...host.part import AnyAxis
 from ..common.view import RampView
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ... import parts
 
 if TYPE_CHECKING:
-    from ...host.basis.kind import Kind
+    from ...host.kind import Kind
 
 USUAL = "ppmc104"
 """The part if the user names none: of plans, and of virtual boards."""
@@ -43,7 +43,7 @@ class Board:
     @property
     def virtual(self) -> bool:
         """Whether the port is a virtual board."""
-        from ...host.ports.transport import MODEL, SIM
+        from ...host.port import MODEL, SIM
 
         return self.port.startswith((MODEL, SIM))
 
@@ -58,7 +58,7 @@ class Board:
     @property
     def planned(self) -> Kind:
         """The part for plans, which open no board: the one that was named, in the port's text if need be."""
-        from ...host.basis.kind import kind_of
+        from ...host.kind import kind_of
 
         if self.part is not None:
             return kind_of(self.part)

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import needs
-from ...host.basis import units
-from ...host.basis.errors import OutOfRange
+from ...host import speeds as units
+from ...host.errors import OutOfRange
 from ...model.motion.codes import ENDLESS
 from ...model.motion.ramp import profile_index
 

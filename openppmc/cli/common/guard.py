@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ...host.axis.motion import Progress
-from ...host.axis.part import Device
+from ...host.motion import Progress
+from ...host.part import Device
 from ...host.stopping import NO_MOTION, arrived, bring_to_rest, handled, name_of, say
 from ...streams import StdoutLost
 

@@ -9,9 +9,9 @@ from typing import Any, TypeVar
 
 import typer
 
-from ...host.axis.motion import Progress
-from ...host.axis.part import Turning
-from ...host.line.bus import LineBus
+from ...host.line import LineBus
+from ...host.motion import Progress
+from ...host.part import Turning
 from .guard import Guard
 
 Bus = TypeVar("Bus", bound=LineBus[Any, Any])

@@ -14,7 +14,7 @@ import typer
 
 from ... import parts
 from ...errors import PpmcError
-from ...host.basis.kind import AnySetup, Kind, Wanted
+from ...host.kind import AnySetup, Kind, Wanted
 
 MOST_AXES = max(row.axes for row in parts.having("number", "kind"))
 """What --axis takes; the part that is there says how many it has."""

@@ -7,8 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ...host import PpmcError
-from ...host.basis import units
+from ...host import PpmcError, speeds
 from . import output
 from .board import BOARD
 from .forecast import plot_move
@@ -46,7 +45,7 @@ def plan(
         return
     rows = view.setup_rows(setup) if constant is None else {"speed": str(constant)}
     rows["move"] = f"{pulses} pulses, {figures['profile']}"
-    rows["top speed"] = f"{units.nearby(figures['top_pps'])} pps"
+    rows["top speed"] = f"{speeds.nearby(figures['top_pps'])} pps"
     if "plateau_intervals" in figures:
         rows["acceleration"] = f"{figures['ramp_pulses']} pulses, {figures['ramp_seconds']:.6g} s"
         if "down_pulses" in figures:

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Protocol
 
 from ...host import PpmcError
-from ...host.axis.part import AnyAxis
-from ...host.basis.kind import COILS_OFF, Kind
+from ...host.kind import COILS_OFF, Kind
+from ...host.part import AnyAxis
 from .guard import Guard
 from .options import SetupValues
 from .program import OF_ALL_AXES, OF_AXES, ScriptError, Step

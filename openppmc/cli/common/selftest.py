@@ -10,8 +10,8 @@ import typer
 
 from ... import parts
 from ...host import PpmcError
-from ...host.bridge.link import DEFAULT_BAUD, Link
-from ...host.ports.transport import MODEL, SIM
+from ...host.link import DEFAULT_BAUD, Link
+from ...host.port import MODEL, SIM
 from ...host.selftest import page
 from ...host.selftest.plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Plan
 from ...host.selftest.run import SelfTest

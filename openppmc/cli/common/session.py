@@ -9,9 +9,9 @@ from typing import Any
 
 from ... import parts
 from ...host import End, NothingToStop, PpmcError, open_part
-from ...host.axis.part import AnyAxis, Part
-from ...host.basis.kind import Kind
-from ...host.bridge.link import DEFAULT_BAUD
+from ...host.kind import Kind
+from ...host.link import DEFAULT_BAUD
+from ...host.part import AnyAxis, Part
 from . import output
 from .board import BOARD
 from .guard import Guard

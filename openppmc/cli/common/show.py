@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...host import End
-from ...host.basis import units
-from ...host.basis.kind import name_of
-from ...host.bridge.link import Link
-from ...host.bridge.script import RATES
+from ...host import End, speeds
+from ...host.kind import name_of
+from ...host.link import Link
+from ...host.script import RATES
 
 
 def identity_values(link: Link) -> dict[str, Any]:
@@ -39,32 +38,34 @@ def switches(axis_inputs: dict[str, bool]) -> str:
     return ", ".join(name.replace("_", " ") for name, on in axis_inputs.items() if on) or "none active"
 
 
-def speed(value: units.Speed, byte_name: str = "rate") -> str:
+def speed(value: speeds.Speed, byte_name: str = "rate") -> str:
     """What is reached, with the number that does it, and what was asked if that is not the same."""
-    text = f"{units.nearby(value.reached)} pps ({byte_name} {value.rate})"
-    return text if value.reached == value.asked else f"{text}, asked {units.nearby(value.asked)} pps"
+    text = f"{speeds.nearby(value.reached)} pps ({byte_name} {value.rate})"
+    return text if value.reached == value.asked else f"{text}, asked {speeds.nearby(value.asked)} pps"
 
 
 # ---------------------------------------------------------------------- the ramp of the family
 
 
-def setup_rows(setup: units.Setup) -> dict[str, str]:
+def setup_rows(setup: speeds.Setup) -> dict[str, str]:
     """Asked and reached speeds, ramp, bytes."""
     byte_name = "rate" if setup.clock.beyond else "divisor"
     rows = {"start speed": speed(setup.start, byte_name), "high speed": speed(setup.high, byte_name)}
     if not setup.ramp_pulses:
         rows["ramp"] = "none: high speed at once"
     elif not setup.flat:
-        steep = units.nearby(setup.acceleration)
+        steep = speeds.nearby(setup.acceleration)
         rows["ramp"] = f"{setup.ramp_pulses} pulses, {setup.ramp_seconds:.4g} s, {steep} pps/s"
     clock = setup.clock
     kind = ("clock pin" if clock.beyond else "external") if clock.external else "internal"
-    rows["base clock"] = f"{units.nearby(clock.hertz)} Hz ({kind})" + (", 7.5 us more" if clock.extra else "")
+    rows["base clock"] = f"{speeds.nearby(clock.hertz)} Hz ({kind})" + (
+        ", 7.5 us more" if clock.extra else ""
+    )
     rows["bytes"] = " ".join(f"{byte:02X}" for byte in (setup.code, *setup.data))
     return rows
 
 
-def setup_values(setup: units.Setup) -> dict[str, Any]:
+def setup_values(setup: speeds.Setup) -> dict[str, Any]:
     """For JSON."""
     return {
         "start_pps": float(setup.start.reached),

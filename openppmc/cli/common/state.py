@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import PpmcError
-from ...host.ports.transport import MODEL, SIM
+from ...host.port import MODEL, SIM
 
 
 def state_folder() -> Path:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ... import __version__, parts
 from ...errors import PpmcError
-from ...host.bridge.script import Build
+from ...host.script import Build
 
 
 def misfit(build: Build | None, number: int) -> str:

@@ -9,12 +9,11 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
-from ...host import End, OutOfRange
-from ...host.axis.axis import OnProgress
-from ...host.axis.part import AnyAxis
-from ...host.basis import units
-from ...host.basis.kind import Kind
-from ...host.bridge.link import Link
+from ...host import End, OutOfRange, speeds
+from ...host.axis import OnProgress
+from ...host.kind import Kind
+from ...host.link import Link
+from ...host.part import AnyAxis
 from . import forecast, show
 from .forecast import Course
 from .override import Override
@@ -89,11 +88,11 @@ class View(ABC, Generic[PartT, SetupT]):
         """For JSON."""
 
     @abstractmethod
-    def figures(self, setup: SetupT, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+    def figures(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
         """Key figures of a move before it is made, see `forecast.key_figures`. speed: constant, or None."""
 
     @abstractmethod
-    def course(self, setup: SetupT, pulses: int, speed: units.Speed | None) -> Course:
+    def course(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> Course:
         """The move to draw, pulses from 1 on."""
 
     # ------------------------------------------------------------------ what not all parts have
@@ -141,7 +140,7 @@ class View(ABC, Generic[PartT, SetupT]):
         raise OutOfRange(f"table: a {part.kind} cannot be asked for it")
 
 
-class RampView(View[PartT, units.Setup]):
+class RampView(View[PartT, speeds.Setup]):
     """Parts with the one ramp of the family."""
 
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
@@ -159,16 +158,16 @@ class RampView(View[PartT, units.Setup]):
         """Whether the axis moves, and the error that the status tells, by what the part's `status` gives."""
         return status.busy, None if status.error is None else int(status.error)
 
-    def setup_rows(self, setup: units.Setup) -> dict[str, str]:
+    def setup_rows(self, setup: speeds.Setup) -> dict[str, str]:
         return show.setup_rows(setup)
 
-    def setup_values(self, setup: units.Setup) -> dict[str, Any]:
+    def setup_values(self, setup: speeds.Setup) -> dict[str, Any]:
         return show.setup_values(setup)
 
-    def figures(self, setup: units.Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+    def figures(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
         return forecast.key_figures(setup, pulses, speed)
 
-    def course(self, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
+    def course(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> Course:
         return Course.of(setup, pulses, speed)
 
 

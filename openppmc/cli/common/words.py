@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, Protocol
 
 from ... import parts
-from ...host.basis.kind import AUX, Kind
+from ...host.kind import AUX, Kind
 from .reading import Reader, Values, first, none_left, whole
 
 

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from ...host import BACKWARD, FORWARD, Pmc006
-from ...host.axis.axis import OnProgress
+from ...host.axis import OnProgress
 from ...host.pmc006.motion import Motion
 from ..common import output
 from ..common.line_session import ending_after

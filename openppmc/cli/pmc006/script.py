@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ...host.pmc006.driver import Pmc006
+from ...host.pmc006.part import Pmc006
 from ...host.pmc006.settings import setting
 from ..common import output
 from ..common.player import carry_out

@@ -10,8 +10,8 @@ from typing import Annotated
 import typer
 
 from ...host import Pmc006, Pmc006Bus
-from ...host.pmc006.codes import ADDRESSES, FACTORY, LAST
-from ...host.pmc006.driver import Found, find
+from ...host.pmc006.part import Found, find
+from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST
 from ..common.board import BOARD
 from ..common.guard import Guard
 from ..common.line_session import guarded, line_options, parse_numbers

@@ -7,9 +7,9 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from ...host import End, Pmc006
-from ...host.pmc006.codes import Flags, Modes
-from ...host.pmc006.driver import Found
+from ...host.pmc006.part import Found
 from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
+from ...host.pmc006.wire import Flags, Modes
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ...host import End, Ppmc2104
-from ...host.axis.axis import OnProgress
-from ...host.ppmc2104.errors import Status
+from ...host.axis import OnProgress
+from ...host.ppmc2104.words import Status
 from ..common.view import RampView
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import accumulate
 from typing import Any
 
-from ...host.basis import units
-from ...host.basis.errors import OutOfRange
+from ...host import speeds
+from ...host.errors import OutOfRange
 from ...host.ppmc312.motion import SHAPES
 from ...host.ppmc312.profile import Setup
 from ...model.ppmc312.stages.tables import Plan, constant, ramped
@@ -15,7 +15,7 @@ from ..common.forecast import Course
 LONGEST_MOVE = (1 << 32) - 1
 
 
-def _plan(setup: Setup, pulses: int, speed: units.Speed | None) -> Plan:
+def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
     if not 1 <= pulses <= LONGEST_MOVE:
         raise OutOfRange(f"{pulses} pulses: a move has 1 to {LONGEST_MOVE} pulses either way")
     if speed is None:
@@ -23,7 +23,7 @@ def _plan(setup: Setup, pulses: int, speed: units.Speed | None) -> Plan:
     return constant(setup.table, setup.rate_of(speed.asked), pulses)
 
 
-def figures(setup: Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
     """As `forecast.key_figures`: interval by interval on the ramps, in closed form between them."""
     n = abs(pulses)
     plan = _plan(setup, n, speed)
@@ -51,7 +51,7 @@ def figures(setup: Setup, pulses: int, speed: units.Speed | None) -> dict[str, A
     return values
 
 
-def course(setup: Setup, pulses: int, speed: units.Speed | None) -> Course:
+def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
     """With the table's ramps or at a constant speed, pulses from 1 on."""
     rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
     period = float(setup.clock.period)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...host.basis import units
+from ...host import speeds
 from ...host.ppmc312.answers import (
     Alarm,
     EncoderChange,
@@ -17,7 +17,7 @@ from ...host.ppmc312.answers import (
     Stopped,
 )
 from ...host.ppmc312.core import TableRead
-from ...host.ppmc312.driver import Axis
+from ...host.ppmc312.part import Axis
 from ...host.ppmc312.profile import Setup
 from ...model.ppmc312.codes import Code, Source
 from ..common import show
@@ -63,7 +63,7 @@ def setup_rows(setup: Setup) -> dict[str, str]:
         rows["stop speed"] = show.speed(setup.stop)
         rows["ramp down"] = f"{table.nd} pulses, {setup.seconds(table.pd):.4g} s"
     kind = "external" if setup.clock.external else "internal"
-    rows["base clock"] = f"{units.nearby(setup.clock.hertz)} Hz ({kind})"
+    rows["base clock"] = f"{speeds.nearby(setup.clock.hertz)} Hz ({kind})"
     first = setup.blocks[0].hex(" ").upper()
     rows["bytes"] = first + (f" and {len(setup.blocks) - 1} blocks of data" if setup.blocks[1:] else "")
     return rows

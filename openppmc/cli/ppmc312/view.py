@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ...host import Ppmc312
-from ...host.axis.axis import OnProgress
-from ...host.axis.part import AnyAxis
-from ...host.basis import units
+from ...host import Ppmc312, speeds
+from ...host.axis import OnProgress
+from ...host.part import AnyAxis
 from ...host.ppmc312.answers import Alarm, Failed
 from ...host.ppmc312.profile import Setup
 from ..common.forecast import Course
@@ -45,10 +44,10 @@ class PartView(View[Ppmc312, Setup]):
     def setup_values(self, setup: Setup) -> dict[str, Any]:
         return show.setup_values(setup)
 
-    def figures(self, setup: Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+    def figures(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
         return forecast.figures(setup, pulses, speed)
 
-    def course(self, setup: Setup, pulses: int, speed: units.Speed | None) -> Course:
+    def course(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
         return forecast.course(setup, pulses, speed)
 
     def prepare(self, part: Ppmc312, overrides: Sequence[Override], encoder: int | None) -> None:

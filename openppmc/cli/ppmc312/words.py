@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...host import Ppmc312
-from ...host.basis.kind import Kind
+from ...host.kind import Kind
 from ...host.ppmc312 import blocks
 from ...host.ppmc312.profile import KIND
 from ..common.options import Side

@@ -6,18 +6,18 @@ from collections.abc import Callable
 from typing import Protocol
 
 from ...model.motion.codes import CONTINUOUS
-from ..axis.axis import CW, Axis, Chopping
-from ..axis.motion import Motion, Order, Progress
-from ..axis.registers import Inputs, Status
-from ..basis import units
-from ..basis.arguments import within
-from ..basis.ending import End
-from ..basis.errors import Misused, ProtocolError
-from ..basis.kind import RateKind
-from ..bridge.link import Link
-from ..bridge.script import Script
-from .registers import CONFIG, POSITION, POSITION_BYTES, STATUS, Config
+from .. import speeds
+from ..axis import CW, Axis, Chopping
+from ..check import within
+from ..ending import End
+from ..errors import Misused, ProtocolError
+from ..kind import RateKind
+from ..link import Link
+from ..motion import Motion, Order, Progress
+from ..registers import Inputs, Status
+from ..script import Script
 from .window import AxisLink
+from .words import CONFIG, POSITION, POSITION_BYTES, STATUS, Config
 
 _HALF = 1 << 31
 
@@ -70,7 +70,7 @@ class BankAxis(Chopping, Axis):
         """A group that is open holds its motion (BANK-GRP-01)."""
         return self._bank.holds(self.number)
 
-    def apply(self, setup: units.Setup) -> units.Setup:
+    def apply(self, setup: speeds.Setup) -> speeds.Setup:
         """Initialise with a setup that was planned before."""
         self.link.execute(self.straps(setup.clock).call(setup.code, *setup.data))
         self.setup = setup
@@ -78,7 +78,7 @@ class BankAxis(Chopping, Axis):
 
     # ------------------------------------------------------------------ what differs from other parts
 
-    def straps(self, clock: units.BaseClock | None) -> Script:
+    def straps(self, clock: speeds.BaseClock | None) -> Script:
         script = Script()
         return script if clock is None else script.write(CONFIG, clock.vsel << 1 | clock.csel)
 

@@ -6,16 +6,16 @@ from collections.abc import Iterable
 from types import TracebackType
 from typing import Protocol
 
-from ..axis.axis import STOP_NOW
-from ..axis.motion import READ_FINISH
-from ..basis.arguments import Checked, whole
-from ..basis.errors import CommandRefused, NotWhileBusy, OutOfRange, PpmcError
-from ..basis.kind import RateKind
-from ..bridge.link import Link
-from ..bridge.script import Script
+from ..axis import STOP_NOW
+from ..check import Checked, whole
+from ..errors import CommandRefused, NotWhileBusy, OutOfRange, PpmcError
+from ..kind import RateKind
+from ..link import Link
+from ..motion import READ_FINISH
+from ..script import Script
 from .axis import BankAxis
-from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 from .window import visit
+from .words import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 
 BUSY, ERR = 0x04, 0x80
 _GO_READS = 8

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ..basis.errors import WrongDevice
-from ..bridge.link import Link
-from ..bridge.script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
-from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
+from ..errors import WrongDevice
+from ..link import Link
+from ..script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
+from .words import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from ..axis.axis import OnProgress
-from ..axis.motion import Progress
-from ..basis.arguments import whole, within
-from ..basis.ending import Cause, OriginNotFound
-from ..basis.errors import CommandRefused, NoAnswer, NothingToStop, NotWhileBusy, OutOfRange, StartRefused
-from .codes import Code, Flags, MotorFree, SpeedRefused, locked
+from ..axis import OnProgress
+from ..check import whole, within
+from ..ending import Cause, OriginNotFound
+from ..errors import CommandRefused, NoAnswer, NothingToStop, NotWhileBusy, OutOfRange, StartRefused
+from ..motion import Progress
 from .motion import End, Motion
 from .settings import Settings, mean_acceleration
+from .wire import Code, Flags, MotorFree, SpeedRefused, locked
 
 FORWARD, BACKWARD = 1, -1
 LONGEST = 0x7FFFFFFF

@@ -6,9 +6,9 @@ from collections.abc import Callable, Collection
 from functools import partial
 
 from ...model.pmc006.program import WORDS, Program, harmless
-from ..basis.errors import NoAnswer, OutOfRange
+from ..errors import NoAnswer, OutOfRange
 from .axis import Axis
-from .codes import Code, ProgramDiffers, ProgramRuns, Storage, StorageBusy, StorageFailed
+from .wire import Code, ProgramDiffers, ProgramRuns, Storage, StorageBusy, StorageFailed
 
 OnCount = Callable[[int, int], None]
 """Called with how many words are done, and of how many."""

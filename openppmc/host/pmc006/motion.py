@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..axis.motion import Handle, Progress
-from ..basis import ending
-from ..basis.ending import AlarmStop, Cause, EndUnknown, LimitReached, MotionError, StoppedEarly
-from ..line.bus import wait_all
-from .codes import Code, Flags
+from .. import ending
+from ..ending import AlarmStop, Cause, EndUnknown, LimitReached, MotionError, StoppedEarly
+from ..line import wait_all
+from ..motion import Handle, Progress
 from .settings import Settings
 from .talk import Line
+from .wire import Code, Flags
 
 
 class End(ending.End):

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import overload
 
-from ..basis.arguments import whole
-from ..basis.errors import OutOfRange
-from .codes import STATUS_1_BITS, STATUS_2_BITS, Code, SettingRefused
+from ..check import whole
+from ..errors import OutOfRange
 from .talk import Talk
+from .wire import STATUS_1_BITS, STATUS_2_BITS, Code, SettingRefused
 
 MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
 DRIVE_FIRST, DRIVE_STEP = 400, 150

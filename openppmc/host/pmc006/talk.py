@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..basis.errors import PortError
-from ..line.bus import PATIENCE, Listener, Master
-from ..line.ports import Miss, open_line
-from ..ports.transport import Port
-from .codes import Receiver, Reply, address_number, command
+from ..errors import PortError
+from ..line import PATIENCE, Listener, Master
+from ..line_port import Miss, open_line
+from ..port import Port
+from .wire import Receiver, Reply, address_number, command
 
 if TYPE_CHECKING:
     from serial.rs485 import RS485Settings
 from collections.abc import Callable
 
-from ..basis.arguments import Checked
-from ..line.bus import LostReply, unanswered
-from ..line.ports import Counters, Fault
-from .codes import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
+from ..check import Checked
+from ..line import LostReply, unanswered
+from ..line_port import Counters, Fault
+from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
 
 # A line with PMC006B4: any number of controllers, a frame and its reply at a time.
 

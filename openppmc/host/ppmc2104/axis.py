@@ -7,17 +7,17 @@ from typing import Protocol
 
 from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
-from ..axis.axis import CCW, Axis
-from ..axis.motion import Motion, Order
-from ..axis.registers import Inputs
-from ..basis import units
-from ..basis.ending import Cause, End
-from ..basis.errors import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused, Timeout
-from ..basis.kind import AXIS_BIT
-from ..bridge.link import Link
-from ..bridge.script import Script
-from . import errors
-from .errors import KIND, CutCommand, Status
+from .. import speeds
+from ..axis import CCW, Axis
+from ..ending import Cause, End
+from ..errors import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused, Timeout
+from ..kind import AXIS_BIT
+from ..link import Link
+from ..motion import Motion, Order
+from ..registers import Inputs
+from ..script import Script
+from . import words
+from .words import KIND, CutCommand, Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
@@ -37,7 +37,7 @@ class Both(Protocol):
     @property
     def link(self) -> Link: ...
     def status(self) -> Status: ...
-    def straps(self, number: int, clock: units.BaseClock | None) -> Script: ...
+    def straps(self, number: int, clock: speeds.BaseClock | None) -> Script: ...
     def show(self, number: int) -> Script: ...
     def other(self, number: int) -> Settling: ...
     def rests(self, number: int) -> None: ...
@@ -64,7 +64,7 @@ class Axis2104(Axis):
         self.busy = BUSY[number - 1]
         self.unused = 0x40
 
-    def apply(self, setup: units.Setup) -> units.Setup:
+    def apply(self, setup: speeds.Setup) -> speeds.Setup:
         """Initialise with a setup that was planned before for this axis; waits until its ramp is ready."""
         self.link.execute(Script().call(setup.code, *setup.data))
         clock = self.link.clock
@@ -78,7 +78,7 @@ class Axis2104(Axis):
 
     # ------------------------------------------------------------------ what differs from other parts
 
-    def straps(self, clock: units.BaseClock | None) -> Script:
+    def straps(self, clock: speeds.BaseClock | None) -> Script:
         return self.part.straps(self.number, clock)
 
     def started(self, order: Order, begin: int) -> Motion:
@@ -117,7 +117,7 @@ class Axis2104(Axis):
             raise refused
         position = self._count()
         motion = self.started(order, position)
-        left = order.asked or units.LONGEST_MOVE
+        left = order.asked or speeds.LONGEST_MOVE
         motion.end = self.told(End(cause, 0, left, self.counted(position), 0))
         return motion
 
@@ -146,17 +146,17 @@ class Axis2104(Axis):
     def inputs(self) -> Inputs:
         return Inputs.of_pins(self.link.execute(self.part.show(self.number).pins()).byte(0))
 
-    def switching(self, on_us: units.Number, off_us: units.Number) -> tuple[Fraction, Fraction]:
+    def switching(self, on_us: speeds.Number, off_us: speeds.Number) -> tuple[Fraction, Fraction]:
         """Times of the chopper at rest in us (16 MHz: 32 to 127.5 each); returns those reached.
         Only at rest."""
-        on = errors.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
-        off = errors.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        on = words.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = words.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
         self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
         return on[1], off[1]
 
-    def hold_delay(self, microseconds: units.Number) -> Fraction:
+    def hold_delay(self, microseconds: speeds.Number) -> Fraction:
         """Time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); returns the one reached. Only
         at rest."""
-        byte, reached = errors.hold_byte(self.link.identity.xtal_hz, microseconds)
+        byte, reached = words.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
         return reached

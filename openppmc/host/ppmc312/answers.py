@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ...model.ppmc312.codes import Answer, Cause, Source, State
-from ..basis.errors import CommandRefused
+from ..errors import CommandRefused
 from .errors import refused
 
 # What can be read of a PPMC-312 at any time, as dataclasses (P312-CMD-4D, -27, -47). Pure.

@@ -16,8 +16,8 @@ from __future__ import annotations
 from enum import Enum
 
 from ...model.ppmc312.codes import Code
-from ..basis.arguments import side, whole, within
-from ..basis.errors import OutOfRange
+from ..check import side, whole, within
+from ..errors import OutOfRange
 
 CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from ...model.ppmc312.codes import Code
-from ..basis import units
-from ..basis.arguments import Checked
-from ..basis.ending import End
-from ..basis.errors import OutOfRange, ProtocolError
-from ..basis.kind import Wanted
+from .. import speeds
+from ..check import Checked
+from ..ending import End
+from ..errors import OutOfRange, ProtocolError
+from ..kind import Wanted
 from . import blocks
 from .answers import BadResponse, Executed, Inputs, Report, Response, Status, Stopped, signed
 from .motion import Motion, Way
@@ -249,14 +249,14 @@ class Settings(Core[MotionT]):
 
     def initialise(
         self,
-        start_pps: units.Number = 1000,
-        high_pps: units.Number = 5000,
+        start_pps: speeds.Number = 1000,
+        high_pps: speeds.Number = 5000,
         ramp_pulses: int = KIND.usual_ramp,
-        stop_pps: units.Number | None = None,
+        stop_pps: speeds.Number | None = None,
         down_pulses: int | None = None,
         sigmoid: bool = False,
-        base_clock: units.Number | None = None,
-        external_clock: units.Number | None = None,
+        base_clock: speeds.Number | None = None,
+        external_clock: speeds.Number | None = None,
     ) -> Setup:
         """Speeds and ramps; returns what is really reached.
 
@@ -281,8 +281,8 @@ class Settings(Core[MotionT]):
     def load_curve(
         self,
         stages: Iterable[Sequence[float | int | None]] | str | Path,
-        base_clock: units.Number | None = None,
-        external_clock: units.Number | None = None,
+        base_clock: speeds.Number | None = None,
+        external_clock: speeds.Number | None = None,
     ) -> Setup:
         """A free curve of 2 to 127 stages, slowest first: (pps, pulses up[, pulses down]), or the path of a
         CSV file of such lines. Clocks as for `initialise`. Raises OutOfRange."""
@@ -314,7 +314,7 @@ class Settings(Core[MotionT]):
             *(_numbers(items[item], width) for item, width in ((ITEM_RATES, 2), (ITEM_UP, 3), (ITEM_DOWN, 3)))
         )
 
-    def rate_of(self, pps: units.Number, what: str = "speed") -> int:
+    def rate_of(self, pps: speeds.Number, what: str = "speed") -> int:
         """Rate of a speed of the table. OutOfRange, also without a table of this object."""
         return self.known_setup().rate_of(pps, what)
 
@@ -336,7 +336,7 @@ class Settings(Core[MotionT]):
         """The same during motions, too (`EncoderChange`): lost steps, a motor that stands."""
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 
-    def limit_speed(self, pps: units.Number) -> None:
+    def limit_speed(self, pps: speeds.Number) -> None:
         """At an active slow-down limit nothing as fast as this, or faster (the high speed, if not set)."""
         rate = self.known_setup().clock.choose(pps).rate
         self.instruct(blocks.speed_limit(rate))

@@ -8,14 +8,7 @@
 from __future__ import annotations
 
 from ...model.ppmc312.codes import Answer, State
-from ..basis.errors import (
-    CommandRefused,
-    NothingToStop,
-    NotInitialised,
-    NotWhileBusy,
-    StartRefused,
-    UnknownCode,
-)
+from ..errors import CommandRefused, NothingToStop, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
 
 
 class ParameterRefused(CommandRefused):

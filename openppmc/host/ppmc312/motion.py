@@ -6,13 +6,13 @@ from collections.abc import Callable
 from typing import Protocol
 
 from ...model.ppmc312.codes import Cause as Bit
-from ..axis import motion as homing
-from ..axis import part as device
-from ..axis.motion import PROGRESS_POLL, SAFETY_POLL, AnyMotion, Handle, Progress
-from ..basis.ending import COUNTS, Cause, End, EndUnknown, OriginNotFound
-from ..basis.errors import Timeout
-from ..basis.units import Number
-from ..bridge.script import Identity
+from .. import motion as homing
+from .. import part as device
+from ..ending import COUNTS, Cause, End, EndUnknown, OriginNotFound
+from ..errors import Timeout
+from ..motion import PROGRESS_POLL, SAFETY_POLL, AnyMotion, Handle, Progress
+from ..script import Identity
+from ..speeds import Number
 from .answers import Status, Stopped, signed
 
 _CAUSES = {

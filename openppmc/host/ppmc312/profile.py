@@ -19,9 +19,9 @@ from ...model.ppmc312.stages import tables
 from ...model.ppmc312.stages.tables import DIVIDERS, LEAST_PULSES, STAGES, SettingError, Table
 from ...parts import part
 from ...textfile import NotTextError, read_text
-from ..basis import units
-from ..basis.errors import OutOfRange
-from ..basis.kind import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Kind, Wanted
+from .. import speeds as units
+from ..errors import OutOfRange
+from ..kind import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Kind, Wanted
 from . import blocks
 from .errors import refused
 
@@ -312,7 +312,7 @@ def plan_setup(
     '03 09 00 01 03 e8 00 c8 00 07 d0'
     >>> plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 761)
     Traceback (most recent call last):
-    openppmc.host.basis.errors.OutOfRange: 761 pulses: the ramp is too short: each of its stages needs 2 \
+    openppmc.host.errors.OutOfRange: 761 pulses: the ramp is too short: each of its stages needs 2 \
 pulses: 762 or more
     """
     separate = stop_pps is not None or down is not None

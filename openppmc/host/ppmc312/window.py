@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from ..basis.errors import ProtocolError, Timeout
-from ..bridge.link import Link
-from ..bridge.script import Answer, Result, Script
+from ..errors import ProtocolError, Timeout
+from ..link import Link
+from ..script import Answer, Result, Script
 from .answers import BadResponse, Response
 from .blocks import WINDOW, bus_order, start_address
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ...model.motion.codes import IBF, Command, Kind
-from ..bridge.script import Identity, Script
+from ..script import Identity, Script
 from .plan import COMMANDS, MOVES, REGISTERS, Section, Talk
 
 DATA, COMMAND = 0, 1

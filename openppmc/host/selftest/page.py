@@ -10,9 +10,9 @@ from typing import Any
 
 from ... import __version__
 from ...parts import by_number
-from ..basis.kind import name_of
-from ..bridge.link import Link
-from ..bridge.script import Build
+from ..kind import name_of
+from ..link import Link
+from ..script import Build
 from .run import Findings, Outcome
 
 BOARDS = {

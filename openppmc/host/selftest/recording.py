@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...check.records import Access, Change, Edge, Recording
-from ..bridge.script import RECORDED_BYTES, BadAnswer
+from ..script import RECORDED_BYTES, BadAnswer
 
 # What a bridge's recorder has seen (docs/uart_bridge.md, UB-REC): its answer, its records. Pure.
 

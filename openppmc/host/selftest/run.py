@@ -13,9 +13,9 @@ from ...check.records import Recording
 from ...check.replay import compare_recording, new_model
 from ...check.report import report, write_report
 from ...errors import MissingExtraError
-from ..basis.errors import LinkError, PpmcError
-from ..bridge.link import Link
-from ..bridge.script import RATES, Build, Result, Script
+from ..errors import LinkError, PpmcError
+from ..link import Link
+from ..script import RATES, Build, Result, Script
 from .plan import MOVES, SWITCHES, Plan, Section, Talk
 from .recording import NoReset, Recorded, recording_of, reset_levels
 

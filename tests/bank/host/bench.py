@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from openppmc.host import Link, PpmcBank
-from openppmc.host.bridge.loopback import ModelPort
-from openppmc.host.bridge.script import Script
+from openppmc.host.model_port import ModelPort
+from openppmc.host.script import Script
 from openppmc.model.bank.carrier import Carrier
 
 SETUP = {"start_pps": 2000, "high_pps": 20_000, "ramp_pulses": 100}

@@ -15,7 +15,7 @@ from openppmc.host import (
     OutOfRange,
     PpmcBank,
 )
-from openppmc.host.bridge.script import Script
+from openppmc.host.script import Script
 from tests.bank.host.bench import SETUP, SPEC, at, frames, model, opened, pulses
 
 

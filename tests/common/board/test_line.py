@@ -10,8 +10,8 @@ import pytest
 import serial
 
 from openppmc.host import Link, Ppmc104
-from openppmc.host.bridge.script import Result, Script
-from openppmc.host.bridge.session import MESSAGE_NAK, WAKE_UP, Deframer, Frame, Nak, encode
+from openppmc.host.frames import MESSAGE_NAK, WAKE_UP, Deframer, Frame, Nak, encode
+from openppmc.host.script import Result, Script
 from openppmc.sim import SimBoard
 
 from .fixtures import PATIENCE, SETUP

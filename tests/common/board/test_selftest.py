@@ -14,10 +14,10 @@ import pytest
 
 from cocotb_tests.harness.paths import ROOT
 from openppmc import parts
-from openppmc.host.bridge.link import Link
-from openppmc.host.bridge.script import Script
-from openppmc.host.ppmc104.selftest import PLAN
+from openppmc.host.link import Link
+from openppmc.host.script import Script
 from openppmc.host.selftest.plan import REGISTERS, Section, Talk
+from openppmc.host.selftest.ppmc104 import PLAN
 from openppmc.host.selftest.run import TRIES, SelfTest
 
 from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line

@@ -8,7 +8,7 @@ import pytest
 import serial
 
 from openppmc.host import CW, NothingToStop, Ppmc104
-from openppmc.host.bridge.script import RATES, Script
+from openppmc.host.script import RATES, Script
 from openppmc.model import predict_move
 from openppmc.sim import SimBoard
 

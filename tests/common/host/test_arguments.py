@@ -24,9 +24,9 @@ from openppmc.host import (
     Ppmc2104,
     PpmcError,
     Stmc,
+    check,
 )
-from openppmc.host.basis import arguments
-from openppmc.host.basis.arguments import exact, flag, whole, within
+from openppmc.host.check import exact, flag, whole, within
 from tests.common.host.line_ports import Spoiled
 
 FAST = "model:speed=max"
@@ -138,7 +138,7 @@ def _wrong_calls(part: Any) -> Iterator[tuple[str, str, dict[str, Any]]]:
     """Each public method with each parameter wrong in each way, the others left out or harmless."""
     for name in dir(type(part)):
         entry = getattr(type(part), name)
-        if name.startswith("_") or not isinstance(entry, arguments.Entry):
+        if name.startswith("_") or not isinstance(entry, check.Entry):
             continue
         for parameter, kind in entry.kinds.items():
             for value in WRONG[kind.name]:
@@ -215,7 +215,7 @@ def test_a_mistyped_name_is_refused(axis: Any) -> None:
             axis.curent = 1500
 
 
-class Lamp(arguments.Checked):
+class Lamp(check.Checked):
     """Has one name of each kind."""
 
     on = False
@@ -313,7 +313,7 @@ def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
     """Programs that look for a method, keep it, or choose between two, need not call it."""
     motion = axis.start_move(40)
     for thing in (axis, motion):
-        names = [name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), arguments.Entry)]
+        names = [name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), check.Entry)]
         assert names
         for name in names:
             method = getattr(thing, name)
@@ -330,7 +330,7 @@ def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
 
 
 def test_a_method_used_as_a_value_is_reported(axis: Any) -> None:
-    names = [name for name in dir(type(axis)) if isinstance(getattr(type(axis), name), arguments.Entry)]
+    names = [name for name in dir(type(axis)) if isinstance(getattr(type(axis), name), check.Entry)]
     assert {"inputs", "status"} & {*names} or {"flags", "ports", "program_runs", "on_switch"} <= {*names}
     for name in names:
         for use in USES:

@@ -6,16 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.bridge.session import (
-    ANSWER_LIMIT,
-    REQUEST_LIMIT,
-    Broken,
-    Deframer,
-    Fault,
-    Frame,
-    crc16,
-    encode,
-)
+from openppmc.host.frames import ANSWER_LIMIT, REQUEST_LIMIT, Broken, Deframer, Fault, Frame, crc16, encode
 from openppmc.model.carrier.bridge import Receiver, Request, crc, frame
 
 payloads = st.binary(min_size=1, max_size=REQUEST_LIMIT - 2)

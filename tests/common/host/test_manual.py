@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from openppmc.cli import main
-from openppmc.host.basis import errors
+from openppmc.host import errors
 
 PAGE = Path(__file__).parents[3] / "docs" / "host.md"
 TEXT = PAGE.read_text(encoding="utf-8")

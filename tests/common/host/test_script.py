@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.bridge.script import BadAnswer, Identity, Result, Script, parse_answer
-from openppmc.host.bridge.session import Deframer, Frame, encode
+from openppmc.host.frames import Deframer, Frame, encode
+from openppmc.host.script import BadAnswer, Identity, Result, Script, parse_answer
 from openppmc.model.carrier.bridge import Bridge
 
 

@@ -11,7 +11,7 @@ from openppmc.check.pins import pins_of
 from openppmc.check.records import Change
 from openppmc.check.replay import compare_recording, expected_edges, new_model
 from openppmc.cli.common.version import misfit
-from openppmc.host.bridge.script import BadAnswer, Build, Identity
+from openppmc.host.script import BadAnswer, Build, Identity
 from openppmc.host.selftest.page import board_name, built
 from openppmc.host.selftest.plan import Plan
 from openppmc.host.selftest.recording import Layout, NoReset, Recorded, recording_of, reset_levels

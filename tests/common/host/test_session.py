@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.host.bridge.session import Deframer, Frame, GaveUp, Session, encode
+from openppmc.host.frames import Deframer, Frame, GaveUp, Session, encode
 from openppmc.model.carrier.bridge import Bridge
 
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import Disconnected, Link, NoAnswer, PortError, WrongDevice, open_port
-from openppmc.host.bridge.script import Script
-from openppmc.host.bridge.session import Deframer, Frame, encode
+from openppmc.host.frames import Deframer, Frame, encode
+from openppmc.host.script import Script
 from openppmc.model.carrier.carrier import Plant
 from openppmc.sim.common.machine import parse_machine
 

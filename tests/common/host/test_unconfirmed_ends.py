@@ -29,9 +29,9 @@ from openppmc.host import (
     ProtocolError,
     Stmc,
 )
-from openppmc.host.basis.ending import decode_end
-from openppmc.host.bridge.loopback import ModelPort
-from openppmc.host.bridge.script import Script
+from openppmc.host.ending import decode_end
+from openppmc.host.model_port import ModelPort
+from openppmc.host.script import Script
 from tests.common.host.line_ports import Spoiled
 
 SLOW = 115_200

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from openppmc.cli.common.forecast import Course, key_figures
 from openppmc.host import units
-from openppmc.host.axis.axis import chop_byte
-from openppmc.host.basis.errors import OutOfRange, PpmcError
-from openppmc.host.basis.kind import Wanted
-from openppmc.host.ppmc104.driver import KIND as PPMC104
-from openppmc.host.ppmc2104.errors import KIND as PPMC2104
-from openppmc.host.ppmc2104.errors import half_us_byte, hold_byte
-from openppmc.host.stmc.driver import KIND as STMC
+from openppmc.host.axis import chop_byte
+from openppmc.host.errors import OutOfRange, PpmcError
+from openppmc.host.kind import Wanted
+from openppmc.host.ppmc104 import KIND as PPMC104
+from openppmc.host.ppmc2104.words import KIND as PPMC2104
+from openppmc.host.ppmc2104.words import half_us_byte, hold_byte
+from openppmc.host.stmc import KIND as STMC
 from openppmc.model.single.predict import predict_move
 
 XTAL = 16_000_000

@@ -22,7 +22,7 @@ from openppmc.host import (
     StoppedEarly,
     open_part,
 )
-from openppmc.host.axis.part import Device
+from openppmc.host.part import Device
 from openppmc.ophyd import PpmcPositioner
 
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "bank")

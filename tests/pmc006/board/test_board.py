@@ -13,8 +13,8 @@ import pytest
 import serial
 
 from openppmc.host import BACKWARD, FORWARD, Disconnected, LimitReached, Pmc006, Pmc006Bus, PortError
-from openppmc.host.line.bus import StationSilent
-from openppmc.host.pmc006.codes import command, reply
+from openppmc.host.line import StationSilent
+from openppmc.host.pmc006.wire import command, reply
 from openppmc.model.pmc006.program import assemble
 from openppmc.sim import SimError, SimLine, SpecError, start_line
 

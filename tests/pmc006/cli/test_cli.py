@@ -94,11 +94,10 @@ def test_motions(run: Run) -> None:
 
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """All commands talk to the same line, as with a real one."""
-    from openppmc.host import Pmc006Bus
-    from openppmc.host.line import ports
+    from openppmc.host import Pmc006Bus, line_port
     from openppmc.host.pmc006.talk import Line
 
-    port = ports.ModelLine("speed=max,address=1", 9600, "pmc006")
+    port = line_port.ModelLine("speed=max,address=1", 9600, "pmc006")
     port.close = lambda: None  # type: ignore[method-assign]
     monkeypatch.setattr(Pmc006Bus, "open", lambda spec, **options: Pmc006Bus(Line(port)))
     part = port.line.stations[0].part

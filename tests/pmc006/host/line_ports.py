@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from openppmc.host import Pmc006, Pmc006Bus
-from openppmc.host.pmc006.codes import reply
+from openppmc.host.pmc006.wire import reply
 from openppmc.sim.pmc006.node import Node
 from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
 

@@ -25,12 +25,12 @@ from openppmc.host import (
     StoppedEarly,
     Timeout,
 )
-from openppmc.host.line.bus import DuplicateAddress, StationSilent
-from openppmc.host.pmc006 import codes, settings
-from openppmc.host.pmc006 import codes as errors
-from openppmc.host.pmc006 import codes as wire
-from openppmc.host.pmc006.codes import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
+from openppmc.host.line import DuplicateAddress, StationSilent
+from openppmc.host.pmc006 import settings, wire
+from openppmc.host.pmc006 import wire as codes
+from openppmc.host.pmc006 import wire as errors
 from openppmc.host.pmc006.settings import SETTINGS, drive_current, setting
+from openppmc.host.pmc006.wire import LockedByExt, MotorFree, SettingRefused, SpeedRefused, StorageFailed
 from openppmc.model.pmc006.program import Instruction, Program, assemble
 from openppmc.model.pmc006.settings import LEGAL, PLACES
 from tests.pmc006.host.line_ports import SpoiledLine, one, several

@@ -8,8 +8,9 @@ from collections.abc import Callable
 import pytest
 
 from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc006, Pmc006Bus, PpmcError
-from openppmc.host.line.bus import GarbledReply, LostReply, StationSilent
-from openppmc.host.pmc006.codes import (
+from openppmc.host.line import GarbledReply, LostReply, StationSilent
+from openppmc.host.pmc006.talk import Line
+from openppmc.host.pmc006.wire import (
     Flags,
     LockedByExt,
     ProgramDiffers,
@@ -20,7 +21,6 @@ from openppmc.host.pmc006.codes import (
     command,
     reply,
 )
-from openppmc.host.pmc006.talk import Line
 from openppmc.model.pmc006.program import Program, assemble
 from tests.common.host.line_ports import Played
 from tests.pmc006.host.line_ports import (

@@ -30,9 +30,9 @@ from openppmc.host import (
     UnexpectedData,
     UnexpectedDataBusy,
 )
-from openppmc.host.basis.errors import BY_NUMBER, CommandRefused
-from openppmc.host.bridge.loopback import ModelPort
-from openppmc.host.bridge.script import Script
+from openppmc.host.errors import BY_NUMBER, CommandRefused
+from openppmc.host.model_port import ModelPort
+from openppmc.host.script import Script
 
 timing = "FAST"
 

@@ -20,7 +20,7 @@ from openppmc.host import (
     Ppmc2104,
     WrongDevice,
 )
-from openppmc.host.bridge.script import Script
+from openppmc.host.script import Script
 from openppmc.model import Timebase, predict_move
 from openppmc.sim import SimBoard
 

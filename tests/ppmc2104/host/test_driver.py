@@ -36,10 +36,10 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.errors import CommandRefused
-from openppmc.host.bridge.loopback import ModelPort
-from openppmc.host.bridge.script import Script
-from openppmc.host.ppmc2104.errors import BY_NUMBER as BY_NUMBER_2104
+from openppmc.host.errors import CommandRefused
+from openppmc.host.model_port import ModelPort
+from openppmc.host.ppmc2104.words import BY_NUMBER as BY_NUMBER_2104
+from openppmc.host.script import Script
 from openppmc.model.ppmc2104.carrier import Carrier
 
 SETUP = {"start_pps": 2000, "high_pps": 20_000, "ramp_pulses": 100}

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, Cause, Disconnected, LimitReached, PortError, Ppmc312Bus
-from openppmc.host.line.bus import LineEcho, StationSilent
+from openppmc.host.line import LineEcho, StationSilent
 from openppmc.sim import SimError, SimLine, SpecError, start_line
 
 from ...common.board.fixtures import ROOT, CommandLine, Wait, one_line

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, CW, OutOfRange
-from openppmc.host.basis.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
-from openppmc.host.basis.kind import Wanted
+from openppmc.host.errors import CommandRefused, NotInitialised, NotWhileBusy, StartRefused, UnknownCode
+from openppmc.host.kind import Wanted
 from openppmc.host.ppmc312 import answers, errors, profile
 from openppmc.host.ppmc312 import answers as registers
 from openppmc.host.ppmc312 import blocks as blocks312

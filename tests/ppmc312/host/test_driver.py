@@ -29,9 +29,8 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.basis.errors import StartRefused
-from openppmc.host.bridge.loopback import ModelPort
-from openppmc.host.bridge.script import Script
+from openppmc.host.errors import StartRefused
+from openppmc.host.model_port import ModelPort
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,
@@ -58,6 +57,7 @@ from openppmc.host.ppmc312.errors import (
     RegistrationRefused,
     TableRefused,
 )
+from openppmc.host.script import Script
 from openppmc.model.ppmc312.carrier import Carrier
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Code, Source, State

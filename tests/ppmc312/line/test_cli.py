@@ -13,7 +13,7 @@ import pytest
 
 from openppmc.cli.common.state import lasting, recall
 from openppmc.cli.ppmc312.line.session import line_options, parse_stations
-from openppmc.host.ppmc312.line.serial import SumMode
+from openppmc.host.ppmc312.line.wire import SumMode
 from tests.common.cli.command_line import Run
 
 PORT = "model:speed=max,stations=3"

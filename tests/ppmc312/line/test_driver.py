@@ -24,8 +24,8 @@ from openppmc.host import (
     StoppedEarly,
     Timeout,
 )
-from openppmc.host.basis.errors import StartRefused
-from openppmc.host.basis.kind import Wanted
+from openppmc.host.errors import StartRefused
+from openppmc.host.kind import Wanted
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,
@@ -46,7 +46,7 @@ from openppmc.host.ppmc312.errors import (
     RateRefused,
     RegistrationRefused,
 )
-from openppmc.host.ppmc312.line.serial import SumMode
+from openppmc.host.ppmc312.line.wire import SumMode
 from openppmc.model.ppmc312.codes import Cause as Bit
 from openppmc.model.ppmc312.codes import Source, State
 from tests.common.host.line_ports import Played

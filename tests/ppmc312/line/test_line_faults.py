@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from openppmc.host import CCW, CW, Cause, Disconnected, Ppmc312Bus, PpmcError, ProtocolError, Station312
-from openppmc.host.basis.errors import LinkError, NothingToStop, UnknownCode
-from openppmc.host.line.bus import DuplicateAddress, GarbledReply, LineEcho, LostReply, StationSilent
+from openppmc.host.errors import LinkError, NothingToStop, UnknownCode
+from openppmc.host.line import DuplicateAddress, GarbledReply, LineEcho, LostReply, StationSilent
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import Alarm
 from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Played

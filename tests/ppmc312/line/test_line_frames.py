@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from openppmc.host import CCW, CW, OutOfRange
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.blocks import Trigger
-from openppmc.host.ppmc312.line.serial import (
+from openppmc.host.ppmc312.line.wire import (
     DATA,
     DATA_BYTES,
     END_STATUS,

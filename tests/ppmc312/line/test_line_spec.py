@@ -7,9 +7,10 @@ import doctest
 import pytest
 
 from openppmc.host.ppmc312.line import line as errors
-from openppmc.host.ppmc312.line import serial, talk
-from openppmc.host.ppmc312.line import serial as ascii
-from openppmc.host.ppmc312.line.serial import frame
+from openppmc.host.ppmc312.line import talk
+from openppmc.host.ppmc312.line import wire as ascii
+from openppmc.host.ppmc312.line import wire as serial
+from openppmc.host.ppmc312.line.wire import frame
 from openppmc.sim import part_of
 from openppmc.sim.common import line_child, lines
 from openppmc.sim.ppmc312 import line_spec

@@ -29,15 +29,15 @@ from openppmc.host import (
     UnexpectedDataBusy,
     WrongDevice,
     open_part,
+    speeds,
+    stmc,
 )
-from openppmc.host.basis import units
-from openppmc.host.basis.errors import CommandRefused
-from openppmc.host.basis.kind import Wanted
-from openppmc.host.bridge.loopback import ModelPort
-from openppmc.host.bridge.script import Script
-from openppmc.host.stmc import driver
-from openppmc.host.stmc.driver import KIND as STMC
-from openppmc.host.stmc.driver import refused as refused_stmc
+from openppmc.host.errors import CommandRefused
+from openppmc.host.kind import Wanted
+from openppmc.host.model_port import ModelPort
+from openppmc.host.script import Script
+from openppmc.host.stmc import KIND as STMC
+from openppmc.host.stmc import refused as refused_stmc
 from openppmc.model.carrier.carrier import Plant
 from openppmc.model.stmc.carrier import Carrier
 
@@ -76,7 +76,7 @@ def model(axis: Stmc) -> Carrier:
     return axis.link.port.board
 
 
-def gaps(axis: Stmc, steps: int, pps: units.Number | None = None) -> list[int]:
+def gaps(axis: Stmc, steps: int, pps: speeds.Number | None = None) -> list[int]:
     """clk between the phase changes of a move, by looking over the board's shoulder."""
     seen: list[int] = []
     machine = model(axis)
@@ -102,7 +102,7 @@ def gaps(axis: Stmc, steps: int, pps: units.Number | None = None) -> list[int]:
 
 def test_the_worked_examples_of_the_sheet() -> None:
     """345/s and 825/s at 48 675 Hz: the doctests of `clock` are run, and there are some."""
-    failed, attempted = doctest.testmod(driver)
+    failed, attempted = doctest.testmod(stmc)
     assert not failed and attempted >= 5
 
 

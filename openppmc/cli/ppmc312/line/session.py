@@ -9,7 +9,7 @@ from typing import Any
 
 from ....host import Ppmc312Bus, Station312
 from ....host.ppmc312.line.bus import Found
-from ....host.ppmc312.line.serial import STATIONS, SumMode
+from ....host.ppmc312.line.wire import STATIONS, SumMode
 from ...common import line_session
 from ...common.board import BOARD, LINE_WORDS
 from ...common.guard import Guard

@@ -13,14 +13,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ...basis.errors import CommandRefused
-from ...line.bus import PATIENCE, DuplicateAddress, GarbledReply, LineBus, StationSilent
-from ...line.ports import Counters
-from ...ports.transport import Port
+from ...errors import CommandRefused
+from ...line import PATIENCE, DuplicateAddress, GarbledReply, LineBus, StationSilent
+from ...line_port import Counters
+from ...port import Port
 from ..answers import Report, Status
 from .line import KIND, XTAL_HZ, Line
-from .serial import SPEEDS, STATIONS, VERSION, SumMode
 from .station import ErrorCounts, Station312
+from .wire import SPEEDS, STATIONS, VERSION, SumMode
 
 if TYPE_CHECKING:
     from serial.rs485 import RS485Settings

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 from ....model.ppmc312.codes import Code, Source, State
 from ....parts import part
-from ...basis.errors import CommandRefused, NotWhileBusy, OutOfRange, PortError, StartRefused, UnknownCode
-from ...basis.kind import COILS_OFF, CURVES
-from ...bridge.script import Identity
-from ...line.bus import PATIENCE, LineEcho, Master
-from ...line.ports import Counters, Miss, open_line
-from ...ports.transport import Port
+from ...errors import CommandRefused, NotWhileBusy, OutOfRange, PortError, StartRefused, UnknownCode
+from ...kind import COILS_OFF, CURVES
+from ...line import PATIENCE, LineEcho, Master
+from ...line_port import Counters, Miss, open_line
+from ...port import Port
+from ...script import Identity
 from .. import profile
 from ..errors import (
     LIMIT,
@@ -27,7 +27,7 @@ from ..errors import (
     RegistrationRefused,
     TableRefused,
 )
-from .serial import (
+from .wire import (
     INSTRUCTION,
     POLL,
     SPEEDS,

@@ -6,16 +6,16 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from ....model.ppmc312.codes import Cause, Code, Source, State
-from ...axis.motion import Progress
-from ...basis.ending import End
-from ...line.bus import POLL_EVERY, StationSilent, wait_all
-from ...line.ports import Counters
+from ...ending import End
+from ...line import POLL_EVERY, StationSilent, wait_all
+from ...line_port import Counters
+from ...motion import Progress
 from ..answers import Executed, Report, Status, Stopped, signed
-from ..driver import Axis
 from ..motion import Motion
+from ..part import Axis
 from .line import KIND, Line
-from .serial import ERROR_CODE, ERROR_COUNTS, station_number
 from .talk import ATTEMPTS, Talk
+from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 
 _MOST_PPS = 4_000_000
 """Pulses/s that no table exceeds: rate 2 of 8 MHz."""

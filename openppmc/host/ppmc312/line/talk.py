@@ -8,9 +8,9 @@ from operator import eq
 from typing import Protocol, TypeVar
 
 from ....model.ppmc312.codes import MOTION_STARTS, OV, Cause, Code, Source, State
-from ...basis.errors import CommandRefused, NoAnswer, OutOfRange, ProtocolError
-from ...line.bus import GarbledReply, LostReply, unanswered
-from ...line.ports import Fault, Miss
+from ...errors import CommandRefused, NoAnswer, OutOfRange, ProtocolError
+from ...line import GarbledReply, LostReply, unanswered
+from ...line_port import Fault, Miss
 from ..answers import (
     Alarm,
     EncoderChange,
@@ -28,7 +28,7 @@ from ..answers import (
 from ..motion import Motion
 from ..window import ANSWER_MS, SHORTEST
 from .line import Error, Line, failed_serial, refused_serial
-from .serial import (
+from .wire import (
     BUSY,
     DATA,
     DATA_BYTES,

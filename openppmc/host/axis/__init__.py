@@ -1,1 +1,0 @@
-"""An axis of any part: set-up, motions, homing, registers."""

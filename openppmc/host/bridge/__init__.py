@@ -1,1 +1,0 @@
-"""The UART bridge from the PC's side: frames, scripts, session, link."""

@@ -1,1 +1,0 @@
-"""A line with several stations, whatever part they are."""

@@ -1,0 +1,190 @@
+"""Ports of a line with several stations: anything pyserial opens, the modelled line (`model:`), one in a
+process of its own (`sim:`)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from ..sim.common.lines import line_kind
+from .errors import Disconnected, PortError
+from .model_port import Pacer, whole
+from .port import MODEL, SIM, Port, SerialPort, SimPort, describe_ports
+
+if TYPE_CHECKING:
+    import serial
+    from serial.rs485 import RS485Settings
+
+# The port `model:` of a line: golden models of the stations with their motors, in virtual time.
+
+
+class ModelLine:
+    """A line that needs no hardware. text: words of the part's virtual line. baud: line rate. part:
+    of the stations. Raises PortError for a bad text."""
+
+    def __init__(self, text: str, baud: int, part: str) -> None:
+        self.name = "model:" + text
+        kind = line_kind(part)
+        try:
+            self.spec = kind.parse(kind.at_rate(text, baud))
+            self.line = kind.make(self.spec)
+        except ValueError as error:
+            raise PortError(f"{self.name}: {error}") from error
+        self.set_baud(baud)
+        self._closed = False
+        self._pacer = Pacer(self.spec.speed)
+
+    def read(self, timeout: float) -> bytes:
+        self._check()
+        self._catch_up()
+        end = self.line.seconds + timeout
+        data = self.line.read()
+        while not data and (left := end - self.line.seconds) > 0:
+            self._run(self._pacer.step(left))
+            self._pacer.wait(self.line.seconds)
+            self._check()
+            data = self.line.read()
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._check()
+        self._catch_up()
+        whole(lambda: self.line.write(data if self._fits else bytes(len(data))))
+
+    def set_baud(self, baud: int) -> None:
+        self._fits = abs(baud / self.spec.rate - 1) < 0.03
+
+    def clock(self) -> float:
+        return self.line.seconds
+
+    def close(self) -> None:
+        self._closed = True
+
+    def _check(self) -> None:
+        if self._closed or self.line.seconds >= self.spec.unplug:
+            raise Disconnected(f"{self.name}: the port went away: plug it in and run the command again")
+
+    def _catch_up(self) -> None:
+        """The line went on while the program did something else."""
+        if behind := self._pacer.behind(self.line.seconds):
+            self._run(behind)
+
+    def _run(self, seconds: float) -> None:
+        whole(lambda: self.line.run_seconds(seconds))
+
+
+# What can go wrong between the master of a line and a station, and how often it did. Pure.
+
+
+class Fault(Enum):
+    """Why bytes were no reply. FOREIGN: it came from another station; BROKEN: a wrong character or checksum;
+    NOISE: bytes that belong to no reply."""
+
+    FOREIGN = "another station replied"
+    BROKEN = "a broken reply"
+    NOISE = "stray bytes"
+
+
+@dataclass
+class Counters:
+    """What has happened between the master and a station.
+
+    sent: frames. repeated: of these, once more. silent: no reply; garbled: a broken one; foreign: another
+    station replied; refused: the station says that a frame arrived broken (41). lost_reports: polls without a
+    whole reply, with which a report may be gone.
+    """
+
+    sent: int = 0
+    repeated: int = 0
+    silent: int = 0
+    garbled: int = 0
+    foreign: int = 0
+    refused: int = 0
+    lost_reports: int = 0
+
+    @property
+    def faults(self) -> int:
+        """All that went wrong on the line."""
+        return self.silent + self.garbled + self.foreign + self.refused
+
+
+@dataclass(frozen=True)
+class Miss:
+    """No reply. fault: why, None after silence. heard: bytes that came."""
+
+    fault: Fault | None
+    heard: bytes
+
+
+SIM_PATIENCE = 0.25
+"""The virtual line answers through two processes."""
+_SHORT, _LONGEST = 0.05, 30.0
+
+
+class UrlPort(SerialPort):
+    """A device or URL through pyserial. rs485: how RTS switches the driver, None: it does not."""
+
+    def __init__(self, spec: str, baud: int, rs485: RS485Settings | None = None) -> None:
+        self._rs485 = rs485
+        super().__init__(spec, baud)
+
+    def _open(self, path: str, baud: int) -> serial.SerialBase:
+        import serial
+
+        own = {} if "://" in path else {"exclusive": True}
+        port = serial.serial_for_url(path, baud, timeout=self.SLICE, write_timeout=2, **own)
+        if self._rs485 is not None:
+            try:
+                port.rs485_mode = self._rs485
+            except (OSError, ValueError, NotImplementedError, AttributeError) as error:
+                port.close()
+                raise PortError(
+                    f"{path}: this port cannot switch a driver by RTS ({error}): leave rs485 out"
+                ) from error
+        return port
+
+
+class SimLinePort(SimPort):
+    """The virtual line: started here, stopped with the port. A read that has to wait counts the line's time,
+    which may be slower than real time."""
+
+    patience = SIM_PATIENCE
+
+    def __init__(self, text: str, baud: int, part: str) -> None:
+        self._rate, self._part = baud, part
+        super().__init__(text, baud)
+
+    def read(self, timeout: float) -> bytes:
+        data = super().read(timeout)
+        if data or timeout < _SHORT:
+            return data
+        factor = self._pace()
+        return super().read(min(timeout / factor - timeout, _LONGEST)) if 0 < factor < 1 else data
+
+    def _pace(self) -> float:
+        """Line time / wall time; 1 while nothing moves."""
+        from ..sim import SimError
+
+        try:
+            return float(self._board.status().factor)
+        except SimError:
+            return 1.0
+
+    def _start(self, text: str) -> Any:
+        from ..sim import start_line
+        from ..sim.common.lines import line_kind
+
+        return start_line(line_kind(self._part).at_rate(text, self._rate), self._part)
+
+
+def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:
+    """Open a port for a line. part: of the stations, for virtual ones. Raises PortError."""
+    if not spec:
+        raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
+    name = spec if ":" in spec else spec + ":"
+    if name.startswith(MODEL):
+        return ModelLine(name.removeprefix(MODEL), baud, part)
+    if name.startswith(SIM):
+        return SimLinePort(name.removeprefix(SIM), baud, part)
+    return UrlPort(spec, baud, rs485)

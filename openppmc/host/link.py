@@ -1,0 +1,278 @@
+"""A board at the other end of a port: wake-up, identity, line rate, scripts, events."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import TracebackType
+from typing import Protocol
+
+from .errors import Disconnected, LinkError, NoAnswer, PortError, ProtocolError, Timeout, WrongDevice, refused
+from .frames import WAKE_UP, GaveUp, Nak, Session
+from .kind import name_of
+from .port import BASE_BAUD, Port, open_port
+from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity, Result, Script, parse_answer
+
+DEFAULT_BAUD = 1_000_000
+MARGIN = 0.3
+"""Seconds beyond line time and waits until a request is repeated: USB adapters and busy computers."""
+_SETTLE = 0.02
+_QUIET = 0.05
+_BITS = 10
+_MISFIT = "package and bitstream do not fit together: renew the older one"
+
+
+class Talk(Protocol):
+    """What the driver of an axis needs of a link; see `Link`."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def identity(self) -> Identity: ...
+    def clock(self) -> float: ...
+    def pause(self, seconds: float) -> None: ...
+    def close(self) -> None: ...
+    def execute(self, script: Script) -> Answer: ...
+    def judge(self, answer: Answer) -> Answer: ...
+    def attempt(self, script: Script) -> Answer: ...
+    def wait_event(self, timeout: float) -> int | None: ...
+    def forget_events(self) -> None: ...
+
+
+class Link:
+    """Opens the port, finds the bridge, raises the line rate. A context manager.
+
+    spec: device path, `sim:…` or `model:…`. baud: line rate to work with, one of the bridge's (115200 to
+    3000000); a board or adapter that cannot do it works at 115200. part: number that the part must have.
+    Raises PortError, NoAnswer, WrongDevice, Disconnected.
+    """
+
+    def __init__(self, spec: str | Port, baud: int = DEFAULT_BAUD, part: int | None = None) -> None:
+        if baud not in RATES:
+            raise PortError(f"{baud} baud is not a rate of the bridge: it has {', '.join(map(str, RATES))}")
+        self.port = open_port(spec) if isinstance(spec, str) else spec
+        self.baud = BASE_BAUD
+        self.refusal: Callable[[Answer], Exception] = lambda answer: refused(answer.last)
+        """Makes the exception of a refused command; drivers of parts with other errors put theirs here."""
+        self._session = Session()
+        self._closed = False
+        try:
+            self.identity = self._hello()
+            self._check(part)
+            if baud != BASE_BAUD:
+                self._raise_rate(baud)
+            self.execute(Script().events(True))
+        except BaseException:
+            self.port.close()
+            raise
+
+    @property
+    def name(self) -> str:
+        """The port as the user named it."""
+        return self.port.name
+
+    @property
+    def repeats(self) -> int:
+        """Requests that had to be sent again since the link was opened."""
+        return self._session.repeats
+
+    def clock(self) -> float:
+        """Time of the port in s; that of `model:` is virtual."""
+        return self.port.clock()
+
+    # ------------------------------------------------------------------ opening and closing
+
+    def _hello(self) -> Identity:
+        """Wake the bridge up at 115 200 baud and ask who it is."""
+        heard = 0
+        for _ in range(3):
+            self.port.write(WAKE_UP)
+            heard += self._drain()
+            self._session.restart()
+            try:
+                return Identity.parse(self._run(Script().ident(), attempts_margin=MARGIN).values[0])
+            except NoAnswer as error:
+                heard += error.args[1] if len(error.args) > 1 else 0
+            except BadAnswer as error:
+                raise WrongDevice(
+                    f"{self.name}: something answers, but no PPMC bridge ({error}): is this the right port?"
+                ) from error
+        if heard:
+            raise WrongDevice(
+                f"{self.name}: {heard} bytes came, but no answer of a PPMC bridge: is this the right port, "
+                f"and does the board's UART begin with {BASE_BAUD} baud?"
+            )
+        raise NoAnswer(
+            f"{self.name}: no answer: is the board powered and its bitstream loaded, are TXD and RXD crossed?"
+        )
+
+    def _drain(self) -> int:
+        """Drop what comes until the line is quiet; returns how much. Bounded."""
+        heard = 0
+        end = self.clock() + 10 * _QUIET
+        while (data := self.port.read(_QUIET)) and self.clock() < end:
+            heard += len(data)
+        # Up to two NAKs answer the wake-up itself.
+        return max(0, heard - 16)
+
+    def _check(self, part: int | None) -> None:
+        identity = self.identity
+        if identity.version != PROTOCOL_VERSION:
+            newer = "this package" if identity.version > PROTOCOL_VERSION else "the board's bitstream"
+            raise WrongDevice(
+                f"{self.name}: the bridge speaks protocol version {identity.version}, this package "
+                f"{PROTOCOL_VERSION}: renew {newer}"
+            )
+        if part is not None and identity.part != part:
+            raise WrongDevice(
+                f"{self.name}: the part is a {name_of(identity.part)}, not a {name_of(part)}: "
+                "name the right one with --part, or use its own driver"
+            )
+
+    def build(self) -> Build | None:
+        """What the bitstream was built from; None if it does not tell, or is older than the question."""
+        answer = self.attempt(Script().version())
+        return Build.parse(answer.values[0]) if answer.result is Result.DONE else None
+
+    def use_rate(self, baud: int) -> bool:
+        """Go on at another of RATES; False if board or adapter cannot, and the link works at 115200."""
+        if baud != self.baud:
+            self._raise_rate(baud)
+            if self.baud == baud:
+                self.execute(Script().events(True))
+        return self.baud == baud
+
+    def _raise_rate(self, baud: int) -> None:
+        """Another line rate, if board and adapter can do it; otherwise everything stays as it was."""
+        if RATES.index(baud) > self.identity.best_rate:
+            return
+        self.execute(Script().rate(RATES.index(baud)))
+        try:
+            self.port.read(_SETTLE)
+            self.port.set_baud(baud)
+            self.baud = baud
+            Identity.parse(self._run(Script().ident(), attempts_margin=0.1).values[0])
+        except (NoAnswer, PortError, ProtocolError, BadAnswer):
+            self.baud = BASE_BAUD
+            self.port.set_baud(BASE_BAUD)
+            self.identity = self._hello()
+
+    def close(self) -> None:
+        """Switch events off, go back to 115 200 baud, close the port. Never raises; allowed twice."""
+        if self._closed:
+            return
+        self._closed = True
+        try:
+            if not self._session.busy:
+                self._run(Script().events(False).rate(0), attempts_margin=0.1)
+        except (LinkError, BadAnswer):
+            pass
+        finally:
+            self.port.close()
+
+    def __enter__(self) -> Link:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    # ------------------------------------------------------------------ scripts
+
+    def execute(self, script: Script) -> Answer:
+        """Run a script completely.
+
+        Raises the part's error (CommandRefused), Timeout if a wait of the script ran out, ProtocolError for
+        an answer that cannot be, NoAnswer, Disconnected.
+        """
+        return self.judge(self.attempt(script))
+
+    def judge(self, answer: Answer) -> Answer:
+        """The answer itself if all ops were done, otherwise the exception of `execute`."""
+        if answer.result is Result.DONE:
+            return answer
+        if answer.result is Result.REFUSED:
+            raise self.refusal(answer)
+        where = f"{self.name}: {answer.failed.name if answer.failed else 'script'}"
+        if answer.result is Result.TIMED_OUT:
+            raise Timeout(
+                f"{where}: the part did not react in time (it reads {answer.last:#04x}): is it in reset?"
+            )
+        if answer.result is Result.INTERRUPTED:
+            raise ProtocolError(f"{where}: a wait was cut short by noise on the line: try again")
+        raise ProtocolError(f"{where}: refused (result {int(answer.result)}): {_MISFIT}")
+
+    def attempt(self, script: Script) -> Answer:
+        """Run a script and return its answer whatever its result is. Raises LinkErrors only."""
+        if self._closed:
+            raise Disconnected(f"{self.name}: the link is closed: open it again")
+        try:
+            return self._run(script)
+        except BadAnswer as error:
+            raise ProtocolError(f"{self.name}: bad answer ({error}): {_MISFIT}") from error
+
+    def _run(self, script: Script, attempts_margin: float = MARGIN) -> Answer:
+        session, port = self._session, self.port
+        line_time = (len(bytes(script)) + script.gives + 24) * 2 * _BITS / self.baud
+        patience = script.patience + line_time + attempts_margin
+        request = session.request(bytes(script), patience, self.clock())
+        try:
+            port.write(request)
+            return parse_answer(script, self._await())
+        finally:
+            session.abandon()
+
+    def _await(self) -> bytes:
+        """The answer to the outstanding request, repeated as often as it takes."""
+        session, port = self._session, self.port
+        while True:
+            deadline = session.deadline
+            assert deadline is not None
+            data = port.read(max(0.0, deadline - self.clock()))
+            body = session.receive(data, self.clock())
+            if body is not None:
+                return body
+            try:
+                again = session.tick(self.clock())
+            except GaveUp as gone:
+                raise NoAnswer(_silence(self.name, gone), gone.heard) from gone
+            if again:
+                port.write(again)
+
+    # ------------------------------------------------------------------ events
+
+    def wait_event(self, timeout: float) -> int | None:
+        """The next event's pin byte (UB-MSG-01), None after `timeout` seconds without one."""
+        session = self._session
+        end = self.clock() + timeout
+        while not session.events:
+            left = end - self.clock()
+            if left <= 0:
+                return None
+            session.receive(self.port.read(left), self.clock())
+        return session.events.popleft()
+
+    def forget_events(self) -> None:
+        """Drop events that came earlier."""
+        self._session.events.clear()
+
+    def pause(self, seconds: float) -> None:
+        """Let time of the port pass; events are kept."""
+        end = self.clock() + seconds
+        while (left := end - self.clock()) > 0:
+            self._session.receive(self.port.read(left), self.clock())
+
+
+def _silence(name: str, gone: GaveUp) -> str:
+    """What to say when the attempts are used up."""
+    if gone.naks:
+        why = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
+        return (
+            f"{name}: the bridge could not read any of {gone.attempts} requests (last complaint: {why}): "
+            "check the cable and ground, or use a lower --baud"
+        )
+    if gone.heard:
+        return (
+            f"{name}: {gone.heard} bytes came, but no answer ({gone.attempts} attempts): wrong rate or device"
+        )
+    return f"{name}: no answer in {gone.attempts} attempts: is the board still powered and connected?"

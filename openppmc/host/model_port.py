@@ -1,0 +1,222 @@
+"""The port `model:`: golden bridge, golden part and plant instead of a board, in virtual time.
+
+The line is modelled byte-wise: bytes take their time; bytes at a wrong rate arrive as framing errors or
+breaks.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from _thread import get_ident, start_new_thread
+from collections.abc import Callable
+from queue import SimpleQueue
+from typing import Any, TypeVar
+
+from .. import __version__
+from ..model.carrier.bridge import Bridge
+from ..model.carrier.bridge_ops import RATES
+from ..parts import part
+from ..sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, parse_machine
+from ..sources import build_id
+from .errors import Disconnected, PortError
+
+# Keeps the virtual time of a model beside the clock on the wall, and its calls whole.
+
+T = TypeVar("T")
+
+SLICE = 0.01
+"""Seconds of wall time between two looks."""
+_LAG = 0.25
+
+
+class Pacer:
+    """speed: virtual seconds a second; None: as fast as it goes."""
+
+    def __init__(self, speed: float | None) -> None:
+        self.speed = speed
+        self._origin = time.monotonic()
+
+    def step(self, left: float) -> float:
+        """How much of `left` virtual seconds may pass before the next look."""
+        return left if self.speed is None else min(left, SLICE * self.speed)
+
+    def wait(self, seconds: float) -> None:
+        """Do not run ahead of the wall clock; forget the lag of a model that cannot keep up."""
+        if self.speed is None:
+            return
+        ahead = seconds / self.speed - (time.monotonic() - self._origin)
+        if ahead > 0:
+            time.sleep(ahead)
+        elif ahead < -_LAG:
+            self._origin -= ahead
+
+    def behind(self, seconds: float) -> float:
+        """Virtual seconds that went by on the wall while the program did something else, 0 if few."""
+        if self.speed is None:
+            return 0.0
+        behind = (time.monotonic() - self._origin) * self.speed - seconds
+        return behind if behind > SLICE else 0.0
+
+
+_Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
+_worker: tuple[int, int, _Jobs] | None = None
+"""The process that has the thread, the thread, and its queue."""
+
+
+def whole(call: Callable[[], T]) -> T:
+    """Call into a model. The call ends even if a signal handler raises meanwhile; the next one waits for it.
+
+    A model that stops in the middle of an edge is broken. Handlers raise in the main thread only, so one
+    other thread makes all calls. Queues of C, because locks of Python can stay locked where a handler raises.
+    """
+    global _worker
+    if _worker is None or _worker[0] != os.getpid():
+        jobs: _Jobs = SimpleQueue()
+        _worker = os.getpid(), start_new_thread(_serve, (jobs,)), jobs
+    if get_ident() == _worker[1]:
+        return call()
+    answer: SimpleQueue[tuple[T, BaseException | None]] = SimpleQueue()
+    _worker[2].put((call, answer))
+    value, error = answer.get()
+    if error is not None:
+        raise error
+    return value
+
+
+def _serve(jobs: _Jobs) -> None:
+    while True:
+        call, answer = jobs.get()
+        try:
+            answer.put((call(), None))
+        except BaseException as error:  # noqa: BLE001 - raised by `whole`
+            answer.put((None, error))
+
+
+BITS_PER_BYTE = 10
+OPTIONS = ("part", "speed", "clk", "xtal", "timing")
+
+
+class ModelPort:
+    """A board that needs no hardware.
+
+    text: words of the machine (`openppmc.sim.common.machine`) and `speed` (1: real time, 10: ten times as
+    fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (stmc)
+    FAMILY or SHEET, `unplug` (the port goes away after this number of seconds of its time). Raises PortError
+    for anything else.
+    """
+
+    def __init__(self, text: str = "", baud: int = 115_200) -> None:
+        self.name = "model:" + text
+        self._baud = baud
+        self._waiting = bytearray()
+        self._closed = False
+        try:
+            machine = parse_machine(text, (*OPTIONS, "unplug"))
+            options = dict(machine.others)
+            self._pacer = Pacer(_speed(options.pop("speed", "1")))
+            clk_hz, xtal_hz = (int(options.pop(word, "16000000")) for word in ("clk", "xtal"))
+            timing = options.pop("timing", "FAST").upper()
+            self._unplug = float(options.pop("unplug", "inf"))
+            if options:
+                known = ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), "unplug"))
+                raise ValueError(f"unknown word {next(iter(options))!r} (there are {known})")
+            setup = Setup(machine.plants, clk_hz, xtal_hz, timing, machine.own, self._interrupt)
+            kind = machine_kind(machine.part)
+            kind.check(setup)
+            self.board = board = kind.carrier(setup)
+        except ValueError as error:
+            raise PortError(f"{self.name}: {error}") from error
+        axes = len(machine.plants) if kind.counters else 1
+        number, datasheet = part(machine.part).number, timing == "DATASHEET"
+        # The model has no RTL: its sources are nobody's.
+        build = build_id(__version__, b"", board="MODL")
+        self.bridge = Bridge(board, number, clk_hz, xtal_hz, datasheet, kind.counters, axes, build)
+
+    # ------------------------------------------------------------------ port
+
+    def read(self, timeout: float) -> bytes:
+        self._check()
+        self._catch_up()
+        end = self.board.seconds + timeout
+        while not self._waiting and (left := end - self.board.seconds) > 0:
+            self._pass_time(self._pacer.step(left))
+            self._pacer.wait(self.board.seconds)
+            self._check()
+        data = bytes(self._waiting)
+        self._waiting.clear()
+        return data
+
+    def write(self, data: bytes) -> None:
+        self._check()
+        self._catch_up()
+        whole(lambda: self._send(data))
+
+    def set_baud(self, baud: int) -> None:
+        self._baud = baud
+
+    def clock(self) -> float:
+        return self.board.seconds
+
+    def close(self) -> None:
+        self._closed = True
+
+    # ------------------------------------------------------------------ time
+
+    def _check(self) -> None:
+        if self._closed or self.board.seconds >= self._unplug:
+            raise Disconnected(
+                f"{self.name}: the port went away: plug the board in and run the command again"
+            )
+
+    def _pass_time(self, seconds: float) -> None:
+        """Silence on the line; ends early when a message comes."""
+        whole(lambda: self._idle(seconds))
+
+    def _idle(self, seconds: float) -> None:
+        begin = self.board.seconds
+        self.board.run_until(
+            self.board.t + max(1, round(seconds * self.board.clk_hz)), stop=lambda: bool(self._waiting)
+        )
+        self._arrives(self.bridge.idle(1000 * (self.board.seconds - begin)))
+
+    def _send(self, data: bytes) -> None:
+        self._line_time(len(data))
+        for start, byte in enumerate(data):
+            if self._baud == RATES[self.bridge.rate]:
+                self._arrives(self.bridge.receive(data[start:]))
+                return
+            slower = self._baud < RATES[self.bridge.rate]
+            self._arrives(self.bridge.receive_bad(0 if slower and byte == 0 else 0xFF))
+
+    def _line_time(self, count: int) -> None:
+        clk = count * BITS_PER_BYTE * self.board.clk_hz // self._baud
+        self.board.run_until(self.board.t + clk)
+
+    def _catch_up(self) -> None:
+        """The board went on while the program did something else."""
+        end = self.board.seconds + self._pacer.behind(self.board.seconds)
+        while (left := end - self.board.seconds) > 0:
+            self._pass_time(left)
+
+    # ------------------------------------------------------------------ bytes from the bridge
+
+    def _arrives(self, data: bytes) -> None:
+        self._line_time(len(data))
+        self._waiting += data
+
+    def _interrupt(self) -> None:
+        self._waiting += self.bridge.interrupt()
+
+
+def _speed(text: str) -> float | None:
+    """Times real time, None for as fast as it goes."""
+    if text == "max":
+        return None
+    try:
+        speed = float(text)
+    except ValueError:
+        speed = 0
+    if not 0 < speed < float("inf"):
+        raise ValueError(f"speed={text} is neither a positive number nor max")
+    return speed

@@ -1,0 +1,334 @@
+"""A motion under way: progress, waiting for its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from ..model.motion.codes import ENDLESS, RAMP_OPERATIONS
+from . import speeds
+from .check import Checked, side, within
+from .ending import COUNTS, Cause, End, EndUnknown, OriginNotFound, decode_end
+from .errors import NotWhileBusy, ProtocolError, Timeout
+from .kind import Kind
+from .link import Talk
+from .registers import ReadCodes
+from .script import Script
+from .speeds import Number
+
+READ_FINISH = 0x80
+SAFETY_POLL = 0.5
+"""Seconds between looks at BUSY while waiting for the interrupt message, which noise may eat."""
+PROGRESS_POLL = 0.1
+OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
+
+
+@dataclass(frozen=True)
+class Order:
+    """A motion to start. operation: low three bits of its code. asked: pulses, None for endless ones.
+    clock: base clock, None for that of the ramp."""
+
+    operation: int
+    direction: int
+    data: bytes = b""
+    asked: int | None = None
+    clock: speeds.BaseClock | None = None
+    pulse_only: bool = False
+
+    @property
+    def code(self) -> int:
+        """Command byte without an axis bit."""
+        group = OPERATION_PULSES if self.pulse_only else OPERATION
+        return group | side(self.direction) << DIRECTION_BIT | self.operation
+
+    @property
+    def ramped(self) -> bool:
+        """With ramps, so a stop may take one as well."""
+        return self.operation in RAMP_OPERATIONS
+
+
+@dataclass(frozen=True)
+class Progress:
+    """What a progress callback gets. asked: pulses of the move, None if it is endless. Times in s."""
+
+    position: int
+    made: int
+    asked: int | None
+    seconds: float
+
+
+class AnyMotion(Protocol):
+    """A motion under way on any part; see `Motion`."""
+
+    @property
+    def end(self) -> End | None: ...
+    @property
+    def over(self) -> bool: ...
+    @property
+    def asked(self) -> int | None: ...
+    def poll(self) -> Progress | None: ...
+    def wait(
+        self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None
+    ) -> End: ...
+
+
+class Moving(Protocol):
+    """What a motion needs of its axis, which is an `axis.Axis`."""
+
+    link: Talk
+    bit: int
+    busy: int
+    unused: int
+
+    @property
+    def who(self) -> str: ...
+    @property
+    def codes(self) -> ReadCodes: ...
+    def look(self, status: int) -> None: ...
+    def where(self, script: Script) -> Script: ...
+    def counted(self, count: int) -> int | None: ...
+    def told(self, end: End) -> End: ...
+
+
+class Handle(Checked):
+    """What all motions have: `end` is the End that the part has confirmed; `unknown` is the error of a motion
+    that is over without that."""
+
+    end: End | None = None
+    unknown: EndUnknown | None = None
+
+    @property
+    def over(self) -> bool:
+        """The motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
+        return self.end is not None or self.unknown is not None
+
+    def _confirmed(self) -> End | None:
+        """The end, None while it moves. Raises EndUnknown."""
+        if self.unknown is not None:
+            raise self.unknown
+        return self.end
+
+
+class Motion(Handle):
+    """Handle of an operation that was started; `end` is its End once it is known.
+
+    asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. ramped: it has ramps. `begin`: pulse
+    counter before. ours: False for one that another program started.
+    """
+
+    asked: int | None
+    direction: int
+    ramped: bool
+    operation: int
+    begin: int
+
+    def __init__(self, axis: Moving, order: Order, begin: int, ours: bool = True) -> None:
+        self._axis = axis
+        self._link = axis.link
+        self._ours = ours
+        self.asked = order.asked
+        self.direction = order.direction
+        self.ramped = order.ramped
+        self.operation = order.operation
+        self.begin = begin
+        self._started = self._link.clock()
+
+    def poll(self) -> Progress | None:
+        """Return where the motor is now; None when it has stopped (then `end` is set).
+
+        Raises EndUnknown if it has stopped, and the part does not confirm how.
+        """
+        self._confirmed()
+        answer = self._link.execute(self._axis.where(Script().read(1)))
+        self.look(answer.byte(0))
+        self._axis.look(answer.byte(0))
+        if self._confirmed() is not None:
+            return None
+        count = answer.number(1, signed=True)
+        made = abs(count - self.begin)
+        return Progress(self._axis.counted(count) or 0, made, self.asked, self._link.clock() - self._started)
+
+    def look(self, status: int) -> None:
+        """The status register was read: fetch the end if there is one. EndUnknown is raised by `poll` and
+        `wait` only, so that polling one axis does not raise the error of another. Raises ProtocolError for
+        a status that does not exist."""
+        if status & self._axis.unused:
+            raise ProtocolError(
+                f"{self._link.name}: {self._axis.who}status 0x{status:02X} does not exist; the bus to the "
+                "part is not connected, or another part is there: check the wiring"
+            )
+        if not self.over and not status & self._axis.busy:
+            self._finish()
+
+    def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
+        """Wait for the end, without judging its cause.
+
+        timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
+        second; what it raises ends the wait, and the motion continues. Raises EndUnknown if the part does not
+        confirm how the motion ended.
+        """
+        self._confirmed()
+        limit = None if timeout is None else self._link.clock() + timeout
+        pause = PROGRESS_POLL if progress else SAFETY_POLL
+        while self.end is None:
+            left = pause if limit is None else min(pause, limit - self._link.clock())
+            self._link.wait_event(max(0.0, left))
+            now = self.poll()
+            if now is None:
+                break
+            if progress:
+                progress(now)
+            if limit is not None and self._link.clock() >= limit:
+                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+        assert self.end is not None
+        return self.end
+
+    def _finish(self) -> None:
+        """Fetch the finish status; this also releases int_n (P104-RD-04).
+
+        With DATASHEET timing BUSY rises up to 112 us after the command, and bytes wait for that (P104-DS-03):
+        then it was no end.
+        """
+        bit, remaining = self._axis.bit, self._axis.codes.remaining
+        script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
+        try:
+            answer = self._link.execute(self._axis.where(script))
+        except NotWhileBusy:
+            return  # a part with DATASHEET timing was about to begin
+        count = answer.number(4, signed=True)
+        position = self._axis.counted(count)
+        moved = None
+        if self._ours and position is not None:
+            moved = (count - self.begin + COUNTS // 2) % COUNTS - COUNTS // 2
+        try:
+            end = decode_end(
+                answer.byte(1),
+                answer.number(3),
+                (self.asked or ENDLESS) if self._ours else None,
+                self.direction,
+                position,
+                self.operation if self._ours else None,
+                moved,
+                f"{self._link.name}: {self._axis.who}",
+            )
+        except EndUnknown as error:
+            self.unknown = error
+        else:
+            self.end = self._axis.told(end)
+
+
+# Finding the origin: the same edge from the same side, wherever the search begins.
+
+LONGEST_BACK_OFF = 200_000
+
+
+class Switched(Protocol):
+    """Switches; True: active."""
+
+    @property
+    def origin(self) -> bool: ...
+
+
+class Searching(Protocol):
+    """What homing needs of an axis, which is an `axis.Axis` or that of a part with other ways."""
+
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def who(self) -> str: ...
+    @property
+    def position(self) -> int: ...
+    @property
+    def search_speed(self) -> Number: ...
+    def inputs(self) -> Switched: ...
+    def search(self, direction: int, pps: Number | None = None) -> AnyMotion: ...
+    def jog(self, direction: int, speed: Number | None = None, high: bool = False) -> AnyMotion: ...
+    def move_constant(
+        self, pulses: int, pps: Number, progress: Callable[[Progress], None] | None = None
+    ) -> End: ...
+    def zero(self) -> None: ...
+
+
+class Homing:
+    """One homing run of an axis; see `Axis.home`."""
+
+    def __init__(
+        self,
+        axis: Searching,
+        direction: int,
+        search_pps: Number | None,
+        back_off: int,
+        progress: Callable[[Progress], None] | None,
+    ) -> None:
+        within(back_off, "back_off", 1, LONGEST_BACK_OFF, "pulses")
+        self._axis = axis
+        self._towards = side(direction)
+        self._pps = search_pps
+        self._back_off = back_off
+        self._progress = progress
+
+    def run(self, fast: bool, to_limit: bool) -> End:
+        """Approach, leave the switch if it is active, search, zero."""
+        if (fast or to_limit) and not self._axis.inputs().origin:
+            self._approach(to_limit)
+            if self._axis.kind.origin_between and not self._axis.inputs().origin:
+                self._search(1 - self._towards)
+        if self._axis.inputs().origin:
+            self._leave()
+        end = self._search(self._towards)
+        self._axis.zero()
+        return replace(end, position=None if end.position is None else 0)
+
+    def _search(self, direction: int) -> End:
+        """Search at constant speed."""
+        end = self._axis.search(direction, self._pps).wait(progress=self._progress)
+        if end.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
+            raise OriginNotFound(
+                f"{end.who}a limit switch came before the origin: home in the other direction, or check the "
+                "switch",
+                end,
+            )
+        return self.found(end)
+
+    @staticmethod
+    def found(end: End) -> End:
+        """Return the end of a search that the origin ended. Raises OriginNotFound for a search that made all
+        its pulses, and as `End.check`."""
+        if end.cause is Cause.ORIGIN:
+            return end
+        raise OriginNotFound(
+            f"{end.who}the search ended after {abs(end.check().pulses or 0)} pulses without the origin; "
+            "check the switch",
+            end,
+        )
+
+    def _approach(self, to_limit: bool) -> None:
+        """High speed up to the slow-down limit, or on to the hard limit."""
+        end = self._axis.jog(self._towards, high=True).wait(progress=self._progress)
+        if to_limit and end.cause == Cause.SLOW_LIMIT:
+            end = self._axis.jog(self._towards, speed=self._pps).wait(progress=self._progress)
+        if to_limit and end.cause & Cause.LIMIT and not end.cause & (Cause.ALARM | Cause.STOP):
+            return
+        if end.cause != Cause.SLOW_LIMIT:
+            raise OriginNotFound(
+                f"{end.who}no limit switch ended the approach after {abs(end.check().pulses or 0)} pulses; "
+                "check the switches",
+                end,
+            )
+
+    def _leave(self) -> None:
+        """Away from the switch in small moves until it is released."""
+        gone = 0
+        step = -self._back_off if not self._towards else self._back_off
+        while self._axis.inputs().origin:
+            if gone > LONGEST_BACK_OFF:
+                end = End(Cause.COMPLETE, gone, 0, self._axis.position, 0)
+                raise OriginNotFound(
+                    f"{self._axis.who}the origin switch is still active {gone} pulses away from where it "
+                    "was: check it",
+                    end,
+                )
+            pps = self._pps if self._pps is not None else self._axis.search_speed
+            self._axis.move_constant(step, pps, self._progress)
+            gone += self._back_off

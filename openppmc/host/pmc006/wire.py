@@ -1,0 +1,313 @@
+"""Instructions and status bits of the PMC006B4, as a host sends and reads them. Pure."""
+
+# ruff: noqa: N818
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import NamedTuple
+
+from ...parts import part
+from ..check import whole
+from ..errors import CommandRefused, OutOfRange
+from ..kind import Kind
+from ..line_port import Fault
+
+
+class Code(IntEnum):
+    """Instruction codes; the letter is what manuals call them."""
+
+    POINTER = ord("A")
+    BURN = ord("B")
+    TRY = ord("E")
+    OFFLINE = ord("F")
+    READ_WORD = ord("G")
+    ABORT = ord("I")
+    TRIGGER = ord("J")
+    READ_TRIGGER = ord("K")
+    START_SPEED = ord("L")
+    CURRENT_COMPENSATION = ord("M")
+    RUN = ord("N")
+    STATUS_2 = ord("O")
+    SPEED_COMPENSATION = ord("P")
+    ATTENUATION = ord("Q")
+    VERSION = ord("R")
+    STOP_SPEED = ord("S")
+    STALL_LENGTH = ord("T")
+    READ_ATTENUATION = ord("U")
+    STORED = ord("V")
+    WRITE_WORD = ord("W")
+    STALL_POSITION = ord("X")
+    STALL_CONFIG = ord("Y")
+    STALL_LEVEL = ord("Z")
+    AUTO_DECAY = ord("a")
+    CLEAR_EXT1 = ord("b")
+    POSITION = ord("c")
+    DIRECTION = ord("d")
+    CURRENT = ord("e")
+    EXT_ENABLE = ord("f")
+    FREE = ord("g")
+    READ_DECELERATION = ord("h")
+    SET_POSITION = ord("i")
+    STATUS_1 = ord("j")
+    READ_MICROSTEPS = ord("k")
+    CLEAR_EXT2 = ord("l")
+    MICROSTEPS = ord("m")
+    READ_CURRENT = ord("n")
+    DECELERATION = ord("o")
+    CLEAR_STALL = ord("p")
+    READ_MAX_SPEED = ord("q")
+    READ_ACCELERATION = ord("r")
+    STEP = ord("s")
+    SAVE = ord("t")
+    ACCELERATION = ord("u")
+    MAX_SPEED = ord("v")
+    ADDRESS = ord("w")
+    READ_IO = ord("x")
+    WRITE_IO = ord("y")
+    RUN_PROGRAM = ord("z")
+
+
+@dataclass(frozen=True)
+class Flags:
+    """Status 1. busy: a motion is planned or runs. ext1, ext2: that stop has come and blocks starts."""
+
+    busy: bool
+    ext1: bool
+    ext2: bool
+    auto_decay: bool
+    stall: bool
+
+    @classmethod
+    def parse(cls, value: int) -> Flags:
+        """From the reply to `j`.
+
+        >>> Flags.parse(0x0A).ext1, Flags.parse(8).busy
+        (True, False)
+        """
+        return cls(*(bool(value >> bit & 1) for bit in range(5)))
+
+    @property
+    def stops(self) -> tuple[int, ...]:
+        """Numbers of the EXT inputs whose stop has come."""
+        return tuple(number for number, on in ((1, self.ext1), (2, self.ext2)) if on)
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Status 2. running: speed mode. forward: direction of the next motion. offline: the program starts by
+    itself after power-up."""
+
+    free: bool
+    ext1_enabled: bool
+    ext2_enabled: bool
+    running: bool
+    forward: bool
+    offline: bool
+
+    @classmethod
+    def parse(cls, value: int) -> Modes:
+        """From the reply to `O`."""
+        return cls(*(bool(value >> bit & 1) for bit in range(6)))
+
+
+@dataclass(frozen=True)
+class Ports:
+    """The port word. inputs, outputs: GPI1 and GPO1 in bit 0. ext1, ext2: levels of these pins."""
+
+    inputs: int
+    outputs: int
+    ext1: bool
+    ext2: bool
+
+    @classmethod
+    def parse(cls, word: int) -> Ports:
+        """From the reply to `x`.
+
+        >>> Ports.parse(0xE09)
+        Ports(inputs=17, outputs=1, ext1=True, ext2=True)
+        """
+        inputs = word & 7 | (word >> 8 & 3) << 3
+        return cls(inputs, word >> 3 & 31, bool(word >> 10 & 1), bool(word >> 11 & 1))
+
+    def level(self, ext: int) -> bool:
+        """Level of EXT1 or EXT2."""
+        return self.ext2 if ext == 2 else self.ext1
+
+
+class Storage(IntEnum):
+    """What `V` replies about the EEPROM: the last save, burn or restore. Of this part only: the original
+    does not know V."""
+
+    KEPT = 0
+    WORKING = 1
+    FAILED = 2
+
+
+STATUS_1_BITS, STATUS_2_BITS, PORT_BITS = 5, 6, 12
+"""How many bits these read-outs have: a reply with others is none."""
+
+
+# What a PMC006B4 refuses, as exceptions. `status` is the reply data.
+
+
+class SettingRefused(CommandRefused):
+    """The value in force stays; `status` is that value."""
+
+
+class LockedByExt(CommandRefused):
+    """An EXT stop has come; starts are refused until its flag is cleared."""
+
+
+class MotorFree(CommandRefused):
+    """The motor is switched off (FREE)."""
+
+    text = "the motor is off-line (free): switch it on first (free = 0)"
+
+
+class SpeedRefused(CommandRefused):
+    """Start or stop speed lie above the maximum speed."""
+
+
+class StorageBusy(CommandRefused):
+    """The EEPROM is being written."""
+
+    text = "the EEPROM is still being written: try again in half a second"
+
+
+class StorageFailed(CommandRefused):
+    """The EEPROM has not answered."""
+
+    text = "the EEPROM did not answer, what was to be kept is not: is there one, are its wires right?"
+
+
+class ProgramRuns(CommandRefused):
+    """A user program runs."""
+
+    text = "a user program runs: halt it first"
+
+
+class ProgramDiffers(CommandRefused):
+    """The program that was read back is not the one that was written."""
+
+
+def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
+    """The exception for these EXT flags.
+
+    >>> str(locked((1,)))
+    'EXT1 has stopped it: clear the flag (clear_stops, reset-flags), then move off the switch'
+    """
+    names, flags = " and ".join(f"EXT{number}" for number in numbers), "flags" if len(numbers) > 1 else "flag"
+    have = "have" if len(numbers) > 1 else "has"
+    return LockedByExt(
+        sum(1 << number for number in numbers),
+        f"{who}{names} {have} stopped it: clear the {flags} (clear_stops, reset-flags), then move off the "
+        "switch",
+    )
+
+
+# Frames of the PMC006B4: eight bytes each way, with a check. Pure.
+#
+# >>> command(1, 0x73, 287).hex(" ") 'a5 01 73 1f 01 00 00 39' >>> receiver = Receiver(1) >>>
+# [receiver.take(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1] Reply(address=1, value=3)
+
+HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
+FACTORY, LAST = 255, 120
+ADDRESSES = (FACTORY, *range(1, LAST + 1))
+"""All that a controller can have, in the order in which hosts look for one."""
+
+
+class Reply(NamedTuple):
+    """What a controller says. value: its data, signed."""
+
+    address: int
+    value: int
+
+
+def address_number(address: int) -> int:
+    """The address itself if a controller can have it. OutOfRange."""
+    number = whole(address, "address")
+    if number not in ADDRESSES:
+        raise OutOfRange(f"address {number}: controllers have 1 to {LAST}, factory-new ones {FACTORY}")
+    return number
+
+
+def command(address: int, code: int, data: int = 0) -> bytes:
+    """A frame to a controller. data: 32 bits, signed or not."""
+    return _sealed(bytes([HEAD, address, code]) + (data & 0xFFFFFFFF).to_bytes(4, "little"))
+
+
+def reply(address: int, value: int) -> bytes:
+    """A frame of a controller."""
+    return _sealed(bytes([HEAD, ANSWER, address]) + (value & 0xFFFFFFFF).to_bytes(4, "little"))
+
+
+def _sealed(body: bytes) -> bytes:
+    return body + bytes([sum(body) & 0xFF])
+
+
+class Receiver:
+    """Takes the bytes after a frame to `address`; see `master.Listener`. sent: that frame, for masters that
+    hear themselves: it is passed over.
+
+    Replies of others and damaged ones are passed over too, as the one that is due may follow; `fault` tells
+    of them.
+    """
+
+    def __init__(self, address: int, sent: bytes = b"") -> None:
+        self._address = address
+        self._echo = sent
+        self._matched = 0
+        self._open = b""
+        self._foreign = self._broken = False
+        self._noise = False
+
+    @property
+    def fault(self) -> Fault | None:
+        """What came instead of the reply, None for silence."""
+        if self._broken or self._open:
+            return Fault.BROKEN
+        if self._foreign:
+            return Fault.FOREIGN
+        return Fault.NOISE if self._noise else None
+
+    def take(self, byte: int) -> Reply | Fault | None:
+        """The next byte; the reply when it is complete."""
+        if self._matched < len(self._echo):
+            if byte == self._echo[self._matched]:
+                self._matched += 1
+                self._open = b"" if self._matched == len(self._echo) else self._open + bytes([byte])
+                return None
+            self._echo = b""
+        self._open += bytes([byte])
+        return self._look()
+
+    def _look(self) -> Reply | None:
+        """The reply in what has come, if it is there."""
+        while self._open:
+            start = next((at for at in range(len(self._open)) if _begins(self._open[at:])), len(self._open))
+            self._noise |= start > 0
+            self._open = self._open[start:]
+            if len(self._open) < SIZE:
+                return None
+            whole = self._open[:SIZE]
+            if sum(whole[:-1]) & 0xFF != whole[-1]:
+                self._broken = True
+                self._open = self._open[1:]
+            elif whole[2] != self._address:
+                self._foreign = True
+                self._open = self._open[SIZE:]
+            else:
+                return Reply(whole[2], int.from_bytes(whole[3:7], "little", signed=True))
+        return None
+
+
+def _begins(data: bytes) -> bool:
+    """Whether a reply can begin like this."""
+    return data[0] == HEAD and data[1:2] in (b"", bytes([ANSWER]))
+
+
+# What a PMC006B4 allows. Pure.
+
+KIND = Kind(part("pmc006"), outputs=31)

@@ -1,0 +1,194 @@
+"""Ports: a serial device and the virtual board (`sim:`). The only place with real I/O.
+
+pyserial is imported when a port is opened or looked for: all else works without it. Its SerialException is an
+OSError.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+from .errors import Disconnected, PortError
+
+if TYPE_CHECKING:
+    import serial
+
+BASE_BAUD = 115_200
+SIM, MODEL = "sim:", "model:"
+_GONE = "the port went away: check the cable, plug the board in and run the command again"
+
+
+class Port(Protocol):
+    """A byte stream with a clock of its own, so that a modelled board may run faster than the wall clock."""
+
+    name: str
+
+    def read(self, timeout: float) -> bytes:
+        """What has arrived; waits up to `timeout` seconds for the first byte. Raises Disconnected."""
+
+    def write(self, data: bytes) -> None:
+        """Send. Raises Disconnected."""
+
+    def set_baud(self, baud: int) -> None:
+        """Change the line rate. Raises PortError if the port cannot."""
+
+    def clock(self) -> float:
+        """Seconds, never backwards."""
+
+    def close(self) -> None:
+        """Give the port back; allowed twice."""
+
+
+class SerialPort:
+    """A device node through pyserial, opened exclusively."""
+
+    SLICE = 0.02
+
+    def __init__(self, path: str, baud: int = BASE_BAUD) -> None:
+        self.name = path
+        try:
+            self._serial = self._open(path, baud)
+        except (OSError, ValueError) as error:
+            raise PortError(_why_not(path, error)) from error
+
+    def _open(self, path: str, baud: int) -> serial.SerialBase:
+        import serial
+
+        return serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
+
+    def read(self, timeout: float) -> bytes:
+        end = time.monotonic() + timeout
+        least = int(timeout > 0)
+        while True:
+            data = self._guarded(lambda: self._serial.read(max(least, self._serial.in_waiting)))
+            if data or time.monotonic() >= end:
+                return data
+
+    def _guarded(self, action: Callable[[], bytes]) -> bytes:
+        """What an access to the port gives. Raises Disconnected."""
+        try:
+            return action()
+        except (OSError, TypeError) as error:
+            raise Disconnected(f"{self.name}: {_GONE}") from error
+
+    def write(self, data: bytes) -> None:
+        from serial import SerialTimeoutException
+
+        try:
+            self._serial.write(data)
+            self._serial.flush()
+        except SerialTimeoutException as error:
+            raise Disconnected(
+                f"{self.name}: the port takes no bytes: unplug the adapter and try again"
+            ) from error
+        except (OSError, TypeError) as error:
+            raise Disconnected(f"{self.name}: {_GONE}") from error
+
+    def set_baud(self, baud: int) -> None:
+        try:
+            self._serial.baudrate = baud
+        except (OSError, ValueError) as error:
+            raise PortError(
+                f"{self.name}: the adapter cannot do {baud} baud: choose a lower --baud"
+            ) from error
+
+    def clock(self) -> float:
+        return time.monotonic()
+
+    def close(self) -> None:
+        try:
+            self._serial.close()
+        except OSError:
+            pass  # it is gone already
+
+
+class SimPort(SerialPort):
+    """The virtual board: started here, stopped with the port."""
+
+    def __init__(self, text: str, baud: int = BASE_BAUD) -> None:
+        try:
+            self._board = self._start(text)
+        except ImportError as error:
+            raise PortError(
+                f"sim: the virtual board is not installed ({error}): try model: instead"
+            ) from error
+        except (OSError, RuntimeError, ValueError) as error:
+            raise PortError(f"sim: {error}") from error
+        try:
+            super().__init__(self._board.port, baud)
+        except PortError:
+            self._board.close()
+            raise
+        self.name = SIM + text
+
+    def _start(self, text: str) -> Any:
+        from openppmc import sim
+
+        return sim.start(text)
+
+    def close(self) -> None:
+        super().close()
+        self._board.close()
+
+
+def serial_ports() -> list[tuple[str, str]]:
+    """Device and description of the serial ports of this computer, sorted."""
+    from serial.tools import list_ports
+
+    ports = sorted(list_ports.comports(), key=lambda port: port.device)
+    return [(port.device, port.description if port.description != "n/a" else "") for port in ports]
+
+
+def describe_ports() -> str:
+    """One phrase: what ports there are."""
+    found = [device for device, _ in serial_ports()]
+    return (
+        f"there are {', '.join(found)}" if found else "this computer shows no serial port (model: needs none)"
+    )
+
+
+def _why_not(path: str, error: Exception) -> str:
+    """Cause and cure of a failed open."""
+    code = getattr(error, "errno", None)
+    text = str(error)
+    if "://" in path:
+        return f"{path}: cannot be opened ({' '.join(text.split())}): check address and network"
+    if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV) or not (os.path.exists(path) or os.name == "nt"):
+        return f"{path}: no such port; {describe_ports()}"
+    if "lock" in text or code == errno.EBUSY:
+        return f"{path}: another program has this port open: close it first"
+    if code in (errno.EACCES, errno.EPERM) or isinstance(error, PermissionError):
+        return f"{path}: no permission: {_how_to_get_permission(path)}"
+    return f"{path}: not a serial port; {describe_ports()}"
+
+
+def _how_to_get_permission(path: str) -> str:
+    if os.name == "nt":
+        return "another program may have it open"
+    import grp
+
+    try:
+        group = grp.getgrgid(os.stat(path).st_gid).gr_name
+    except (OSError, KeyError):
+        group = "dialout"
+    return f"add yourself to its group ({group}): sudo usermod -aG {group} $USER, then log in again"
+
+
+# Opening the port that a user names: a serial device, the virtual board (`sim:`), the model (`model:`).
+
+
+def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
+    """Open a port: device path, `sim:plant text` or `model:plant text`. Raises PortError."""
+    if not spec:
+        raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
+    if spec.startswith(MODEL):
+        from .model_port import ModelPort
+
+        return ModelPort(spec.removeprefix(MODEL), baud)
+    if spec.startswith(SIM):
+        return SimPort(spec.removeprefix(SIM), baud)
+    return SerialPort(spec, baud)

@@ -1,1 +1,0 @@
-"""Ports: a serial device, the virtual board (`sim:`), the model (`model:`)."""

@@ -1,0 +1,269 @@
+"""Driver of a PPMC-2104 behind a UART bridge: two axes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...model.ppmc2104.codes import CMND
+from .. import speeds
+from ..axis import Axis, OnProgress
+from ..check import whole, within
+from ..ending import End, EndUnknown
+from ..errors import AlreadyDecelerating, CommandRefused, PpmcError, ProtocolError
+from ..kind import AXIS_BIT
+from ..link import Link
+from ..motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
+from ..part import Part
+from ..script import Answer, Script
+from .axis import Axis2104
+from .words import BY_NUMBER, KIND, Status, refused
+
+READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
+IBF = 0x02
+ALL_HIGH = 0xFF
+CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
+"""Bits of the straps: per axis csel and run; whose pins PINS shows."""
+
+
+class Axes(dict[int, Axis2104]):
+    """Axes by number."""
+
+    def __missing__(self, number: object) -> Axis2104:
+        return self[KIND.check_axis(whole(number, "axis"))]
+
+
+class Ppmc2104(Part):
+    """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `part.Part`.
+
+    Opening it reads and clears the errors that others left, and ends their unfinished commands; a motion that
+    runs goes on.
+    """
+
+    kind = KIND
+    x: Axis2104
+    y: Axis2104
+    axis: Mapping[int, Axis2104]
+
+    def __init__(self, link: Link) -> None:
+        self.link = link
+        link.refusal = self._refusal
+        self.x, self.y = Axis2104(self, 1), Axis2104(self, 2)
+        self.axis = Axes({1: self.x, 2: self.y})
+        self._levels = ALL_HIGH
+        self._clear_errors()
+        busy = self.status().busy
+        # Motions of another program. An axis may wait for RUN since that broke off: it must not start now.
+        self._foreign = {number for number in self.axis if busy[number - 1]}
+        self._held = set(self._foreign)
+        for number in set(self.axis) - self._foreign:
+            self._end_of(number)
+
+    @property
+    def axes(self) -> tuple[Axis, ...]:
+        return (self.x, self.y)
+
+    def other(self, number: int) -> Axis2104:
+        """The axis that does not have this number."""
+        return self.axis[3 - number]
+
+    # ------------------------------------------------------------------ both axes
+
+    def together(
+        self,
+        x: int,
+        y: int,
+        x_pps: speeds.Number | None = None,
+        y_pps: speeds.Number | None = None,
+        progress: OnProgress | None = None,
+        pulse_only: bool = False,
+    ) -> tuple[End, End]:
+        """Move both axes, begun on the same clk, and wait. Pulses as in `Axis.move`; x_pps, y_pps: that axis
+        at constant speed. When one axis ends early, the other is stopped with a ramp. Raises LimitReached,
+        AlarmStop, StoppedEarly for the axis that ended first.
+        """
+        if not (x and y):
+            ends = [
+                axis.nothing_to_move()
+                if not pulses
+                else axis.start(axis.move_order(pulses, pps, pulse_only))
+                .wait(progress=progress)
+                .check(abs(pulses))
+                for axis, pulses, pps in ((self.x, x, x_pps), (self.y, y, y_pps))
+            ]
+            return ends[0], ends[1]
+        motions = self.start_together(x, y, x_pps, y_pps, pulse_only)
+        first = self._wait(motions, progress)
+        if first is not None:
+            first.wait().check(first.asked)
+        return motions[0].wait(), motions[1].wait()
+
+    def start_together(
+        self,
+        x: int,
+        y: int,
+        x_pps: speeds.Number | None = None,
+        y_pps: speeds.Number | None = None,
+        pulse_only: bool = False,
+    ) -> tuple[Motion, Motion]:
+        """Begin two moves on the same clk: both commands wait for RUN, then RUN rises for both. 0 is no move
+        here (OutOfRange). If one command is refused, neither axis moves.
+        """
+        orders = (self.x.move_order(x, x_pps, pulse_only), self.y.move_order(y, y_pps, pulse_only))
+        for number in self.axis:
+            self._end_of(number)  # refused while an axis moves, which goes on then
+        script = Script()
+        waiting = self._levels & ~(RUN[0] | RUN[1])
+        for axis, order in zip(self.axis.values(), orders, strict=True):
+            waiting = _with_csel(waiting, axis.number, axis.clock_of(order))
+        script.straps(waiting).count(1).count(2)
+        for axis, order in zip(self.axis.values(), orders, strict=True):
+            script.call(order.code | axis.bit, *order.data)
+        # With DATASHEET timing RUN is not looked at before the processing windows have closed (P2104-DS-14).
+        script.wait(1, CMND[0] | CMND[1], 0).straps(waiting | RUN[0] | RUN[1])
+        self.link.forget_events()
+        try:
+            answer = self.link.execute(script)
+        except BaseException:
+            self._call_off()
+            raise
+        self._levels = waiting | RUN[0] | RUN[1]
+        begins = [answer.number(place, signed=True) for place in (0, 1)]
+        return self.x.started(orders[0], begins[0]), self.y.started(orders[1], begins[1])
+
+    def _call_off(self) -> None:
+        """A coordinated start broke off: an axis that waits for RUN must not start any more. One that runs
+        already, because only the answer was lost, stops with its ramp."""
+        try:
+            for axis in self.axis.values():
+                try:
+                    axis.order_stop(now=False)
+                except AlreadyDecelerating:
+                    axis.order_stop(now=True)
+                except CommandRefused:
+                    continue
+            for axis in self.axis.values():
+                self.link.execute(Script().wait(1, axis.busy, 0))
+                self._end_of(axis.number)
+            self.link.execute(Script().straps(self._levels))
+        except PpmcError:
+            self._held = set(self.axis)
+
+    def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
+        """Until both have ended. The early end of one stops the other; returns that one."""
+        pause = PROGRESS_POLL if progress else SAFETY_POLL
+        first: Motion | None = None
+        while running := [motion for motion in motions if not motion.over]:
+            self.link.wait_event(pause)
+            seen = [now for motion in running if (now := self._look(motion)) is not None]
+            if first is None:
+                first = next(
+                    (one for one in motions if one.over and not (one.end and one.end.complete)), None
+                )
+                for axis in self.axis.values() if first is not None else ():
+                    if axis.motion is not None and not axis.motion.over:
+                        axis.brake()
+            if progress and seen:
+                progress(seen[-1])
+        return first
+
+    @staticmethod
+    def _look(motion: Motion) -> Progress | None:
+        """As `Motion.poll`; an end that the part does not confirm raises later, when both have stopped."""
+        try:
+            return motion.poll()
+        except EndUnknown:
+            return None
+
+    # ------------------------------------------------------------------ straps
+
+    def straps(self, number: int, clock: speeds.BaseClock | None) -> Script:
+        """The straps for a motion of one axis with this base clock; an axis that may wait keeps RUN low."""
+        self._levels = _with_csel(self._levels, number, clock)
+        return Script().straps(self._run_low(self._held - {number}))
+
+    def rests(self, number: int) -> None:
+        """This axis is not one that waits for RUN."""
+        self._held.discard(number)
+        self._foreign.discard(number)
+
+    def settle_foreign(self, number: int) -> None:
+        """This axis has come to rest. The end of a motion that another program started is read once, because
+        int_n stays low until then."""
+        if number in self._foreign:
+            self._foreign.discard(number)
+            self._end_of(number)
+
+    def _end_of(self, number: int) -> None:
+        self.link.execute(Script().call(READ_FINISH | self.axis[number].bit).get(1))
+
+    def _run_low(self, axes: set[int]) -> int:
+        """The straps with RUN of these axes low."""
+        return self._levels & ~sum(RUN[axis - 1] for axis in axes)
+
+    def show(self, number: int) -> Script:
+        """Whose pins a PINS behind this shows."""
+        self._levels = self._levels | PINS_OF_1 if number == 1 else self._levels & ~PINS_OF_1
+        return Script().straps(self._run_low(self._held))
+
+    # ------------------------------------------------------------------ registers, auxiliary, reset
+
+    def status(self) -> Status:
+        """Status register; allowed at any time."""
+        return Status.parse(self.link.execute(Script().read(1)).byte(0))
+
+    def auxo(self, value: int) -> None:
+        """The two auxiliary outputs, 0 to 3; a 1 makes a pin low. Allowed at any time."""
+        self.link.execute(Script().call(AUX_OUTPUT | within(value, "outputs", 0, 3) << 4))
+
+    def auxi(self) -> int:
+        """The two auxiliary inputs, pin levels; allowed at any time."""
+        return self.link.execute(Script().call(AUX_INPUT).get(1)).byte(1)
+
+    def reset(self) -> None:
+        """Reset of the part, in any state: pulses end at once, coils off, nothing initialised."""
+        self.link.execute(Script().reset())
+        self._held.clear()
+        self._foreign.clear()
+        for axis in self.axis.values():
+            axis.forget()
+
+    # ------------------------------------------------------------------ errors
+
+    def _error_reads(self) -> Script:
+        """Reads and clears both error registers; CALL would stop at the error of the other axis."""
+        script = Script()
+        for bit in (0, AXIS_BIT):
+            script.post(1, bytes([READ_ERROR | bit])).wait(1, IBF | CMND[0] | CMND[1], 0).get(1)
+        return script
+
+    def _clear_errors(self) -> None:
+        """Errors, unfinished commands and unread answers of another program. The first code ends a wait for
+        data and may be dropped with it; the second one is executed."""
+        self.link.execute(
+            Script()
+            .timeout(3000)
+            .post(1, bytes([READ_ERROR, READ_ERROR]))
+            .wait(1, IBF | CMND[0] | CMND[1], 0)
+            .get(1)
+        )
+        self.link.execute(self._error_reads())
+
+    def _refusal(self, answer: Answer) -> Exception:
+        """The exception of a refused command, from the error register of its axis."""
+        errors = self.link.execute(self._error_reads())
+        numbers = errors.byte(1), errors.byte(3)
+        code = answer.failed.code[1] if answer.failed is not None and answer.failed.name == "CALL" else 0
+        place = int(bool(code & AXIS_BIT))
+        if not numbers[place]:
+            place = 1 - place
+        if numbers[place] not in BY_NUMBER:
+            return ProtocolError(f"{self.link.name}: the part told of an error and then of none: try again")
+        return refused(numbers[place], answer.last, place + 1)
+
+
+def _with_csel(levels: int, number: int, clock: speeds.BaseClock | None) -> int:
+    """Straps with the base clock of one axis."""
+    if clock is None:
+        return levels
+    bit = CSEL[number - 1]
+    return levels | bit if clock.csel else levels & ~bit

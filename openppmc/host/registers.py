@@ -1,0 +1,91 @@
+"""The readable registers of PPMC-104 and STMC as dataclasses (P104-STA-01..06, P104-RD-06). Pure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+from ..model.single.codes import BUSY, ERR, IBF, OBF, Error
+
+
+@dataclass(frozen=True)
+class Status:
+    """Status register. error: number of the last byte's error or None. expected: parameter bytes wanted."""
+
+    raw: int
+    busy: bool
+    error: Error | None
+    expected: int
+    input_full: bool
+    output_full: bool
+
+    @classmethod
+    def parse(cls, raw: int) -> Status:
+        """From the byte."""
+        number = raw >> 4 & 7
+        faulty = bool(raw & ERR)
+        return cls(
+            raw,
+            busy=bool(raw & BUSY),
+            error=Error(number) if faulty else None,
+            expected=0 if faulty else number,
+            input_full=bool(raw & IBF),
+            output_full=bool(raw & OBF),
+        )
+
+
+Pins = TypeVar("Pins", bound="Switches")
+
+
+@dataclass(frozen=True)
+class ReadCodes:
+    """Codes of the read commands that differ from part to part."""
+
+    outputs: int = 0x82
+    remaining: int = 0x83
+
+
+FAMILY = ReadCodes()
+"""Those of most parts."""
+
+
+@dataclass(frozen=True)
+class Switches:
+    """Switches of an axis; True: active (pin low). The sixth one is the part's."""
+
+    limit_cw: bool
+    limit_ccw: bool
+    slow_cw: bool
+    slow_ccw: bool
+    origin: bool
+
+    @classmethod
+    def of_pins(cls: type[Pins], raw: int) -> Pins:
+        """From the bridge's PINS byte; unlike command 0x81 it may be asked for during a motion."""
+        return cls(*(not raw >> bit & 1 for bit in (2, 3, 4, 5, 6, 7)))
+
+    @property
+    def active(self) -> list[str]:
+        """Names of the active ones."""
+        return [name.replace("_", " ") for name, on in vars(self).items() if on]
+
+
+@dataclass(frozen=True)
+class Inputs(Switches):
+    """Switches of a PPMC part."""
+
+    alarm: bool
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """Motor outputs. phases: levels of S1 to S5; hold: the motor has rested for 34 ms; ccw: level of DIR."""
+
+    phases: tuple[int, ...]
+    hold: bool
+    ccw: bool
+
+    @classmethod
+    def parse(cls, raw: int) -> Outputs:
+        """From the byte of the read command."""
+        return cls(tuple(raw >> bit & 1 for bit in (7, 6, 5, 4, 3)), bool(raw & 4), bool(raw & 2))

@@ -1,0 +1,337 @@
+"""Scripts for the UART bridge (docs/uart_bridge.md, "Ops"); `answer` has what comes back. Pure, no I/O."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from .check import within
+from .frames import CRC_BYTES, REQUEST_LIMIT
+
+LONGEST_SCRIPT = REQUEST_LIMIT - CRC_BYTES - 1
+MOST_DATA = 256
+DEFAULT_WAIT_MS = 250
+IDENT_BYTES = 16
+VERSION_BYTES = 16
+RECORDED_BYTES = 16
+
+RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
+"""Line rates in baud by rate code; code 0 is the rate after reset (UB-LIN-02)."""
+
+
+@dataclass(frozen=True)
+class Op:
+    """One op: its bytes, and how many data bytes it gives when it is done."""
+
+    name: str
+    code: bytes
+    gives: int = 0
+
+
+def _within(name: str, value: int, low: int, high: int) -> int:
+    return within(value, name, low, high)
+
+
+class Script:
+    """A list of ops, built by chaining: `Script().call(0x80).get(1)`.
+
+    Every method raises ValueError for an operand out of range, and when the script becomes longer than 253
+    bytes or would give more than 256 data bytes.
+    """
+
+    def __init__(self) -> None:
+        self.ops: list[Op] = []
+        self._wait_ms = DEFAULT_WAIT_MS
+        self._mailbox_ms = 0
+        self._waits_ms = 0
+
+    def __bytes__(self) -> bytes:
+        return b"".join(op.code for op in self.ops)
+
+    @property
+    def gives(self) -> int:
+        """Data bytes of a complete answer."""
+        return sum(op.gives for op in self.ops)
+
+    @property
+    def patience(self) -> float:
+        """Seconds that the script may reasonably run: its waits, and one time limit for the mailbox."""
+        return (self._waits_ms + self._mailbox_ms) / 1000
+
+    def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
+        if len(bytes(self)) + len(code) > LONGEST_SCRIPT:
+            raise ValueError(f"the script would be longer than {LONGEST_SCRIPT} bytes")
+        if self.gives + gives > MOST_DATA:
+            raise ValueError(f"the script would give more than {MOST_DATA} data bytes")
+        if mailbox:
+            self._mailbox_ms = max(self._mailbox_ms, self._wait_ms)
+        self.ops.append(Op(name, code, gives))
+        return self
+
+    def extend(self, other: Script) -> Script:
+        """All ops of another script as well."""
+        for op in other.ops:
+            self._add(op.name, op.code, op.gives, mailbox=op.name in ("POST", "CALL", "GET"))
+        self._mailbox_ms = max(self._mailbox_ms, other._mailbox_ms)
+        self._waits_ms += other._waits_ms
+        if any(op.name == "TIMEOUT" for op in other.ops):
+            self._wait_ms = other._wait_ms
+        return self
+
+    # ------------------------------------------------------------------ the bridge itself
+
+    def nop(self) -> Script:
+        """Nothing."""
+        return self._add("NOP", b"\x00")
+
+    def ident(self) -> Script:
+        """16 bytes about the bridge and its part, see `Identity`."""
+        return self._add("IDENT", b"\x01", IDENT_BYTES)
+
+    def rate(self, code: int) -> Script:
+        """Line rate RATES[code] after this answer."""
+        return self._add("RATE", bytes([0x02, _within("rate code", code, 0, len(RATES) - 1)]))
+
+    def events(self, on: bool) -> Script:
+        """Messages when int_n falls."""
+        return self._add("EVENTS", bytes([0x03, int(on)]))
+
+    def timeout(self, milliseconds: int) -> Script:
+        """Limit of each wait in the rest of the script, 0 to 65535 ms."""
+        _within("time limit in ms", milliseconds, 0, 0xFFFF)
+        self._wait_ms = milliseconds
+        return self._add("TIMEOUT", b"\x04" + milliseconds.to_bytes(2, "little"))
+
+    def reset(self) -> Script:
+        """Reset of the part."""
+        return self._add("RESET", b"\x05")
+
+    def pins(self) -> Script:
+        """1 byte: levels of the part's pins."""
+        return self._add("PINS", b"\x06", 1)
+
+    def straps(self, levels: int) -> Script:
+        """Set the strap pins, 8 bits."""
+        return self._add("STRAPS", bytes([0x07, _within("straps", levels, 0, 255)]))
+
+    def count(self, axis: int = 1) -> Script:
+        """4 bytes: signed pulse counter of axis 1 or 2."""
+        return self._add("COUNT", bytes([0x06 + 2 * _within("axis", axis, 1, 2)]), 4)
+
+    def zero(self, axis: int = 1) -> Script:
+        """Pulse counter of axis 1 or 2 to 0."""
+        return self._add("ZERO", bytes([0x07 + 2 * _within("axis", axis, 1, 2)]))
+
+    def version(self) -> Script:
+        """16 bytes about what the bitstream was built from, see `Build`."""
+        return self._add("VERSION", b"\x0c", VERSION_BYTES)
+
+    # ------------------------------------------------------------------ the recorder
+
+    def record(self, on: bool) -> Script:
+        """Begin to record, or end it."""
+        return self._add("RECORD", bytes([0x0D, int(on)]))
+
+    def rewind(self) -> Script:
+        """Read records from the first one on."""
+        return self._add("RECORD", b"\x0d\x02")
+
+    def recorded(self) -> Script:
+        """16 bytes about the records, see `Recorded`."""
+        return self._add("RECORDED", b"\x0e", RECORDED_BYTES)
+
+    def fetch(self, n: int) -> Script:
+        """The next n = 1 to 255 bytes of the records."""
+        return self._add("FETCH", bytes([0x90, _within("count", n, 1, 255)]), n)
+
+    # ------------------------------------------------------------------ registers of the part
+
+    def write(self, a: int, byte: int) -> Script:
+        """One write cycle at register a."""
+        return self._add("WRITE", bytes([0x10 | _register(a), _within("byte", byte, 0, 255)]))
+
+    def read(self, a: int) -> Script:
+        """One read cycle, 1 byte."""
+        return self._add("READ", bytes([0x20 | _register(a)]), 1)
+
+    def read_many(self, a: int, n: int) -> Script:
+        """n = 1 to 255 read cycles, n bytes."""
+        return self._add("READN", bytes([0x30 | _register(a), _within("count", n, 1, 255)]), n)
+
+    def read_number(self, a: int, n: int) -> Script:
+        """A read cycle of each of n = 1 to 4 registers from a on, n bytes."""
+        _within("count", n, 1, 4)
+        return self._add("READ", bytes(0x20 | _register(place) for place in range(a, a + n)), n)
+
+    def post(self, a: int, data: bytes) -> Script:
+        """1 to 255 bytes, each written when the part can take it (IBF = 0)."""
+        _within("number of bytes", len(data), 1, 255)
+        return self._add("POST", bytes([0x40 | _register(a), len(data)]) + data, mailbox=True)
+
+    def call(self, command: int, *data: int) -> Script:
+        """A command byte with up to 14 data bytes, each checked; gives 1 byte, the last status."""
+        _within("number of command bytes", 1 + len(data), 1, 15)
+        for byte in (command, *data):
+            _within("byte", byte, 0, 255)
+        return self._add("CALL", bytes([0x50 | 1 + len(data), command, *data]), 1, mailbox=True)
+
+    def get(self, n: int) -> Script:
+        """n = 1 to 15 bytes of the part's answer, each when it is there (OBF = 1)."""
+        return self._add("GET", bytes([0x60 | _within("count", n, 1, 15)]), n, mailbox=True)
+
+    def wait(self, a: int, mask: int, value: int) -> Script:
+        """Until register a AND mask = value; gives the byte."""
+        _within("mask", mask, 0, 255)
+        _within("value", value, 0, 255)
+        self._waits_ms += self._wait_ms
+        return self._add("WAIT", bytes([0x70 | _register(a), mask, value]), 1)
+
+    def write_many(self, a: int, data: bytes) -> Script:
+        """1 to 255 write cycles without waiting."""
+        _within("number of bytes", len(data), 1, 255)
+        return self._add("WRITEN", bytes([0x80 | _register(a), len(data)]) + data)
+
+
+def _register(a: int) -> int:
+    return _within("register", a, 0, 15)
+
+
+# Answers of the UART bridge to scripts (docs/uart_bridge.md, UB-ANS-01, -02). Pure, no I/O.
+
+PROTOCOL_VERSION = 1
+IDENT_MARK = b"PPMC"
+
+
+class Result(IntEnum):
+    """RESULT of an answer (UB-ANS-02)."""
+
+    DONE = 0
+    TIMED_OUT = 1
+    REFUSED = 2
+    ILLEGAL = 3
+    TOO_MUCH_DATA = 4
+    INTERRUPTED = 5
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came back: `values` holds the data of each op that gives some, in order.
+
+    With result DONE it is complete. Otherwise `failed` is the op that ended the script (None if the position
+    fits no op), `last` the byte last read from the part, and the data of the failed op come last, if any.
+    """
+
+    result: Result
+    values: tuple[bytes, ...]
+    failed: Op | None = None
+    last: int = 0
+
+    def byte(self, place: int) -> int:
+        """The value at that place, of one byte."""
+        (value,) = self.values[place]
+        return value
+
+    def number(self, place: int, signed: bool = False) -> int:
+        """The value at that place as a little-endian number."""
+        return int.from_bytes(self.values[place], "little", signed=signed)
+
+
+class BadAnswer(ValueError):  # noqa: N818 - the noun says it
+    """An answer that does not fit the script: the other side does not keep the contract."""
+
+
+def parse_answer(script: Script, body: bytes) -> Answer:
+    """Split an answer without its SEQ. Raises BadAnswer if it does not fit the script."""
+    if not body:
+        raise BadAnswer("an answer without a result")
+    try:
+        result = Result(body[0])
+    except ValueError:
+        raise BadAnswer(f"result {body[0]}") from None
+    if result is Result.DONE:
+        values, rest = _split(script.ops, body[1:])
+        if rest:
+            raise BadAnswer(f"{len(rest)} more data bytes than the ops give")
+        return Answer(result, values)
+    if len(body) < 3:
+        raise BadAnswer(f"result {body[0]} without its position")
+    position, last = body[1], body[2]
+    done, failed = _op_at(script.ops, position)
+    values, rest = _split(done, body[3:])
+    if failed is not None and len(rest) > failed.gives:
+        raise BadAnswer(f"{len(rest)} data bytes from an op that gives {failed.gives}")
+    return Answer(result, (*values, rest) if rest else values, failed, last)
+
+
+def _split(ops: list[Op], data: bytes) -> tuple[tuple[bytes, ...], bytes]:
+    values = []
+    for op in ops:
+        if op.gives:
+            if len(data) < op.gives:
+                raise BadAnswer(f"{len(data)} data bytes where {op.name} gives {op.gives}")
+            values.append(data[: op.gives])
+            data = data[op.gives :]
+    return tuple(values), data
+
+
+def _op_at(ops: list[Op], position: int) -> tuple[list[Op], Op | None]:
+    """Ops before the position, and the op there."""
+    start = 0
+    for place, op in enumerate(ops):
+        if start == position:
+            return ops[:place], op
+        start += len(op.code)
+    raise BadAnswer(f"position {position} is not the beginning of an op")
+
+
+@dataclass(frozen=True)
+class Identity:
+    """Answer of IDENT. Frequencies in Hz; `best_rate` is a code into RATES."""
+
+    version: int
+    part: int
+    datasheet: bool
+    counter: bool
+    best_rate: int
+    xtal_hz: int
+    clk_hz: int
+    axes: int = 1
+
+    @classmethod
+    def parse(cls, data: bytes) -> Identity:
+        """From the 16 bytes; BadAnswer if they do not begin with the mark."""
+        if len(data) != IDENT_BYTES or data[:4] != IDENT_MARK:
+            raise BadAnswer("no IDENT of a PPMC bridge")
+        return cls(
+            version=data[4],
+            part=int.from_bytes(data[5:7], "little"),
+            datasheet=bool(data[7] & 1),
+            counter=bool(data[7] & 2),
+            best_rate=data[7] >> 4,
+            xtal_hz=int.from_bytes(data[8:12], "little"),
+            clk_hz=int.from_bytes(data[12:16], "little"),
+            axes=(data[7] >> 2 & 3) + 1,
+        )
+
+
+@dataclass(frozen=True)
+class Build:
+    """Answer of VERSION (UB-VER-01). version: as "0.3.1". changed: there were changes since the commit.
+    source, commit: hexadecimal, "" if nobody knows; board: 4 letters, or ""."""
+
+    version: str
+    changed: bool
+    source: str
+    commit: str
+    board: str
+
+    @classmethod
+    def parse(cls, data: bytes) -> Build | None:
+        """From the 16 bytes; None if nobody knows. BadAnswer for anything but 16 bytes."""
+        if len(data) != VERSION_BYTES:
+            raise BadAnswer(f"VERSION of {len(data)} bytes")
+        if not any(data):
+            return None
+        source, commit = (data[n : n + 4].hex() if any(data[n : n + 4]) else "" for n in (4, 8))
+        board = data[12:].rstrip(b"\0").decode("ascii", "replace")
+        return cls(".".join(map(str, data[:3])), bool(data[3] & 1), source, commit, board)

@@ -1,0 +1,70 @@
+"""The self-test of a board with a PPMC-104 (`host.selftest`)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ...model.single.codes import decode
+from ..script import Identity
+from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
+from .plan import MOVES, SWITCHES, Section, Talk, Wire, timed
+
+AUX_ON, AUX_OFF, AUX_OUTPUT = 0xC1, 0xC2, 0x86
+SLOW_CLOCK, LONG_INTERVALS = 0xFE, 0xFD
+"""Straps: csel low, vsel low."""
+LAYOUT = (
+    *(("rst_n", 1), ("a0", 1), ("cs_n", 1), ("rd_n", 1), ("wr_n", 1), ("d_i", 8)),
+    *(("csel", 1), ("vsel", 1), ("clock", 1), ("l1_n", 1), ("l2_n", 1), ("l3_n", 1), ("l4_n", 1)),
+    *(("cnp_n", 1), ("alm_n", 1), ("auxi", 4)),
+    *(("d_o", 8), ("d_oe", 1), ("int_n", 1), ("auxo", 4), ("aux_n", 1)),
+    *(("s", 5), ("hold", 1), ("pout_n", 1), ("dir", 1)),
+)
+BUS = ByteBus(decode)
+
+
+class Plan104:
+    """As `plan.Plan`."""
+
+    part = "ppmc104"
+    jumpers = (Wire("aux_n", "l1_n", "limit CW"), Wire("auxo[0]", "cnp_n", "origin"))
+
+    def layout(self, width: int) -> tuple[tuple[str, int], ...]:
+        return LAYOUT
+
+    def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
+        return [{**timed(identity), "PHASE_IDLE": int(bool(reset["s"]))}]
+
+    def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
+        constant = BUS.motion(BUS.go(CONSTANT, 49, 5, 0, 0))
+        return [
+            BUS.registers(),
+            *BUS.codes(identity, records),
+            *BUS.moves(),
+            Section("slow base clock", MOVES, constant, SLOW_CLOCK),
+            Section("long intervals", MOVES, constant, LONG_INTERVALS),
+        ]
+
+    def switches(self, identity: Identity, width: int) -> list[Section]:
+        def limit(talk: Talk) -> None:
+            BUS.initialise(talk)
+            BUS.command(talk, AUX_OFF)
+            BUS.command(talk, CONTINUOUS, 199)
+            talk.pause(0.005)
+            BUS.command(talk, AUX_ON)
+            BUS.ends(talk)
+            BUS.go(RAMP, 9, 0, 0)(talk)  # into the active limit: no pulse
+            BUS.go(RAMP | CCW, 9, 0, 0)(talk)
+
+        def origin(talk: Talk) -> None:
+            BUS.initialise(talk)
+            BUS.command(talk, AUX_OUTPUT, 0)
+            BUS.command(talk, ORIGIN, 199)
+            talk.pause(0.005)
+            BUS.command(talk, AUX_OUTPUT, 1)
+            BUS.ends(talk)
+
+        return [Section("limit CW by AUX*", SWITCHES, limit), Section("origin by AUXO0", SWITCHES, origin)]
+
+
+PLAN = Plan104()

@@ -1,0 +1,91 @@
+"""The self-test of a board with a PPMC-2104 (`host.selftest`): either axis, then both on one edge of RUN."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ...model.ppmc2104.codes import CMND, decode
+from ..script import Identity, Script
+from .bytes import AXIS_2, CCW, CONSTANT, CONTINUOUS, DATA, ORIGIN, RAMP, ByteBus
+from .plan import MOVES, REGISTERS, SWITCHES, Section, Talk, Wire, timed
+
+BOTH_HIGH, FIRST_LOW, SECOND_LOW = 0xC1, 0xD1, 0xE1
+"""Codes of the auxiliary outputs."""
+RUN_LOW, SLOW_CLOCK = 0xF3, 0xFC
+LAYOUT = (
+    *(("rst_n", 1), ("cs_n", 1), ("a0", 1), ("busc", 1), ("ds_wrs_n", 1), ("rw_rds_n", 1), ("d_i", 8)),
+    *(("errint_n", 1), ("run", 2), ("extck", 2), ("csel", 2)),
+    *(("fl_n", 2), ("bl_n", 2), ("fhl_n", 2), ("bhl_n", 2), ("org_n", 2), ("alm_n", 2), ("auxi", 2)),
+    *(("d_o", 8), ("d_oe", 1), ("int_n", 1), ("pout_n", 2), ("dir", 2), ("hold", 2)),
+    *(("s1_n", 5), ("s2_n", 5), ("auxo", 2)),
+)
+BUILDING = sum(CMND)
+FIRST, SECOND = (
+    ByteBus(decode, axis=axis, building=BUILDING, positive=0, chopped=0x10) for axis in (0, AXIS_2)
+)
+
+
+class Plan2104:
+    """As `plan.Plan`."""
+
+    part = "ppmc2104"
+    jumpers = (
+        Wire("auxo[0]", "fl_n[1]", "limit CW of axis 1"),
+        Wire("auxo[1]", "org_n[1]", "origin of axis 1"),
+    )
+
+    def layout(self, width: int) -> tuple[tuple[str, int], ...]:
+        return LAYOUT
+
+    def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
+        return [timed(identity)]
+
+    def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
+        def errors(talk: Talk) -> None:
+            for bus in (FIRST, SECOND):
+                bus.command(talk, 0x43 | bus.axis)  # before the initialisation: refused
+                bus.command(talk, 0x86 | bus.axis)
+                talk.read(DATA)
+
+        def together(talk: Talk) -> None:
+            for bus in (FIRST, SECOND):
+                bus.initialise(talk)
+            FIRST.command(talk, RAMP, 29, 0, 0)
+            SECOND.command(talk, CONSTANT | CCW | AXIS_2, 120, 9, 0, 0)
+            talk.pause(0.003)
+            talk.run(Script().straps(0xFF))
+            for bus in (FIRST, SECOND):
+                bus.ends(talk)
+
+        slow = FIRST.motion(FIRST.go(CONSTANT, 49, 5, 0, 0))
+        return [
+            FIRST.registers(),
+            Section("error registers", REGISTERS, errors),
+            *FIRST.codes(identity, records, [SECOND]),
+            *FIRST.moves(),
+            *(Section(f"axis 2: {one.title}", one.what, one.play) for one in SECOND.moves()),
+            Section("both axes from one edge of RUN on", MOVES, together, RUN_LOW),
+            Section("slow base clock", MOVES, slow, SLOW_CLOCK),
+        ]
+
+    def switches(self, identity: Identity, width: int) -> list[Section]:
+        def play_of(code: int, low: int) -> Any:
+            def play(talk: Talk) -> None:
+                FIRST.initialise(talk)
+                FIRST.command(talk, BOTH_HIGH)
+                FIRST.command(talk, code, 199)
+                talk.pause(0.005)
+                FIRST.command(talk, low)
+                FIRST.ends(talk)
+                FIRST.go(RAMP, 9, 0, 0)(talk)
+
+            return play
+
+        return [
+            Section("limit CW by AUXO1", SWITCHES, play_of(CONTINUOUS, FIRST_LOW)),
+            Section("origin by AUXO2", SWITCHES, play_of(ORIGIN, SECOND_LOW)),
+        ]
+
+
+PLAN = Plan2104()

@@ -1,0 +1,69 @@
+"""The self-test of a board with a STMC (`host.selftest`).
+
+The part has no outputs that a host can set, so the wires of its switches come from a winding and from HOLD.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from ...model.stmc.codes import READ_MAPS, decode
+from ..script import Identity, Script
+from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
+from .plan import MOVES, SWITCHES, Section, Talk, Wire, timed
+
+INSIDE = 0xFE
+"""Straps: the step clock of the board rests; its edges would fill the recorder."""
+OUTSIDE = 0xFF
+EXTERNAL = 0x1A
+LAYOUT = (
+    *(("rst_n", 1), ("ext_clk", 1), ("cs_n", 1), ("a0", 1), ("rd_n", 1), ("wr_n", 1), ("d_i", 8)),
+    *(("l1_n", 1), ("l2_n", 1), ("l3_n", 1), ("l4_n", 1), ("cnp_n", 1), ("mon", 1)),
+    *(("d_o", 8), ("d_oe", 1), ("int_n", 1), ("s", 5), ("hold", 1)),
+)
+# Divisors of the 12 500 Hz step clock.
+BUS = ByteBus(decode, Rates(start=12, high=4, ramp=(10, 0), slow=6))
+
+
+class PlanStmc:
+    """As `plan.Plan`."""
+
+    part = "stmc"
+    jumpers = (Wire("hold", "l1_n", "limit CW"), Wire("s[1]", "cnp_n", "origin"))
+
+    def layout(self, width: int) -> tuple[tuple[str, int], ...]:
+        return LAYOUT
+
+    def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
+        known = {**timed(identity), "PHASE_IDLE": int(bool(reset["s"]))}
+        return [{**known, "READ_MAP": name} for name in READ_MAPS]
+
+    def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
+        found = [BUS.registers(), *BUS.codes(identity, records), *BUS.moves(pulse_only=False)]
+
+        def by_board(talk: Talk) -> None:
+            BUS.initialise(talk, EXTERNAL)
+            talk.run(Script().straps(OUTSIDE))
+            BUS.go(CONSTANT, 20, 3, 0, 0)(talk)
+
+        return [
+            *(replace(section, straps=INSIDE) for section in found),
+            Section("steps by the clock of the board", MOVES, by_board, INSIDE),
+        ]
+
+    def switches(self, identity: Identity, width: int) -> list[Section]:
+        def limit(talk: Talk) -> None:
+            BUS.initialise(talk)
+            BUS.go(CONTINUOUS, 20)(talk)
+            BUS.go(RAMP | CCW, 9, 0, 0)(talk)
+
+        origin = BUS.motion(BUS.go(ORIGIN, 20))
+        return [
+            Section("limit CW by HOLD", SWITCHES, limit, INSIDE),
+            Section("origin by S1", SWITCHES, origin, INSIDE),
+        ]
+
+
+PLAN = PlanStmc()

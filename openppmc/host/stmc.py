@@ -1,0 +1,154 @@
+"""Driver of an STMC, the controller of the J105 board, behind a UART bridge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..model.single.codes import Error
+from ..model.stmc.codes import BOARD_CLOCK_HZ, TICK_XT
+from ..parts import part
+from . import speeds
+from .errors import BY_NUMBER, CommandRefused, OutOfRange
+from .kind import POSITIVE, Kind, RateKind, Wanted
+from .link import Link
+from .part import OneAxis
+from .registers import FAMILY, ReadCodes, Switches
+from .script import Result, Script
+from .speeds import BaseClock, Number, pin_period
+
+# What an STMC refuses: the numbers of the family, two of them with another meaning.
+
+_TEXTS = {
+    Error.NOT_INITIALISED: "the part is not initialised (power-up or reset): initialise it first",
+    Error.BAD_RAMP: "the part refuses a divisor: 1 or more, and that of the high speed not above the other",
+}
+
+
+def refused(status: int) -> CommandRefused:
+    """The exception for a status byte of an STMC with ERR = 1."""
+    number = status >> 4 & 7
+    return BY_NUMBER[number](status, _TEXTS.get(Error(number), ""))
+
+
+# What can be read of an STMC at any time, where it differs from the family. Pure.
+
+
+@dataclass(frozen=True)
+class Inputs(Switches):
+    """Switches of an STMC; motor_off: MON is low."""
+
+    motor_off: bool
+
+
+# Step clocks of an STMC: a speed is the clock over a divisor (STMC-INI-01). Pure.
+
+LEAST_DIVISOR = 5
+"""The sheet advises against lower ones; the part would take them."""
+
+
+def divided(hertz: Number, external: bool = True) -> BaseClock:
+    """Step clock, 0 < hertz <= 1e6 (else OutOfRange); rate bytes are divisors, up to 255. external: it is the
+    one that the board makes, or the `ext_clk` pin.
+
+    The worked examples of the sheet, with the external clock of its board:
+
+    >>> clock = divided(48_675)
+    >>> clock.choose(345).rate, clock.choose(825).rate
+    (141, 59)
+    >>> clock.speed(59)
+    Fraction(825, 1)
+
+    Divisors below 5 are left out, as the sheet advises:
+
+    >>> float(clock.slowest), float(clock.fastest)
+    (190.88235294117646, 9735.0)
+    >>> float(divided(12_500, external=False).fastest)
+    2500.0
+    """
+    return BaseClock(pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
+
+
+# What an STMC on the J105 board allows. Pure.
+
+BOARD_CLOCK = BOARD_CLOCK_HZ
+"""Second step clock of the J105 board: 48 675 Hz."""
+
+
+class StmcKind(RateKind):
+    """Speeds are a step clock over a divisor, and the clock is chosen by the initialisation."""
+
+    def constant_clock(
+        self, xtal_hz: int, ramp: speeds.BaseClock | None, pps: speeds.Number
+    ) -> speeds.BaseClock:
+        return Kind.constant_clock(self, xtal_hz, ramp, pps)
+
+    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> speeds.BaseClock:
+        if wanted.external_clock is not None:
+            return divided(wanted.external_clock)
+        internal = divided(Fraction(xtal_hz, TICK_XT), external=False)
+        board = divided(BOARD_CLOCK)
+        if wanted.base_clock is None:
+            return board if board.slowest <= speeds.exact(wanted.start_pps, "start speed") else internal
+        for clock in (internal, board):
+            if clock.hertz == speeds.exact(wanted.base_clock, "base clock"):
+                return clock
+        raise OutOfRange(
+            f"base clock {speeds.nearby(wanted.base_clock)} Hz: this board has {speeds.nearby(internal.hertz)} "
+            f"and {BOARD_CLOCK} Hz"
+        )
+
+
+KIND = StmcKind(
+    part("stmc"),
+    has=frozenset((POSITIVE,)),
+    outputs=0,
+    lengths=(0, 65_535),
+    alarm=("MON input", "switch the motor on (MON high)"),
+    origin_between=True,
+)
+
+
+READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
+"""What the codes of its read commands may be, the default first (ruling R-01)."""
+
+
+class Stmc(OneAxis):
+    """One STMC; see `axis.single.OneAxis`. It has no pulse output: the board counts the steps of the phases.
+
+    `initialise`: a speed is step clock / divisor, divisors 5 to 255. base_clock: 12 500 Hz (internal, at a
+    16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s), None to take
+    the second one if it reaches start_pps. external_clock: frequency in Hz if another clock is wired.
+    ramp_pulses: steps from start to high speed, 0 to 65 535; with 0 there is no ramp, and high_pps at once.
+    No long_intervals. phases, half_step and positive_logic stay as they are until `reset` (STMC-INI-04); the
+    step clock is that of the last initialisation for constant speeds, too.
+
+    A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
+    """
+
+    kind = KIND
+
+    def __init__(self, link: Link) -> None:
+        super().__init__(link)
+        link.refusal = lambda answer: refused(answer.last)
+        self._read_map = ""
+
+    @property
+    def read_map(self) -> str:
+        """Which read codes the part knows, a key of READ_MAPS. It is asked the first time, in any state."""
+        if not self._read_map:
+            # 81h reads the inputs or is undefined: error 0. Any other error is that of a defined command.
+            answer = self.link.attempt(Script().call(0x81).get(1))
+            if answer.result is Result.REFUSED:
+                self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"
+            else:
+                self.link.judge(answer)
+                self._read_map = "FAMILY"
+        return self._read_map
+
+    @property
+    def codes(self) -> ReadCodes:
+        return READ_MAPS[self.read_map]
+
+    def inputs(self) -> Inputs:
+        return Inputs.of_pins(self.pins())
