@@ -1,4 +1,4 @@
-"""The base of all errors that users see; most of them are in `host.basis.errors`. What is not installed."""
+"""The base of all errors that users see; most of them are in `host.errors`. What is not installed."""
 
 from __future__ import annotations
 

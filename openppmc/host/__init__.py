@@ -7,10 +7,10 @@
         axis.home(CCW)
         axis.move(2500)
 
-Rooms, from the ground up: `basis` (arguments, units, errors, ends of motions, what a part allows) · `ports` ·
-`bridge` (frames, scripts, the link) · `axis` (what the drivers share) · `line` (several stations on RS-485) ·
-one for each part. `ports.transport` does the I/O; `bridge.loopback` and `line.loopback` play a board. What is
-called "Pure" in its first line does neither.
+A module for each thing that the parts share, a module or folder for each part. A byte passes `part` →
+`axis` → `motion` → `link` → `script` → `frames` → `port`; each imports only those after it. `port` does the I/O;
+`model_port` and `line_port` have the boards that need no hardware. What is called "Pure" in its first line
+does neither.
 """
 
 from typing import TYPE_CHECKING

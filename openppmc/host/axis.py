@@ -1,4 +1,4 @@
-"""One axis of a part: the motions and registers that are the same on all parts."""
+"""One axis of a part: set-up, speeds, motions and registers that are the same on all parts."""
 
 from __future__ import annotations
 

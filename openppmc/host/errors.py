@@ -1,6 +1,7 @@
-"""What the host package raises but for refusals of the part (`refusals`) and ends of motions (`ending`).
+"""What goes wrong on the way, and what a part refuses, as exceptions. Ends of motions: `ending`.
 
-Each message says what is wrong and what to do about it.
+Each message says what is wrong and what to do about it. Names say what happened, as in
+`except LimitReached`; the common base is an Error. What only one part refuses is in its module or folder.
 """
 
 # ruff: noqa: N818
@@ -9,8 +10,6 @@ from __future__ import annotations
 
 from ..errors import PpmcError as PpmcError
 from ..model.single.codes import Error
-
-# Names say what happened, as in `except LimitReached`; the common base is an Error.
 
 
 class OutOfRange(PpmcError, ValueError):
@@ -55,10 +54,6 @@ class ProtocolError(LinkError):
 class Disconnected(LinkError):
     """The port went away while it was open."""
 
-
-# What a part refuses, as exceptions: one class a reason. What only one part has is in its `errors`.
-#
-# Each message says what is wrong and what to do about it.
 
 # Names say what happened, as in `except LimitReached`; the common base is an Error.
 

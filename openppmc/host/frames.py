@@ -1,7 +1,9 @@
-"""One request at a time over a line that may lose, break or repeat bytes (UB-SEQ, UB-MSG). Pure.
+"""Frames of the UART bridge (docs/uart_bridge.md, UB-FRM-01..04), and one request at a time over a line
+that may lose, break or repeat bytes (UB-SEQ, UB-MSG). Pure.
 
 No I/O and no clock: the caller passes the time in seconds (any origin, never backwards), sends the bytes
-that the methods return and hands over the bytes that arrive.
+that the methods return and hands over the bytes that arrive. A payload is what stands between the
+flags without the CRC: SEQ and what follows.
 """
 
 from __future__ import annotations
@@ -10,10 +12,6 @@ import binascii
 from collections import deque
 from dataclasses import dataclass
 from enum import IntEnum
-
-# Frames of the UART bridge: payload to line bytes and back (docs/uart_bridge.md, UB-FRM-01..04).
-#
-# Pure: no I/O, no clock. A payload is what stands between the flags without the CRC: SEQ and what follows.
 
 FLAG, ESCAPE, TOGGLE = 0x7E, 0x7D, 0x20
 CRC_START = 0xFFFF

@@ -1,4 +1,4 @@
-"""Several stations at once, whatever they are: waiting, stopping, letting time pass."""
+"""Several stations on one line, whatever their frames are: the master, motions, waiting, stopping, errors."""
 
 # ruff: noqa: N818
 

@@ -1,4 +1,4 @@
-"""A motion under way: progress, waiting for its end."""
+"""A motion under way: progress, waiting for its end, finding the origin."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What the drivers of all parts behind a UART bridge have in common, whatever part it is."""
+"""What a program opens: parts behind a UART bridge, of any kind (`open_part`), with one axis
+(`OneAxis`)."""
 
 from __future__ import annotations
 
@@ -208,8 +209,6 @@ class OneAxis(Part, Axis):
         """The bridge's view of interrupt, HOLD and switches; allowed at any time."""
         return self.link.execute(Script().pins()).byte(0)
 
-
-# Opens a board with whatever part it carries.
 
 
 def driver_of(number: int, where: str = "") -> type[Part]:

@@ -1,4 +1,5 @@
-"""Ports: a serial device and the virtual board (`sim:`). The only place with real I/O.
+"""Ports that a user names: a serial device, the virtual board (`sim:`), the model (`model:`).
+The only place with real I/O.
 
 pyserial is imported when a port is opened or looked for: all else works without it. Its SerialException is an
 OSError.
@@ -177,8 +178,6 @@ def _how_to_get_permission(path: str) -> str:
         group = "dialout"
     return f"add yourself to its group ({group}): sudo usermod -aG {group} $USER, then log in again"
 
-
-# Opening the port that a user names: a serial device, the virtual board (`sim:`), the model (`model:`).
 
 
 def open_port(spec: str, baud: int = BASE_BAUD) -> Port:

@@ -1,4 +1,4 @@
-"""Driver of a PPMC-104 behind a UART bridge."""
+"""Driver of a PPMC-104 behind a UART bridge, and what the part allows."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from .part import OneAxis
 from .registers import Inputs
 from .script import Result, Script
 
-# What a PPMC-104 allows. Pure.
-
 KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, AUX)))
 
 
@@ -23,7 +21,7 @@ _START_XT = 1792
 
 
 class Ppmc104(Chopping, OneAxis):
-    """One PPMC-104; see `axis.single.OneAxis`.
+    """One PPMC-104; see `part.OneAxis`.
 
     `initialise`, figures for a 16 MHz crystal: speeds 488.3 to 500 000 pps; ramp_pulses 4 to 11 220;
     base_clock 500 000 or 125 000 Hz. phases, half_step and positive_logic of an initialised part stay until

@@ -1,4 +1,4 @@
-"""Scripts for the UART bridge (docs/uart_bridge.md, "Ops"); `answer` has what comes back. Pure, no I/O."""
+"""Scripts for the UART bridge and its answers (docs/uart_bridge.md, "Ops", UB-ANS-01, -02). Pure, no I/O."""
 
 from __future__ import annotations
 
@@ -195,8 +195,6 @@ class Script:
 def _register(a: int) -> int:
     return _within("register", a, 0, 15)
 
-
-# Answers of the UART bridge to scripts (docs/uart_bridge.md, UB-ANS-01, -02). Pure, no I/O.
 
 PROTOCOL_VERSION = 1
 IDENT_MARK = b"PPMC"

@@ -1,4 +1,4 @@
-"""Driver of an STMC, the controller of the J105 board, behind a UART bridge."""
+"""Driver of an STMC behind a UART bridge; what the part allows, refuses and tells."""
 
 from __future__ import annotations
 
@@ -94,8 +94,8 @@ class StmcKind(RateKind):
             if clock.hertz == speeds.exact(wanted.base_clock, "base clock"):
                 return clock
         raise OutOfRange(
-            f"base clock {speeds.nearby(wanted.base_clock)} Hz: this board has {speeds.nearby(internal.hertz)} "
-            f"and {BOARD_CLOCK} Hz"
+            f"base clock {speeds.nearby(wanted.base_clock)} Hz: this board has "
+            f"{speeds.nearby(internal.hertz)} and {BOARD_CLOCK} Hz"
         )
 
 
@@ -114,7 +114,7 @@ READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
 
 
 class Stmc(OneAxis):
-    """One STMC; see `axis.single.OneAxis`. It has no pulse output: the board counts the steps of the phases.
+    """One STMC; see `part.OneAxis`. It has no pulse output: the board counts the steps of the phases.
 
     `initialise`: a speed is step clock / divisor, divisors 5 to 255. base_clock: 12 500 Hz (internal, at a
     16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s), None to take

@@ -1,6 +1,6 @@
 """Speeds, rates and set-ups as numbers, under one public name. Pure.
 
-They are in `basis.units`; times that only one part has are in that part's folder.
+They are in `speeds`; times that only one part has are in that part's folder.
 """
 
 from .axis import chop_byte

@@ -19,7 +19,7 @@ Piece = tuple[int, Script]
 
 
 class AxisLink:
-    """A link as the driver of one axis uses it; see `bridge.link.Link`. number: of the axis, from 1."""
+    """A link as the driver of one axis uses it; see `link.Link`. number: of the axis, from 1."""
 
     def __init__(self, link: Link, number: int) -> None:
         self._link = link

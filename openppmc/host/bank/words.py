@@ -1,4 +1,5 @@
-"""The registers of a bank's window, and what they tell, as dataclasses (BANK-WIN-02, -03, -07). Pure."""
+"""What a bank allows, refuses and tells: the registers of its window as dataclasses
+(BANK-WIN-02, -03, -07). Pure."""
 
 # ruff: noqa: N818
 

@@ -4,6 +4,12 @@ with Pmc006.open("/dev/ttyUSB0") as motor:
     motor.microsteps, motor.current = 32, 1500
     motor.home(switch=1, direction=BACKWARD)
     motor.move(6400, speed=8000)
+
+Several on one line:
+
+with Pmc006Bus.open("/dev/ttyUSB0") as bus:
+    x, y = bus.axis(1), bus.axis(2)
+    bus.wait([x.start_move(3200), y.start_move(-1600)])
 """
 
 from __future__ import annotations
@@ -167,11 +173,6 @@ def scan(
         except GarbledReply:
             yield address
 
-
-# Several PMC006B4 on one line.
-#
-# with Pmc006Bus.open("/dev/ttyUSB0") as bus: x, y = bus.axis(1), bus.axis(2) bus.wait([x.start_move(3200),
-# y.start_move(-1600)])
 
 
 @dataclass(frozen=True)

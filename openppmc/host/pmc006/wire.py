@@ -1,4 +1,11 @@
-"""Instructions and status bits of the PMC006B4, as a host sends and reads them. Pure."""
+"""Frames, instructions, status bits and refusals of the PMC006B4, as a host sends and reads them. Pure.
+
+>>> command(1, 0x73, 287).hex(" ")
+'a5 01 73 1f 01 00 00 39'
+>>> receiver = Receiver(1)
+>>> [receiver.take(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1]
+Reply(address=1, value=3)
+"""
 
 # ruff: noqa: N818
 
@@ -206,11 +213,6 @@ def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
         "switch",
     )
 
-
-# Frames of the PMC006B4: eight bytes each way, with a check. Pure.
-#
-# >>> command(1, 0x73, 287).hex(" ") 'a5 01 73 1f 01 00 00 39' >>> receiver = Receiver(1) >>>
-# [receiver.take(byte) for byte in bytes.fromhex("A5 7A 01 03 00 00 00 23")][-1] Reply(address=1, value=3)
 
 HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
 FACTORY, LAST = 255, 120

@@ -1,4 +1,5 @@
-"""What a PPMC-2104 refuses: its error registers have a table of their own (P2104-ERR-01)."""
+"""What a PPMC-2104 allows, refuses (P2104-ERR-01: a table of its own) and tells (P2104-STA-01); times in
+microseconds to parameter bytes and back, exactly. Pure."""
 
 # ruff: noqa: N818
 

@@ -1,6 +1,7 @@
-"""Instructions of the PPMC-312 on the serial line: bus block to code and data, and back. Pure.
+"""The PPMC-312's serial mode: frames (control code, hex characters, checksum), and instructions as bus
+blocks to code and data, and back. Pure.
 
-Most differ from the blocks in their code only; the flag byte moves into the code.
+Most instructions differ from the blocks in their code only; the flag byte moves into the code.
 
 >>> line_data(blocks.acceleration(blocks.CW, 5000)).hex(" ")
 '83 00 00 00 00 13 88'
@@ -11,6 +12,11 @@ Most differ from the blocks in their code only; the flag byte moves into the cod
 >>> line_data(blocks.free_curve(1, [100, 200], [5, 4])[0])
 Traceback (most recent call last):
 openppmc.host.errors.OutOfRange: free curves: only on the parallel bus
+>>> frame(POLL | 1).hex(" "), frame(INSTRUCTION | 1, bytes.fromhex("061f")).hex(" ")
+('81 7e', '91 30 36 31 66 49')
+>>> receiver = Receiver(1)
+>>> [receiver.take(byte) for byte in bytes.fromhex("A1 61 35 39")]
+[None, None, None, Reply(station=1, kind=160, data=b'\xa5')]
 """
 
 from __future__ import annotations
@@ -24,12 +30,6 @@ from ...errors import OutOfRange
 from ...line_port import Fault
 from .. import blocks
 from ..answers import Response
-
-# Frames of the PPMC-312's serial mode: control code, hex characters, checksum. Pure.
-#
-# >>> frame(POLL | 1).hex(" "), frame(INSTRUCTION | 1, bytes.fromhex("061f")).hex(" ") ('81 7e', '91 30 36 31
-# 66 49') >>> receiver = Receiver(1) >>> [receiver.take(byte) for byte in bytes.fromhex("A1 61 35 39")] [None,
-# None, None, Reply(station=1, kind=160, data=b'\xa5')]
 
 STATIONS = 16
 POLL, INSTRUCTION = 0x80, 0x90
