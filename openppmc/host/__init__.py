@@ -8,9 +8,9 @@
         axis.move(2500)
 
 A module for each thing that the parts share, a module or folder for each part. A byte passes `part` →
-`axis` → `motion` → `link` → `script` → `frames` → `port`; each imports only those after it. `port` does the I/O;
-`model_port` and `line_port` have the boards that need no hardware. What is called "Pure" in its first line
-does neither.
+`axis` → `motion` → `link` → `script` → `frames` → `port`; each imports only those after it. `port` does the
+I/O; `model_port` and `line_port` have the boards that need no hardware. What is called "Pure" in its first
+line does neither.
 """
 
 from typing import TYPE_CHECKING

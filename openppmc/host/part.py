@@ -210,7 +210,6 @@ class OneAxis(Part, Axis):
         return self.link.execute(Script().pins()).byte(0)
 
 
-
 def driver_of(number: int, where: str = "") -> type[Part]:
     """The driver of the part with this number; WrongDevice if there is none."""
     row = by_number(number)

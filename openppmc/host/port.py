@@ -179,7 +179,6 @@ def _how_to_get_permission(path: str) -> str:
     return f"add yourself to its group ({group}): sudo usermod -aG {group} $USER, then log in again"
 
 
-
 def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
     """Open a port: device path, `sim:plant text` or `model:plant text`. Raises PortError."""
     if not spec:

@@ -174,7 +174,6 @@ def scan(
             yield address
 
 
-
 @dataclass(frozen=True)
 class Found:
     """A controller that `scan` has found; version, flags, modes and position are None if its replies are
