@@ -15,7 +15,7 @@ from cocotb_tests.harness.config import configs
 from cocotb_tests.harness.part import PARTS
 from openppmc.host.frames import encode
 from openppmc.host.script import RATES, Identity, Result, Script
-from openppmc.model.ppmc104.part import Ppmc104
+from openppmc.model.ppmc104 import Ppmc104
 
 INIT = (0x0A, 9, 4, 4, 0)
 CW, CCW = 0x43, 0x4B

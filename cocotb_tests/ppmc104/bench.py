@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.part import Part
-from openppmc.model.ppmc104 import part
+from openppmc.model import ppmc104
 
 PPMC104 = Part.of_model(
     "ppmc104",
-    part,
+    ppmc104,
     parameters=("CLK_HZ", "XTAL_HZ", "TIMING", "PHASE_IDLE"),
     lowest={"s": 1},
     idle={"PHASE_IDLE": "s"},

@@ -14,7 +14,7 @@ from cocotb_tests.ppmc312.blocks import T1
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
-from openppmc.model.ppmc312.stages.tables import build
+from openppmc.model.ppmc312.stages import build
 
 MHZ = 50
 CLK = MHZ * 1_000_000

@@ -11,7 +11,7 @@ from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.table_read import read_table
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Answer, Code, Source
-from openppmc.model.ppmc312.stages.tables import build
+from openppmc.model.ppmc312.stages import build
 
 T5 = message(Code.INITIAL, "09 2000 0040 00EA60")
 

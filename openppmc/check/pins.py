@@ -41,7 +41,7 @@ _CLOCKS = ("clock", "ext_clk", "extck")
 
 
 def pins_of(model: Any) -> ModelPins:
-    """Of a golden model fresh out of reset (`model.common.chip.Chip`)."""
+    """Of a golden model fresh out of reset (`model.chip.Chip`)."""
     inputs = {pin: level for pin, level in model.INPUTS.items() if pin != "rst_n"}
     clock = next((pin for pin in _CLOCKS if pin in inputs), "")
     return ModelPins(inputs, dict(model.log.initial), model.WIDTHS, frozenset(model.HOST_PINS), clock)

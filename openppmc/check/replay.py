@@ -5,7 +5,7 @@
     comparison.mismatch     # None, or the first difference
 
 Time is the index of rising clk edges, 0 the first one behind the reset: an input at t is sampled first by
-edge t, an output at t changes with edge t (`model.common.chip`). A recording that begins
+edge t, an output at t changes with edge t (`model.chip`). A recording that begins
 in a reset has `rst_n` 0 and 1 among its changes.
 """
 

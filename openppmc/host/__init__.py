@@ -80,8 +80,6 @@ else:
         """
         . units
         .axis CCW CW Axis
-        .motion Motion Progress
-        .part AnyPart=Part open_part
         .bank.axis BankAxis
         .bank.part PpmcBank
         .bank.words GroupRefused
@@ -90,14 +88,16 @@ else:
         .errors NothingToStop NotInitialised NotWhileBusy OutOfRange PortError PpmcError ProtocolError
         .errors RampTooLong StartRefused Timeout UnexpectedData UnexpectedDataBusy UnknownCode WrongDevice
         .link Link
+        .motion Motion Progress
+        .part AnyPart=Part open_part
         .pmc006.axis BACKWARD FORWARD
         .pmc006.part Pmc006 Pmc006Bus
         .port open_port serial_ports
         .ppmc104 Ppmc104
-        .ppmc312.part Ppmc312
         .ppmc312.line.bus Ppmc312Bus
-        .ppmc312.line.wire SumMode
         .ppmc312.line.station Station312
+        .ppmc312.line.wire SumMode
+        .ppmc312.part Ppmc312
         .ppmc2104.axis Axis2104
         .ppmc2104.part Ppmc2104
         .ppmc2104.words BadSwitching CutCommand TooFast

@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING
 from ..lazy import lazy
 
 if TYPE_CHECKING:
-    from .common.timebase import Edge, Latency, Timebase
+    from .clock import Edge, Latency, Timebase
     from .pmc006.part import Pmc006
-    from .ppmc104.part import Ppmc104
+    from .ppmc104 import Ppmc104
     from .ppmc312.part import Ppmc312
     from .ppmc2104.part import Ppmc2104
     from .single.predict import Move, predict_move
@@ -28,9 +28,9 @@ else:
     __getattr__, __dir__ = lazy(
         __name__,
         """
-        .common.timebase Edge Latency Timebase
+        .clock Edge Latency Timebase
         .pmc006.part Pmc006
-        .ppmc104.part Ppmc104
+        .ppmc104 Ppmc104
         .ppmc312.part Ppmc312
         .ppmc2104.part Ppmc2104
         .single.predict Move predict_move

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from openppmc.model.common.timebase import Timebase
+from openppmc.model.clock import Timebase
 from openppmc.model.single.predict import Move, predict_move
 
 AXES, CLK_HZ = 32, 32_000_000

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import console
-from openppmc.model.ppmc104.part import Ppmc104
+from openppmc.model.ppmc104 import Ppmc104
 from scripts.flow.machine import machine
 from scripts.flow.report import markdown_table
 

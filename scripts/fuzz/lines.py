@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from openppmc.model.carrier.bridge import NAK_FRAMING, NAK_SEQ, NAK_SILENCE, SEQ_LIMIT, Receiver, Request
-from openppmc.model.pmc006.front.line import Assembler
+from openppmc.model.pmc006.line import Assembler
 from openppmc.model.ppmc312.front.serial import LENGTHS, Outcome, Parser
 
 from .words import BROKEN, SILENCE, Frame, digest

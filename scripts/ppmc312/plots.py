@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
-from openppmc.model.ppmc312.stages.tables import LAST, Table, build, curve, ramped
+from openppmc.model.ppmc312.stages import LAST, Table, build, curve, ramped
 from scripts.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 F_HZ = 1_000_000

@@ -10,7 +10,7 @@ from cocotb_tests.harness.config import D16, F16, F50, Config
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.ppmc312.blocks import T1, T2, T3
 from cocotb_tests.ppmc312.host import Host
-from openppmc.model.ppmc312.stages.tables import Step, Table, build, constant, curve, ramped
+from openppmc.model.ppmc312.stages import Step, Table, build, constant, curve, ramped
 
 F_HZ = 1_000_000
 HEAD, TAIL = 6, 6

@@ -20,7 +20,7 @@ from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
 
 # Rooms that parts share: the only folders of a layer that are not a part's.
 SHARED = {
-    "openppmc/model": {"common", "motion", "single", "carrier"},
+    "openppmc/model": {"motion", "single", "carrier"},
     "openppmc/host": {"selftest"},
     "openppmc/cli": {"common"},
     "openppmc/sim": {"common"},

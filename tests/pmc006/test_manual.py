@@ -10,7 +10,7 @@ from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.pmc006.builds import F8B
 from cocotb_tests.pmc006.host import Host
 from openppmc.model.pmc006.codes import LETTERS
-from openppmc.model.pmc006.front.line import command, reply
+from openppmc.model.pmc006.line import command, reply
 from openppmc.model.pmc006.program import assemble
 from tests.common.pages import DOCS, chapters
 

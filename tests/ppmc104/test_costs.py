@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.project import DOCS
-from openppmc.model.common.timebase import Latency
+from openppmc.model.clock import Latency
 from scripts.bench import costs
 
 

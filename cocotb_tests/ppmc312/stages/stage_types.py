@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from openppmc.model.ppmc312.stages.tables import LAST, Table
+from openppmc.model.ppmc312.stages import LAST, Table
 
 from ...harness.wrapper import Block
 

@@ -11,7 +11,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, RisingEdge, Timer
 from cocotb.utils import get_sim_time
 
-from openppmc.model.ppmc312.stages.tables import DIVIDERS
+from openppmc.model.ppmc312.stages import DIVIDERS
 
 from ...harness.unit import Unit, rng, same
 from . import stage_types

@@ -6,7 +6,7 @@ import random
 
 import cocotb
 
-from openppmc.model.ppmc312.stages.tables import (
+from openppmc.model.ppmc312.stages import (
     LAST,
     STAGES,
     SettingError,

@@ -9,7 +9,7 @@ import cocotb
 
 from openppmc.model.ppmc312.codes import Cause
 from openppmc.model.ppmc312.motion.sequence import Change, Sequence
-from openppmc.model.ppmc312.stages.tables import STAGES, Plan, Table, constant, curve, ramped
+from openppmc.model.ppmc312.stages import STAGES, Plan, Table, constant, curve, ramped
 
 from ...harness.unit import Unit, rng, same
 from . import stage_types

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from ...model.pmc006.codes import LETTERS
-from ...model.pmc006.front.line import ANSWER, HEAD, SIZE, command
+from ...model.pmc006.line import ANSWER, HEAD, SIZE, command
 from ...model.pmc006.part import Pmc006
 from ...model.pmc006.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.characters import Character, characters, rate_of

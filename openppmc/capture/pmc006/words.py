@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from openppmc.model.pmc006.front.line import command, reply
+from openppmc.model.pmc006.line import command, reply
 
 from ..common.words import Words
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...model.ppmc104.part import INPUTS, OUTPUTS, WIDTHS
+from ...model.ppmc104 import INPUTS, OUTPUTS, WIDTHS
 from ...model.single.codes import decode
 from ...model.single.hostport import strobes
 from ..common.byte_bus import byte_part

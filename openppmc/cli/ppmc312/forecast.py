@@ -9,7 +9,7 @@ from ...host import speeds
 from ...host.errors import OutOfRange
 from ...host.ppmc312.motion import SHAPES
 from ...host.ppmc312.profile import Setup
-from ...model.ppmc312.stages.tables import Plan, constant, ramped
+from ...model.ppmc312.stages import Plan, constant, ramped
 from ..common.forecast import Course
 
 LONGEST_MOVE = (1 << 32) - 1

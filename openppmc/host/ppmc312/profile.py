@@ -15,8 +15,8 @@ from math import ceil
 from pathlib import Path
 from typing import NamedTuple
 
-from ...model.ppmc312.stages import tables
-from ...model.ppmc312.stages.tables import DIVIDERS, LEAST_PULSES, STAGES, SettingError, Table
+from ...model.ppmc312 import stages as tables
+from ...model.ppmc312.stages import DIVIDERS, LEAST_PULSES, STAGES, SettingError, Table
 from ...parts import part
 from ...textfile import NotTextError, read_text
 from .. import speeds as units

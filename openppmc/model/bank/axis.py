@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ..common.chip import Context, Phase
-from ..common.timebase import Callback, Event, QuantumCounter, Scheduler
+from ..chip import Context, Phase
+from ..clock import Callback, Event, QuantumCounter, Scheduler
 from ..motion.codes import IBF, OBF
 from ..motion.excitation import Excitation
-from ..ppmc104.part import Switching
+from ..ppmc104 import Switching
 from ..single.codes import Error
 from .chopper import CONFIG_LEAD, SWITCH_LEAD, Chopper, Visits
 from .commands import Builder, CommandUnit, Mailbox

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..common.chip import Context, Phase
-from ..common.timebase import Event
+from ..chip import Context, Phase
+from ..clock import Event
 from ..motion import excitation
 from ..motion.excitation import Switching
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import ClassVar
 
-from ..common.chip import Context, Phase
-from ..common.timebase import Event
+from .. import ppmc104
+from ..chip import Context, Phase
+from ..clock import Event
 from ..motion.excitation import Chopper, Excitation
-from ..ppmc104 import part
-from ..ppmc104.part import Switching
+from ..ppmc104 import Switching
 from ..single.codes import Command, Error, Kind, decode
 from ..single.hostport import BytePort
 from .chopper import BUILD_LEAD, BYTE_LEAD, READY_LEAD, Visits
@@ -122,7 +122,7 @@ class Builder:
         self.free_from = 0
 
 
-class CommandUnit(part.CommandUnit):
+class CommandUnit(ppmc104.CommandUnit):
     """Commands of axis `axis`. completed: the visit that completed the last initialisation, or -1.
     initialised: one is complete and in force; known: visit t finds one that an earlier visit completed."""
 

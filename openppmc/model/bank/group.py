@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from ..common.chip import Phase
-from ..common.timebase import Scheduler
+from ..chip import Phase
+from ..clock import Scheduler
 from ..motion.excitation import ALL_PHASES
-from ..ppmc104.part import GUARD
+from ..ppmc104 import GUARD
 from .chopper import GROUP_LEAD, Visits
 
 # Pins of the bank with idle and reset levels. A port of all axes is one number; bit i is axis i, of `s` the

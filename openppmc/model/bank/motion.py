@@ -9,18 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..common.chip import Context, Phase
+from .. import ppmc104
+from ..chip import Context, Phase
 from ..motion.codes import FINISH_SLOW, FINISH_STOP, Command, Seen, inspect
 from ..motion.excitation import Excitation
 from ..motion.motion import Setup
-from ..ppmc104 import part
-from ..ppmc104.part import GUARD
+from ..ppmc104 import GUARD
 from ..single.hostport import BytePort, SpeedGate
 from .chopper import END_LEAD, GROUP_LEAD, Chopper, Visits
 from .group import Group
 
 
-class Motion(part.Motion):
+class Motion(ppmc104.Motion):
     """The motion of axis `axis`. switches: their levels as this edge sees them; those in context.levels are
     what a visit sees. Readable: held (BANK-GRP-01), ended (the visit that ended the last motion, or -1)."""
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..common.chip import Chip, Context
-from ..common.timebase import Latency, QuantumCounter
+from ..chip import Chip, Context
+from ..clock import Latency, QuantumCounter
 from ..motion.motion import Interval
 from .axis import Axis
 from .chopper import Visits, round_clk

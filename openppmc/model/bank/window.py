@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ..common.chip import Phase
-from ..common.timebase import EdgeLog, Event, Scheduler
+from ..chip import Phase
+from ..clock import EdgeLog, Event, Scheduler
 from ..motion.codes import IBF
 from ..single.hostport import strobes
 from .axis import Axis

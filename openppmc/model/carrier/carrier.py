@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
-from ..common.chip import Chip
-from ..common.timebase import Edge
+from ..chip import Chip
+from ..clock import Edge
 
 # The motor's surroundings: limit, slow-down, origin and alarm switches along the way of one axis.
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from itertools import product
 from typing import Protocol
 
-from ..common.chip import Context, Phase
-from ..common.timebase import Event
+from ..chip import Context, Phase
+from ..clock import Event
 
 ALL_PHASES = 0b11111
 

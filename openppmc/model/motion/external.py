@@ -5,7 +5,7 @@ P104-INT-01, -03, P104-TIM-05, P104-BCK-04; P2104-BCK-04, P2104-TIM-05.
 
 from __future__ import annotations
 
-from ..common.timebase import Timebase
+from ..clock import Timebase
 
 
 class ExternalInterval:

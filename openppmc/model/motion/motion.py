@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
-from ..common.chip import Context, Phase
-from ..common.timebase import Event
+from ..chip import Context, Phase
+from ..clock import Event
 from .codes import (
     ENDLESS,
     FINISH_NEW,

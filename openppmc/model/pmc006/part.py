@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ..common.chip import Chip, Phase
+from ..chip import Chip, Phase
 from .drive.drive import Drive
-from .front.line import Command, Line, reply
 from .instructions.executor import Desk, Executor
 from .instructions.operations import KeyFilter
 from .instructions.processor import Processor
+from .line import Command, Line, reply
 from .memory.boot import Boot
 from .memory.eeprom import Bus, Engine
 from .motion.motion import Motion

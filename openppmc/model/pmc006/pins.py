@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..common.timebase import EdgeLog, Scheduler
+from ..clock import EdgeLog, Scheduler
 from .settings import Settings
 
 # How long the PMC006B4 of this project takes inside the windows of its rules, all in clk.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ..common.chip import Context, Phase, PinRegister
-from ..common.timebase import QuantumCounter
+from ..chip import Context, Phase, PinRegister
+from ..clock import QuantumCounter
 from ..motion import motion
 from ..motion.codes import (
     ACC_DEC,

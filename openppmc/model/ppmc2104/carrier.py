@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from ..carrier import carrier
 from ..carrier.carrier import SWITCHES, Plant
-from ..common.timebase import Timebase
+from ..clock import Timebase
 from ..motion.codes import PA_MAX, PA_MIN
 from ..motion.ramp import BaseClock, Ramp
 from ..single.predict import Limits, RampMove, run

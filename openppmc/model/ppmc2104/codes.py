@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum, IntEnum
 
-from ..common.chip import Context, Phase
+from ..chip import Context, Phase
 from ..motion.codes import ORIGIN, RAMP_OPERATIONS, SINGLE_STEP, Command, GuardPins, Kind, operation_command
 from ..motion.motion import Setup
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..common.chip import Context, Phase
+from ..chip import Context, Phase
 from ..motion.codes import CONSTANT, CONTINUOUS, ORIGIN, PA_MAX, PA_MIN, Command, Kind, inspect
 from ..motion.motion import Setup
 from ..motion.ramp import Ramp

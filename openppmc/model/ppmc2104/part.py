@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ..common.chip import Chip, Context, PinRegister
-from ..common.timebase import Latency, QuantumCounter
+from ..chip import Chip, Context, PinRegister
+from ..clock import Latency, QuantumCounter
 from ..motion.codes import IBF, OBF
 from ..motion.motion import Interval
 from ..single.hostport import HostPort

@@ -8,11 +8,11 @@ from itertools import accumulate
 
 from ..carrier import carrier
 from ..carrier.carrier import SWITCHES, Plant
-from ..common.timebase import Edge, Timebase
+from ..clock import Edge, Timebase
 from ..single.predict import Move
 from .codes import FO, LE
 from .part import Ppmc312
-from .stages.tables import DIVIDERS, SettingError, Table, build, constant, ramped
+from .stages import DIVIDERS, SettingError, Table, build, constant, ramped
 
 _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"), strict=True))
 

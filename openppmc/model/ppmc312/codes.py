@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum, unique
 
-from ..common.timebase import Callback, Event, Scheduler
+from ..clock import Callback, Event, Scheduler
 
 
 @unique

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..common.chip import Context, Phase
+from ..chip import Context, Phase
 from .codes import Alarm, Answer, Cause, Source, State, Trigger
 from .front import responses
 from .front.responses import ENCODE, POSITION, Report, Responses
@@ -19,7 +19,7 @@ from .motion.inputs import EVENT_PINS, Filters, InputChange, Outputs
 from .motion.operation import Operation
 from .motion.position import Counters, Interlock, Monitor, Watch
 from .pace import Pace
-from .stages.tables import FreeCurve, Table
+from .stages import FreeCurve, Table
 
 
 class Core:

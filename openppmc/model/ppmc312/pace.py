@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .stages.tables import RIGHT_DOWN, TRIANGLE, Plan, Table
-from .stages.tables import TRAPEZOID as TRAPEZOID_KIND
+from .stages import RIGHT_DOWN, TRIANGLE, Plan, Table
+from .stages import TRAPEZOID as TRAPEZOID_KIND
 
 US, WIDTH = 16, 80
 """XTAL cycles of a microsecond at 16 MHz, and of TW."""

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ..common.chip import Chip, Context, Phase, PinRegister
-from ..common.timebase import Latency, QuantumCounter
+from ..chip import Chip, Context, Phase, PinRegister
+from ..clock import Latency, QuantumCounter
 from .codes import HOST_PINS, INPUTS, OUTPUTS, SERIAL_PINS, WIDTHS, Scope, Source, State
 from .core import Core
 from .front.mailbox import IDLE, Mailbox, Strobes

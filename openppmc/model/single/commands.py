@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import ClassVar
 
-from ..common.chip import Context, Phase
+from ..chip import Context, Phase
 from ..motion.codes import SINGLE_STEP, Command, GuardPins
 from ..motion.excitation import Chopper, Excitation
 from ..motion.motion import Motion, Setup

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Protocol
 
-from ..common.chip import Context, Phase
-from ..common.timebase import Event
+from ..chip import Context, Phase
+from ..clock import Event
 from ..motion.codes import IBF, OBF
 from .codes import Kind, decode
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ... import parts
-from ..common.timebase import Timebase
+from ..clock import Timebase
 from ..motion.ramp import BaseClock, Ramp, profile_index
 
 

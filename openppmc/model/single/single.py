@@ -10,8 +10,8 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from typing import ClassVar
 
-from ..common.chip import Chip, Context, Phase, PinRegister
-from ..common.timebase import Latency, QuantumCounter
+from ..chip import Chip, Context, Phase, PinRegister
+from ..clock import Latency, QuantumCounter
 from ..motion.codes import IBF, OBF, GuardPins
 from ..motion.excitation import ALL_PHASES, Chopper, Excitation
 from ..motion.motion import Interval

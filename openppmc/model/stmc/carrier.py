@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from ..carrier import carrier
 from ..carrier.carrier import SWITCHES, Plant
-from ..common.timebase import Edge, Timebase
+from ..clock import Edge, Timebase
 from ..motion.excitation import ALL_PHASES, step_directions
 from ..motion.ramp import BaseClock
 from ..single.predict import Limits, RampMove, run

@@ -6,7 +6,7 @@ Initialisation: STMC-INI-01..08, STMC-DS-02/03. Motion commands: STMC-MOT-01..04
 
 from __future__ import annotations
 
-from ..common.chip import Context
+from ..chip import Context
 from ..motion.codes import (
     CONSTANT,
     CONTINUOUS,

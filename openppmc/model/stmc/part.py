@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..common.chip import Context
-from ..common.timebase import Latency
+from ..chip import Context
+from ..clock import Latency
 from ..motion.excitation import Chopper
 from ..single.hostport import HostPort, strobes
 from ..single.single import SingleAxis

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from ..common.chip import Square
-from ..common.timebase import Edge, EdgeLog, Latency
+from ..chip import Square
+from ..clock import Edge, EdgeLog, Latency
 from .part import Stmc
 
 SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...model.bank.carrier import Carrier
-from ...model.common.timebase import Timebase
+from ...model.clock import Timebase
 from ..common.machine import MachineKind, Setup
 
 

@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass, field, fields
 
 from ... import parts
 from ...model.carrier.carrier import FARTHEST, Carrier, Plant
-from ...model.common.chip import Chip
+from ...model.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ...model.carrier.carrier import Carrier
 from ...model.carrier.eeprom import BLANK, SIZE
-from ...model.common.timebase import Edge
+from ...model.clock import Edge
 from ...model.pmc006.memory.eeprom import PROGRAM, Bus
 from ...model.pmc006.part import Pmc006
 from ...model.pmc006.pins import Shared

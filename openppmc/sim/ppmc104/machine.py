@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...model.ppmc104.part import Carrier
+from ...model.ppmc104 import Carrier
 from ..common.machine import MachineKind, Setup
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from openppmc.model.bank import part
-from openppmc.model.common.timebase import Latency
+from openppmc.model.clock import Latency
 from tests.bank.model.host import CONFIG, DATA, STATUS, Host
 
 FLAT = "c 2A d 05 d 05 d 04 d 00"

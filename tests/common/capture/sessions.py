@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openppmc.host.ppmc312 import blocks
-from openppmc.model.pmc006.front.line import command
+from openppmc.model.pmc006.line import command
 from openppmc.model.pmc006.part import Pmc006
-from openppmc.model.ppmc104.part import Ppmc104
+from openppmc.model.ppmc104 import Ppmc104
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL, frame
 from openppmc.model.ppmc312.part import Ppmc312
 from openppmc.model.ppmc2104.part import Ppmc2104

@@ -6,7 +6,7 @@ import pytest
 
 from openppmc.model.carrier.bridge import Bridge, frame
 from openppmc.model.carrier.carrier import Plant
-from openppmc.model.ppmc104.part import Carrier
+from openppmc.model.ppmc104 import Carrier
 
 NAK = {code: frame(bytes([0x81, code])) for code in range(1, 9)}
 

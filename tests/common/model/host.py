@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from openppmc.model.common.timebase import low_times
+from openppmc.model.clock import low_times
 from openppmc.model.single.codes import IBF, OBF
 
 

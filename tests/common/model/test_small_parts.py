@@ -11,15 +11,7 @@ from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model import Ppmc104, predict_move
-from openppmc.model.common.timebase import (
-    Edge,
-    EdgeLog,
-    Latency,
-    QuantumCounter,
-    Scheduler,
-    Timebase,
-    low_times,
-)
+from openppmc.model.clock import Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase, low_times
 from openppmc.model.motion.excitation import Excitation, step_list
 from openppmc.model.single.codes import Kind, decode
 

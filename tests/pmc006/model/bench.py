@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from openppmc.model.common.chip import Phase
-from openppmc.model.common.timebase import EdgeLog, Scheduler
+from openppmc.model.chip import Phase
+from openppmc.model.clock import EdgeLog, Scheduler
 from openppmc.model.pmc006.drive.drive import Drive
 from openppmc.model.pmc006.motion.engine import UPDATE, Engine, Live, Order, Stage
 from openppmc.model.pmc006.motion.motion import Motion

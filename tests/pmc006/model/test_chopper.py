@@ -8,8 +8,8 @@ from math import exp
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.common.chip import Phase
-from openppmc.model.common.timebase import Scheduler
+from openppmc.model.chip import Phase
+from openppmc.model.clock import Scheduler
 from openppmc.model.pmc006.drive.chopper import Chopper, Times
 from openppmc.model.pmc006.drive.drive import Stream
 from tests.pmc006.model.bench import SETUP, Bench

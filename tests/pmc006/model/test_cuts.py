@@ -11,7 +11,7 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.carrier.eeprom import Eeprom24C32
-from openppmc.model.pmc006.front.line import command
+from openppmc.model.pmc006.line import command
 from openppmc.model.pmc006.part import Pmc006
 from openppmc.model.pmc006.settings import LEGAL, PLACES, Settings, page_of, values_of
 

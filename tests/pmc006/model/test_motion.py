@@ -8,7 +8,7 @@ from functools import partial
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.common.chip import Phase
+from openppmc.model.chip import Phase
 from openppmc.model.pmc006.motion.engine import Live, Order
 from openppmc.model.pmc006.motion.motion import base_code, compensation, drive_index
 from tests.pmc006.model.bench import SETUP, Bench, make

@@ -8,9 +8,9 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.pmc006.codes import LETTERS, TABLE, UNKNOWN
-from openppmc.model.pmc006.front.line import Assembler, Command, changes_of, command, reply
 from openppmc.model.pmc006.instructions.operations import END, decode
 from openppmc.model.pmc006.instructions.operations import TABLE as OPERATIONS
+from openppmc.model.pmc006.line import Assembler, Command, changes_of, command, reply
 from openppmc.model.pmc006.memory.boot import program_of
 from openppmc.model.pmc006.memory.eeprom import sent
 from openppmc.model.pmc006.settings import FACTORY_PAGE, Settings, page_of, values_of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from openppmc.model.common.timebase import low_times
+from openppmc.model.clock import low_times
 from openppmc.model.ppmc2104.codes import BUSY, CMND
 from openppmc.model.ppmc2104.part import Ppmc2104
 from tests.common.model.host import ModelHost

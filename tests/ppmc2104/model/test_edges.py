@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.common.timebase import Edge
+from openppmc.model.clock import Edge
 from tests.ppmc2104.model.host import B1, B2, Host
 
 

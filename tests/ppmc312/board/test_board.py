@@ -9,7 +9,7 @@ import pytest
 from openppmc.host import CCW, CW, Cause, LimitReached, Ppmc312, StoppedEarly
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import EncoderChange, Executed, InPositionChange
-from openppmc.model.common.timebase import Timebase
+from openppmc.model.clock import Timebase
 from openppmc.model.ppmc312.carrier import predict_table
 from openppmc.model.ppmc312.codes import Code, Source
 

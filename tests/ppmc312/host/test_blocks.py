@@ -20,9 +20,9 @@ from openppmc.host.ppmc312.blocks import Trigger
 from openppmc.host.ppmc312.profile import KIND as PPMC312
 from openppmc.host.ppmc312.profile import base_clocks, plan_curve, plan_setup, read_stages
 from openppmc.model import Timebase, predict_move
+from openppmc.model.ppmc312 import stages as tables
 from openppmc.model.ppmc312.carrier import TableMove
 from openppmc.model.ppmc312.codes import Cause, State
-from openppmc.model.ppmc312.stages import tables
 
 XTAL = 16_000_000
 MEGAHERTZ = base_clocks(XTAL)[1]

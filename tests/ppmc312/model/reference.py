@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import groupby
 
-from openppmc.model.ppmc312.stages.tables import Step, build, curve
+from openppmc.model.ppmc312.stages import Step, build, curve
 
 T1 = build(1000, 0, 200, 2000, 0, separate=False)
 T2 = build(1000, 0, 200, 2000, 0, sigmoid=True, separate=False)

@@ -6,7 +6,7 @@ import pytest
 
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.pace import Pace
-from openppmc.model.ppmc312.stages.tables import Table, constant, ramped
+from openppmc.model.ppmc312.stages import Table, constant, ramped
 from tests.ppmc312.model.reference import T1, T2, T3, T4, T5, TF, TG, TH
 
 PACE = Pace()

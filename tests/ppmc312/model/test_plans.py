@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from cocotb_tests.harness.verifies import verifies
 from openppmc.model.ppmc312.codes import Cause
 from openppmc.model.ppmc312.motion.sequence import Change, Sequence
-from openppmc.model.ppmc312.stages.tables import Plan, Step, Table, constant, curve, ramped
+from openppmc.model.ppmc312.stages import Plan, Step, Table, constant, curve, ramped
 from tests.ppmc312.model.reference import T1, T2, T3, T4, TF, TG, TH, runs, ticks
 
 PLANS = [

@@ -11,7 +11,7 @@ from cocotb_tests.harness.config import Config
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.ppmc312.host import Host
-from openppmc.model.ppmc312.stages.tables import DIVIDERS, constant, curve, ramped
+from openppmc.model.ppmc312.stages import DIVIDERS, constant, curve, ramped
 
 
 def free_curve(clk: int, rates: list[int], pa: list[int], pd: list[int]) -> list[str]:

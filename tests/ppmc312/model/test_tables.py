@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.ppmc312.stages.tables import (
+from openppmc.model.ppmc312.stages import (
     FreeCurve,
     SettingError,
     Table,

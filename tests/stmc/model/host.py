@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from openppmc.model.common.chip import Square
+from openppmc.model.chip import Square
 from openppmc.model.stmc.part import Stmc
 from tests.common.model.host import ModelHost
 

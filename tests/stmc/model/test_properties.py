@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cocotb_tests.harness.verifies import verifies
-from openppmc.model.common.chip import Square
+from openppmc.model.chip import Square
 from openppmc.model.motion.ramp import profile_index
 from openppmc.model.stmc.part import Stmc
 from openppmc.model.stmc.pc104_board import J105Stmc

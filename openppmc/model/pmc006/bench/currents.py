@@ -8,7 +8,7 @@ from itertools import groupby
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import NamedTuple
 
-from ..front.line import command
+from ..line import command
 from ..part import Pmc006
 from .motor import Motor, Plant, Winding
 

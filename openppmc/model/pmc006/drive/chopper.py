@@ -10,8 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from ...common.chip import Phase
-from ...common.timebase import Event, Scheduler
+from ...chip import Phase
+from ...clock import Event, Scheduler
 
 
 class State(Enum):

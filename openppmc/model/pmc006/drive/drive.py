@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from ...common.chip import Phase
-from ...common.timebase import Event
+from ...chip import Phase
+from ...clock import Event
 from ..motion.motion import Motion, base_code
 from ..pins import Shared
 from .angle import CYCLE, HOME, OFF, References, peak_code, references

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ...common.chip import Phase
-from ...common.timebase import Event
+from ...chip import Phase
+from ...clock import Event
 from ..codes import TABLE
 from ..desk import Effect
-from ..front.line import Command
+from ..line import Command
 from ..memory.eeprom import Engine
 from ..motion.motion import Guard, Motion
 from ..pins import SYNCHRONISED, Shared

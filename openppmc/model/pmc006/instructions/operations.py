@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import NamedTuple
 
-from ...common.chip import Phase
-from ...common.timebase import Event
+from ...chip import Phase
+from ...clock import Event
 from ..codes import LETTERS
 from ..desk import Desk, Effect
 from ..pins import Shared

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import Protocol
 
-from ...common.chip import Phase
+from ...chip import Phase
 from ..desk import Desk, Effect
 from .operations import COUNT, Operation, Outcome, Then, decode, waited
 

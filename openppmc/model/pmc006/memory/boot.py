@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ...common.chip import Phase
+from ...chip import Phase
 from ..desk import Desk
 from ..settings import PAGE, Settings, framed, values_of
 from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, Course, Engine

@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import ceil
 from typing import TypeVar
 
-from ...common.chip import Phase
+from ...chip import Phase
 from ..desk import Desk
 from ..pins import Shared, Ticks
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Protocol
 
-from ...common.chip import Phase
-from ...common.timebase import Callback, Event
+from ...chip import Phase
+from ...clock import Callback, Event
 from ..desk import Desk
 from ..pins import Shared
 from .engine import UPDATE, Engine, Live, Order, Stage

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from ...common.chip import Context, Phase
-from ...common.timebase import EdgeLog, Event, Scheduler
+from ...chip import Context, Phase
+from ...clock import EdgeLog, Event, Scheduler
 from ..codes import Source
 from ..pace import Pace
 from .responses import Responses

@@ -10,9 +10,9 @@ from fractions import Fraction
 from math import ceil
 from typing import NamedTuple, Protocol
 
-from ...common.chip import Context, Phase
-from ...common.timebase import Event
-from ...common.uart import Receiver, Transmitter
+from ...chip import Context, Phase
+from ...clock import Event
+from ...uart import Receiver, Transmitter
 from ..codes import Answer, Cause, Source, State
 from ..pace import SILENCE, Pace
 from .responses import Responses

@@ -6,7 +6,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
-from ...common.chip import Context
+from ...chip import Context
 from ..codes import Alarm, Code, Source, State, Trigger
 from ..front.responses import Responses
 from ..front.station import HostSide
@@ -14,7 +14,7 @@ from ..motion.inputs import InputChange, Outputs
 from ..motion.operation import Operation
 from ..motion.position import Counters, Interlock, Watch
 from ..pace import Pace
-from ..stages.tables import FreeCurve, Table
+from ..stages import FreeCurve, Table
 
 # What instructions of the PPMC-312 need of the part: its blocks and its state. `ppmc312.core.Core` is it.
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ...common.chip import Phase
+from ...chip import Phase
 from .. import pace
 from ..codes import FO, LE, Answer
-from ..stages.tables import FreeCurve, SettingError, build
+from ..stages import FreeCurve, SettingError, build
 from .overrides import Core
 from .work import Refusal, Work
 

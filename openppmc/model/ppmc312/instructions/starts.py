@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...common.chip import Phase
+from ...chip import Phase
 from .. import pace
 from ..codes import (
     DIR,
@@ -23,7 +23,7 @@ from ..codes import (
 )
 from ..motion.motion import Order
 from ..motion.sequence import Change
-from ..stages.tables import TRAPEZOID, Plan, Table, constant, ramped
+from ..stages import TRAPEZOID, Plan, Table, constant, ramped
 from . import settings, terminals
 from .overrides import Core, Entry
 from .work import Refusal, Work

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ...common.chip import Phase
+from ...chip import Phase
 from .. import pace
 from ..codes import Answer, Code, Trigger
 from ..front.responses import INPUT
-from ..stages.tables import read_back
+from ..stages import read_back
 from .overrides import Core
 from .work import Refusal, Work
 

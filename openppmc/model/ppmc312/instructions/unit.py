@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ...common.chip import Phase
+from ...chip import Phase
 from ..codes import Alarm, Code, Source, Trigger
 from ..front.responses import ANSWER, Report
 from ..pace import WIDTH

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ...common.chip import Context, Phase
-from ...common.timebase import Callback, Event
+from ...chip import Context, Phase
+from ...clock import Callback, Event
 from ..front.responses import Responses
 from ..pace import CLEAR_PULSE, CURRENT_DOWN, EVT_LOW, PIN_LOW, SAMPLE
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from ...common.chip import Context, Phase
-from ...common.timebase import Event
+from ...chip import Context, Phase
+from ...clock import Event
 from ..codes import IMMEDIATE, Cause
 from ..pace import Pace
-from ..stages.tables import DIVIDERS, Plan
+from ..stages import DIVIDERS, Plan
 from .sequence import Change, Sequence
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from ...common.chip import Context, Phase
+from ...chip import Context, Phase
 from ..codes import Alarm, Answer, Cause, State
 from ..front import responses as responses312
 from ..front.responses import Responses
 from ..pace import Pace
-from ..stages.tables import constant
+from ..stages import constant
 from .inputs import Outputs
 from .motion import LIMITS, SLOW_LIMITS, Motion, Order
 from .position import Counters

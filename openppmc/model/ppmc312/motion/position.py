@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ...common.chip import Context, Phase
+from ...chip import Context, Phase
 from ..codes import SPONTANEOUS, Answer
 from ..front.responses import Responses, block
 from ..pace import Pace

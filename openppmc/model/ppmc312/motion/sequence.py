@@ -9,7 +9,7 @@ from enum import Enum, auto
 from typing import NamedTuple
 
 from ..codes import Cause
-from ..stages.tables import Plan, Step
+from ..stages import Plan, Step
 
 _DECELERATING = (Cause.SLOW, Cause.LIMIT_SLOW)
 _ORDER = (Cause.LIMIT_SLOW, Cause.SLOW, Cause.RETURN)

@@ -16,7 +16,7 @@ from itertools import accumulate
 from math import floor
 from typing import NamedTuple
 
-from ..codes import LE
+from .codes import LE
 
 STAGES = 127
 LAST = STAGES - 1

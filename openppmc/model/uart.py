@@ -9,7 +9,7 @@ from math import ceil
 from typing import Protocol
 
 from .chip import Context, Phase
-from .timebase import Callback, Event, Scheduler
+from .clock import Callback, Event, Scheduler
 
 BITS = 10
 """Start bit, eight data bits, stop bit."""

@@ -14,7 +14,7 @@ from enum import IntEnum
 from types import MappingProxyType
 from typing import ClassVar
 
-from .timebase import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
+from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
 
 # What the blocks of the models share: phases of a clk edge, set-up, input levels, output registers.
 #

@@ -8,9 +8,9 @@ from itertools import groupby
 from math import ceil
 from typing import NamedTuple
 
-from ...common.chip import Phase
-from ...common.uart import Receiver
-from ..pins import Shared
+from ..chip import Phase
+from ..uart import Receiver
+from .pins import Shared
 
 # Frames of the PMC006B4: eight bytes, a check, addresses (P006-FRM-01..08). No time here.
 

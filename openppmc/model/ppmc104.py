@@ -11,19 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ..carrier import carrier
-from ..carrier.carrier import SWITCHES, Plant
-from ..common.chip import Context, Phase
-from ..common.timebase import Latency, Timebase
-from ..motion.codes import FINISH_NEW, FINISH_STOP, PA_MAX, PA_MIN, Command, GuardPins, input_register
-from ..motion.excitation import Chopper, Excitation
-from ..motion.motion import Setup
-from ..motion.ramp import BaseClock, Ramp
-from ..single.codes import Error, Kind, decode
-from ..single.commands import ByteUnit, TimedMotion
-from ..single.hostport import BytePort, HostPort, SpeedGate, strobes
-from ..single.predict import Limits, RampMove, run
-from ..single.single import SingleAxis
+from .carrier import carrier
+from .carrier.carrier import SWITCHES, Plant
+from .chip import Context, Phase
+from .clock import Latency, Timebase
+from .motion.codes import FINISH_NEW, FINISH_STOP, PA_MAX, PA_MIN, Command, GuardPins, input_register
+from .motion.excitation import Chopper, Excitation
+from .motion.motion import Setup
+from .motion.ramp import BaseClock, Ramp
+from .single.codes import Error, Kind, decode
+from .single.commands import ByteUnit, TimedMotion
+from .single.hostport import BytePort, HostPort, SpeedGate, strobes
+from .single.predict import Limits, RampMove, run
+from .single.single import SingleAxis
 
 # Pins of the PPMC-104 with idle and reset levels (P104-PORT-01).
 

@@ -1,1 +1,0 @@
-"""The PMC006B4's side towards its host: serial line, frames."""

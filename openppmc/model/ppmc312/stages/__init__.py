@@ -1,1 +1,0 @@
-"""Acceleration tables of the PPMC-312, free curves, plans of operations."""
