@@ -1,14 +1,13 @@
 """Golden models: pure Python, integers and fractions, written from the rules and not from the RTL.
 
-A folder a part (`ppmc104`, `ppmc2104`, `stmc`, `ppmc312`, `pmc006`); in each, `part` is the part at pin
-level, `pins` its pins and `codes` its codes; where there is such, `carrier` is the part as its UART bridge
-sees it and `predict` the arithmetic of one move for plots and tables. Parts know the shared rooms and not
-each other:
+A module or a folder for each part; in a folder, `part` is the part at pin level, `codes` has its codes and
+`carrier` the part as its UART bridge sees it. Parts import the modules that they share and not each other:
 
-    common      time, events, edges, blocks of a clocked part, UART
-    motion      motion of one axis as the family has it: ramp, guard, excitation, chopper
+    clock       time, events, edges
+    chip        blocks of a clocked part, pins; `uart`: a UART
+    motion      motion of one axis as the family has it: ramp, limits, excitation, chopper
     carrier     UART bridge, the carrier around any part, switches along an axis, EEPROM
-    single      parts with one axis on a byte bus: host port, commands, prediction
+    single      parts with one axis on a byte bus: host port, commands, prediction of a move
 """
 
 from typing import TYPE_CHECKING

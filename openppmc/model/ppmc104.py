@@ -1,10 +1,10 @@
-"""Golden model of the PPMC-104 at pin level, event driven and exact to the clk.
+"""Golden model of the PPMC-104 at pin level, event driven and exact to the cycle.
 
-Pins and time: `common.chip`, `single.single`. Blocks: `hostport` and `strobes` (P104-BUS, -HSK), `commands`
-here and in `single` (P104-CMD, -ERR, -INI, -RD, -AUX), `motion` here and in `motion`, `timed_motion`
-(P104-OPR, -BCK, -PRO, -FDC, -TIM, -END), `guard` (P104-LIM), `chopper` (P104-SW), `excitation` (P104-PHS),
-`ramp` (P104-RMP). Here: P104-PORT-01..03 (pins, reset), P104-PAR-01 (parameters). The constants that the
-rules leave open are in `timebase.Latency`.
+Pins and time: `chip`, `clock`, `single.single`. Bus: `single.hostport` (P104-BUS, -HSK). Commands: here and
+`single.commands` (P104-CMD, -ERR, -INI, -RD, -AUX). Motion: here, `motion.motion` and `single.commands`
+(P104-OPR, -BCK, -PRO, -FDC, -TIM, -END). Limits: `motion.codes` (P104-LIM). Phases and chopper:
+`motion.excitation` (P104-PHS, -SW). Ramp: `motion.ramp` (P104-RMP). Here: P104-PORT-01..03 (pins, reset),
+P104-PAR-01 (parameters). `clock.Latency` has the constants that the rules leave open.
 """
 
 from __future__ import annotations

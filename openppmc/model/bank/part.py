@@ -1,9 +1,8 @@
-"""Golden model of the bank at pin level, event driven and exact to the clk: N times a PPMC-104 at visits.
+"""Golden model of the bank at pin level, event driven and exact to the cycle: N times a PPMC-104 at visits.
 
-Pins and time: `common.chip`. Here: BANK-GEN-01, -02, -05. `visits`: rounds and their lead times. `window`:
-BANK-WIN. Per axis `axis` (BANK-GEN-04), with `mailbox` (BANK-HSK-01..04), `commands` (BANK-GEN-03, BANK-INI,
-BANK-HSK-05), `motion` (BANK-MOT, BANK-HLD), `chopper` (BANK-CHP). `group`: BANK-GRP. All else is the
-PPMC-104's.
+Pins and time: `chip`, `clock`. Here: BANK-GEN-01, -02, -05. `window`: BANK-WIN. `chopper`: rounds and their
+lead times, BANK-CHP. `axis`, one for each axis (BANK-GEN-04), with `commands` (BANK-HSK, BANK-GEN-03, BANK-
+INI) and `motion` (BANK-MOT, BANK-HLD). `group`: BANK-GRP. All else is the PPMC-104's.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Golden model of the PMC006B4 at pin level, event driven and exact to the clk.
+"""Golden model of the PMC006B4 at pin level, event driven and exact to the cycle.
 
-Pins and time: `common.chip`. Line: room `front`. Instructions: `codes`, `settings`, room `instructions`
-(the user program and its keys, too). Motion, emergency inputs and stall: room `motion`. EEPROM: room
-`memory`. Microsteps and chopper: room `drive`.
+Pins and time: `chip`, `clock`. Line: `line`. Instructions: `codes`, `settings`, `instructions` (the user
+program and its keys, too). Motion, emergency inputs and stall: `motion`. EEPROM: `memory`. Microsteps and
+chopper: `drive`.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
-"""Golden model of the PPMC-2104 at pin level, event driven and exact to the clk.
+"""Golden model of the PPMC-2104 at pin level, event driven and exact to the cycle.
 
-Pins and time: `common.chip`. Blocks: `hostport` (P2104-BUS, -HSK), `commands` (P2104-CMD, -INI, -RD, -AUX,
--ERR, -FSM), `interrupt` (P2104-INT), `windows` (P2104-DS), per axis `axis` with `motion` here and in `motion`
-(P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM), `chopper` (P2104-SW), `excitation` (P2104-PHS), `ramp`
-(P2104-RMP). Here: P2104-PORT-01..03, P2104-PAR-01. `clk_o` is not modelled (see `pins`).
+Pins and time: `chip`, `clock`. Bus: `single.hostport` (P2104-BUS, -HSK). `commands`: P2104-CMD, -INI, -RD,
+-AUX, -ERR, -FSM. `codes`: interrupt (P2104-INT). `axis`, one for each axis, with `motion.motion`:
+P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM, -DS. Phases and chopper: `motion.excitation`
+(P2104-PHS, -SW). Ramp: `motion.ramp` (P2104-RMP). Here: P2104-PORT-01..03, P2104-PAR-01. `clk_o` is not
+modelled.
 """
 
 from __future__ import annotations

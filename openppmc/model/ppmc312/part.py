@@ -1,7 +1,7 @@
-"""Golden model of the PPMC-312 at pin level, event driven and exact to the clk.
+"""Golden model of the PPMC-312 at pin level, event driven and exact to the cycle.
 
-Pins and time: `common.chip`. What the host sees: room `front`. Instructions: room `instructions`. Tables and
-plans: room `stages`. Motion, positions, inputs and outputs: room `motion`. All of them together: `core`.
+Pins and time: `chip`, `clock`. What the host sees: `front`. Instructions: `instructions`. Tables and plans:
+`stages`. Motion, positions, inputs and outputs: `motion`. All of them together: `core`.
 Here: P312-PRT-01..03, reset, software reset.
 """
 

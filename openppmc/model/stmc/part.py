@@ -1,9 +1,9 @@
-"""Golden model of the STMC stepper controller core at pin level, event driven and exact to the clk.
+"""Golden model of the STMC stepper controller core at pin level, event driven and exact to the cycle.
 
-Pins and time: `common.chip`, `single.single`. Blocks: `hostport` (STMC-BUS), `commands` here and in `single`
-(STMC-ST, -CMD, -INI, -RD), `motion` here and in `motion`, `timed_motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC,
--IN, -DS), `chopper` (STMC-CHP), `excitation` (STMC-EXC), `ramp` (STMC-RMP). Here: parameters and reset values
-of chapter 1. The constants that the rules leave open are in `timebase.Latency`.
+Pins and time: `chip`, `clock`, `single.single`. Bus: `single.hostport` (STMC-BUS). Commands and motion:
+`commands` here and in `single` (STMC-ST, -CMD, -INI, -RD), `motion.motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC,
+-IN, -DS). Phases and chopper: `motion.excitation` (STMC-EXC, -CHP). Ramp: `motion.ramp` (STMC-RMP). Here:
+parameters and reset values of chapter 1. `clock.Latency` has the constants that the rules leave open.
 """
 
 from __future__ import annotations

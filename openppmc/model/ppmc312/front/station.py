@@ -1,6 +1,6 @@
 """The PPMC-312 as one of sixteen stations on a line: the host side of its serial mode.
 
-P312-SER-10..22, -30, -45, -46; frames: `frames`, codes: `serial`, bits: `common.uart`.
+P312-SER-10..22, -30, -45, -46; frames and codes: `serial`, bits: `uart`.
 """
 
 from __future__ import annotations
