@@ -33,19 +33,21 @@ IGNORED = {"__pycache__", "img", "wavedrom", "include"}
 """Folders that are no rooms: what is built, and the pictures of a page."""
 
 
+def modules(folder: str) -> list[str]:
+    """Names of the modules beside the folders of model and host: of parts, and shared ones."""
+    if folder not in ("openppmc/model", "openppmc/host"):
+        return []
+    return [path.stem for path in sorted((ROOT / folder).glob("*.py")) if path.stem != "__init__"]
+
+
 def rooms(folder: str) -> list[str]:
     """Names of the folders in one of the tree, those without a file left out."""
-    here = ROOT / folder
-    found = (path for path in sorted(here.iterdir()) if path.is_dir() and path.name not in IGNORED)
-    return (
-        [
-            path.name
-            for path in found
-            if any(file.is_file() and file.suffix != ".pyc" for file in path.rglob("*"))
-        ]
-        if here.is_dir()
-        else []
-    )
+    found = (path for path in sorted((ROOT / folder).glob("*")) if path.is_dir() and path.name not in IGNORED)
+    return [
+        path.name
+        for path in found
+        if any(file.is_file() and file.suffix != ".pyc" for file in path.rglob("*"))
+    ]
 
 
 def _lines(names: Sequence[str], width: int) -> str:
@@ -54,13 +56,13 @@ def _lines(names: Sequence[str], width: int) -> str:
 
 
 def house() -> bytes:
-    """Layers downwards, parts to the right; in each cell the rooms that are there."""
+    """Layers downwards, parts to the right; in each cell the folders, of model and host also the modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
     lefts = [sum(widths[:n]) for n in range(len(widths))]
     rows = []
     for folder, what in LAYERS:
-        inside = rooms(folder)
+        inside = [*rooms(folder), *modules(folder)]
         shared = _lines([name for name in inside if name not in columns], 34)
         own = [_lines(rooms(f"{folder}/{name}"), 21) if name in inside else None for name in columns]
         rows.append((folder, what, shared, own))
