@@ -38,10 +38,10 @@ API = {
     "Host: PMC006B4": ("openppmc.host.pmc006.part", "openppmc.host.pmc006.axis"),
     "Host: bank": ("openppmc.host.bank.part", "openppmc.host.bank.axis", "openppmc.host.bank.group"),
     "Host: what all have": ("openppmc.host.part", "openppmc.host.units", "openppmc.host.axis"),
-    "Golden models": tuple(f"openppmc.model.{part}.part" for part in
-                           ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")),
-    "Predictions": tuple(f"openppmc.model.{part}.predict" for part in
-                         ("ppmc104", "ppmc2104", "stmc", "ppmc312")),
+    "Golden models": ("openppmc.model.ppmc104", *(f"openppmc.model.{part}.part" for part in
+                      ("ppmc2104", "stmc", "ppmc312", "pmc006", "bank"))),
+    "Predictions": ("openppmc.model.single.predict", *(f"openppmc.model.{part}.carrier" for part in
+                    ("ppmc2104", "stmc", "ppmc312"))),
     "Virtual board (Python)": ("openppmc.sim.common.board", "openppmc.sim.common.spec"),
     "Parts and errors": ("openppmc.parts", "openppmc.errors"),
 }  # fmt: skip
