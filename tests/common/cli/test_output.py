@@ -8,7 +8,7 @@ import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -39,6 +39,13 @@ def _environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def commands(tmp_path: Path) -> dict[str, list[str]]:
     """A line for every command."""
     return all_commands.lines(all_commands.files(tmp_path))
+
+
+@pytest.fixture(autouse=True)
+def no_console() -> Iterator[None]:
+    """A console keeps what a lost stdout did not accept: the next test has another one."""
+    yield
+    vars(output).pop("console", None)
 
 
 def printed(

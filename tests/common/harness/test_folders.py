@@ -40,7 +40,7 @@ def check(folder: Path) -> subprocess.CompletedProcess[str]:
         "Makefile",
         "scripts/find_python.sh",
         *(f"scripts/{module}.py" for module in ("__init__", "run", "targets", "env")),
-        *(f"openppmc/{module}.py" for module in ("__init__", "parts")),
+        *(f"openppmc/{module}.py" for module in ("__init__", "parts", "streams")),
     ):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, folder / name)
