@@ -105,7 +105,7 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
     present = {entry[0] for entry in platform.sources}
     if listed.is_file():
         lines = listed.read_text(encoding="utf-8").splitlines()
-        for line in (line for line in lines if line and not line.startswith("//")):
+        for line in (line for line in lines if line and not line.startswith(("//", "--"))):
             word, _, place = line.rpartition("+incdir+")
             path = (listed.parent / place).resolve()
             if line.startswith("+incdir+"):
