@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 WORK = ROOT / "build" / "versions"
 EXTRAS = "[decode,ophyd,plot]"
 TOOLS = re.compile(r"(?:cocotb|find_libpython|hypothesis|pytest[\w-]*)==.*")
-"""Lines of requirements-sim.txt that the tests need, too."""
+"""Lines of requirements.lock that the tests need, too."""
 TESTS = ("tests/*/host", "tests/*/cli", "tests/common/capture", "tests/common/lab")
 QUICK = (
     "tests/common/host/test_arguments.py",
@@ -83,7 +83,7 @@ def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> N
     pip = [own, "-m", "pip", "install", "--quiet", "--retries", "2", "--upgrade"]
     step(name, [own, "-m", "pip", "wheel", "--quiet", "--no-deps", "-w", str(folder), str(ROOT)])
     wheel = next(folder.glob("*.whl"))
-    lines = (ROOT / "requirements-sim.txt").read_text(encoding="utf-8").splitlines()
+    lines = (ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
     tools = [line for line in lines if TOOLS.fullmatch(line)]
     step(name, [*pip, "-c", str(limits), f"{wheel}{EXTRAS}", "bluesky", *tools])
     step(name, [own, "-m", "pip", "list", "--format", "freeze"])
