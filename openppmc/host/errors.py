@@ -1,4 +1,4 @@
-"""What goes wrong on the way, and what a part refuses, as exceptions. Ends of motions: `ending`.
+"""Errors of ports and lines, and refusals of a part, as exceptions. Ends of motions: `ending`.
 
 Each message says what is wrong and what to do about it. Names say what happened, as in
 `except LimitReached`; the common base is an Error. What only one part refuses is in its module or folder.

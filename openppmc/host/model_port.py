@@ -21,7 +21,7 @@ from ..sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, pa
 from ..sources import build_id
 from .errors import Disconnected, PortError
 
-# Keeps the virtual time of a model beside the clock on the wall, and its calls whole.
+# Keeps the virtual time of a model in step with real time, and its calls whole.
 
 T = TypeVar("T")
 
