@@ -1,4 +1,4 @@
-"""Several stations on one line, regardless of their frames: the master, motions, waiting, stopping, errors."""
+"""Several stations on one line, regardless of their frames: master, motions, waiting, stopping, errors."""
 
 # ruff: noqa: N818
 
