@@ -60,7 +60,7 @@ async function open(address = base, more = {}, prepare) {
   return page;
 }
 const rest = (page) =>
-  page.waitForFunction(() => /at rest/.test(document.querySelector(".pg-clock").textContent), null, {
+  page.waitForFunction(() => /at rest/.test(document.querySelector(".pg-clock")?.textContent), null, {
     timeout: PATIENCE,
   });
 const position = (page) => page.textContent(".pg-position").then(Number);
@@ -87,7 +87,7 @@ const checks = {
     );
     await page.waitForFunction(() => document.querySelector(".pg-names li"));
     await page.click(RUN);
-    await page.waitForFunction(() => Number(document.querySelector(".pg-position").textContent) > 50);
+    await page.waitForFunction(() => Number(document.querySelector(".pg-position")?.textContent) > 50);
     await page.screenshot({ path: path.join(shots, "running.png") });
     await rest(page);
     equal(await position(page), 1000, "position");
@@ -154,14 +154,14 @@ const checks = {
     const page = await open();
     await page.waitForSelector(RUN);
     await type(page, "c 0A d C7 d 31 d 64 d 00\nc 45 d 63");
-    await page.waitForFunction(() => Number(document.querySelector(".pg-position").textContent) > 100);
+    await page.waitForFunction(() => Number(document.querySelector(".pg-position")?.textContent) > 100);
     await page.click(".pg-pins >> text=l1_n");
     await rest(page);
     const stopped = await position(page);
     await page.fill("#pg-now", "c 80 r");
     await page.press("#pg-now", "Enter");
     await page.waitForFunction(() =>
-      /ended by the limit/.test(document.querySelector(".pg-registers").textContent),
+      /ended by the limit/.test(document.querySelector(".pg-registers")?.textContent),
     );
     equal(await position(page), stopped, "position");
     // A link with all of it, and the same waves from it.
@@ -198,15 +198,15 @@ const checks = {
     await page.waitForSelector(RUN);
     await type(page, "c 0A d C7 d 31 d 64 d 00\nc 45 d 63");
     await page.selectOption(".pg-pace", "0.001");
-    await page.waitForFunction(() => /million/.test(document.querySelector(".pg-clock").textContent));
+    await page.waitForFunction(() => /million/.test(document.querySelector(".pg-clock")?.textContent));
     await page.click("text=Pause");
-    await page.waitForFunction(() => /paused/.test(document.querySelector(".pg-clock").textContent));
+    await page.waitForFunction(() => /paused/.test(document.querySelector(".pg-clock")?.textContent));
     const before = await position(page);
     await fast(page);
     for (let n = 1; n <= 3; n++) {
       await page.click("text=Next pulse");
       await page.waitForFunction(
-        (wanted) => Number(document.querySelector(".pg-position").textContent) === wanted,
+        (wanted) => Number(document.querySelector(".pg-position")?.textContent) === wanted,
         before + n,
       );
     }
@@ -214,7 +214,7 @@ const checks = {
     await page.focus(".pg-waves canvas");
     for (const key of ["+", "+", "a", "ArrowRight", "ArrowRight", "b"]) await page.keyboard.press(key);
     await page.waitForFunction(() =>
-      /B − A = .* clk/.test(document.querySelector(".pg-measured").textContent),
+      /B − A = .* clk/.test(document.querySelector(".pg-measured")?.textContent),
     );
     return [page];
   },

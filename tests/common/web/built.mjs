@@ -92,7 +92,7 @@ const checks = {
     equal(await position(page), 0, "position before the first Run");
     await page.click(".pg-run");
     await page.click("text=Pause");
-    await page.waitForFunction(() => /paused/.test(document.querySelector(".pg-clock").textContent));
+    await page.waitForFunction(() => /paused/.test(document.querySelector(".pg-clock")?.textContent));
     equal(await position(page), 0, "position");
     delays = {};
     return [page];
@@ -174,7 +174,7 @@ const checks = {
         new Promise((resolve) => {
           [...document.querySelectorAll(".pg-bar button")].find((one) => /Pause/.test(one.textContent)).click();
           const look = () =>
-            /paused/.test(document.querySelector(".pg-clock").textContent) ? resolve() : setTimeout(look, 1);
+            /paused/.test(document.querySelector(".pg-clock")?.textContent) ? resolve() : setTimeout(look, 1);
           look();
         }),
     );
@@ -200,7 +200,7 @@ const checks = {
         if (!found.every((href) => href.startsWith(from))) throw new Error(`${from}${name}: ${found}`);
         if (name !== "404.html" || from === fromFile) equal(page.wrong.join(), "", name);
         await page.click(".md-search-result__item > a");
-        await page.waitForFunction(() => /excitation/i.test(document.querySelector("article").textContent));
+        await page.waitForFunction(() => /excitation/i.test(document.querySelector("article")?.textContent));
       }
     page.wrong = [];
     return [page];
