@@ -27,6 +27,7 @@ from cocotb_tests.harness.project import ProjectError, console, relative
 from openppmc.parts import Row, tops
 from openppmc.sim.common import verilator as start
 from openppmc.sources import needed, walls
+from scripts import prose
 from scripts.flow import figures
 from scripts.flow.boards import HOSTS_OF, parameters
 from scripts.flow.boards import sources as board_sources
@@ -322,6 +323,7 @@ def checks() -> list[Check]:
         ),
         Check("requirements.lock", "installed packages", locked),
         Check("texts", "marks, tabs, line ends", texts),
+        Check("prose", "lint/prose.txt", prose.worse),
     ]
 
 
