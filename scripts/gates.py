@@ -18,11 +18,10 @@ from dataclasses import dataclass, field
 from rich import box
 from rich.table import Table
 
-from cocotb_tests.harness import icarus, project
-from cocotb_tests.harness.build import SimError, build
+from cocotb_tests.harness import project
+from cocotb_tests.harness.build import ICARUS, ICARUS_MISSING, SimError, build, icarus_installed, sim_main
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.runner import SimOptions, attempt
-from cocotb_tests.harness.verilate import ICARUS, sim_main
 from scripts.campaign.cluster import Workers, add_arguments, workers_of
 from scripts.campaign.jobs import Campaign, Done, Job, Result
 from scripts.campaign.run import run
@@ -181,8 +180,8 @@ def main() -> int:
         four_state = sim_main() == ICARUS
     except ValueError as error:
         raise ProjectError(str(error)) from None
-    if four_state and not icarus.installed():
-        console.print(f"skipped: {icarus.INSTALL}")
+    if four_state and not icarus_installed():
+        console.print(f"skipped: {ICARUS_MISSING}")
         return 0
     workers = workers_of(args)
     families = (plain.FAMILY,) if args.plain else gates.FAMILIES

@@ -8,9 +8,9 @@ import argparse
 from collections.abc import Iterator
 
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.mains import check_mains
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.project import run as guarded
+from cocotb_tests.harness.runner import check_mains
 from scripts.campaign.cluster import add_arguments, workers_of
 from scripts.campaign.jobs import Campaign, Job, Result
 from scripts.campaign.run import run

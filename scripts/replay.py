@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from cocotb_tests.harness.project import console, run
-from cocotb_tests.harness.replaying import REPLAY
+from cocotb_tests.harness.random_items import replay_item, replay_line
+from cocotb_tests.harness.replay import REPLAY
 from cocotb_tests.harness.runner import attempt
-from cocotb_tests.harness.shortened import replay_item, replay_line
 from cocotb_tests.harness.simulate import REPRO
-from cocotb_tests.harness.stimulus import Recording
+from openppmc.check.records import Recording
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Protocol
 
+from cocotb_tests.harness.compare import counts_text
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.project import run as guarded
-from cocotb_tests.harness.soaking import Played
-from cocotb_tests.harness.tally import Counter, in_words
+from cocotb_tests.harness.random_items import Played
 from openppmc import parts
 from scripts.campaign.cluster import Workers, add_arguments, workers_of
 from scripts.campaign.jobs import Campaign, Job, Result
@@ -93,7 +94,7 @@ def soak(part: str, first: int, count: int, workers: Workers, fresh: bool = Fals
             line = f"make test T={name} SEED={seed}" if name else f"block {seed} ended its workers"
             console.print(f"  {line}", markup=False)
         return 1
-    console.print(f"{part}: {in_words(compared)}, all as in the golden model")
+    console.print(f"{part}: {counts_text(compared)}, all as in the golden model")
     return 0
 
 

@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from cocotb_tests.harness.collect import manual_rules, part_of_rule
 from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, part, run
-from cocotb_tests.harness.verifies import manual_rules, part_of_rule
 from openppmc.parts import PARTS
 from scripts.prove.results import by_rule, failed
 from scripts.prove.table import Proof

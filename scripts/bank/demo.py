@@ -15,7 +15,6 @@ from rich import box
 from rich.table import Table
 
 from cocotb_tests.harness.build import Design, SimError
-from cocotb_tests.harness.comparison import Comparison, compare_edges
 from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.project import (
     BUILD,
@@ -27,7 +26,8 @@ from cocotb_tests.harness.project import (
     relative,
     sources,
 )
-from cocotb_tests.harness.stimulus import Recording, bit_changes
+from openppmc.check.comparison import Comparison, compare_edges
+from openppmc.check.records import Recording, bit_changes
 from openppmc.model.bank import group
 from openppmc.model.bank.window import GO
 from scripts.bank import waves

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cocotb_tests.harness.stimulus import level_at
+from openppmc.check.records import level_at
 from openppmc.model.bank.chopper import Visits
 from openppmc.model.bank.window import CONFIG, GO
 from scripts.bank.session import Session

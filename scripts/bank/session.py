@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from cocotb_tests.harness.stimulus import Change
+from openppmc.check.records import Change
 from openppmc.model.bank import PpmcBank
 from openppmc.model.bank.window import DATA, MASK, POSITION, STATUS
 from openppmc.model.single.codes import BUSY, IBF

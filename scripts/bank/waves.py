@@ -8,7 +8,7 @@ from typing import Any
 
 from vcd import VCDWriter
 
-from cocotb_tests.harness.stimulus import bit_changes
+from openppmc.check.records import bit_changes
 from scripts.demo.waves import speed_changes
 
 BUS = {"a": 10, "cs_n": 1, "rd_n": 1, "wr_n": 1, "d_i": 8}

@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 from statistics import median
 
 from cocotb_tests.harness import project
-from cocotb_tests.harness.build import build, part_design
+from cocotb_tests.harness.build import MAINS, build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import replay
-from cocotb_tests.harness.follower import new_model
 from cocotb_tests.harness.runner import run_sim
-from cocotb_tests.harness.stimulus import Recording
-from cocotb_tests.harness.verilate import MAINS
+from cocotb_tests.harness.side import new_model
+from openppmc.check.records import Recording
 from scripts.demo.demos import Demo
 from scripts.flow import plain_sim
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness.group import groups_of
+from cocotb_tests.harness.runner import groups_of
 from cocotb_tests.harness.schedule import group_key
 
 OUT = "OPENPPMC_GROUPS"

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from cocotb_tests.harness.coverage import COPIES, COVERAGE
 from cocotb_tests.harness.crosses import SUFFIX
 from cocotb_tests.harness.project import ROOT, ProjectError
+from cocotb_tests.harness.variants import COVERAGE, COVERAGE_COPIES
 from scripts.campaign.jobs import Result
 
 from . import points
@@ -53,7 +53,7 @@ def groups(words: Sequence[str] = ()) -> list[list[str]]:
 def run_group(tests: Sequence[str]) -> Result:
     """Run these tests; what they have reached, packed, and their crosses."""
     with TemporaryDirectory(prefix="openppmc-") as folder:
-        environment = {**os.environ, **WALL_S, COVERAGE: folder, COPIES: str(copies())}
+        environment = {**os.environ, **WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
         command = [
             sys.executable,
             "-m",

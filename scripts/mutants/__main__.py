@@ -10,11 +10,11 @@ import argparse
 
 from cocotb_tests.harness.build import SimError
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.group import run_group
-from cocotb_tests.harness.outcome import Outcome
 from cocotb_tests.harness.project import ProjectError, console
 from cocotb_tests.harness.project import run as guarded
+from cocotb_tests.harness.runner import run_group
 from cocotb_tests.harness.simulate import Job as Simulation
+from cocotb_tests.harness.simulate import Outcome
 from scripts.campaign.cluster import add_arguments, workers_of
 from scripts.campaign.jobs import Campaign, Job, Result
 from scripts.campaign.run import run

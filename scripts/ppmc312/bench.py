@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, RAR, WAR, WCR
+from cocotb_tests.harness.bus import CSR, DRR, DWR, RAR, WAR, WCR
 from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.model_bench import OnModel
 from cocotb_tests.ppmc312.blocks import TF

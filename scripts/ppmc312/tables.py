@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from cocotb_tests.harness.block_host import CSR
+from cocotb_tests.harness.bus import CSR
 from cocotb_tests.harness.config import D16, F16, F50, Config
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.ppmc312.blocks import T1, T2, T3

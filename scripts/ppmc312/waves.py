@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, RAR, WAR, WCR
+from cocotb_tests.harness.bus import CSR, DRR, DWR, RAR, WAR, WCR
 from cocotb_tests.harness.config import D16
 from cocotb_tests.harness.model_bench import on_model
 from cocotb_tests.ppmc312.blocks import TF

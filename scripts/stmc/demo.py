@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.stimulus import steps
 from openppmc.capture.stmc.words import WordsStmc
+from openppmc.check.records import steps
 from scripts.demo.demos import Demo, View
 from scripts.stmc.picture import picture
 

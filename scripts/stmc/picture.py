@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from cocotb_tests.harness.stimulus import steps
+from openppmc.check.records import steps
 from openppmc.plot.motion import COLOURS, SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
 from scripts.demo.scenes import Levels, bit, micros, pin, spans, subtitle

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness.comparison import Comparison
-from cocotb_tests.harness.stimulus import Recording
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Recording
 from scripts.bank import demo, waves
 from scripts.bank.demo import Played
 from scripts.bank.moves import AXES, CLK_HZ, ORDERS

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.collect import manual_rules, part_of_rule
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.verifies import manual_rules, part_of_rule
 from openppmc import parts
 from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
 

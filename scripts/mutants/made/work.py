@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from cocotb_tests.harness.build import locked
-from cocotb_tests.harness.mutant import MUTANT
-from cocotb_tests.harness.outcome import TIMEOUT
 from cocotb_tests.harness.project import BUILD, ROOT
+from cocotb_tests.harness.simulate import TIMEOUT
+from cocotb_tests.harness.variants import MUTANT
 from scripts.campaign.jobs import Result
 
 from .faults import Fault, faults

@@ -18,13 +18,13 @@ from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.project import console
 from cocotb_tests.harness.runner import run_sim
-from cocotb_tests.harness.stimulus import Recording
 from cocotb_tests.ppmc312.line.compare import compare_line
 from cocotb_tests.ppmc312.line.demo import program
 from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.master import Master, at_once
 from cocotb_tests.ppmc312.line.models import ModelLine
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
+from openppmc.check.records import Recording
 from scripts.bench import lines
 from scripts.flow.machine import machine
 from scripts.flow.report import markdown_table

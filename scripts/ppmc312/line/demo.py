@@ -12,12 +12,12 @@ from rich.table import Table
 from cocotb_tests.harness.build import SimError, build
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import write_report
-from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.project import BUILD, console, fail, relative
 from cocotb_tests.harness.runner import run_sim
 from cocotb_tests.ppmc312.line.compare import compare_line
 from cocotb_tests.ppmc312.line.library import FAST_ARGS
 from cocotb_tests.ppmc312.line.setting import F8L, LINE, STATIONS, design
+from openppmc.check.comparison import Comparison
 from scripts.demo.steps import Steps
 from scripts.ppmc312.line import waves
 from scripts.ppmc312.line.picture import draw

@@ -9,7 +9,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.harness.comparison import Comparison
+from openppmc.check.comparison import Comparison
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up
 from openppmc.plot.signals import Run, Section, Trace
 from scripts.demo.scenes import heading, pin

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cocotb_tests.harness.stimulus import Recording
+from openppmc.check.records import Recording
 from scripts.ppmc312.line.talk import Exchange, exchanges
 
 

@@ -7,10 +7,10 @@ from typing import Any
 
 from vcd import VCDWriter
 
-from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.ppmc312.line.models import straps
 from cocotb_tests.ppmc312.line.setting import LINE
 from openppmc.capture.common.vcd_file import core_comment
+from openppmc.check.comparison import Comparison
 from scripts.demo import waves
 from scripts.demo.demos import View
 from scripts.demo.scenes import pin

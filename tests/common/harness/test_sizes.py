@@ -10,7 +10,7 @@ import pytest
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.stimulus import Edge, Recording
+from openppmc.check.records import Edge, Recording
 from scripts import size
 from scripts.flow import designs, figures, plain_sim, scan_wrapper, size_page
 from scripts.flow.yosys_job import BEST, commands, recipe_text

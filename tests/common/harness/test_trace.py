@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from cocotb_tests.harness.verifies import RULE_ID, part_of_rule, rules_of, verifies
+from cocotb_tests.harness import verifies
+from cocotb_tests.harness.collect import RULE_ID, part_of_rule, rules_of
 from scripts.prove.results import by_rule
 from scripts.trace import join, page, unproved
 

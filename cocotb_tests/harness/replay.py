@@ -1,27 +1,38 @@
-"""Recordings carried out anew on the RTL: as they are (`replay`), or made as short as possible (`shrink`).
-
-`shortened` and `make replay` run these, in a simulation of their own; OPENPPMC_REPLAY names the recording.
-"""
+"""Replays a recording on the RTL, compares it, and shortens it while it still differs (`shrink`)."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import cocotb
 
-from .acts import Act, acts_of, changes_of
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Change, Edge, Recording
+
 from .bench import Bench
 from .compare import compare_recording, write_report
-from .comparison import Comparison
-from .messages import told
 from .part import PARTS
-from .rerun import rerun
-from .shrink import Shrinker
-from .stimulus import Recording
+from .shrink import Act, Shrinker, acts_of, changes_of, told
+
+
+async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]:
+    """Reset the part and make the changes; all output edges, times counted as in `changes`, to edge `end`."""
+    await bench.align()
+    bench.set(rst_n=0)
+    await bench.clocks(1)
+    bench.set(**bench.part.inputs)
+    await bench.clocks(3)
+    base = bench.set(rst_n=1)
+    bench.forget()
+    driven = bench.drive((base + t, {pin: value}) for t, pin, value in changes)
+    await bench.until(base + end + 1)
+    driven.cancel()  # what is beyond the end belongs to no other run
+    return [edge._replace(t=edge.t - base) for edge in bench.recording().edges]
+
 
 REPLAY = "OPENPPMC_REPLAY"
 SECONDS = "OPENPPMC_SHRINK_S"

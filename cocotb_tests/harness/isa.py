@@ -1,4 +1,4 @@
-"""An ISA bus master: 8-bit I/O cycles by the nanoseconds of the bus, at any phase to the module's clk."""
+"""`IsaMaster` drives an 8-bit ISA bus; the address selects the register, there is no chip select."""
 
 from __future__ import annotations
 
@@ -6,9 +6,19 @@ from dataclasses import dataclass
 
 from cocotb.triggers import Lock, Timer
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.stimulus import Access
+from openppmc.check.records import Access
+
+from .bench import Bench
+from .bus import HostBus
+from .part import BusStyle
+
+STROBES_ISA = BusStyle(
+    write_on={"iow_n": 0},
+    write_off={"iow_n": 1},
+    read_on={"ior_n": 0},
+    read_off={"ior_n": 1},
+    address="sa",
+)
 
 
 @dataclass(frozen=True)

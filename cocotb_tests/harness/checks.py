@@ -1,9 +1,4 @@
-"""Moves on an external base clock against the formula: where each pulse lies, how long it is low.
-
-Written from the rules alone (P104-BCK-05, P104-INT-01, P104-TIM-05, P104-PRO-01, P104-FDC-02, their sisters):
-no golden model, and of the core only the fixed delay from an edge at the pin to a pulse, measured once.
-Times are in clk.
-"""
+"""Checks that several parts share: moves on an external clock, limit and alarm on the same edge."""
 
 from __future__ import annotations
 
@@ -13,8 +8,7 @@ from dataclasses import dataclass
 from itertools import accumulate, cycle, islice
 from random import Random
 
-from .drive import Drive
-from .figures import Ramp, differences, forced, indices, rates
+from .drive import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
 
 # From this interval on the rules hold to the clk (P104-BCK-05).
 EXACT = 16
@@ -160,3 +154,28 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
             yield Move(99, (period,), 2, ramp, slowed=rng.choice(fast))
         uneven = tuple(rng.randint(period, 2 * period) for _ in range(7))
         yield Move(rng.randint(2, 2 * pa + 4), uneven, rng.randint(2, period - 2), ramp)
+
+
+BOTH = 0xB0
+"""Finish status without the operation's code."""
+MOVES = (
+    (0x43, 24, None, (2, 10, 22)),
+    (0x44, 24, 9, (6,)),
+    (0x45, None, 9, (6,)),
+    (0x46, None, None, (2, 10)),
+    (0x47, None, 9, (6,)),
+)
+"""Operation, its pulses and rate, pulses made when both come: up, top and down of a ramp of 4 steps."""
+
+
+async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
+    """All operations CW; `pins`: limit and alarm, both active low, as the bench names them."""
+    for code, n, rate, places in MOVES:
+        for made in places:
+            await axis.go(code, n, rate)
+            await axis.pulse(made, 100)
+            axis.bench.set(**dict.fromkeys(pins, 0))
+            await axis.idle()
+            axis.bench.set(**dict.fromkeys(pins, 1))
+            what = f"{rule}: {code:#x} behind pulse {made}"
+            await axis.result(what, made, BOTH | code & 7, (n or NO_PULSES_DONE) - made - 1)
