@@ -1,8 +1,8 @@
-"""Replacements of the RTL in a simulation: a mutant (`scripts.mutants.made`), or copies that count coverage.
+"""Replacements of the RTL in a simulation: a mutant (`make mutate`), or copies that count coverage.
 
 MUTANT in the environment holds "FILE NUMBER COPY": the file relative to the project's root, the number of the
 mutant in its copy, and the copy. A failure is then not repeated, shrunk or recorded for traceability.
-COVERAGE names a folder: each simulation leaves a file with Verilator's counts there (`scripts.coverage`).
+COVERAGE names a folder: each simulation leaves a file with Verilator's counts there (`make coverage`).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def mutant_plusargs() -> list[str]:
 
 COVERAGE = "OPENPPMC_COVERAGE"
 COVERAGE_COPIES = "OPENPPMC_COUNTED"
-"""Names a folder with copies of rtl/ that Verilator counts right (`scripts.coverage.counted`)."""
+"""Names a folder with copies of rtl/ that Verilator counts right (`scripts.measure.coverage.counted`)."""
 COVERAGE_FILE = "coverage.dat"
 """In the folder of a run."""
 

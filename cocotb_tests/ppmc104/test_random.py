@@ -1,6 +1,6 @@
 """Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
 
-`python -m scripts.soak --seed S --count N` plays as many others as you like.
+`python -m scripts.measure.soak --seed S --count N` plays as many others as you like.
 """
 
 from __future__ import annotations

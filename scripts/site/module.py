@@ -12,7 +12,7 @@ from typing import Any
 import wasmtime
 
 from openppmc.check.records import Change, Edge, Recording
-from scripts.flow.plain_sim import parted, words
+from scripts.fpga.flow.plain_sim import parted, words
 from scripts.site.webparts import WebPart
 
 ROW = struct.Struct("<dII")

@@ -8,11 +8,11 @@ import pytest
 
 from openppmc.check.comparison import Comparison
 from openppmc.check.records import Recording
-from scripts.bank import demo, waves
-from scripts.bank.demo import Played
-from scripts.bank.moves import AXES, CLK_HZ, ORDERS
-from scripts.bank.picture import draw
-from scripts.flow import plain_sim
+from scripts.demo.bank import demo, waves
+from scripts.demo.bank.demo import Played
+from scripts.demo.bank.moves import AXES, CLK_HZ, ORDERS
+from scripts.demo.bank.picture import draw
+from scripts.fpga.flow import plain_sim
 
 
 @pytest.fixture(scope="module")

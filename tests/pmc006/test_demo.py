@@ -12,7 +12,7 @@ from openppmc.check.records import Access
 from openppmc.model.pmc006.line import command, reply
 from openppmc.model.pmc006.program import assemble
 from scripts.demo.__main__ import chosen
-from scripts.pmc006.picture import way
+from scripts.demo.pmc006 import way
 
 
 def told(*rows: tuple[str, int, int]) -> list[Access]:

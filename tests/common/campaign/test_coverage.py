@@ -18,12 +18,12 @@ from cocotb_tests.harness.side import new_model
 from cocotb_tests.harness.variants import COVERAGE
 from openppmc import parts
 from openppmc.sim.common import verilator
-from scripts.coverage import page, sums
-from scripts.coverage.counted import KEPT, Copy
-from scripts.coverage.elaborated import calls, left_out, only_elaborated
-from scripts.coverage.points import BRANCH, LINE, TOGGLE, Points, lines_of, read
-from scripts.coverage.sums import Sums
-from scripts.syntax import tree
+from scripts.measure.coverage import page, sums
+from scripts.measure.coverage.counted import KEPT, Copy
+from scripts.measure.coverage.elaborated import calls, left_out, only_elaborated
+from scripts.measure.coverage.points import BRANCH, LINE, TOGGLE, Points, lines_of, read
+from scripts.measure.coverage.sums import Sums
+from scripts.measure.syntax import tree
 
 FILE = "rtl/common/ppmc_sync.sv"
 

@@ -18,10 +18,10 @@ from openppmc.parts import having
 from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import Demo
+from scripts.demo.ppmc312.demo import VIEW as VIEW_312
+from scripts.demo.ppmc2104.demo import VIEW as VIEW_2104
 from scripts.demo.scenes import register_text
-from scripts.ppmc312.demo import VIEW as VIEW_312
-from scripts.ppmc2104.demo import VIEW as VIEW_2104
-from scripts.stmc.demo import VIEW as VIEW_STMC
+from scripts.demo.stmc.demo import VIEW as VIEW_STMC
 
 
 def accesses(script: str) -> list[Access]:

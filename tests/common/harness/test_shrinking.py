@@ -30,7 +30,7 @@ from cocotb_tests.pmc006 import random_host as talker
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc312 import random_host, random_noise, random_serial
 from openppmc.check.records import Access, Change, Recording
-from scripts.replay import main as replay
+from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:

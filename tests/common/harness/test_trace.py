@@ -8,8 +8,8 @@ import pytest
 
 from cocotb_tests.harness import verifies
 from cocotb_tests.harness.collect import RULE_ID, part_of_rule, rules_of
-from scripts.prove.results import by_rule
-from scripts.trace import join, page, unproved
+from scripts.measure.prove.results import by_rule
+from scripts.measure.trace import join, page, unproved
 
 RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Reset levels"}
 

@@ -10,9 +10,9 @@ import pytest
 from cocotb_tests.harness.clock import Stock
 from cocotb_tests.harness.project import ProjectError
 from openppmc import __version__
-from scripts import verilog
-from scripts.flow import plain
-from scripts.flow.plain_text import readable
+from scripts.fpga import verilog
+from scripts.fpga.flow import plain
+from scripts.fpga.flow.plain_text import readable
 
 SUB = r"""
 module \sub$top.g[%d].u_a (clk_i, d_i, q_o);

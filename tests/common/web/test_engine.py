@@ -14,7 +14,7 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from openppmc.check.comparison import compare_edges
 from openppmc.check.records import Edge, steps
-from scripts.flow.plain_sim import words
+from scripts.fpga.flow.plain_sim import words
 from scripts.site.pages import playground
 from scripts.site.players import player
 from scripts.site.script import Player
