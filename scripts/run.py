@@ -16,8 +16,8 @@ from difflib import get_close_matches
 from importlib.util import find_spec
 from shlex import quote
 
-from . import env
-from .targets import OLD, ROOT, TARGETS, VARIABLES, fault
+from scripts import env
+from scripts.targets import OLD, ROOT, TARGETS, VARIABLES, fault
 
 MARK = re.compile(r"\{([A-Z_]+)(/or)?(?::([^}]*))?\}")
 OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")

@@ -54,12 +54,12 @@ test | sim | Run all tests.
 board | sim | Start a virtual board on a pseudo-terminal.
     {py} -m openppmc.sim [part={PART}] [{SIM}]
 bitstream | dev | Build the bitstream of a board with a part.
-    {py} -m scripts.bitstream {BOARD:icebreaker} --host {HOST:uart} --part {PART:ppmc104}
+    {py} -m scripts.fpga.bitstream {BOARD:icebreaker} --host {HOST:uart} --part {PART:ppmc104}
     [--seed {SEED}] {top}
 flash | sim | Load that bitstream into the board with openFPGALoader.
-    {py} -m scripts.flash {BOARD:icebreaker} --host {HOST:uart} --part {PART:ppmc104}
+    {py} -m scripts.fpga.flash {BOARD:icebreaker} --host {HOST:uart} --part {PART:ppmc104}
 verilog | dev | Write parts, bridges and boards as plain Verilog-2005.
-    {py} -m scripts.verilog [--top {TOP}] [--params {PARAMS}]
+    {py} -m scripts.fpga.verilog [--top {TOP}] [--params {PARAMS}]
 site | site | Build all documents and the playground; needs Node.js.
     {py} -m scripts.site
 
@@ -71,35 +71,35 @@ test WITH=ophyd | ophyd | Test openppmc.ophyd with bluesky.
 test WITH=litex | litex dev | Test openppmc.litex; needs riscv64-unknown-elf-gcc.
     {pytest} tests/*/litex [-k {T/or}]
 test WITH=fusesoc | dev | Build the bitstream of a board with FuseSoC and edalize.
-    {pytest} tests/*/fusesoc && {py} -m scripts.packages.plain_boards {BOARD:icebreaker}
+    {pytest} tests/*/fusesoc && {py} -m scripts.fpga.packages.plain_boards {BOARD:icebreaker}
 test WITH=versions | sim | Test with the lowest and newest dependencies; T=quick: a sample.
-    {py} -m scripts.versions [-k {T/or}]
+    {py} -m scripts.measure.versions [-k {T/or}]
 test-board | sim | Test the host package on the virtual board.
     {pytest} tests/*/board -n {J:2} [-k {T/or}]
 test-gates | dev campaign | Run the part tests on netlists; T=quick: a sample.
-    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.gates {on} [-k {T}] [--seed {SEED}]
+    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.gates {on} [-k {T}] [--seed {SEED}]
 test-verilog | dev campaign | Run the part tests on plain Verilog; T=quick: a sample.
-    [SIM_MAIN={SIM}] {py} -m scripts.gates --plain {on} [-k {T}] [--seed {SEED}]
+    [SIM_MAIN={SIM}] {py} -m scripts.measure.gates --plain {on} [-k {T}] [--seed {SEED}]
 test-web | site | Test the playground under node and in Chromium.
     rm -f build/site/figures.txt; {pytest} tests/*/web -n {J:2} [-k {T/or}]; code=$?;
     cat build/site/figures.txt 2>/dev/null; exit $code
 lint | dev | Check all sources.
-    {py} -m scripts.lint
+    {py} -m scripts.measure.lint
 lint VERILATOR= | dev | Check the packages with another Verilator.
-    {py} -m scripts.packages --try --verilator {VERILATOR}
+    {py} -m scripts.fpga.packages --try --verilator {VERILATOR}
 format | dev | Lay out RTL and Python.
-    {py} -m scripts.lint --fix
+    {py} -m scripts.measure.lint --fix
 docs | sim | Write pictures and tables of the manuals.
-    {py} -m scripts.docs
+    {py} -m scripts.pages
 boards | dev | Write tops, constraints and tables of the boards.
-    {py} -m scripts.boards
+    {py} -m scripts.fpga.boards
 packages | dev | Write FuseSoC cores and file lists.
-    {py} -m scripts.packages
+    {py} -m scripts.fpga.packages
 rom | dev | Assemble the planner's program of the PMC006B4.
-    {py} -m scripts.pmc006.calc_rom
+    {py} -m scripts.fpga.rom.calc_rom
 trace | sim | Write each rule with its tests; fails on a gap.
     { test -d build/trace || {pytest} -n 2; } &&
-    for part in {PART:{folders}}; do {py} -m scripts.trace $part || exit 1; done
+    for part in {PART:{folders}}; do {py} -m scripts.measure.trace $part || exit 1; done
 release | dev site release | Write everything of this version into dist/.
     {py} -m scripts.release [--skip {SKIP}] [--only {ONLY}]
 clean | | Remove what was built.
@@ -109,33 +109,35 @@ distclean | | Remove the environment, too.
 
 measure
 prove | dev | Prove properties of the RTL blocks (docs/proofs.md).
-    {py} -m scripts.prove -n {J:2} [--break {BREAK}] [{T}]
+    {py} -m scripts.measure.prove -n {J:2} [--break {BREAK}] [{T}]
 prove NIGHT=1 | dev | Run all proofs, with intact and with broken RTL.
-    {py} -m scripts.prove --night -n {J:2} && {py} -m scripts.prove --night --break -n {J:2}
+    {py} -m scripts.measure.prove --night -n {J:2} && {py} -m scripts.measure.prove --night --break -n {J:2}
 report | dev | Measure size and clock rate of changed designs.
-    {py} -m scripts.size [--part {PART}] [--peers {PEERS}]
+    {py} -m scripts.measure.sizes [--part {PART}] [--peers {PEERS}]
 size | dev | Compare sizes with docs/sizes.json; 5 % growth fails.
-    {py} -m scripts.size --check [--part {PART}]
+    {py} -m scripts.measure.sizes --check [--part {PART}]
 bench | sim | Measure the speed of all simulations.
-    {py} -m scripts.bench --part {PART:ppmc104}
+    {py} -m scripts.measure.bench --part {PART:ppmc104}
 mutate | dev campaign | Count the small faults of the RTL that a proof or test finds.
-    {py} -m scripts.mutants.made {on} [-k {T}] [--count {COUNT}] [--quick {QUICK}]
+    {py} -m scripts.measure.mutants.made {on} [-k {T}] [--count {COUNT}] [--quick {QUICK}]
 coverage | campaign | Count what tests reach of the RTL and the data sheets.
-    {py} -m scripts.coverage {on} [-k {T}]
+    {py} -m scripts.measure.coverage {on} [-k {T}]
 soak | campaign | Compare random hosts with the golden model; PART=all: each part.
-    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.soak {PART:ppmc104} --seed {SEED:1} --count {COUNT:1000} {on}
+    [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.soak {PART:ppmc104}
+    --seed {SEED:1} --count {COUNT:1000} {on}
 fuzz | campaign | Send random characters into each deframer and its model.
-    {py} -m scripts.fuzz [--seed {SEED}] [--count {COUNT}] {on}
+    {py} -m scripts.measure.fuzz [--seed {SEED}] [--count {COUNT}] {on}
 nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates and prove for hours.
     code=0; for work in 'fuzz --count 100000000' 'soak all --seed {SEED:1000000} --count {COUNT:2000}'
-    coverage mutants.made gates; do echo "== nightly: $work"; {py} -m scripts.$work {on} || code=1; done;
-    echo '== nightly: proofs'; {py} -m scripts.prove --night -n {J:2} || code=1; exit $code
+    coverage mutants.made gates; do echo "== nightly: $work";
+    {py} -m scripts.measure.$work {on} || code=1; done;
+    echo '== nightly: proofs'; {py} -m scripts.measure.prove --night -n {J:2} || code=1; exit $code
 replay | sim | Repeat a failed random test on RTL and golden model.
-    {py} -m scripts.replay {FILE}
+    {py} -m scripts.measure.replay {FILE}
 scheduler | campaign | Start a scheduler for workers of other machines, port 8786.
-    {py} -m scripts.campaign scheduler
+    {py} -m scripts.measure.campaign scheduler
 worker | campaign | Start workers of this checkout for a scheduler.
-    {py} -m scripts.campaign worker --scheduler {SCHEDULER} -n {J:2}
+    {py} -m scripts.measure.campaign worker --scheduler {SCHEDULER} -n {J:2}
 """
 OLD = {
     "test-campaign": "test WITH=campaign",

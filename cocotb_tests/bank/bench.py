@@ -6,8 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import SimpleNamespace
 
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.part import BusStyle, Part
+from cocotb_tests.harness import BusStyle, Config, Part
 from openppmc.model.bank import group
 
 WINDOW = BusStyle(

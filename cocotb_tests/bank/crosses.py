@@ -5,13 +5,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.crosses import Cross, Crosses, before
-from cocotb_tests.harness.family_crosses import (
+from cocotb_tests.harness.crosses import (
     CLOCKS,
     ERRORS,
     MOTION,
     UNINIT,
     Count,
+    Cross,
+    Crosses,
+    before,
     hook_errors,
     hook_motion,
     without,

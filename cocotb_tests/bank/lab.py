@@ -14,11 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF, HostBus
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.drive import Drive
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import IBF, Config, Drive, HostBus, Side, start_bench
 
 from .bench import BANK, axes_of, round_of
 

@@ -9,10 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF
-from cocotb_tests.harness.moving_pins import MovingPins
-from cocotb_tests.harness.random_host import Builds, RandomHost
-from cocotb_tests.harness.side import Side
+from cocotb_tests.harness import IBF, Side
+from cocotb_tests.harness.random_host import Builds, MovingPins, RandomHost
 from openppmc.model.bank.group import SWITCHES
 
 from .bench import B4, B8, B32, B64, F100

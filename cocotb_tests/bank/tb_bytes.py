@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, IBF, OBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, IBF, OBF, directed
 
 from .bench import B4, B8, B32, B64, F100
 from .lab import DATA, INIT_A, STATUS, Lab

@@ -5,8 +5,7 @@ from __future__ import annotations
 import random
 from itertools import product
 
-from cocotb_tests.harness.bus import IBF, OBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import IBF, OBF, directed
 
 from .bench import B4, B8, B32, B64, F100
 from .lab import DATA, GO, MASK, STATUS, STOP, SYNC, Axis, Lab

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, directed
 
 from .bench import B4, B8, B32, B64, F100
 from .lab import GO, INIT_A, MASK, STATUS, STOP, SYNC, Axis, Lab

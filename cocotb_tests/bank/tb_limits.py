@@ -11,9 +11,9 @@ import random
 from dataclasses import dataclass
 from itertools import product
 
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import steps
-from cocotb_tests.harness.two_causes import BOTH, two_causes
+from cocotb_tests.harness import directed
+from cocotb_tests.harness.checks import BOTH, two_causes
+from cocotb_tests.harness.drive import steps
 
 from .bench import B4, B8, B32, B64, F100
 from .lab import GO, STATUS, STOP, SYNC, Axis, Lab

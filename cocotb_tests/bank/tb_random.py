@@ -5,8 +5,8 @@ from __future__ import annotations
 import logging
 from typing import Any
 
-from cocotb_tests.harness import tally
-from cocotb_tests.harness.random_test import random_test
+from cocotb_tests.harness import random_test
+from cocotb_tests.harness.compare import add_counts
 
 from .random_host import INTERVALS, in_motion, play
 
@@ -31,5 +31,5 @@ async def bank_random_host(dut: Any, seed: int) -> None:
     """Given a random host, when it has played, then all outputs changed as in the golden model."""
     made = await play(dut, seed)
     logging.getLogger("cocotb.bank").info("seed %d: %d intervals", seed, made)
-    tally.tell(intervals=made)
+    add_counts(intervals=made)
     assert not in_motion(seed) or made >= INTERVALS, f"only {made} intervals"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import IBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import IBF, directed
 
 from .bench import B4, B8, B32, F100
 from .lab import CONFIG, DATA, STATUS, Lab

@@ -12,8 +12,7 @@ from cocotb.clock import Clock
 from cocotb.handle import Immediate
 from cocotb.triggers import Timer
 
-from ..harness.config import Config, configs
-from ..harness.unit import same
+from ..harness import Config, configs, same
 
 CONFIG = Config("spi8m", clk_hz=8_000_000, extra=(("AXES", 4), ("HOST", "SPI")))
 AXES = 4

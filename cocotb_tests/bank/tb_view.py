@@ -6,8 +6,7 @@ from typing import Any
 
 import cocotb
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 AREA = "bank_view"
 GROUPS = ("ppmc_bank_carrier",)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from cocotb_tests.harness.bus import BUSY, IBF, OBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, IBF, OBF, directed
 
 from .bench import B4, B8, B16, B32, B64, F100
 from .lab import CONFIG, DATA, GO, INFO, INIT_A, MAP, MASK, POSITION, STATUS, STOP, Axis, Lab

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import SimOptions, cocotb_items, run_item
 from cocotb_tests.harness.blocks import BLOCKS, run_block
 from cocotb_tests.harness.build import Design
-from cocotb_tests.harness.collect import Item, cocotb_items
+from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import files
-from cocotb_tests.harness.runner import SimOptions, run_item
 
 VIEW = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS, shared=True)
 SPI = cocotb_items("cocotb_tests.bank", "tb_spi", part=BLOCKS, shared=True)

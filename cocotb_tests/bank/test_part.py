@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import SimOptions, check_ranges, cocotb_items, run_item, verifies
 from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.elaborate import check_ranges
-from cocotb_tests.harness.runner import SimOptions, run_item
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness.collect import Item
 
 from .bench import BANK, F100
 

@@ -5,9 +5,8 @@ One simulation plays several seeds of one build. `make soak PART=bank` plays as 
 
 from __future__ import annotations
 
+from cocotb_tests.harness import RandomItems, SimOptions, generating
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.random_items import RandomItems, generating
-from cocotb_tests.harness.runner import SimOptions
 
 from .random_host import INTERVALS, build, in_motion
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.harness.unit import Unit, rng, same
-from cocotb_tests.harness.wrapper import Block
+from cocotb_tests.harness import Block, Unit, rng, same
 
 RESETS = [(1_000_000, 20), (3_000_000, 7), (24_000_000, 2), (50_000_000, 1)]  # ClkHz, HoldUs
 LAMP_CLK_HZ = 1_000_000

@@ -7,7 +7,7 @@ from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, FallingEdge, RisingEdge, with_timeout
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness.unit import same
+from cocotb_tests.harness import same
 
 CLK_HZ = 50_000_000
 READ_PINS = 0x82  # answers S1 … S5, HOLD, DIR from bit 7 down

@@ -7,8 +7,7 @@ import cocotb
 from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, FallingEdge, RisingEdge, with_timeout
 
-from cocotb_tests.harness.part import PARTS
-from cocotb_tests.harness.unit import same
+from cocotb_tests.harness import PARTS, same
 
 LIT = {
     "ppmc104": ("l1_n", "l2_n", "l3_n", "l4_n", "alm_n"),

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import Part, cocotb_items, run_item
 from cocotb_tests.harness.blocks import area_design
 from cocotb_tests.harness.build import Design, part_design
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import board_files
-from cocotb_tests.harness.runner import run_item
 
 from .tb_blocks import BLOCKS
 

@@ -6,10 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.clockwork import clockwork
-from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness import PARTS, Bench, HostBus
+from cocotb_tests.harness.clock import clockwork
 
 
 @cocotb.test()

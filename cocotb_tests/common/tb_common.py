@@ -8,8 +8,7 @@ from math import ceil
 import cocotb
 from cocotb.triggers import Timer
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 TICKS = [
     (8_000_000, 16_000_000, 4),

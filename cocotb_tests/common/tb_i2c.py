@@ -9,8 +9,7 @@ from math import ceil
 
 import cocotb
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 AREA = "i2c"
 NONE, START, STOP, BYTE, FREE = range(5)

@@ -11,8 +11,8 @@ import cocotb
 import pytest
 from cocotb.triggers import Timer
 
-from ..harness.clockwork import clockwork
-from ..harness.inside import inside
+from ..harness import inside
+from ..harness.clock import clockwork
 
 LEFT: list[str] = []
 

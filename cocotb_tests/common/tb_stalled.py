@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import cocotb
 
-from ..harness.unit import Unit
-from ..harness.wrapper import Block
+from ..harness import Block, Unit
 
 BLOCKS = {"sync": Block("ppmc_sync", "d_i q1_o q2_o", {"ResetVal": 0})}
 

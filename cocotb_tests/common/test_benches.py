@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.part import PARTS
-from cocotb_tests.harness.runner import SimOptions, run_item
+from cocotb_tests.harness import PARTS, SimOptions, cocotb_items, run_item
+from cocotb_tests.harness.collect import Item
 
 ITEMS = cocotb_items("cocotb_tests.common", "tb_benches", part=PARTS["ppmc104"])
 

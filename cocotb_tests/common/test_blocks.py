@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import SimOptions, cocotb_items
 from cocotb_tests.harness.blocks import BLOCKS, run_block
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.runner import SimOptions
+from cocotb_tests.harness.collect import Item
 
 ITEMS = cocotb_items("cocotb_tests.common", "tb_common", "tb_i2c", part=BLOCKS, shared=True)
 

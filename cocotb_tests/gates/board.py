@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from cocotb_tests.harness import project
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness import PARTS, Config, cocotb_items, project
+from cocotb_tests.harness.collect import Item
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"

@@ -10,9 +10,7 @@ from cocotb.triggers import Timer
 
 from cocotb_tests.gates.board import B24
 from cocotb_tests.gates.uart import Uart
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.config import configs
-from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness import PARTS, Bench, configs
 from openppmc.host.frames import encode
 from openppmc.host.script import RATES, Identity, Result, Script
 from openppmc.model.ppmc104 import Ppmc104

@@ -6,7 +6,7 @@ from typing import Any
 
 from cocotb.triggers import Event, First, Timer
 
-from cocotb_tests.harness.wire import Wire
+from cocotb_tests.harness.line import Wire
 from openppmc.host.frames import REQUEST_LIMIT, Broken, Deframer, Frame, encode
 from openppmc.host.script import Answer, Script, parse_answer
 

@@ -1,38 +1,129 @@
-"""Test harness of the OpenPPMC parts.
-
-In short, for someone who writes tests:
+"""Test harness of the OpenPPMC devices: `from cocotb_tests.harness import …` is all that a test needs.
 
     # cocotb_tests/ppmc104/tb_stops.py                       (runs inside the simulator)
-    from cocotb_tests.harness.config import F11, F16
-    from cocotb_tests.harness.directed import directed
+    from cocotb_tests.harness import F11, F16, directed
     from .figures import INIT_A
     from .lab import Lab
 
-    @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; default is F16 only
+    @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; the default is F16 only
     async def p104_stp_01_immediate_stop(dut):
-        "Given a constant-speed move, when 0x40 is taken, then no further pulse comes."
-        lab = await Lab.start(dut, INIT_A)                    # clk, reset 1-0-1, initialisation
+        "After 0x40 in a constant-speed move, no further pulse is output."
+        lab = await Lab.start(dut, INIT_A)                    # clock, reset 1-0-1, initialisation
         await lab.go(0x44, 1000, rate=99)
-        await lab.pulse(10, 400)                              # 400 clk after the tenth pulse
+        await lab.pulse(10, 400)                              # 400 cycles after the tenth pulse
         await lab.host.command(0x40)
         await lab.idle()
         lab.check("P104-STP-01", "pulses", len(lab.pulses), 10)
         lab.check("AC-20", "finish status", await lab.finish(), 0xC4)
                                                               # here every output edge is compared
 
-    # cocotb_tests/ppmc104/test_part.py                    (runs under pytest)
+    # cocotb_tests/ppmc104/test_part.py                       (runs under pytest)
     ITEMS = cocotb_items("cocotb_tests.ppmc104", "tb_stops", "tb_bus", part=PPMC104)
+
     @pytest.mark.parametrize("item", ITEMS)
     def test_ppmc104(item, sim_options):
-        run_item(item, sim_options)                           # from cocotb_tests.harness.runner
+        run_item(item, sim_options)
 
-The first line of each module says what it is for (`head -qn1 cocotb_tests/harness/*.py`); docs/testing.md
-says how they work together. No module here knows a part: `part.PARTS` come from each part's `bench.py`.
+A name loads only the modules that it needs; the modules import each other and never this package. The first
+line of each module states its purpose (`head -qn1 cocotb_tests/harness/*.py`); docs/testing.md describes how
+they work together. No module depends on a device: the `bench.py` of a device lists its pins (`PARTS`).
 
-Time: everything is counted in rising clk edges; edge 0 is the first that sees rst_n = 1. Pin levels change on
+Times are counted in rising edges of `clk`; edge 0 is the first that samples rst_n = 1. Input pins change on
 falling edges and are stamped with the rising edge that samples them first; an output edge is stamped with the
-rising edge that made it.
+rising edge that causes it.
 
-On failure: build/failures/<test>/ holds log.txt, waves/dump.vcd (all signals of the design), and for
-comparisons compare.txt, compare.vcd, compare.png; the message ends with the line that repeats the test.
+A failure leaves log.txt and waves/dump.vcd (all signals) in build/failures/<test>/, for a comparison also
+compare.txt, compare.vcd and compare.png; the message ends with the command that repeats the test.
 """
+
+from typing import TYPE_CHECKING
+
+from openppmc.lazy import lazy
+
+if TYPE_CHECKING:
+    from .bench import Bench
+    from .build import check_ranges
+    from .bus import BUSY, COMMAND, DATA, ERR, IBF, OBF, STATUS, BlockHost, HostBus
+    from .collect import cocotb_items, inside, verifies
+    from .config import D11, D16, F8, F11, F16, F25, F48, F50, F100, Config, configs
+    from .drive import Drive
+    from .isa import IsaHost
+    from .line import SerialLine
+    from .model_bench import ModelBench, OnModel, on_model, rtl_only
+    from .part import PARTS, BusStyle, Part
+    from .random_items import RandomItems, generating
+    from .runner import SimOptions, run_item
+    from .running import directed, random_test, start_bench
+    from .side import Side
+    from .unit import Block, Unit, rng, same
+else:
+    __getattr__, __dir__ = lazy(
+        __name__,
+        """
+        .bench Bench
+        .build check_ranges
+        .bus BUSY COMMAND DATA ERR IBF OBF STATUS BlockHost HostBus
+        .collect cocotb_items inside verifies
+        .config D11 D16 F8 F11 F16 F25 F48 F50 F100 Config configs
+        .drive Drive
+        .isa IsaHost
+        .line SerialLine
+        .model_bench ModelBench OnModel on_model rtl_only
+        .part PARTS BusStyle Part
+        .random_items RandomItems generating
+        .runner SimOptions run_item
+        .running directed random_test start_bench
+        .side Side
+        .unit Block Unit rng same
+        """,
+    )
+
+__all__ = [
+    "BUSY",
+    "COMMAND",
+    "D11",
+    "D16",
+    "DATA",
+    "ERR",
+    "F8",
+    "F11",
+    "F16",
+    "F25",
+    "F48",
+    "F50",
+    "F100",
+    "IBF",
+    "OBF",
+    "PARTS",
+    "STATUS",
+    "Bench",
+    "Block",
+    "BlockHost",
+    "BusStyle",
+    "Config",
+    "Drive",
+    "HostBus",
+    "IsaHost",
+    "ModelBench",
+    "OnModel",
+    "Part",
+    "RandomItems",
+    "SerialLine",
+    "Side",
+    "SimOptions",
+    "Unit",
+    "check_ranges",
+    "cocotb_items",
+    "configs",
+    "directed",
+    "generating",
+    "inside",
+    "on_model",
+    "random_test",
+    "rng",
+    "rtl_only",
+    "run_item",
+    "same",
+    "start_bench",
+    "verifies",
+]

@@ -15,13 +15,13 @@ import cocotb
 from cocotb.handle import Immediate
 from cocotb.triggers import First, Timer
 
-from . import watchdog
-from .clockwork import clockwork
+from cocotb_tests.harness import watchdog
+from openppmc.check.records import Change
+
+from .clock import clockwork, collect_seldom
 from .config import F16, Config
-from .native import collect_seldom
 from .part import Part
 from .side import TIMEOUT, PinChange, Side
-from .stimulus import Change
 
 
 class Bench(Side):

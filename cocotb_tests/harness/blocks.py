@@ -11,7 +11,7 @@ from .part import Part
 from .paths import BUILD, ROOT
 from .project import files
 from .runner import SimOptions, run_item
-from .wrapper import Block, wrapper_text
+from .unit import Block, wrapper_text
 
 BLOCKS = Part("blocks", {})
 GROUPS = ("common", "motion", "host", "single")

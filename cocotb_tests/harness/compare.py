@@ -1,24 +1,52 @@
 """Edge-by-edge comparison of a run with the golden model.
 
-The pin changes of the run are replayed into the model; every output of both sides must then show the same
-levels on the same clk edges. Only outputs forced by an asynchronous reset may be one clk apart, because
-rst_n can fall between two edges. A difference gives a text report, a VCD and a PNG.
+The pin changes of the run are replayed into the model; every output of both sides must then have the same
+level on the same rising edges of `clk`. Only outputs forced by an asynchronous reset may differ by one cycle,
+because rst_n can fall between two edges. A difference produces a text report, a VCD and a PNG.
+
+If TALLY in the environment names a file, a simulation appends what it has compared, a JSON object per line.
 """
 
 from __future__ import annotations
 
+import json
 import os
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 from openppmc.check import replay as check
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Edge, Recording
 from openppmc.check.report import write_report
 
-from . import crosses
-from .comparison import Comparison
-from .follower import Follower, new_model
+from .crosses import leave
 from .part import recorded
-from .stimulus import Edge, Recording
+from .side import Follower, new_model
+
+TALLY = "OPENPPMC_TALLY"
+
+
+def add_counts(**counts: int) -> None:
+    """Add these counts to the tally of the run."""
+    if name := os.environ.get(TALLY):
+        with open(name, "a", encoding="ascii") as file:
+            file.write(json.dumps(counts) + "\n")
+
+
+def total_counts(file: Path) -> Counter[str]:
+    """The sums of all that a run has told; nothing if it has told nothing."""
+    sums: Counter[str] = Counter()
+    if file.is_file():
+        for line in file.read_text(encoding="ascii").splitlines():
+            sums.update(json.loads(line))
+    return sums
+
+
+def counts_text(sums: Counter[str]) -> str:
+    """Such as "12 seeds, 3,456 edges"; those that are 0 are left out."""
+    return ", ".join(f"{number:,} {name}" for name, number in sums.items() if number)
+
 
 DIGESTS = "OPENPPMC_DIGESTS"
 """Tells a simulation to leave the digest of all that it compares, one a line, in DIGEST_FILE."""
@@ -63,7 +91,7 @@ def check_against_model(bench: Any) -> Comparison:
     leave_digest(recording, bench.out)
     follower = bench.follower or Follower(new_model(recording.part, recording.params))
     comparison = _compare(recording, follower)
-    crosses.leave()
+    leave()
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))
     return comparison

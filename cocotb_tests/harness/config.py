@@ -1,11 +1,15 @@
-"""Build configurations: one Verilator build each, shared by all tests of a part."""
+"""Build configurations of the RTL under test, and the seeds that a simulation plays one after the other."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import os
+import re
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
+
+import cocotb
 
 F = TypeVar("F")
 
@@ -102,3 +106,21 @@ def configs(*wanted: Config) -> Callable[[F], F]:
         return test
 
     return mark
+
+
+SEEDS = "OPENPPMC_SEEDS"
+_ALONE = re.compile(r"seed -?\d+ alone: make .*")
+
+
+async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
+    """Play the seeds of the batch, or the one of the run; the log tells how to repeat each alone."""
+    seeds = os.environ.get(SEEDS, os.environ.get("OPENPPMC_SEED", "1")).split()
+    for seed in map(int, seeds):
+        if len(seeds) > 1:
+            cocotb.log.info("seed %d alone: make test T=%s SEED=%d", seed, test, seed)
+        await play(seed)
+
+
+def last_seed(log: str) -> list[str]:
+    """What the log of a batch says of the seed that came last, if it is one."""
+    return _ALONE.findall(log)[-1:]

@@ -1,9 +1,4 @@
-"""Functional coverage: what golden models go through while tests are compared, counted in crosses.
-
-A part's `crosses` (its column in the table of parts) hooks into its golden model when coverage is wanted
-(`coverage.COVERAGE`): the golden model sees what the RTL does, so neither side is changed for it. Counts go
-to a file, a JSON list a comparison; `scripts.coverage` adds them up and makes a table of each cross.
-"""
+"""Coverage crosses: which states and causes coincided in golden models, counted from outside on request."""
 
 from __future__ import annotations
 
@@ -11,14 +6,18 @@ import functools
 import json
 import os
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from openppmc import parts
+from openppmc.model.motion import codes
+from openppmc.model.motion.motion import Motion
+from openppmc.model.single.codes import Error
+from openppmc.model.single.commands import ByteUnit
 
-from .coverage import COVERAGE
+from .variants import COVERAGE
 
 SUFFIX = ".crosses"
 _counts: Counter[tuple[str, ...]] = Counter()
@@ -93,3 +92,138 @@ def leave() -> None:
         with open(Path(where) / f"{os.getpid()}{SUFFIX}", "a", encoding="utf-8") as file:
             file.write(json.dumps(rows) + "\n")
         _counts.clear()
+
+
+Count = Callable[[str, str, str], None]
+
+OPERATIONS = {
+    codes.SINGLE_STEP: "single step",
+    codes.ACC_DEC: "ramp, counted",
+    codes.CONSTANT: "constant, counted",
+    codes.CONTINUOUS: "constant, endless",
+    codes.HIGH_SPEED: "ramp, endless",
+    codes.ORIGIN: "origin search",
+}
+CAUSES = {
+    codes.FINISH_STOP: "stop command",
+    codes.FINISH_ALARM: "alarm",
+    codes.FINISH_LIMIT: "limit",
+    codes.FINISH_SLOW: "slow-down limit",
+}
+COUNT_DONE, ORIGIN_FOUND, TWO = "count done", "origin", "two at once"
+PHASES = ("before the first pulse", "up", "top", "down", "constant")
+CLOCKS = ("internal", "internal, plain", "external", "external, plain")
+STATES = ("before initialisation", "at rest", "in motion", "decelerating")
+
+ENDLESS = "an endless operation has no count to come to its end"
+CONSTANT = "only operations with a ramp slow down"
+ORIGIN = "only an origin search looks at the origin"
+ONE_PULSE = "a single step does not wait for the external clock, and is over with its pulse"
+NEVER_CAUSE = {
+    **{(name, COUNT_DONE): ENDLESS for name in ("constant, endless", "ramp, endless", "origin search")},
+    **{
+        (name, "slow-down limit"): CONSTANT
+        for name in ("single step", "constant, counted", "constant, endless", "origin search")
+    },
+    **{(name, ORIGIN_FOUND): ORIGIN for name in OPERATIONS.values() if name != "origin search"},
+}
+NEVER_PHASE = {
+    ("slow-down limit", "constant"): CONSTANT,
+    ("slow-down limit", "down"): "the way down is not begun twice",
+    **{(ORIGIN_FOUND, phase): ORIGIN for phase in ("up", "top", "down")},
+}
+NEVER_CLOCK = {("single step", clock): ONE_PULSE for clock in ("external", "external, plain")}
+ALL_CAUSES = (COUNT_DONE, *CAUSES.values(), ORIGIN_FOUND, TWO)
+
+MOTION = (
+    Cross("operation and cause of its end", tuple(OPERATIONS.values()), ALL_CAUSES, NEVER_CAUSE),
+    Cross("cause of the end and phase that it came in", ALL_CAUSES, PHASES, NEVER_PHASE),
+    Cross("operation and base clock", tuple(OPERATIONS.values()), CLOCKS, NEVER_CLOCK),
+    Cross("cause of the end and base clock", ALL_CAUSES, CLOCKS),
+)
+
+
+def without(crosses: Iterable[Cross], columns: Sequence[str], why: str) -> tuple[Cross, ...]:
+    """The crosses; some columns cannot happen in a part."""
+    never = {("*", column): why for column in columns}
+    return tuple(
+        replace(cross, never={**cross.never, **never}) if set(columns) <= set(cross.columns) else cross
+        for cross in crosses
+    )
+
+
+NO_EXTRA_TIME = without(
+    MOTION, ("internal", "external"), "intervals have no extra time here (as vsel = L adds)"
+)
+UNINIT = "before initialisation"
+NEVER_ERROR = {
+    **{("NOT_WHILE_BUSY", state): "it is about motion" for state in (UNINIT, "at rest")},
+    **{("NOT_INITIALISED", state): "there is a ramp by then" for state in STATES[1:]},
+    **{("UNASKED_DATA", state): "in motion it has another number" for state in STATES[2:]},
+    **{("UNASKED_DATA_BUSY", state): "at rest it has another number" for state in STATES[:2]},
+    **{("PA_TOO_LARGE", state): "refused as NOT_WHILE_BUSY" for state in STATES[2:]},
+    **{("BAD_RAMP", state): "refused as NOT_WHILE_BUSY" for state in STATES[2:]},
+    **{("ALREADY_DECELERATING", state): "it is about deceleration" for state in STATES[:3]},
+}
+ERRORS = Cross("error and state", tuple(error.name for error in Error), STATES, NEVER_ERROR)
+
+
+def phase(motion: Any) -> str:
+    """Where an operation is."""
+    if not motion.done:
+        return "before the first pulse"
+    if not motion.is_ramp:
+        return "constant"
+    if motion.decelerating:
+        return "down"
+    return "top" if motion.high else "up"
+
+
+def _clock(motion: Any) -> str:
+    name = "external" if motion._external is not None else "internal"
+    return f"{name}, plain" if motion._plain else name
+
+
+def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
+    """Count what ends in any axis. own: classes of the part that decide an end without the family's."""
+    came: dict[int, str] = {}
+
+    def begin(motion: Any, t: int) -> None:
+        came.pop(id(motion), None)
+
+    def cause_came(motion: Any, t: int, bits: int) -> None:
+        if motion.busy and not motion.finishing:
+            came.setdefault(id(motion), phase(motion))
+
+    def finish(motion: Any, t: int) -> None:
+        left = motion._total - motion.done
+        bits = motion._stop_bits | motion._flag_bits if left else 0
+        found = [name for bit, name in CAUSES.items() if bits & bit]
+        found = found or [ORIGIN_FOUND if left else COUNT_DONE]
+        cause = found[0] if len(found) == 1 else TWO
+        where = came.pop(id(motion), "down" if motion.is_ramp else "constant")
+        operation, clock = OPERATIONS[motion.operation], _clock(motion)
+        count(MOTION[0].name, operation, cause)
+        count(MOTION[1].name, cause, where)
+        count(MOTION[2].name, operation, clock)
+        count(MOTION[3].name, cause, clock)
+
+    before(Motion, "_begin", begin)
+    for owner in (Motion, *own):
+        before(owner, "_end_now", cause_came)
+    before(Motion, "_flag", cause_came)
+    before(Motion, "_finish", finish)
+
+
+def hook_errors(count: Count) -> None:
+    """Count each byte's error, by the state it came in."""
+
+    def taken(unit: Any, result: Any, t: int, *rest: Any) -> None:
+        if unit.error is not None:
+            motion = unit._motion
+            state = "in motion" if motion.busy else "at rest" if unit.setup else UNINIT
+            if motion.decelerating:
+                state = "decelerating"
+            count(ERRORS.name, unit.error.name, state)
+
+    after(ByteUnit, "take", taken)

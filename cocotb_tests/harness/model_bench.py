@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Any, TypeVar
 
+from openppmc.check.records import Change
+
 from .config import F16, Config
-from .follower import new_model
 from .part import Part
-from .side import TIMEOUT, PinChange, Side
-from .stimulus import Change
+from .side import TIMEOUT, PinChange, Side, new_model
 
 T = TypeVar("T")
 F = TypeVar("F")

@@ -1,24 +1,52 @@
-"""`model_tests`: the cocotb tests of a module as pytest tests of the golden model alone.
+"""Directed tests on the golden model alone, without a simulator: `make test MODEL=1`, and `model_tests`.
 
-# tests/ppmc104/model/test_acceptance.py
-globals().update(model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves"))
+    # tests/ppmc104/model/test_acceptance.py
+    globals().update(model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves"))
 
-`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. So a check
-stands once, and holds for both sides to the same clk.
+`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. So one
+check holds for both sides, to the cycle.
 """
 
 from __future__ import annotations
 
 import importlib
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import pytest
 
-from .collect import all_tests, configs_of
+from .collect import Item, all_tests, configs_of, rules_of, verifies
 from .config import Config
 from .model_bench import OnModel, on_model
-from .verifies import rules_of, verifies
+
+
+@cache
+def _cases(module: str) -> dict[str, Any]:
+    """Name -> cocotb test of a module, each case of a parametrized one."""
+    tests = all_tests(importlib.import_module(module))
+    return {case.name: case for test in tests for case in test.generate_tests()}
+
+
+def run_on_model(item: Item, seed: int | None) -> None:
+    """Run one directed test; skips it with the reason if it is for the RTL alone."""
+    case = _cases(item.module)[item.test]
+    if item.skipped:
+        pytest.skip(item.skipped)
+    if why := getattr(case.func, "_openppmc_rtl_only", ""):
+        pytest.skip(f"RTL only: {why}")
+    side = OnModel(item.config, item.seed if seed is None else seed)
+    failed = None
+    try:
+        on_model(case.func(side, *case.args, **case.kwargs))
+    except BaseException as error:
+        if not (case.expect_fail or isinstance(error, case.expect_error or ())):
+            raise
+        failed = error
+    if failed is not None:
+        pytest.xfail(str(failed))
+    if case.expect_fail or case.expect_error:
+        pytest.fail("passed, but a failure was expected", pytrace=False)
 
 
 def model_tests(module: str, package: str, *names: str, builds: Sequence[Config] = ()) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from .bus import DATA, IBF, OBF, HostBus
+from .bus import BUSY, DATA, IBF, OBF, HostBus
 from .config import Config
 from .side import PinChange, Side
 
@@ -178,3 +178,23 @@ class Player:
 def describe(actions: list[Action]) -> str:
     """The action list as text, one action a line."""
     return "\n".join(" ".join(str(part) for part in action) for action in actions)
+
+
+class SinglePlayer(Player):
+    """Plays one scenario: `await SinglePlayer(bench, scenario, rule).run()`.
+
+    Adds ("finish", clk): poll until BUSY = 0; after clk give up and send 0x40, which the rule says must help.
+    """
+
+    def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:
+        super().__init__(bench, scenario)
+        self.rule = rule
+
+    async def _finish(self, clk: int) -> None:
+        if await self.polled(BUSY, 0, clk):
+            return
+        for _ in range(3):
+            await self._send(0x40, [])
+            if await self.polled(BUSY, 0, self.bench.config.us(1_000)):
+                return
+        raise AssertionError(f"{self.rule}: BUSY stays 1 after three stop commands\n{self.bench.context()}")

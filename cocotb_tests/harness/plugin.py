@@ -11,15 +11,14 @@ from typing import Any
 
 import pytest
 
-from . import mutant, native
 from .build import locked
-from .collect import Item
-from .model_items import run_on_model
+from .clock import collect_seldom
+from .collect import PREFIXES, Item, part_of_rule, rules_of, unknown_rules
+from .model_tests import run_on_model
 from .paths import TRACE
-from .runner import SimOptions
+from .runner import SimOptions, Summary, notes
 from .schedule import Groups, Sender, item_of, params_of
-from .summary import Summary, notes
-from .verifies import PREFIXES, part_of_rule, rules_of, unknown_rules
+from .variants import mutant_present
 
 RESULTS = TRACE / "results.jsonl"
 _GROUPS = pytest.StashKey[Groups]()
@@ -149,7 +148,7 @@ class _Recorder:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Groups belong to who collects; only the controller records; xdist workers have `workerinput`."""
-    native.collect_seldom()
+    collect_seldom()
     options = SimOptions(
         seed=config.getoption("--seed"),
         waves=config.getoption("--waves"),
@@ -158,7 +157,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.stash[_GROUPS] = Groups(options)
     config.pluginmanager.register(config.stash[_GROUPS], "openppmc-groups")
     if not hasattr(config, "workerinput"):
-        if not config.getoption("--model") and not mutant.present():
+        if not config.getoption("--model") and not mutant_present():
             config.pluginmanager.register(_Recorder(config), "openppmc-trace")
             config.pluginmanager.register(Summary(), "openppmc-summary")
         if config.pluginmanager.hasplugin("xdist"):

@@ -1,26 +1,201 @@
 """`RandomItems`: the random tests of one kind, as the `test_random.py` of a part lists them.
 
-random_item = RandomItems("stmc", "tb_random", "stmc_random_host", range(1, 151), build)
-pytest_generate_tests = generating(test_random=random_item)
+    random_item = RandomItems("stmc", "tb_random", "stmc_random_host", range(1, 151), build)
+    pytest_generate_tests = generating(test_random=random_item)
+
+Several seeds share a simulation (`batches`), each after a reset. A failing simulation reports the shortest
+stimulus found that still fails (`shortened`).
 """
 
 from __future__ import annotations
 
 import importlib
+import os
 import re
 import shutil
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
-from .batches import BATCH, parametrize, played, run_batch, seed_item
-from .build import Design, part_design
-from .collect import Item
-from .config import Config
+from openppmc.check.records import Recording
+
+from .build import Design, SimError, part_design
+from .collect import Item, cocotb_items
+from .compare import TALLY, total_counts
+from .config import SEEDS, Config
 from .model_bench import OnModel, on_model
-from .runner import SimOptions, run_sim
-from .soaking import Played, play
+from .part import PARTS
+from .paths import FAILURES, relative
+from .replay import REPLAY, WORDS
+from .runner import REPRO, SimOptions, attempt, run_sim
+from .simulate import safe
+from .variants import mutant_present
+
+MODULE = "cocotb_tests.harness.replay"
+
+
+def attempt_random(
+    item: Item,
+    options: SimOptions | None = None,
+    env: Mapping[str, str] | None = None,
+    design: Design | None = None,
+) -> str:
+    """As `attempt`; the message of a failing run ends with its short list, found on the part alone."""
+    message = attempt(item, options, env, design)
+    if not message or mutant_present():
+        return message
+    seed = options.seed if options and options.seed is not None else item.seed
+    return f"{message}\n{shortened(FAILURES / f'{safe(item.id)}-s{seed}')}"
+
+
+def replay_item(recording: Recording, test: str = "replay") -> Item:
+    """The simulation that carries out a recording, in the build that it was made in."""
+    known = {"clk_hz", "xtal_hz", "timing", "phase_idle"}
+    params = {name.lower(): value for name, value in recording.params.items()}
+    given = {name: value for name, value in params.items() if name in known}
+    more = tuple((name.upper(), value) for name, value in params.items() if name not in known)
+    config = Config("replay", **given, extra=more)  # type: ignore[arg-type]
+    return Item(MODULE, test, config, recording.part, (), recording.seed)
+
+
+def replay_line(file: Path) -> str:
+    """The line that carries out a recording again."""
+    return f"make replay FILE={relative(file)}"
+
+
+def shortened(folder: Path, design: Design | None = None) -> str:
+    """The short list in words, from the recording that a failing run has left in its folder.
+
+    `design` (default: the recorded part) is what is simulated. The files are in the folder `short` of it.
+    """
+    file, short = folder / "recording.json", folder / "short"
+    if not file.is_file():
+        return "not shrunk: no difference from the golden model was recorded"
+    item = replay_item(Recording.from_json(file.read_text(encoding="utf-8")), "shrink")
+    line = replay_line(short / "recording.json")
+    trouble = ""
+    try:
+        design = design or part_design(item.part, item.config)
+        run_sim(design, item, item.seed, env={REPLAY: str(file.resolve())}, folder=short, repro=line)
+    except SimError as error:  # an assertion of the RTL, the limit of time: the best so far is on file
+        trouble = str(error).splitlines()[0]
+    words = short / WORDS
+    if not words.is_file():
+        return f"not shrunk: {trouble}"
+    text = words.read_text(encoding="utf-8")
+    if not (short / "recording.json").is_file():
+        return text
+    cut = f"\n(the search ended early: {trouble})" if trouble else ""
+    return f"{text}{cut}\nlist and recording in {relative(short)}, carried out again by: {line}"
+
+
+BATCH = 25
+
+
+@cache
+def _items(part: str, module: str) -> dict[str, Item]:
+    params = cocotb_items(f"cocotb_tests.{part}", module, part=PARTS[part])
+    return {param.values[0].test: param.values[0] for param in params}
+
+
+def seed_item(part: str, module: str, test: str, seed: int, config: Config) -> Item:
+    """A test of a part's random hosts in the build of a seed."""
+    return replace(_items(part, module)[test], config=config, seed=seed, tag=f"r{seed:04d}")
+
+
+def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
+    """(first item, all seeds) of each simulation: at most `size` items of one build each."""
+    builds: dict[str, list[Item]] = {}
+    for item in items:
+        builds.setdefault(item.config.name, []).append(item)
+    return [
+        (group[k], " ".join(str(item.seed) for item in group[k : k + size]))
+        for group in builds.values()
+        for k in range(0, len(group), size)
+    ]
+
+
+def parametrize(
+    metafunc: pytest.Metafunc, make: Callable[[int], Item], seeds: Iterable[int], size: int = BATCH
+) -> None:
+    """One pytest item (`item`, `seeds`) a batch of the seeds."""
+    sets = batches([make(seed) for seed in seeds], size)
+    metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
+
+
+def run_batch(item: Item, seeds: str, options: SimOptions, design: Design | None = None) -> None:
+    """The seeds of a batch in one simulation, as a pytest test."""
+    __tracebackhide__ = True
+    print(f"seeds {seeds}")
+    whole = {REPRO: f"make {item.target} T={item.id}"} if " " in seeds else {}
+    if message := attempt_random(item, options, {SEEDS: seeds, **whole}, design):
+        pytest.fail(message, pytrace=False)
+
+
+def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:
+    """All seeds of the batches, rising."""
+    return sorted(int(word) for _, seeds in batches([make(seed) for seed in fixed]) for word in seeds.split())
+
+
+Failure = tuple[int, str, str]
+"""Seed, test id, message."""
+
+
+@dataclass
+class Played:
+    """What came of some seeds; `compared` counts what was compared with the golden model, by its name."""
+
+    failures: list[Failure] = field(default_factory=list)
+    compared: Counter[str] = field(default_factory=Counter)
+
+    def add(self, other: Played) -> None:
+        """Those of `other` as well."""
+        self.failures += other.failures
+        self.compared.update(other.compared)
+
+
+def play(items: Sequence[Item], design: Callable[[Item], Design | None], size: int = BATCH) -> Played:
+    """One item a seed. Of a simulation in which a seed fails each seed is played again alone."""
+    played = Played()
+    alone = {item.seed: item for item in items}
+    for first, seeds in batches(items, size):
+        numbers = [int(word) for word in seeds.split()]
+        whole = {REPRO: f"make test T={first.id}"} if len(numbers) > 1 else {}
+        message = _attempt(played, first, {SEEDS: seeds, **whole}, design(first))
+        if not message:
+            continue
+        if len(numbers) == 1:
+            played.failures.append((numbers[0], first.id, message))
+            continue
+        found = [
+            (seed, alone[seed].id, said)
+            for seed in numbers
+            if (said := _attempt(played, alone[seed], {}, design(first)))
+        ]
+        played.failures += found or [(numbers[0], first.id, message)]
+    return played
+
+
+def _attempt(played: Played, item: Item, env: dict[str, str], design: Design | None) -> str:
+    with TemporaryDirectory(prefix="openppmc-") as folder:
+        file = Path(folder) / f"tally-{os.getpid()}"
+        message = attempt_random(item, env={**env, TALLY: str(file)}, design=design)
+        if not message:
+            played.compared.update(total_counts(file))
+    return message
+
+
+def all_of(parts: Iterable[Played]) -> Played:
+    """The sum."""
+    played = Played()
+    for part in parts:
+        played.add(part)
+    return played
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,28 +1,267 @@
 """Runs cocotb tests: directed ones of a build together in one process, all others in one of their own.
 
-All simulations of the project go through here; the traps of the tool chain that shaped it: results.xml must
-hold exactly the tests asked for (else nothing ran), exit codes count too, a fired assertion of the RTL is an
-error of the test in whose part of the log it stands (`outcome`).
+All simulations of the project go through here. results.xml must hold exactly the requested tests (otherwise
+nothing ran), exit codes count, and a fired assertion of the RTL is an error of the test in whose part of the
+log it is printed (`simulate`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import math
+import os
+import re
+import shutil
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any, TypeVar
 
 import pytest
 
-from .build import Design, SimError, part_design
+from .build import MAINS, Design, SimError, part_design
 from .collect import Item
-from .group import run_group
-from .inside import seen
-from .outcome import PASSED, SKIPPED, XFAILED, Outcome
-from .paths import WAVES, relative
-from .simulate import REPRO, VCD, Job, repro_line, safe, simulate
-from .summary import WAVES_IN
-from .verdict import judged
-from .views import write_views
+from .compare import DIGEST_FILE, DIGESTS
+from .paths import FAILURES, RUNS, WAVES, relative
+from .simulate import (
+    MISSING,
+    PASSED,
+    REPRO,
+    SKIPPED,
+    TIMEOUT,
+    VCD,
+    XFAILED,
+    Job,
+    Outcome,
+    repro_line,
+    safe,
+    simulate,
+    tried,
+)
+from .variants import mutant_present
+
+_VAR = re.compile(r"\$var \w+ +(\d+) \S+ (\S+)(?: (\[\S+\]))? \$end")
+
+_UNKNOWN = re.compile(r"AttributeError: .*contains no (child )?object")
+HINT = "hidden in this build: @inside(…) or INSIDE=1"
+
+
+def seen(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
+    """The design with these inner signals visible, or with everything."""
+    if everything:
+        return replace(design, ports=())
+    return replace(design, inside=paths) if paths and design.ports else design
+
+
+def hint(text: str, design: Design) -> str:
+    """What to do if a failure says that a name is unknown, and the design has hidden ones; else nothing."""
+    return HINT if design.ports and _UNKNOWN.search(text) else ""
+
+
+def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
+    """(scope, name with range, width) of the signals of the top, its ports if known; the last time."""
+    scopes: list[str] = []
+    found: list[tuple[str, str, int]] = []
+    with vcd.open("rb") as file:
+        for raw in file:
+            line = raw.decode("ascii", "replace").strip()
+            if line.startswith("$scope"):
+                scopes.append(line.split()[2])
+            elif line.startswith("$upscope"):
+                scopes.pop()
+            elif line.startswith("$enddefinitions"):
+                break
+            elif (var := _VAR.match(line)) and scopes and scopes[-1] == design.top:
+                width, name, place = var.groups()
+                if design.ports in ((), "*") or name in design.ports:
+                    found.append((".".join(scopes), name + (place or ""), int(width)))
+        file.seek(max(0, vcd.stat().st_size - 100_000))
+        times = re.findall(rb"^#(\d+)", file.read(), re.MULTILINE)
+    return found, int(times[-1]) if times else 0
+
+
+def write_views(vcd: Path, design: Design) -> list[Path]:
+    """Write a GTKWave save file and a Surfer command file beside a VCD; [] without a VCD."""
+    if not vcd.is_file():
+        return []
+    signals, end = _signals(vcd, design)
+    gtkw, sucl = vcd.with_suffix(".gtkw"), vcd.with_suffix(".sucl")
+    # The zoom is minus log2 of the time between two grid lines, of which the window shows some five.
+    lines = [f'[dumpfile] "{vcd.name}"', "[timestart] 0", "[size] 1500 900"]
+    lines += [f"*-{math.log2(max(5, end) / 5):.6f} -1", "[sst_width] 200", "[signals_width] 180"]
+    for scope, name, width in signals:
+        lines += ["@22" if width > 1 else "@28", f"{scope}.{name}"]
+    gtkw.write_text("\n".join([*lines, ""]), encoding="ascii")
+    adds = [f"variable_add {scope}.{name.partition('[')[0]}" for scope, name, _ in signals]
+    sucl.write_text("\n".join([*adds, "zoom_fit", ""]), encoding="ascii")
+    return [vcd, gtkw, sucl]
+
+
+MOST = 40
+"""Tests in one process: two workers stay busy, and importing cocotb and pytest no longer counts."""
+
+T = TypeVar("T")
+
+
+def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
+    """Those with the same key, at most MOST together, in their order; who has the key None is alone."""
+    found: dict[Hashable, list[T]] = {}
+    for number, thing in enumerate(things):
+        found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)
+    return [
+        tuple(members[k : k + size])
+        for members in found.values()
+        for size in [-(-len(members) // -(-len(members) // MOST))]
+        for k in range(0, len(members), size)
+    ]
+
+
+def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
+    """Outcome of each item of a job, and the process that it comes from.
+
+    What a crash keeps from running has a new process, without the test that crashed; but one failure says all
+    of a mutant.
+    """
+    found: dict[Item, tuple[Outcome, Job]] = {}
+    left: Sequence[Item] = job.items
+    while left:
+        now = replace(job, items=tuple(left))
+        outcomes = tried(now)
+        left = [item for item, outcome in outcomes.items() if outcome.kind == MISSING]
+        nothing_ran = len(left) == len(outcomes)
+        if nothing_ran or mutant_present():
+            left = []
+        found |= {item: (outcome, now) for item, outcome in outcomes.items() if item not in left}
+    return found
+
+
+def fails(job: Job, items: Sequence[Item]) -> bool:
+    """Whether the last of these items fails in a process of them."""
+    outcome = tried(replace(job, items=tuple(items)))[items[-1]]
+    return not outcome.good
+
+
+def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
+    """The fewest of the tests `before` that `item` fails behind, halving them while one half will do."""
+    culprits = list(before)
+    while len(culprits) > 1:
+        middle = len(culprits) // 2
+        for half in (culprits[middle:], culprits[:middle]):
+            if fails(job, [*half, item]):
+                culprits = half
+                break
+        else:
+            break
+    return culprits
+
+
+def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
+    """Message about an item that failed in `job`; log, and with `waves` a VCD, stay in build/failures/."""
+    if mutant_present():
+        return first.text
+    kept = FAILURES / f"{safe(item.id)}-s{job.seed}"
+    shutil.rmtree(kept, ignore_errors=True)
+    alone = replace(job, items=(item,))
+    outcome = simulate(alone, kept)[item]
+    if not outcome.good:
+        text = _fails(item, outcome, alone, waves, kept)
+    elif len(job.items) == 1:
+        text = _message(item, first, alone, ["the same run, once more, passed: it is not deterministic"])
+    else:
+        text = _behind(item, first, job, waves, kept)
+    return text
+
+
+def _message(
+    item: Item, outcome: Outcome, job: Job, said: Sequence[str] = (), kept: Path | None = None
+) -> str:
+    """What is shown of a failure: what failed, what the other runs `said`, where its files are."""
+    lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in said)]
+    lines.append(f"seed {job.seed}" + (f", log {relative(kept / 'log.txt')}" if kept else ""))
+    if kept and (kept / "waves" / VCD).is_file():
+        lines.append(f"waves in {relative(kept / 'waves' / VCD)}")
+    return "\n".join([*lines, f"repeat with: {job.repro}"])
+
+
+def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> str:
+    """Of a failure that `job` shows each time; the items before `item` are what it needs."""
+    said = [f"fails only behind {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
+    if told := hint(outcome.text, job.design):
+        return _message(item, outcome, job, [*said, told], kept)
+    if waves and outcome.kind != MISSING and not outcome.text.startswith(TIMEOUT):
+        try:
+            seen = simulate(replace(job, waves=True), kept / "waves")[item]
+        except SimError as error:
+            seen = Outcome(MISSING, str(error).splitlines()[0])
+        if seen.good:
+            said.append(f"not reproduced with waves: there it {seen.kind}")
+        elif seen.kind == MISSING:
+            said.append(f"no waves: {seen.text}")
+        elif seen.headline != outcome.headline:
+            said.append(f"not reproduced with waves: there it says {seen.headline}")
+    return _message(item, outcome, job, said, kept)
+
+
+def _behind(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
+    """Of a test that passes alone but failed in a process with others."""
+    again = tried(job)[item]
+    if again.good:
+        said = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
+        return _message(item, first, job, said)
+    before = job.items[: job.items.index(item)]
+    if not before:
+        return _message(item, again, job, [f"alone it passes; fails only before {_names(job.items[1:])}"])
+    culprits = (*narrowed(job, before, item), item)
+    return _fails(item, again, replace(job, items=culprits), waves, kept)
+
+
+def _names(items: Sequence[Item]) -> str:
+    return ", ".join(item.id for item in items)
+
+
+WAVES_IN = "waves in "
+"""Begins the line that a simulation with waves prints."""
+
+
+def notes(item: Item | None) -> list[tuple[str, Any]]:
+    """What the summary has to know of a test, as user properties of its report."""
+    if item is None or item.uncompared is None:
+        return []
+    return [("directed", item.test), ("uncompared", item.uncompared)]
+
+
+class Summary:
+    """Counts in the controlling process, to which xdist forwards every report."""
+
+    def __init__(self) -> None:
+        self._seen: dict[str, dict[str, Any]] = {}
+        self._waves: list[str] = []
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Keep what the report of a test that ran says."""
+        known = dict(report.user_properties)
+        if report.when == "call" and report.outcome != "skipped" and "directed" in known:
+            self._seen[report.nodeid] = known
+        if report.when == "call":
+            self._waves += [line for line in report.capstdout.splitlines() if line.startswith(WAVES_IN)]
+
+    def pytest_terminal_summary(self, terminalreporter: Any) -> None:
+        """Write the counts, each reason once, and the waves."""
+        if self._waves:
+            terminalreporter.section("waves")
+            for line in sorted(self._waves):
+                terminalreporter.line(line.removeprefix(WAVES_IN))
+        if not self._seen:
+            return
+        reasons: dict[str, set[str]] = {}
+        for known in self._seen.values():
+            if known["uncompared"]:
+                reasons.setdefault(known["uncompared"], set()).add(known["directed"])
+        without = sum(bool(known["uncompared"]) for known in self._seen.values())
+        compared = len(self._seen) - without
+        terminalreporter.section("directed tests")
+        terminalreporter.line(f"{compared} compared with the golden model edge by edge, {without} not")
+        for reason, tests in sorted(reasons.items()):
+            terminalreporter.line(f"  {', '.join(sorted(tests))}: {reason}")
 
 
 @dataclass(frozen=True)
@@ -136,3 +375,24 @@ def run_item(
         pytest.xfail(outcome.text)
     if not outcome.good:
         pytest.fail(outcome.text, pytrace=False)
+
+
+def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> list[str]:
+    """Digests of what the test compares with the golden model, in order: pins, host's accesses, output edges.
+
+    Raises SimError if the test does not pass.
+    """
+    folder = RUNS / f"{safe(item.id)}-{main}.{os.getpid()}"
+    run_sim(replace(design, main=main), item, item.seed, env={**env, DIGESTS: "1"}, folder=folder)
+    left = folder / DIGEST_FILE
+    digests = left.read_text(encoding="ascii").split() if left.is_file() else []
+    shutil.rmtree(folder, ignore_errors=True)
+    return digests
+
+
+def check_mains(item: Item, env: Mapping[str, str] | None = None, design: Design | None = None) -> int:
+    """Number of recordings that the test makes; AssertionError if they are not the same on both mains."""
+    design = design or part_design(item.part, item.config)
+    own, cocotb = (recorded(item, main, env or {}, design) for main in MAINS)
+    assert own and own == cocotb, f"{item.id}: {own} with our main program, {cocotb} with cocotb's"
+    return len(own)

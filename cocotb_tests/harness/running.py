@@ -1,11 +1,37 @@
-"""What the running test has on the bench, for `start_bench` and `directed`."""
+"""Decorators of tests in the simulator: closed loop, and compared with the golden model at every edge.
+
+    @directed("P104-STP-01", "AC-20", builds=(F16, F100))
+    async def p104_stp_01_immediate(dut):
+        "After 0x40 in a constant-speed move, no further pulse is output."
+        lab = await Lab.start(dut, INIT_A)
+
+    @random_test("P312-GEN-01", least=200)
+    async def p312_random_host(dut, seed):
+        "All outputs change as in the golden model, whatever a random host sends."
+        await Lively(await Host.start(dut), seed).play()
+
+Both are `cocotb.test()`, so `cocotb.parametrize`, `skip` and `xfail` work with them. The golden model gets
+the pin changes that the test makes; at the end, and before each further `start_bench`, every edge of every
+output is compared. A random test plays the seeds of its batch (`random_items`), each after a reset.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import functools
+from collections.abc import Awaitable, Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from dataclasses import replace
+from hashlib import sha256
+from typing import Any, cast
 
+import cocotb
+
+from .bench import Bench
+from .collect import verifies
+from .compare import add_counts, check_against_model
+from .config import F16, Config, configs, each_seed
+from .model_bench import ModelBench, OnModel
+from .part import Part
 from .side import Side
 
 TAIL = 24
@@ -75,3 +101,117 @@ def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Runni
 def ended() -> Running | None:
     """The directed or random test that has ended last, with the side that it worked on; None before one."""
     return _ended[-1] if _ended else None
+
+
+async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Side:
+    """A `Bench` on the simulator's `dut`, a `ModelBench` if this is `OnModel`; both with `now` = `settle`.
+
+    In a directed test it may be called again: what the side has seen so far is compared with the golden
+    model, nothing drives its pins any more, and the part starts anew from a reset.
+    """
+    test = present()
+    if test:
+        await test.put_away()
+    seed = test.seed if test else None
+    if isinstance(dut, OnModel):
+        side: Side = ModelBench(part, dut if seed is None else replace(dut, seed=seed), settle, **pins)
+    else:
+        side = await Bench.start(dut, part, settle=settle, seed=seed, **pins)
+    if test:
+        test.side = side
+    return side
+
+
+def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
+    """A cocotb test that verifies `rules` (none: sessions of a manual) in the build configurations `builds`.
+
+    `uncompared`: why the outputs are not compared with the golden model; the run lists such tests. Raises
+    ValueError for an ID that is none.
+    """
+
+    def mark(test: Any) -> Any:
+        function = getattr(test, "func", test)
+
+        @functools.wraps(function)
+        async def run(dut: Any, **arguments: Any) -> None:
+            with running_test(None if uncompared else check_against_model) as running:
+                await judged(running, function(dut, **arguments))
+
+        # The simulator side must see the arguments of `run`.
+        del run.__wrapped__  # type: ignore[attr-defined]
+        run._openppmc_directed = True  # type: ignore[attr-defined]
+        run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
+        configs(*builds)(verifies(*rules)(run) if rules else run)
+        if function is test:
+            return cocotb.test()(run)
+        test.func = run
+        return cocotb.test()(test)
+
+    return mark
+
+
+async def judged(running: Running, test: Any) -> None:
+    """Run the test, then compare; a failed check says whether the golden model shows the same edges."""
+    try:
+        await test
+    except (AssertionError, TimeoutError) as error:
+        if not running.differs:
+            error.args = (f"{error}\n{await running.opinion()}",)
+        raise
+    await running.judge()
+
+
+RandomTest = Callable[[Any, int], Awaitable[None]]
+
+
+def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[RandomTest], Any]:
+    """A cocotb test that verifies `rules`, of a coroutine that plays one seed on one side.
+
+    least: output edges that a seed must have made, all compared. uncompared: why they are not.
+    """
+
+    def mark(test: RandomTest) -> Any:
+        name = getattr(test, "__name__", "")
+
+        async def one(dut: Any, seed: int) -> str:
+            compared = 0
+
+            def judge(side: Side) -> None:
+                nonlocal compared
+                comparison = check_against_model(side)
+                compared += comparison.edges_compared
+                add_counts(edges=comparison.edges_compared, pulses=comparison.pulses)
+
+            with running_test(None if uncompared else judge, seed) as running:
+                await judged(running, test(dut, seed))
+                digest = pins_digest(running.side) if running.side else ""
+                if running.side and running.side.simulated:
+                    assert compared >= least, f"seed {seed} did next to nothing ({compared} edges)"
+                    cocotb.log.info("seed %d: %d edges compared, pins %s", seed, compared, digest)
+                    add_counts(seeds=1)
+                return digest
+
+        @functools.wraps(test)
+        async def run(dut: Any) -> str:
+            if isinstance(dut, OnModel):
+                return await one(dut, dut.seed)
+            await each_seed(name, functools.partial(one, dut))
+            return ""
+
+        # The simulator side must see the argument of `run`, not those of the test.
+        del run.__wrapped__  # type: ignore[attr-defined]
+        run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
+        return cocotb.test()(verifies(*rules)(run))
+
+    return mark
+
+
+def pins_digest(side: Side) -> str:
+    """Stands for all pin changes that a side has seen: the same host did the same on RTL and golden model."""
+    return sha256(repr(sorted(map(tuple, side.stimulus))).encode()).hexdigest()[:12]
+
+
+def note(side: Side, text: str) -> None:
+    """Leave in the folder of the run what its host is going to do."""
+    if side.simulated:
+        (cast(Bench, side).out / "plan.txt").write_text(text + "\n", encoding="utf-8")

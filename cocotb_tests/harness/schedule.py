@@ -18,9 +18,8 @@ from typing import Any
 import pytest
 
 from .collect import Item
-from .group import groups_of
 from .paths import BUILD
-from .runner import SimOptions
+from .runner import SimOptions, groups_of
 
 _SCOPES = "openppmc_scopes"
 

@@ -10,14 +10,51 @@ from __future__ import annotations
 import random
 from abc import ABC, abstractmethod
 from bisect import bisect_left
-from collections.abc import Generator, Iterable, Iterator, Mapping
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Protocol
 
+from openppmc.check import replay
+from openppmc.check.records import Access, Change, Edge, Recording, bit_changes, level_at
+from openppmc.check.replay import Follower
+
 from .config import Config
-from .follower import Follower, new_model
-from .given import Given
+from .crosses import watch
 from .part import Part
-from .stimulus import Access, Change, Edge, Recording, bit_changes, level_at
+
+
+def new_model(part: str, params: Mapping[str, object]) -> Any:
+    """As `openppmc.check.replay.new_model`."""
+    watch(part)
+    return replay.new_model(part, params)
+
+
+class Given:
+    """`changes`: in order of time, whatever comes later stands behind what has been there before."""
+
+    def __init__(self) -> None:
+        self.changes: list[Change] = []
+        self._driven = 0
+        self._made: dict[str, tuple[int, tuple[int, int]]] = {}
+        """Name -> how many of its rows are in the list, and the last of these."""
+
+    def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
+        """What is new of both, which grow from call to call; the whole list.
+
+        made: name -> (edge, level), first sampled by the edge behind it. The last level of the last edge may
+        have changed since it was seen.
+        """
+        new, self._driven = list(driven[self._driven :]), len(driven)
+        for name, rows in made.items():
+            if not rows:
+                continue
+            count, last = self._made.get(name, (0, rows[0]))
+            if count and rows[count - 1] != last:
+                count -= 1
+            new += [Change(t + 1, name, level) for t, level in rows[count:]]
+            self._made[name] = len(rows), rows[-1]
+        self.changes += sorted(new, key=lambda change: change.t)
+        return self.changes
+
 
 TIMEOUT = 1_000_000
 """clk that a wait lasts at most, if nobody says otherwise."""

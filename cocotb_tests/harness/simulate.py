@@ -1,4 +1,4 @@
-"""One simulator process for one or more tests of one build."""
+"""Runs one simulator process for one or more tests of one build, and reads what became of each test."""
 
 from __future__ import annotations
 
@@ -6,16 +6,136 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Mapping, Sequence
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from xml.etree import ElementTree
 
-from . import coverage, mutant, watchdog
-from .build import Design, build, simulator
+from cocotb_tests.harness import watchdog
+
+from .build import ICARUS, Design, build, from_root, sim_main, simulator
 from .collect import Item
-from .outcome import Outcome, outcomes
+from .config import last_seed
 from .paths import ROOT, RUNS
-from .verilate import ICARUS, sim_main
+from .variants import keep_counts, mutant_plusargs
+
+PASSED, FAILED, SKIPPED, XFAILED = "passed", "failed", "skipped", "xfailed"
+CRASHED = "crashed"
+"""The process ended within this test: crash, $fatal, or the wall-clock limit."""
+MISSING = "did not run"
+TIMEOUT = "no end within the wall-clock limit"
+
+_SAID = re.compile(r"^ *[-\d.]+ns [A-Z]+ +cocotb\.regression +(?P<text>.*)$", re.MULTILINE)
+_FAILED_LINE = re.compile(r"\s*(\w+\.)*\w*(Error|Exception|Failed)\b")
+_TABLE = re.compile(r"^[^\n]*\*{20,}", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One test's: `kind`, and in `text` what failed, or the reason of a skip or an expected failure."""
+
+    kind: str
+    text: str = ""
+
+    @property
+    def good(self) -> bool:
+        """Whether the run goes on without a word: passed, skipped or failed as expected."""
+        return self.kind in (PASSED, SKIPPED, XFAILED)
+
+    @property
+    def headline(self) -> str:
+        """The last line that is not indented of an exception, or the first one: what failed."""
+        rows = [row for row in self.text.splitlines() if row.strip()]
+        errors = [row.strip() for row in rows if _FAILED_LINE.match(row)]
+        return (errors or [row.strip() for row in rows] or [self.kind])[0]
+
+
+def read_log(log: Path) -> str:
+    """A log as text, with the project's files named from its root."""
+    if not log.is_file():
+        return ""
+    return from_root(re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace")))
+
+
+def failure_text(text: str, lines: int = 100) -> str:
+    """The exception or the error of the RTL in a test's part of the log, else the end of that part."""
+    found = [text.find(word) for word in ("%Error", "%Fatal", "Fatal Python error", "Timeout (")]
+    start = min((place for place in found if place >= 0), default=-1)
+    if start < 0:
+        start = text.rfind("Traceback (most recent call last)")
+    chosen = text[max(0, text.rfind("\n", 0, start) + 1) :] if start >= 0 else text
+    # The summary table of cocotb says nothing that the message does not.
+    chosen = _TABLE.split(chosen)[0]
+    if chosen.lstrip().startswith("Traceback"):
+        chosen = chosen.split("\n", 1)[-1]
+    rows = [*last_seed(text), *textwrap.dedent(chosen.rstrip()).splitlines()]
+    return "\n".join(rows if len(rows) <= lines else _shortened(rows, lines))
+
+
+def _shortened(rows: list[str], lines: int) -> list[str]:
+    """About so many lines: begin, what failed, end."""
+    what = next((n for n, row in enumerate(rows) if _FAILED_LINE.match(row)), 0)
+    middle = range(max(6, what), min(max(6, what) + lines // 3, len(rows)))
+    end = range(max(middle.stop, len(rows) - lines + lines // 3 + 8), len(rows))
+    gaps = [["  ..."] if a < b else [] for a, b in ((6, middle.start), (middle.stop, end.start))]
+    return [*rows[:6], *gaps[0], *(rows[n] for n in middle), *gaps[1], *(rows[n] for n in end)]
+
+
+def _parts(text: str) -> Iterator[tuple[str, str]]:
+    """(full name, its part of the log) of each test that was begun; what came before is the first one's."""
+    begins = [
+        (name.group(1), said.start())
+        for said in _SAID.finditer(text)
+        if (name := re.match(r"running (.+) \(\d+/\d+\)$", said["text"]))
+    ]
+    places = [0, *(place for _, place in begins[1:]), len(text)]
+    for number, (name, _) in enumerate(begins):
+        yield name, text[places[number] : places[number + 1]]
+
+
+def _outcome(name: str, part: str, end: str) -> Outcome:
+    """Outcome of a test by its part of the log; `end`: what ended the process, if that was within a test."""
+    if "%Error" in part:
+        return Outcome(FAILED, failure_text(part))
+    for said in _SAID.finditer(part):
+        if said["text"].startswith(f"skipping {name}: "):
+            return Outcome(SKIPPED, said["text"].partition(": ")[2])
+        verdict = re.match(rf"{re.escape(name)} (passed|failed|xfailed)(?:: )?(.*)$", said["text"])
+        if verdict:
+            kind, reason = verdict.groups()
+            return Outcome(kind, failure_text(part) if kind == FAILED else reason)
+    return Outcome(CRASHED, f"{end}\n{failure_text(part)}")
+
+
+def named_in(results: Path) -> list[str] | None:
+    """Full names of the tests in results.xml, sorted; None if there is none."""
+    if not results.is_file():
+        return None
+    cases = ElementTree.parse(results).getroot().iter("testcase")
+    return sorted(f"{case.get('classname')}.{case.get('name')}" for case in cases)
+
+
+def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> dict[Item, Outcome]:
+    """Outcome of each item of a process that has ended.
+
+    `trouble`: how, if not well. A process that came to its end must have run exactly these items.
+    """
+    text, names = read_log(log), named_in(results)
+    wanted = sorted(item.full_name for item in items)
+    if names is not None and names != wanted:
+        said = Outcome(FAILED, f"expected exactly {', '.join(wanted)}, results.xml has {', '.join(names)}")
+        return dict.fromkeys(items, said)
+    if "Timeout (" in text:
+        trouble = TIMEOUT
+    end = trouble or "the simulation ended within the test"
+    known = {name: _outcome(name, part, end) for name, part in _parts(text)}
+    whole = f"{end}\n{failure_text(text)}"
+    found = {item: known.get(item.full_name, Outcome(MISSING, whole)) for item in items}
+    if trouble and all(outcome.good for outcome in found.values()):
+        return dict.fromkeys(items, Outcome(FAILED, whole))
+    return found
+
 
 REPRO = "OPENPPMC_REPRO"
 """Tells a simulation the command that repeats it, for its messages."""
@@ -98,7 +218,7 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
                 "+verilator+rand+reset+2",
                 f"+verilator+seed+{job.seed % 0x7FFFFFFF + 1}",
                 f"+verilator+error+limit+{ERRORS}",
-                *mutant.plusargs(),
+                *mutant_plusargs(),
             ],
             extra_env={
                 "OPENPPMC_CONFIG": job.items[0].config.to_json(),
@@ -119,5 +239,5 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
         trouble = f"the simulator ended: {error}"
     except SystemExit:
         pass  # some test failed, as its outcome says
-    coverage.keep(folder)
+    keep_counts(folder)
     return outcomes(job.items, log, results, trouble)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
-from ..harness.unit import Unit, rng
+from ..harness import Unit, rng
 from .busses.strobe_slave import Registers, StrobeSlave
 
 WRITE, NEXT_AXIS, NEXT = 0x8000, 0x4000, 0x2000

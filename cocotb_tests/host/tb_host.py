@@ -7,8 +7,7 @@ from collections import deque
 
 import cocotb
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 PINS = "cs_ni rd_ni wr_ni a0_i d_i:8"
 READ_SIDE = "status_i:8 data_i:8 data_valid_i data_new_i"

@@ -7,8 +7,7 @@ from typing import Any
 
 import cocotb
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 from .spi_host import (
     COUNT,
     CUT,

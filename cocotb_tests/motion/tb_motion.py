@@ -9,8 +9,7 @@ import cocotb
 
 from openppmc.model.motion.excitation import step_list
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 BASES = [(8, 32, 30), (1, 5, 7), (2, 3, 1)]  # fast, slow, extra; fast is never above slow
 EXTERNAL = [(136, 128), (20, 13), (9, 9), (940, 885)]

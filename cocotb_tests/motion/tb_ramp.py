@@ -12,8 +12,7 @@ from cocotb.utils import get_sim_time
 
 from openppmc.model.motion.ramp import natural_deceleration, next_index, ramp_rate
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 BUILD_PORTS = "start_i slow_i:8 fast_i:8 steps_i:{0} busy_o we_o addr_o:8 data_o:{0}"
 BLOCKS = {

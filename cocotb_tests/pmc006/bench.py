@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from cocotb_tests.harness.part import Part
+from cocotb_tests.harness import Part
 from openppmc.model.pmc006 import pins
 
 DEFAULTS = {

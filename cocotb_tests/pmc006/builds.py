@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from cocotb_tests.harness import directed as harness
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config, directed
 
 FAST_LINE = ("BAUD", 115_200)
 F8B = Config("f8b", clk_hz=8_000_000, extra=(FAST_LINE,))
@@ -22,5 +21,5 @@ BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900)
 """The blanking is longer than half the off time: so long is FAST at most (P006-CHP-03)."""
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 
-directed = partial(harness.directed, builds=(F8B,))
-"""As `harness.directed`, in this build unless told otherwise."""
+directed = partial(directed, builds=(F8B,))
+"""As `harness.running.directed`, in this build unless told otherwise."""

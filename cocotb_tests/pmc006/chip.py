@@ -9,9 +9,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.model_bench import ModelBench
-from cocotb_tests.harness.side import Side
+from cocotb_tests.harness import Bench, ModelBench, Side
 from openppmc.model.carrier.eeprom import PAGE, SIZE, Eeprom24C32
 
 from .i2c_bus import I2cBus

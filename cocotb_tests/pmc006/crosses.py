@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.crosses import Cross, Crosses, before
-from cocotb_tests.harness.family_crosses import Count
+from cocotb_tests.harness.crosses import Count, Cross, Crosses, before
 from openppmc.model.pmc006.codes import LETTERS
 from openppmc.model.pmc006.instructions.executor import Executor
 

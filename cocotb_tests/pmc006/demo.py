@@ -6,8 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.story import Story
+from cocotb_tests.harness import Bench
+from cocotb_tests.harness.sessions import Story
 
 from .stepping import MotorHost
 from .story import tell

@@ -10,10 +10,9 @@ from fractions import Fraction
 from math import ceil
 from typing import Any, TypeVar
 
-from cocotb_tests.harness.serial_line import SerialLine, characters
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
-from cocotb_tests.harness.stimulus import Access
+from cocotb_tests.harness import SerialLine, Side, start_bench
+from cocotb_tests.harness.line import characters
+from openppmc.check.records import Access
 
 from .bench import PMC006, WITH_EEPROM
 from .chip import Chip, Eeprom, plug_in

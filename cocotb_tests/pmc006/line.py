@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.model_bench import ModelBench, OnModel
-from cocotb_tests.harness.serial_line import Changes
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import ModelBench, OnModel, Side, start_bench
+from cocotb_tests.harness.line import Changes
 
 from .bench import PMC006
 from .stepping import Stepping

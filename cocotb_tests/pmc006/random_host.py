@@ -9,8 +9,7 @@ from collections import Counter
 from math import ceil
 from typing import Any
 
-from cocotb_tests.harness.moving_pins import MovingPins
-from cocotb_tests.harness.random_host import Builds
+from cocotb_tests.harness.random_host import Builds, MovingPins
 
 from .builds import D8E, F8B, ODD
 from .chip import Chip

@@ -5,8 +5,8 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 
-from cocotb_tests.harness.serial_line import Changes
-from cocotb_tests.harness.side import Side
+from cocotb_tests.harness import Side
+from cocotb_tests.harness.line import Changes
 from openppmc.model.pmc006.bench.motor import Motor, Plant
 
 from .host import Host

@@ -6,8 +6,8 @@ switch and shuttles without a host. The motor is there for the moves only: its c
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.story import Story
+from cocotb_tests.harness import Config
+from cocotb_tests.harness.sessions import Story
 from cocotb_tests.pmc006.stepping import MotorHost
 from openppmc.model.pmc006.bench.motor import Motor
 from openppmc.model.pmc006.program import assemble

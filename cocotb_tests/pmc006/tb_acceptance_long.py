@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.config import F16, F25, Config
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F16, F25, Config, directed
 
 from .frames import reply, signed
 from .host import EXECUTE, Host

@@ -9,8 +9,8 @@ from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, Event, FallingEdge, RisingEdge, Timer, with_timeout
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness.unit import same
-from cocotb_tests.harness.wire import Wire
+from cocotb_tests.harness import same
+from cocotb_tests.harness.line import Wire
 from cocotb_tests.pmc006.frames import command, of_reply
 
 BAUD, ADDRESS = 115_200, 255

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.inside import inside
+from cocotb_tests.harness import inside
 
 from .builds import directed
 from .host import Host

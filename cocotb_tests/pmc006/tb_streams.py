@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import Bench, rtl_only
 
 from .bench import PMC006
 from .builds import directed

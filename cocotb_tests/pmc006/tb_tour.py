@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Any
 
-from cocotb_tests.harness.config import F16
+from cocotb_tests.harness import F16
 
 from .builds import D8E, F8B, directed
 from .frames import command

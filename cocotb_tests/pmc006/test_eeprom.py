@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import Part, SimOptions, cocotb_items, run_item
 from cocotb_tests.harness.build import Design
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.runner import SimOptions, run_item
 from openppmc.model.carrier.eeprom import Eeprom24C32
 
 from .tb_eeprom import WRITE_CLK

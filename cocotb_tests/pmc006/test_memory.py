@@ -6,11 +6,10 @@ from dataclasses import replace
 
 import pytest
 
+from cocotb_tests.harness import Config, SimOptions, cocotb_items, run_item
 from cocotb_tests.harness.build import Design, part_design
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.runner import SimOptions, run_item
 
 from .bench import PMC006, WITH_EEPROM
 

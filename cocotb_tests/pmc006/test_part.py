@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.runner import SimOptions, run_item
+from cocotb_tests.harness import SimOptions, cocotb_items, run_item
+from cocotb_tests.harness.collect import Item
 
 from .bench import PMC006
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.elaborate import check_ranges, ports
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import check_ranges, verifies
+from cocotb_tests.harness.build import part_design, ports
 
 from .bench import PMC006
 from .builds import F8B

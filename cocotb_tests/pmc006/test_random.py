@@ -9,11 +9,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from cocotb_tests.harness import OnModel, RandomItems, SimOptions, generating, on_model
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.model_bench import OnModel, on_model
-from cocotb_tests.harness.random_items import RandomItems, generating
-from cocotb_tests.harness.runner import SimOptions
-from cocotb_tests.harness.soaking import Played, all_of
+from cocotb_tests.harness.random_items import Played, all_of
 
 from .random_host import build, play, with_chip
 from .test_memory import design

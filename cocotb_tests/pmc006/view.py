@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.harness.side import Side
+from cocotb_tests.harness import Side
 
 from .frames import signed
 

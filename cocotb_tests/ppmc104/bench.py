@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.part import Part
+from cocotb_tests.harness import Part
 from openppmc.model import ppmc104
 
 PPMC104 = Part.of_model(

@@ -7,8 +7,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness import Bench, HostBus
 
 from .bench import PPMC104
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.crosses import Crosses
-from cocotb_tests.harness.family_crosses import ERRORS, MOTION, Count, hook_errors, hook_motion
+from cocotb_tests.harness.crosses import ERRORS, MOTION, Count, Crosses, hook_errors, hook_motion
 
 
 def _hook(count: Count) -> None:

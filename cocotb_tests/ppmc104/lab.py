@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY, HostBus
-from cocotb_tests.harness.drive import Drive
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import BUSY, Drive, HostBus, Side, start_bench
 
 from .bench import PPMC104
 from .figures import INIT_A

@@ -6,9 +6,10 @@ out on a bench; the actions are those of `common.player` and ("finish", clk).
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
-from cocotb_tests.harness.host_writer import HostWriter
+from cocotb_tests.harness import D11, D16, F8, F11, F16, F25, F50, F100, Config
+from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
+from cocotb_tests.harness.random_host import HostWriter
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.single_player import SinglePlayer
+from cocotb_tests.harness import Side
+from cocotb_tests.harness.player import SinglePlayer
 from cocotb_tests.ppmc104.random_host import Scenario
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, IBF
+from cocotb_tests.harness import BUSY, IBF
 
 from .lab import WRITE_EVENT, Lab
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from itertools import repeat
 
-from cocotb_tests.harness.bus import BUSY, COMMAND, IBF
-from cocotb_tests.harness.config import D16, F11
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, COMMAND, D16, F11, IBF, directed
 
 from .figures import INIT_A, INIT_B, differences
 from .lab import Lab

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, IBF, OBF, STATUS
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, IBF, OBF, STATUS, directed
 
 from .figures import INIT_A, INIT_B
 from .lab import Lab

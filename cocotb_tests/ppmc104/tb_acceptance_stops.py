@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import ERR, OBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import ERR, OBF, directed
 
 from .figures import INIT_A, INIT_B, STEP_CODES, rates, steps
 from .lab import Lab

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import random
 
-from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
-from cocotb_tests.harness.config import D16, F8, F16, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, D16, DATA, F8, F16, F100, IBF, OBF, directed
 
 from .figures import INIT_A
 from .lab import Lab

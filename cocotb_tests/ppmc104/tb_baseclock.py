@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from itertools import chain, repeat
 
-from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.config import F8, F11, F16, F16X1, F25, F50, F100, Config
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, F8, F11, F16, F25, F50, F100, Config, directed
+from cocotb_tests.harness.config import F16X1
 
 from .figures import INIT_A, differences, rates
 from .lab import Lab

@@ -6,10 +6,7 @@ import cocotb
 from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness.bus import COMMAND, DATA, IBF, STATUS
-from cocotb_tests.harness.config import F8, F16, F50, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import COMMAND, DATA, F8, F16, F50, F100, IBF, STATUS, directed, rtl_only
 
 from .figures import INIT_A
 from .lab import PINS_LATEST, Lab

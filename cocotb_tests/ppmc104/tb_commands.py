@@ -4,8 +4,7 @@ starts (P104-OPR).
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, DATA, ERR
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, DATA, ERR, directed
 
 from .figures import INIT_A
 from .lab import Lab

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, DATA, IBF
-from cocotb_tests.harness.config import D11, D16, D25X8
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, D11, D16, DATA, IBF, directed
+from cocotb_tests.harness.config import D25X8
 
 from .figures import INIT_A
 from .lab import WRITE_EVENT

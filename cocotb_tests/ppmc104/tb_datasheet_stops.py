@@ -4,9 +4,7 @@ external clock.
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, IBF
-from cocotb_tests.harness.config import D11, D16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, D11, D16, IBF, directed
 
 from .figures import INIT_B, forced, rates
 from .lab import WRITE_EVENT

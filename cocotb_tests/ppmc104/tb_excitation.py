@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import F8, F11, F16, F25, F50
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F8, F11, F16, F25, F50, directed
 
 from .figures import INIT_A, STEP_CODES, steps
 from .lab import Lab

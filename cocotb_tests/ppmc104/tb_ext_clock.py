@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import F8, F16, F25
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.ext_moves import BRISK, TOO_MANY, ExtMoves, Move, sweep
-from cocotb_tests.harness.figures import differences
+from cocotb_tests.harness import F8, F16, F25, directed
+from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
+from cocotb_tests.harness.drive import differences
 
 from .figures import INIT_A
 from .lab import Lab

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import F16, F25, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F16, F25, F100, directed
 
 from .figures import INIT_B, forced, indices, rates
 from .lab import Lab

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import DATA, IBF
-from cocotb_tests.harness.config import F16, F16X1, F50
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import DATA, F16, F50, IBF, directed
+from cocotb_tests.harness.config import F16X1
 
 from .figures import INIT_A, INIT_B, rates, steps
 from .lab import PINS_LATEST, Lab

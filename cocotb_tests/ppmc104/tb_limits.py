@@ -6,10 +6,8 @@ from __future__ import annotations
 
 from itertools import repeat
 
-from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.config import F16, F50, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.two_causes import BOTH, two_causes
+from cocotb_tests.harness import BUSY, F16, F50, F100, directed
+from cocotb_tests.harness.checks import BOTH, two_causes
 
 from .figures import INIT_A, INIT_B, forced, rates
 from .lab import Lab

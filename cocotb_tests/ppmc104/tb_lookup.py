@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from itertools import repeat
 
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.config import D16, F8, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import D16, F8, F16, HostBus, directed, start_bench
 
 from .bench import PPMC104
 

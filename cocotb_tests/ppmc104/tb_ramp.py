@@ -5,8 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import isqrt
 
-from cocotb_tests.harness.config import F8, F16, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F8, F16, F100, directed
 
 from .figures import INIT_A, INIT_B, forced, indices, rate, rates
 from .lab import Lab

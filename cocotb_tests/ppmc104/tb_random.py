@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import BUSY, IBF, HostBus
-from cocotb_tests.harness.noise import UNCOMPARED
+from cocotb_tests.harness import BUSY, IBF, Bench, HostBus, random_test, start_bench
 from cocotb_tests.harness.player import describe
-from cocotb_tests.harness.random_test import note, random_test
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness.random_host import UNCOMPARED
+from cocotb_tests.harness.running import note
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
 from cocotb_tests.ppmc104.random_player import HostPlayer

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import DATA, OBF
-from cocotb_tests.harness.config import F16, F25, F50
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import DATA, F16, F25, F50, OBF, directed
 
 from .figures import INIT_A, STEP_CODES, steps
 from .lab import PINS_LATEST, Lab

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF
-from cocotb_tests.harness.config import D16, F16, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, COMMAND, D16, DATA, F16, F100, IBF, OBF, directed
 
 from .figures import INIT_A, INIT_B
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, ERR
-from cocotb_tests.harness.config import F8, F16, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, ERR, F8, F16, F100, directed
 
 from .figures import INIT_A, INIT_B, forced, rates, steps
 from .lab import PINS_LATEST, Lab

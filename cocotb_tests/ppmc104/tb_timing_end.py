@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bus import BUSY, IBF
-from cocotb_tests.harness.config import F8, F11, F16, F25, F50, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, F8, F11, F16, F25, F50, F100, IBF, directed
 
 from .figures import INIT_A, INIT_B
 from .lab import C_EVENT_LATEST, PINS_LATEST, Lab

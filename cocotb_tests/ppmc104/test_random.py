@@ -1,6 +1,6 @@
 """Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
 
-`python -m scripts.soak --seed S --count N` plays as many others as you like.
+`python -m scripts.measure.soak --seed S --count N` plays as many others as you like.
 """
 
 from __future__ import annotations
@@ -8,19 +8,27 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from cocotb_tests.harness import (
+    D16,
+    F11,
+    F16,
+    F100,
+    HostBus,
+    ModelBench,
+    OnModel,
+    RandomItems,
+    SimOptions,
+    generating,
+    on_model,
+)
 from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.bus import HostBus
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import compare_recording
-from cocotb_tests.harness.config import D16, F11, F16, F100
-from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
 from cocotb_tests.harness.random_host import in_turn
-from cocotb_tests.harness.random_items import RandomItems, generating
-from cocotb_tests.harness.runner import SimOptions
-from cocotb_tests.harness.shortened import shortened
-from cocotb_tests.harness.stimulus import Recording
+from cocotb_tests.harness.random_items import shortened
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc104.random_host import scenario
+from openppmc.check.records import Recording
 
 SEEDS = range(1, 221)
 CHAOS_SEEDS = range(1, 41)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.part import BusStyle, Part
+from cocotb_tests.harness import BusStyle, Part
 from openppmc.model.ppmc2104 import codes
 
 # The same two pins in both styles of the PPMC-2104AFP: WRS*/RDS*, or DS* with R/W*.

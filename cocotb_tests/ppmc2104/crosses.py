@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.crosses import Cross, Crosses, before
-from cocotb_tests.harness.family_crosses import NO_EXTRA_TIME, Count, hook_motion
+from cocotb_tests.harness.crosses import NO_EXTRA_TIME, Count, Cross, Crosses, before, hook_motion
 from openppmc.model.ppmc2104.codes import Error
 from openppmc.model.ppmc2104.commands import CommandUnit
 from openppmc.model.single.hostport import HostPort

@@ -6,9 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.story import Story
+from cocotb_tests.harness import Bench, HostBus
+from cocotb_tests.harness.sessions import Story
 
 from .bench import PPMC2104
 

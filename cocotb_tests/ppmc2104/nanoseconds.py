@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.harness.part import BusStyle
+from cocotb_tests.harness import BusStyle
 
 from .lab import Lab
 

@@ -7,9 +7,10 @@ and their data look like: `random_codes`.
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import D11, D16, D25X8, F8, F11, F16, F25, F50, F100, Config
-from cocotb_tests.harness.host_writer import HostWriter
+from cocotb_tests.harness import D11, D16, F8, F11, F16, F25, F50, F100, Config
+from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
+from cocotb_tests.harness.random_host import HostWriter
 from cocotb_tests.ppmc2104.random_codes import KNOWN_CODES, Codes
 
 # The builds of the random tests with their weights; DATASHEET runs are few because they are long.

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.noise import Noise
+from cocotb_tests.harness import Bench
+from cocotb_tests.harness.random_host import Noise
 
 STROBES = ("ds_wrs_n", "ds_wrs_n", "rw_rds_n", "rw_rds_n", "cs_n")
 _ONE_AXIS = (

@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 from dataclasses import dataclass
 
-from cocotb_tests.harness.config import F11, F16, F25, Config
+from cocotb_tests.harness import F11, F16, F25, Config
 from cocotb_tests.ppmc2104.random_codes import Codes
 from cocotb_tests.ppmc2104.random_host import SWITCHES
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import ceil
 
-from cocotb_tests.harness.bus import IBF
+from cocotb_tests.harness import IBF
 
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
 

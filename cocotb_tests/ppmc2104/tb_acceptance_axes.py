@@ -5,9 +5,8 @@ from __future__ import annotations
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF, OBF
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import NO_PULSES_DONE, steps
+from cocotb_tests.harness import IBF, OBF, directed
+from cocotb_tests.harness.drive import NO_PULSES_DONE, steps
 
 from .figures import BUSY1, CMND1, INIT_B, STEP_CODES
 from .lab import Lab

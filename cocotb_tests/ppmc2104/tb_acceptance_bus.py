@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import OBF
-from cocotb_tests.harness.config import F8, F11, F16, F16X8, F48, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import differences
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import F8, F11, F16, F48, F100, OBF, directed, rtl_only
+from cocotb_tests.harness.config import F16X8
+from cocotb_tests.harness.drive import differences
 
 from .figures import CMND2, INIT_B
 from .lab import Lab

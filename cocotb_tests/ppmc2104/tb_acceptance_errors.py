@@ -5,8 +5,7 @@ from __future__ import annotations
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import OBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import OBF, directed
 
 from .figures import BUSY1, INIT_B
 from .lab import Axis, Lab

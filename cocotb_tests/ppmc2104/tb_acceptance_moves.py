@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF
-from cocotb_tests.harness.config import F8
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import indices, rates
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import F8, IBF, directed, rtl_only
+from cocotb_tests.harness.drive import indices, rates
 
 from .figures import (
     BUILD_LATEST,

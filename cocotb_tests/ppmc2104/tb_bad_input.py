@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF, OBF
-from cocotb_tests.harness.config import D16, F11, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import indices, rates
+from cocotb_tests.harness import D16, F11, F16, IBF, OBF, directed
+from cocotb_tests.harness.drive import indices, rates
 
 from .figures import CMND1, ERROR, INIT_A, kind_of
 from .lab import Lab

@@ -5,10 +5,7 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF, STATUS
-from cocotb_tests.harness.config import F8, F11, F16, F48, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import COMMAND, DATA, F8, F11, F16, F48, F100, IBF, OBF, STATUS, directed, rtl_only
 
 from .figures import INIT_A
 from .lab import PINS_LATEST, Lab

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import IBF, HostBus
-from cocotb_tests.harness.figures import indices, offsets, rates
-from cocotb_tests.harness.noise import UNCOMPARED
-from cocotb_tests.harness.random_test import random_test
+from cocotb_tests.harness import IBF, Bench, HostBus, random_test
+from cocotb_tests.harness.drive import indices, offsets, rates
+from cocotb_tests.harness.random_host import UNCOMPARED
 from cocotb_tests.ppmc2104.figures import BUSY1, BUSY2, CMND1, CMND2, OBF
 from cocotb_tests.ppmc2104.random_noise import noise
 

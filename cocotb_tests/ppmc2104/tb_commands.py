@@ -5,8 +5,7 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF, OBF
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import IBF, OBF, directed
 
 from .figures import (
     CMND1,

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF, OBF
-from cocotb_tests.harness.config import D11, D16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import bytes_of, rates
+from cocotb_tests.harness import D11, D16, IBF, OBF, directed
+from cocotb_tests.harness.drive import bytes_of, rates
 
 from .figures import ERROR, INIT_A, INIT_B, slowed
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab

@@ -5,10 +5,8 @@ from __future__ import annotations
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF
-from cocotb_tests.harness.config import D11, D16, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import NO_PULSES_DONE
+from cocotb_tests.harness import D11, D16, F16, IBF, directed
+from cocotb_tests.harness.drive import NO_PULSES_DONE
 
 from .figures import INIT_B
 from .lab import Axis, Lab

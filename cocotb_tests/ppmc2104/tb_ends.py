@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.config import F11, F16, F48
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import NO_PULSES_DONE
+from cocotb_tests.harness import F11, F16, F48, directed
+from cocotb_tests.harness.drive import NO_PULSES_DONE
 
 from .figures import INIT_A, INIT_B
 from .lab import Lab

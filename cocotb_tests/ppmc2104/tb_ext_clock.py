@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.config import F8, F16, F48
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.ext_moves import BRISK, TOO_MANY, ExtMoves, Move, sweep
+from cocotb_tests.harness import F8, F16, F48, directed
+from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
 
 from .lab import Lab
 

@@ -6,10 +6,7 @@ from collections.abc import Iterator
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.random_test import random_test
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import HostBus, Side, random_test, start_bench
 from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 
 from .bench import PPMC2104

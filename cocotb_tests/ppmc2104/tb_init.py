@@ -5,9 +5,8 @@ from __future__ import annotations
 from itertools import product, repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import indices, rates, steps
+from cocotb_tests.harness import IBF, directed
+from cocotb_tests.harness.drive import indices, rates, steps
 
 from .figures import INIT_A, INIT_B, STEP_CODES
 from .lab import Lab

@@ -5,10 +5,9 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from cocotb_tests.harness.config import F16, F48, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import NO_PULSES_DONE, forced, rates
-from cocotb_tests.harness.two_causes import BOTH, two_causes
+from cocotb_tests.harness import F16, F48, F100, directed
+from cocotb_tests.harness.checks import BOTH, two_causes
+from cocotb_tests.harness.drive import NO_PULSES_DONE, forced, rates
 
 from .figures import INIT_A
 from .lab import Lab

@@ -7,11 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import HostBus, Side, directed, start_bench
 from cocotb_tests.harness.sessions import Sessions
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
 
 from .bench import PPMC2104
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import product, repeat
 from typing import Any
 
-from cocotb_tests.harness.config import F8, F11, F16, F16X8, F48, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import NO_PULSES_DONE, indices, rates
+from cocotb_tests.harness import F8, F11, F16, F48, F100, directed
+from cocotb_tests.harness.config import F16X8
+from cocotb_tests.harness.drive import NO_PULSES_DONE, indices, rates
 
 from .figures import ERROR, INIT_A, INIT_EXT
 from .lab import Lab

@@ -6,8 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.config import D11, D16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import D11, D16, directed
 
 from .figures import INIT_B
 from .lab import Axis, Lab

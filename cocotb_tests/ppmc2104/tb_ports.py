@@ -8,10 +8,8 @@ import cocotb
 from cocotb.triggers import Timer, ValueChange
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness.bus import COMMAND, DATA, STATUS
-from cocotb_tests.harness.config import D16, F16, F16X8, F48, F100
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import COMMAND, D16, DATA, F16, F48, F100, STATUS, directed, rtl_only
+from cocotb_tests.harness.config import F16X8
 
 from .figures import INIT_A
 from .lab import Lab

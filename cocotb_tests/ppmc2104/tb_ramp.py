@@ -5,9 +5,8 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from cocotb_tests.harness.config import F11, F16, F48
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import indices, rate, rates
+from cocotb_tests.harness import F11, F16, F48, directed
+from cocotb_tests.harness.drive import indices, rate, rates
 
 from .figures import INIT_A, INIT_B, slowed
 from .lab import Axis, Lab

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from cocotb_tests.harness import random_test, start_bench
 from cocotb_tests.harness.player import describe
-from cocotb_tests.harness.random_test import note, random_test
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness.running import note
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_player import HostPlayer
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from cocotb_tests.harness.bus import IBF
-from cocotb_tests.harness.config import F11, F16, F48, F100
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F11, F16, F48, F100, IBF, directed
 
 from .figures import INIT_A, INIT_B, STEP_CODES
 from .lab import Lab

@@ -5,10 +5,8 @@ from __future__ import annotations
 from itertools import product
 from typing import Any
 
-from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF
-from cocotb_tests.harness.config import F11, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import indices, rates
+from cocotb_tests.harness import COMMAND, DATA, F11, F16, IBF, OBF, directed
+from cocotb_tests.harness.drive import indices, rates
 
 from .figures import BUILD_LATEST, ERROR, INIT_A, INIT_B
 from .lab import Lab

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.runner import run_item
+from cocotb_tests.harness import cocotb_items, run_item
 
 from .bench import PPMC2104
 

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.elaborate import check_ranges, ports
-from cocotb_tests.harness.runner import run_item
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import F16, check_ranges, cocotb_items, run_item, verifies
+from cocotb_tests.harness.build import part_design, ports
 
 from .bench import PPMC2104
 

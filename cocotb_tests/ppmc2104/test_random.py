@@ -5,11 +5,9 @@
 
 from __future__ import annotations
 
+from cocotb_tests.harness import D16, F11, F16, F100, RandomItems, SimOptions, generating
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.config import D16, F11, F16, F100
 from cocotb_tests.harness.random_host import in_turn
-from cocotb_tests.harness.random_items import RandomItems, generating
-from cocotb_tests.harness.runner import SimOptions
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_pairs import pair
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.part import BusStyle, Part
+from cocotb_tests.harness import BusStyle, Part
 from openppmc.model.ppmc312 import codes
 
 # Eight registers, chosen by rs.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config
 
 F27 = Config("f27m", clk_hz=27_000_000)
 F27X12 = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.crosses import Cross, Crosses, after, before
-from cocotb_tests.harness.family_crosses import Count
+from cocotb_tests.harness.crosses import Count, Cross, Crosses, after, before
 from openppmc.model.ppmc312.codes import Answer, Cause, Code, Source, State
 from openppmc.model.ppmc312.instructions.starts import CODE_LAST, CODE_MORE
 from openppmc.model.ppmc312.instructions.unit import Unit

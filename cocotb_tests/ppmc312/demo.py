@@ -7,9 +7,9 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.block_host import CSR, BlockHost
-from cocotb_tests.harness.story import Story
+from cocotb_tests.harness import Bench, BlockHost
+from cocotb_tests.harness.bus import CSR
+from cocotb_tests.harness.sessions import Story
 
 from .bench import PPMC312
 

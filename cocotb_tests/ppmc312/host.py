@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, WAR, WCR, clean
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
-from cocotb_tests.harness.stimulus import Access
+from cocotb_tests.harness import Side, start_bench
+from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, WAR, WCR, clean
+from openppmc.check.records import Access
 
 from .bench import PPMC312
 from .side_host import SideHost

@@ -6,7 +6,7 @@ fit in. Now and then it does what a rough host does.
 
 from __future__ import annotations
 
-from cocotb_tests.harness.block_host import CSR, MREF, MWEF
+from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code, State
 

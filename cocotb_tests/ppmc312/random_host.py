@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from cocotb_tests.harness.config import D16, F16, F50, Config
+from cocotb_tests.harness import D16, F16, F50, Config
 from cocotb_tests.harness.random_host import Builds
 
 from .host import Host

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from cocotb_tests.harness.block_host import CSR, DWR, MREF, MWEF, WAR, WCR
+from cocotb_tests.harness.bus import CSR, DWR, MREF, MWEF, WAR, WCR
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import HOST_PINS, INPUTS, WIDTHS, Code
 

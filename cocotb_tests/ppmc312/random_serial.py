@@ -8,9 +8,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.moving_pins import MovingPins
-from cocotb_tests.harness.random_host import Builds
+from cocotb_tests.harness import D16, F16
+from cocotb_tests.harness.random_host import Builds, MovingPins
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import random
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
-from cocotb_tests.harness.moving_pins import MovingPins
+from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
+from cocotb_tests.harness.random_host import MovingPins
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.block_host import CSR, DRR, MREF, MWEF, RAR
+from cocotb_tests.harness.bus import CSR, DRR, MREF, MWEF, RAR
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code, State
 from openppmc.model.ppmc312.stages import ramped

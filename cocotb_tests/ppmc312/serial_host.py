@@ -10,10 +10,9 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.serial_line import SerialLine, characters
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import SerialLine, Side, start_bench
+from cocotb_tests.harness.bus import clean
+from cocotb_tests.harness.line import characters
 
 from .bench import PPMC312
 from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness import side_host
+from cocotb_tests.harness.bus import SideHost
 
 TICK = 16
 """clk of a tick at F = 1 MHz and a clock of 16 MHz."""
 
 
-class SideHost(side_host.SideHost):
+class SideHost(SideHost):
     """Host of one PPMC-312; `mark` is where pulses are counted from."""
 
     @property

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import D16, F16, directed
+from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
 from cocotb_tests.ppmc312.blocks import T1
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message

@@ -6,8 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
+from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, T2, T3, T4, TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message, rates, stopped

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message, rates, stopped

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Any
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.builds import F8V, F27
 from cocotb_tests.ppmc312.host import Host

@@ -7,8 +7,8 @@ from typing import Any
 import cocotb
 from cocotb import Param
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
+from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import RATES, T1, TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.table_read import read_table

@@ -8,8 +8,7 @@ from __future__ import annotations
 from math import ceil
 from typing import Any
 
-from cocotb_tests.harness.config import F50
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F50, directed
 from cocotb_tests.ppmc312.blocks import T1
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message

@@ -7,7 +7,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.motion_tables import SLOW_STOP, change
 from cocotb_tests.ppmc312.serial_host import SerialHost

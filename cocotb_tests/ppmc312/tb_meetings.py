@@ -6,9 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, MWEF, RAR, WAR, WCR, clean
-from cocotb_tests.harness.config import D16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import D16, directed
+from cocotb_tests.harness.bus import CSR, DRR, DWR, MWEF, RAR, WAR, WCR, clean
 from cocotb_tests.ppmc312.blocks import RATES, T1, TF
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message, stopped

@@ -6,7 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, ODD, SLOW_STOP, STOP, change, run_out

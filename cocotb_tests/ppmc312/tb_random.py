@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.random_test import random_test
+from cocotb_tests.harness import random_test
 
 from . import random_host, random_noise, random_serial
 

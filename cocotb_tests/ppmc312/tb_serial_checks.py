@@ -8,9 +8,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F16, directed
+from cocotb_tests.harness.bus import clean
 
 from .builds import CHARS
 from .serial_frames import T1, TS, summed

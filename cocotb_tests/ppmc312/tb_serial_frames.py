@@ -6,8 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F16, directed
 
 from .builds import CHARS, F8V
 from .serial_frames import SILENCE, TS, summed

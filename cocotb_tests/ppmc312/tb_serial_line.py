@@ -8,8 +8,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F16, directed
 
 from .builds import F27, F27X12, SLOW, SLOWEST
 from .serial_frames import TS, summed

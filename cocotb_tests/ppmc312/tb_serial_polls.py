@@ -7,7 +7,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 

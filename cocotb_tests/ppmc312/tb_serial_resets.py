@@ -6,9 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.block_host import CSR
-from cocotb_tests.harness.config import D16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import D16, directed
+from cocotb_tests.harness.bus import CSR
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Code
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 
 from .serial_frames import TS, summed
 from .serial_host import SerialHost

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import cocotb
 
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
 
 from .serial_frames import T_INIT, TS
 from .serial_host import SerialHost

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import directed
+from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, T2, T3, T4, TF, TG
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.table_read import read_table

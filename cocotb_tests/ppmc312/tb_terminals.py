@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.config import D16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import D16, directed
+from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.builds import F27
 from cocotb_tests.ppmc312.host import Host

@@ -6,12 +6,9 @@ plays as many others as you like.
 
 from __future__ import annotations
 
+from cocotb_tests.harness import D16, F16, F50, OnModel, RandomItems, SimOptions, generating, on_model
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.config import D16, F16, F50
-from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.random_host import in_turn
-from cocotb_tests.harness.random_items import RandomItems, generating
-from cocotb_tests.harness.runner import SimOptions
 
 from . import random_serial
 from .census import counting, thin

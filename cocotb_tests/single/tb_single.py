@@ -6,8 +6,7 @@ from math import ceil
 
 import cocotb
 
-from ..harness.unit import Unit, rng, same
-from ..harness.wrapper import Block
+from ..harness import Block, Unit, rng, same
 
 KINDS = "undefined init halt decel operation read switching aux_out exc_off aux_on aux_off".split()
 ACTIONS = "init start halt decel exc_off aux_on aux_off aux_out switching read".split()

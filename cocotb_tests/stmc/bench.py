@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.isa_style import STROBES_ISA
-from cocotb_tests.harness.part import Part
+from cocotb_tests.harness import Part
+from cocotb_tests.harness.isa import STROBES_ISA
 from openppmc.model.stmc import pc104_board, pins
 
 STMC = Part.of_model("stmc", pins, clock="ext_clk", lowest={"s": 1}, idle={"PHASE_IDLE": "s"})

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness import Bench, Config, IsaHost, start_bench
 from cocotb_tests.harness.build import Design
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
+from cocotb_tests.harness.isa import IsaMaster
 from cocotb_tests.harness.project import include_dirs, part, sources
-from cocotb_tests.harness.start import start_bench
 
 from .bench import J105_STMC
 from .figures import Init

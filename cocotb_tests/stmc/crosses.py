@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from cocotb_tests.harness.crosses import Crosses
-from cocotb_tests.harness.family_crosses import ERRORS, NO_EXTRA_TIME, Count, hook_errors, hook_motion
+from cocotb_tests.harness.crosses import ERRORS, NO_EXTRA_TIME, Count, Crosses, hook_errors, hook_motion
 
 NO_LIMIT = {("PA_TOO_LARGE", "*"): "this part has no limit on PA"}
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.isa_master import IsaHost, IsaMaster
-from cocotb_tests.harness.stimulus import steps
-from cocotb_tests.harness.story import Story
+from cocotb_tests.harness import Bench, IsaHost
+from cocotb_tests.harness.isa import IsaMaster
+from cocotb_tests.harness.sessions import Story
+from openppmc.check.records import steps
 
 from .bench import J105_STMC
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import accumulate
 from math import isqrt
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config
 
 Ramp = tuple[int, int, int]
 Init = tuple[int, int, int, int]

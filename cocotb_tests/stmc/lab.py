@@ -14,11 +14,9 @@ from collections.abc import Sequence
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY, IBF, HostBus
-from cocotb_tests.harness.drive import Drive
-from cocotb_tests.harness.figures import differences
-from cocotb_tests.harness.side import TIMEOUT, Side
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import BUSY, IBF, Drive, HostBus, Side, start_bench
+from cocotb_tests.harness.drive import differences
+from cocotb_tests.harness.side import TIMEOUT
 
 from .bench import STMC
 from .figures import EXT, STANDARD, TICK, Init, internal_offsets

@@ -6,9 +6,10 @@ more, where every rule holds to the clk (STMC-CLK-04).
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import D16, D25X8, F16, Config
-from cocotb_tests.harness.host_writer import HostWriter
+from cocotb_tests.harness import D16, F16, Config
+from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
+from cocotb_tests.harness.random_host import HostWriter
 
 from .figures import F8X20, F12, F200, ODD, SHEET, SWITCHES
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import F16, directed
 
 from .figures import EXT, F10, F12, INTERNAL, STANDARD, T0
 from .lab import Lab

@@ -6,11 +6,8 @@ from typing import Any
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.harness.bus import IBF, OBF
-from cocotb_tests.harness.config import F8, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.isa_master import Times
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import F8, F16, IBF, OBF, directed, rtl_only
+from cocotb_tests.harness.isa import Times
 
 from .board import OTHER, BoardLab
 from .figures import A, gaps

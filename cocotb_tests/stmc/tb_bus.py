@@ -6,10 +6,7 @@ from typing import Any
 
 from cocotb.triggers import Timer
 
-from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, IBF, OBF, STATUS
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.model_bench import rtl_only
+from cocotb_tests.harness import BUSY, COMMAND, D16, DATA, F16, IBF, OBF, STATUS, directed, rtl_only
 
 from .figures import F8X20, F200, INTERNAL, STANDARD
 from .lab import C_EVENT_LATEST, PINS_LATEST, Lab

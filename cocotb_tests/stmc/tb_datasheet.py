@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY, IBF, OBF
-from cocotb_tests.harness.config import D16, D25X8
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, D16, IBF, OBF, directed
+from cocotb_tests.harness.config import D25X8
 
 from .figures import INTERNAL, gaps, slowed
 from .lab import WRITE_EVENT, Lab

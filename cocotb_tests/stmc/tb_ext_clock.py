@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.ext_moves import TOO_MANY, ExtMoves, sweep
+from cocotb_tests.harness import F16, directed
+from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, sweep
 
 from .figures import F8X20, Ramp, divisor
 from .lab import Lab

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY, DATA, IBF, OBF
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, D16, DATA, F16, IBF, OBF, directed
 
 from .figures import SHEET, STANDARD, STEPS, gaps, steps
 from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab

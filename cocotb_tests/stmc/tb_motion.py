@@ -5,9 +5,7 @@ from __future__ import annotations
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, F16, directed
 
 from .figures import ALL, EXT, F8X20, F12, F200, INTERNAL, MOST, ODD, STANDARD, SWITCHES, T0, divisor, gaps
 from .lab import END_LATEST, Lab

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.bus import BUSY, IBF, OBF, HostBus
-from cocotb_tests.harness.noise import UNCOMPARED, Noise
-from cocotb_tests.harness.player import describe
-from cocotb_tests.harness.random_test import note, random_test
-from cocotb_tests.harness.single_player import SinglePlayer
-from cocotb_tests.harness.start import start_bench
+from cocotb_tests.harness import BUSY, IBF, OBF, Bench, HostBus, random_test, start_bench
+from cocotb_tests.harness.player import SinglePlayer, describe
+from cocotb_tests.harness.random_host import UNCOMPARED, Noise
+from cocotb_tests.harness.running import note
 
 from .bench import STMC
 from .figures import gaps, internal_offsets

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY, COMMAND, DATA, ERR, IBF, OBF
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.directed import directed
+from cocotb_tests.harness import BUSY, COMMAND, DATA, ERR, F16, IBF, OBF, directed
 
 from .figures import SHEET, STANDARD
 from .lab import Lab

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bus import BUSY
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.figures import differences
-from cocotb_tests.harness.two_causes import BOTH, two_causes
+from cocotb_tests.harness import BUSY, directed
+from cocotb_tests.harness.checks import BOTH, two_causes
+from cocotb_tests.harness.drive import differences
 
 from .figures import ALL, EXT, MOST, SWITCHES, gaps, slowed
 from .lab import END_LATEST, PINS_LATEST, Lab

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.elaborate import check_ranges
-from cocotb_tests.harness.runner import run_item
+from cocotb_tests.harness import F16, check_ranges, cocotb_items, run_item
 
 from .bench import J105_STMC
 from .board import design

@@ -5,11 +5,9 @@
 
 from __future__ import annotations
 
+from cocotb_tests.harness import D16, F16, RandomItems, SimOptions, generating
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.config import D16, F16
 from cocotb_tests.harness.random_host import in_turn
-from cocotb_tests.harness.random_items import RandomItems, generating
-from cocotb_tests.harness.runner import SimOptions
 
 from .figures import F12, ODD
 from .random_host import DATASHEET_WEIGHTS, WEIGHTS, scenario

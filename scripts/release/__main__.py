@@ -13,9 +13,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console, relative
-
-from . import bitstreams, notes, python, site, sources, verilog
-from .state import Release, present
+from scripts.release import bitstreams, notes, python, site, sources, verilog
+from scripts.release.state import Release, present
 
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
@@ -29,7 +28,7 @@ Job = Callable[[Release, Path, Path], None]
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
     """Name -> what makes it; the quick ones first, the notes last."""
-    from . import sbom  # its packages are in the environment of `make release` alone
+    from scripts.release import sbom
 
     return {
         "python": python.make,

@@ -6,11 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from cocotb_tests.harness.project import ProjectError
-from scripts.flow.board_table import BY_PART, Board
-from scripts.flow.boards import build_board
-
-from .archive import zipped
-from .state import Release
+from scripts.fpga.flow.board_table import BY_PART, Board
+from scripts.fpga.flow.boards import build_board
+from scripts.release.archive import zipped
+from scripts.release.state import Release
 
 
 def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from .state import Release
+from scripts.release.state import Release
 
 NOTES = "RELEASE_NOTES.md"
 SUMS = "SHA256SUMS"

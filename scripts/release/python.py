@@ -8,9 +8,8 @@ from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT, ProjectError
 from openppmc import __version__
-
-from .archive import again
-from .state import Release, tracked
+from scripts.release.archive import again
+from scripts.release.state import Release, tracked
 
 SOURCES = ("openppmc", "pyproject.toml", "LICENSE")
 

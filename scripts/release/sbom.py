@@ -17,8 +17,7 @@ from cyclonedx.output.json import JsonV1Dot6
 from packageurl import PackageURL
 
 from cocotb_tests.harness.project import ROOT
-
-from .state import Release, tracked
+from scripts.release.state import Release, tracked
 
 _PINNED = re.compile(r"^([\w.-]+)==(\S+)")
 LICENCE = "Apache-2.0"

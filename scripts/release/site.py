@@ -11,9 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT, ProjectError, console
-
-from .archive import files_below, tar_gz
-from .state import Release
+from scripts.release.archive import files_below, tar_gz
+from scripts.release.state import Release
 
 HTML = ROOT / "build" / "site" / "html"
 _DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:(\d{14})")

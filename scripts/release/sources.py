@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT, ProjectError, relative
-from scripts.packages.cores import core_files
-from scripts.packages.lists import list_files
-
-from .archive import tar_gz
-from .state import Release, tracked
+from scripts.fpga.packages.cores import core_files
+from scripts.fpga.packages.lists import list_files
+from scripts.release.archive import tar_gz
+from scripts.release.state import Release, tracked
 
 BELOW = (
     "rtl",

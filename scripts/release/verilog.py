@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT
-from scripts.flow import plain
-from scripts.flow.plain_file import write
-from scripts.packages.plain_boards import write_library
-
-from .archive import files_below, zipped
-from .state import Release
+from scripts.fpga.flow import plain
+from scripts.fpga.flow.plain_file import write
+from scripts.fpga.packages.plain_boards import write_library
+from scripts.release.archive import files_below, zipped
+from scripts.release.state import Release
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:

@@ -11,8 +11,8 @@ from typing import Any
 
 import wasmtime
 
-from cocotb_tests.harness.stimulus import Change, Edge, Recording
-from scripts.flow.plain_sim import parted, words
+from openppmc.check.records import Change, Edge, Recording
+from scripts.fpga.flow.plain_sim import parted, words
 from scripts.site.webparts import WebPart
 
 ROW = struct.Struct("<dII")

@@ -6,9 +6,8 @@ from fractions import Fraction
 from math import ceil
 
 from cocotb_tests.bank.lab import WindowBus
-from cocotb_tests.harness.block_host import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.serial_line import SerialLine
+from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR, HostBus
+from cocotb_tests.harness.line import SerialLine
 from openppmc.model.pmc006.line import command
 from scripts.site.script import PATIENCE, BytePlayer, Pauses, Player, ScriptError
 from scripts.site.webparts import WebPart

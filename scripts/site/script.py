@@ -12,7 +12,7 @@ from typing import Any
 
 from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF, HostBus
 from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
-from cocotb_tests.harness.stimulus import Recording, steps
+from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000

@@ -88,7 +88,7 @@ def sessions(part: str) -> list[Session]:
 
 def own_sessions(part: str) -> list[Session]:
     """Of a part whose manual prints none: those of scripts/<part>/playground.py."""
-    module = importlib.import_module(f"scripts.{part}.playground")
+    module = importlib.import_module(f"scripts.site.{part}")
     return [
         Session(str(number), f"{number} {title}", text.strip())
         for number, (title, text) in enumerate(module.SESSIONS.items(), 1)

@@ -22,7 +22,7 @@ from cocotb_tests.harness.build import locked, part_design
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative, run
 from openppmc.sim.common import verilator
-from scripts.flow.plain_sim import assigned_cpp, word_cpp, words
+from scripts.fpga.flow.plain_sim import assigned_cpp, word_cpp, words
 from scripts.site.webparts import WEB_PARTS, WebPart
 
 CORE = ROOT / "site/core"

@@ -7,8 +7,8 @@ import re
 from typing import Any
 
 from cocotb_tests.bank.lab import WORDS as BANK_REGISTERS
-from cocotb_tests.harness.block_host import MREF, MWEF
-from cocotb_tests.harness.block_host import NAMES as NAMES312
+from cocotb_tests.harness.bus import MREF, MWEF
+from cocotb_tests.harness.bus import NAMES as NAMES312
 from openppmc.capture.common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, Words
 from openppmc.capture.pmc006 import words as line
 from openppmc.capture.ppmc104.words import Words104

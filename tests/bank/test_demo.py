@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness.comparison import Comparison
-from cocotb_tests.harness.stimulus import Recording
-from scripts.bank import demo, waves
-from scripts.bank.demo import Played
-from scripts.bank.moves import AXES, CLK_HZ, ORDERS
-from scripts.bank.picture import draw
-from scripts.flow import plain_sim
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Recording
+from scripts.demo.bank import demo, waves
+from scripts.demo.bank.demo import Played
+from scripts.demo.bank.moves import AXES, CLK_HZ, ORDERS
+from scripts.demo.bank.picture import draw
+from scripts.fpga.flow import plain_sim
 
 
 @pytest.fixture(scope="module")

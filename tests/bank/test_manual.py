@@ -12,7 +12,7 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from openppmc.cli import main
 from openppmc.model.bank.window import GO, INFO, MASK, POSITION, STOP
-from scripts.bank.tables import AXES
+from scripts.pages.bank.tables import AXES
 
 TEXT = (ROOT / "docs/bank/README.md").read_text(encoding="utf-8")
 PORT = "model:speed=max,part=bank"

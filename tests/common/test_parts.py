@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness import project
+from cocotb_tests.harness.collect import manual_rules, part_of_rule
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.verifies import manual_rules, part_of_rule
 from openppmc import parts
 from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
 
@@ -26,22 +26,8 @@ SHARED = {
     "openppmc/sim": {"common"},
     "openppmc/capture": {"common"},
     "cocotb_tests": {"harness", "common", "motion", "single", "host", "board", "gates"},
-    "scripts": {
-        "bench",
-        "flow",
-        "boards",
-        "campaign",
-        "coverage",
-        "demo",
-        "fuzz",
-        "mutants",
-        "pictures",
-        "packages",
-        "prove",
-        "release",
-        "wiring",
-        "site",
-    },
+    "scripts": {"fpga", "demo", "site", "release", "measure", "pages"},
+    "scripts/pages": {"pictures", "wiring"},
     "tests": {"common"},
     "docs": {"img", "boards"},
     "rtl": {"common", "motion", "single", "host", "boards"},
@@ -218,7 +204,7 @@ def test_a_part_of_three_files_and_a_row(tmp_path):
         return done.stdout
 
     table = (*"-m pytest -q -p no:cacheprovider tests/common/test_parts.py -k".split(), "not three_files")
-    lint = ("-c", "from scripts import lint; print([lint.listed(), lint.walled()])")
+    lint = ("-c", "from scripts.measure import lint; print([lint.listed(), lint.walled()])")
     assert re.search(r"FAILED .*test_every_folder_has_a_row\[rtl\]", run(*table))
     assert "rtl/files.yml does not list rtl/tiny/tiny.sv" in run(*lint)
 
@@ -230,7 +216,7 @@ def test_a_part_of_three_files_and_a_row(tmp_path):
     assert run(*lint).strip() == "['', '']"
     told = run(*table)
     assert "failed" not in told and re.search(r"\d+ passed", told), told
-    assert "openppmc_tiny.core" in run("-m", "scripts.packages")
+    assert "openppmc_tiny.core" in run("-m", "scripts.fpga.packages")
     assert "CLK_HZ" in (root / "rtl/tiny/openppmc_tiny.core").read_text(encoding="utf-8")
     listed = "from scripts.flow import designs; print({'tiny'} & {d.part for d in designs.of_parts()})"
     told = run("-c", listed)

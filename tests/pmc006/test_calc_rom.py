@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.project import ProjectError
-from scripts.pmc006 import calc_rom
-from scripts.pmc006.calc_asm import WORDS, AsmError, Program, assemble, names_of
+from scripts.fpga.rom import calc_rom
+from scripts.fpga.rom.calc_asm import WORDS, AsmError, Program, assemble, names_of
 
 NAMES = names_of(calc_rom.PACKAGE.read_text())
 FORMS = [

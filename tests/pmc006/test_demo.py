@@ -6,13 +6,13 @@ from math import isnan
 
 import pytest
 
-from cocotb_tests.harness.stimulus import Access
 from cocotb_tests.pmc006.story import FINE, MOVES, PROGRAM
 from openppmc.capture.pmc006.words import Words006
+from openppmc.check.records import Access
 from openppmc.model.pmc006.line import command, reply
 from openppmc.model.pmc006.program import assemble
 from scripts.demo.__main__ import chosen
-from scripts.pmc006.picture import way
+from scripts.demo.pmc006 import way
 
 
 def told(*rows: tuple[str, int, int]) -> list[Access]:

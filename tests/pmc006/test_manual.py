@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness import OnModel, on_model
 from cocotb_tests.pmc006.builds import F8B
 from cocotb_tests.pmc006.host import Host
 from openppmc.model.pmc006.codes import LETTERS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.project import DOCS
 from openppmc.model.clock import Latency
-from scripts.bench import costs
+from scripts.measure.bench import costs
 
 
 def test_costs_in_benchmarks_are_those_of_the_rtl() -> None:

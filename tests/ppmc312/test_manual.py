@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness import OnModel, on_model
+from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.codes import LENGTHS, OVERRIDABLE, Code, State, accepts
 from tests.common.pages import DOCS, chapters

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 import pytest
 
-from cocotb_tests.harness.block_host import clean
-from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness import OnModel, on_model
+from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
 from cocotb_tests.ppmc312.serial_host import SerialHost
 from openppmc.model.ppmc312.front.serial import END_CODES, LENGTHS

@@ -12,9 +12,8 @@ from cocotb.handle import Immediate
 from cocotb.triggers import Event, FallingEdge, RisingEdge, Timer, ValueChange, with_timeout
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness import watchdog
-from cocotb_tests.harness.clockwork import clockwork
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config, watchdog
+from cocotb_tests.harness.clock import clockwork
 from openppmc.host.frames import Broken, Deframer, encode
 
 from .settings import baud_of

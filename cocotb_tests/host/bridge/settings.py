@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config
 
 # 8 clk a bit: scripts take little simulated time. Most tests run here.
 FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))

@@ -6,7 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.config import configs
+from cocotb_tests.harness import configs
 
 from .bench import Bench, same
 from .settings import BANK

@@ -7,8 +7,7 @@ from typing import Any
 import cocotb
 from cocotb.triggers import ValueChange
 
-from cocotb_tests.harness.config import configs
-from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness import PARTS, configs
 
 from .bench import Bench, same
 from .settings import FAST

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.harness.config import configs
+from cocotb_tests.harness import configs
 from openppmc.host.frames import crc16, encode
 
 from .bench import SECOND, Bench, now, same

@@ -6,7 +6,7 @@ import math
 
 import cocotb
 
-from cocotb_tests.harness.config import configs
+from cocotb_tests.harness import configs
 from openppmc.host.frames import encode
 
 from .bench import SECOND, Bench, now, same

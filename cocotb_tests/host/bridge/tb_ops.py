@@ -6,7 +6,7 @@ import struct
 
 import cocotb
 
-from cocotb_tests.harness.config import configs
+from cocotb_tests.harness import configs
 
 from .bench import Bench, now, same
 from .settings import ALL_RATES, FAST, NONE, SLOW, TWO, axes_of, params_of

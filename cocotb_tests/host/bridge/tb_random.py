@@ -7,7 +7,7 @@ import random
 import cocotb
 from cocotb.triggers import Timer
 
-from cocotb_tests.harness.config import configs
+from cocotb_tests.harness import configs
 from openppmc.host.frames import encode
 from openppmc.model.carrier.bridge import Bridge
 

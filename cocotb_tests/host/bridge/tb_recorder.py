@@ -7,7 +7,7 @@ from typing import Any
 import cocotb
 from cocotb.triggers import FallingEdge
 
-from cocotb_tests.harness.config import configs
+from cocotb_tests.harness import configs
 from openppmc.host.selftest.recording import Recorded
 
 from .bench import Bench, same

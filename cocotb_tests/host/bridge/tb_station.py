@@ -8,9 +8,8 @@ import cocotb
 from cocotb.handle import Immediate
 from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
-from cocotb_tests.harness.clockwork import clockwork
-from cocotb_tests.harness.config import Config, configs
-from cocotb_tests.harness.part import PARTS, BusStyle
+from cocotb_tests.harness import PARTS, BusStyle, Config, configs
+from cocotb_tests.harness.clock import clockwork
 
 from .bench import SECOND, same
 

@@ -11,7 +11,7 @@ from cocotb.clock import Clock
 from cocotb.handle import Immediate
 from cocotb.triggers import RisingEdge, Timer
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config
 
 INPUT_ENDS = ("awvalid", "awaddr", "wvalid", "wdata", "wstrb", "bready", "arvalid", "araddr", "rready")
 INPUT_ENDS += ("cyc", "stb", "we", "adr", "sel", "datwr", "bus_q")

@@ -11,7 +11,7 @@ import cocotb
 from cocotb.triggers import Combine, RisingEdge, with_timeout
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiResp
 
-from cocotb_tests.harness.config import F16, configs
+from cocotb_tests.harness import F16, configs
 
 from .session import PartMonitor, check_session, run_session
 from .setting import TEN_LINES, count_of, start

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cocotb
 from cocotb.triggers import RisingEdge
 
-from cocotb_tests.harness.config import F16, configs
+from cocotb_tests.harness import F16, configs
 
 from .session import PartMonitor, check_session, run_session
 from .setting import TEN_LINES, count_of, start

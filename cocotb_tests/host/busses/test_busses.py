@@ -6,11 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness import Part, cocotb_items, run_item
 from cocotb_tests.harness.build import Design, part_design
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.runner import run_item
 
 ITEMS = cocotb_items(
     "cocotb_tests.host.busses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("busses", {}), shared=True

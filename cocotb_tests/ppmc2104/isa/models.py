@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from itertools import groupby
 
-from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness import Bench
 from cocotb_tests.harness.compare import compare_recording, write_report
-from cocotb_tests.harness.comparison import Comparison
-from cocotb_tests.harness.stimulus import Change, Edge, Recording
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Change, Edge, Recording
 
 from ..bench import PPMC2104
 from .setting import AXIS_INPUTS, AXIS_OUTPUTS, BASE, ISA_4AXIS, PARTS, SOURCE

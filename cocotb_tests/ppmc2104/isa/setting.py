@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness import Bench, Config, Drive, IsaHost, Part
 from cocotb_tests.harness.build import Design
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.drive import Drive
-from cocotb_tests.harness.isa_style import STROBES_ISA
-from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.isa import STROBES_ISA
 from cocotb_tests.harness.project import include_dirs, part, sources
 
-from ...harness.isa_master import IsaHost, IsaMaster
+from ...harness.isa import IsaMaster
 
 BASE = 0x300
 SOURCE = BASE + 4

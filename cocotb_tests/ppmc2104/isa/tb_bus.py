@@ -7,9 +7,9 @@ from typing import Any
 import cocotb
 from cocotb.triggers import Timer
 
-from cocotb_tests.harness.config import F8, F16, F25, configs
+from cocotb_tests.harness import F8, F16, F25, configs
 
-from ...harness.isa_master import Times
+from ...harness.isa import Times
 from .models import check_both
 from .setting import BASE, ISA_4AXIS, PHASES, SOURCE, Setting
 

@@ -6,10 +6,9 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.config import D16, F16, F25, configs
-from cocotb_tests.harness.figures import rates
+from cocotb_tests.harness import D16, F16, F25, IsaHost, configs
+from cocotb_tests.harness.drive import rates
 
-from ...harness.isa_master import IsaHost
 from .models import check_both
 from .setting import BUSY1, BUSY2, CMND1, CMND2, ERROR, SOURCE, Setting
 

@@ -6,8 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.unit import Unit, rng, same
-from cocotb_tests.harness.wrapper import Block
+from cocotb_tests.harness import Block, Unit, rng, same
 
 PORTS = "sa_i:10 aen_i ior_ni iow_ni sd_o:8 sd_oe_o irq_o cs_no:{n} a0_o d_i:{d} d_oe_i:{n} int_ni:{n}"
 BLOCKS = {

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import F16, cocotb_items, run_item
 from cocotb_tests.harness.blocks import area_design
 from cocotb_tests.harness.build import SimError, build
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.runner import run_item
 
 from .setting import ISA_4AXIS, design
 from .tb_slave import BLOCKS

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import groupby, zip_longest
 
-from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness import Bench
 from cocotb_tests.harness.compare import compare_recording, write_report
-from cocotb_tests.harness.comparison import Comparison
-from cocotb_tests.harness.stimulus import Change, Edge, Recording, by_signal
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Change, Edge, Recording, by_signal
 from openppmc.model.ppmc312.part import Ppmc312
 
 from ..bench import PPMC312

@@ -10,8 +10,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.story import Story
+from cocotb_tests.harness import Bench
+from cocotb_tests.harness.sessions import Story
 from cocotb_tests.ppmc312.line.master import Master, RtlPort
 from cocotb_tests.ppmc312.line.setting import LINE, STATIONS
 

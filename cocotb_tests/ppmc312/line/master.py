@@ -6,7 +6,7 @@ from collections.abc import Coroutine
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from cocotb_tests.harness.bench import Bench
+from cocotb_tests.harness import Bench
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL, checksum, frame
 
 from .setting import BIT

@@ -8,7 +8,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Mapping
 
-from cocotb_tests.harness.config import Config
+from cocotb_tests.harness import Config
 from openppmc.model.ppmc312.part import Ppmc312
 
 from .setting import ALL, F8L, LINE, SEVERAL, SINGLE, STATIONS

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from cocotb_tests.harness import Config, Part
 from cocotb_tests.harness.build import Design
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.part import Part
 
 from ..bench import PPMC312
 from .library import FOLDER, station_library

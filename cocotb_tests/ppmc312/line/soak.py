@@ -12,8 +12,8 @@ import random
 from collections import Counter
 from collections.abc import Sequence
 
+from cocotb_tests.harness.random_items import Played, all_of
 from cocotb_tests.harness.runner import attempt
-from cocotb_tests.harness.soaking import Played, all_of
 from cocotb_tests.ppmc312.serial_streams import campaign
 
 from .master import Master, at_once

@@ -9,8 +9,8 @@ from cocotb.clock import Clock
 from cocotb.triggers import FallingEdge, RisingEdge, Timer, with_timeout
 from cocotb.utils import get_sim_time
 
-from cocotb_tests.harness.unit import same
-from cocotb_tests.harness.wire import Wire
+from cocotb_tests.harness import same
+from cocotb_tests.harness.line import Wire
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL
 

@@ -7,9 +7,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness.bench import Bench
-from cocotb_tests.harness.config import configs
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import Bench, configs, verifies
 
 from .compare import check_line
 from .master import Master, RtlPort

@@ -6,8 +6,8 @@ import random
 
 import pytest
 
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.runner import SimOptions, run_item
+from cocotb_tests.harness import SimOptions, cocotb_items, run_item
+from cocotb_tests.harness.collect import Item
 
 from .master import Master, at_once
 from .models import ModelLine

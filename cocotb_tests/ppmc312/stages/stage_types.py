@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from openppmc.model.ppmc312.stages import LAST, Table
 
-from ...harness.wrapper import Block
+from ...harness import Block
 
 AREA = "stage"
 GROUPS = ("common", "motion", "stage")

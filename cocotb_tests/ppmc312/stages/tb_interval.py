@@ -13,7 +13,7 @@ from cocotb.utils import get_sim_time
 
 from openppmc.model.ppmc312.stages import DIVIDERS
 
-from ...harness.unit import Unit, rng, same
+from ...harness import Unit, rng, same
 from . import stage_types
 from .stage_types import CLOCKS
 

@@ -17,7 +17,7 @@ from openppmc.model.ppmc312.stages import (
     sigmoid_weights,
 )
 
-from ...harness.unit import Unit, rng, same
+from ...harness import Unit, rng, same
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start
 

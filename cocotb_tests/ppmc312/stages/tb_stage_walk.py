@@ -11,7 +11,7 @@ from openppmc.model.ppmc312.codes import Cause
 from openppmc.model.ppmc312.motion.sequence import Change, Sequence
 from openppmc.model.ppmc312.stages import STAGES, Plan, Table, constant, curve, ramped
 
-from ...harness.unit import Unit, rng, same
+from ...harness import Unit, rng, same
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start
 

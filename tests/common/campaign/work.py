@@ -9,10 +9,10 @@ import time
 from pathlib import Path
 
 from cocotb_tests.harness.project import ProjectError
-from scripts.campaign.cluster import Workers
-from scripts.campaign.jobs import Campaign, Job, Result
-from scripts.campaign.run import run
-from scripts.campaign.store import Store
+from scripts.measure.campaign.cluster import Workers
+from scripts.measure.campaign.jobs import Campaign, Job, Result
+from scripts.measure.campaign.run import run
+from scripts.measure.campaign.store import Store
 
 
 def note(folder: Path, number: int) -> None:

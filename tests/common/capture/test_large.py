@@ -9,7 +9,7 @@ import pytest
 
 from openppmc.capture.common.beside import Result, match_edges
 from openppmc.capture.common.signals import Channel, numpy
-from scripts.bench.captures import COMPARED, EDGES, measure
+from scripts.measure.bench.captures import COMPARED, EDGES, measure
 
 BYTES = 24
 PLAIN = {"moves.vcd": 40.0, "bus.vcd": 60.0, "moves.csv": 17.0}

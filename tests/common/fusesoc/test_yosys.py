@@ -6,7 +6,7 @@ import json
 
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import BUILD
-from scripts.packages import plain_boards
+from scripts.fpga.packages import plain_boards
 from tests.common.packages.test_plain_boards import launched
 
 MODULE = "module m (input a, output b);\n  assign b = ~a;\nendmodule\n"

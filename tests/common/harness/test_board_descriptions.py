@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.project import ProjectError
-from scripts.boards import carrier, constraints, top
-from scripts.boards.__main__ import all_files, left_over
-from scripts.boards.description import Description, load
-from scripts.boards.pads import Fitted, fit
+from scripts.fpga.boards import carrier, constraints, top
+from scripts.fpga.boards.__main__ import all_files, left_over
+from scripts.fpga.boards.description import Description, load
+from scripts.fpga.boards.pads import Fitted, fit
 from tests.common.harness.test_boards import clocks, pins, ports_of
 
 BOARD = """

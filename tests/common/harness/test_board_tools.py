@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness import project
-from scripts.flow import boards
-from scripts.flow.boards import BOARDS
+from scripts.fpga.flow import boards
+from scripts.fpga.flow.boards import BOARDS
 
 
 def python(path: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
@@ -40,7 +40,7 @@ def flash(root: Path, path: Path) -> subprocess.CompletedProcess[str]:
     """`make flash` for the Tang Nano 9K with `root` as the project's folder and `path` as PATH."""
     code = (
         "import sys; from pathlib import Path; from cocotb_tests.harness import project; "
-        "from scripts import flash; "
+        "from scripts.fpga import flash; "
         f"project.ROOT = Path({str(root)!r}); project.BUILD = project.ROOT / 'build'; "
         "sys.argv = ['flash', 'tangnano9k']; sys.exit(project.run(flash.main))"
     )
@@ -94,13 +94,15 @@ def test_flash_names_board_and_file(built: Path, tmp_path: Path) -> None:
     assert "; for the board of Sipeed's examples" in " ".join(done.stdout.split())
 
 
-@pytest.mark.parametrize("module", ["scripts.bitstream", "scripts.flash"])
+@pytest.mark.parametrize("module", ["scripts.fpga.bitstream", "scripts.fpga.flash"])
 def test_unknown_board(module: str, tmp_path: Path) -> None:
     line = only_line(python(tmp_path, "-m", module, "nano"))
     assert "BOARD=nano: no such board (known: icebreaker, ulx3s-25f," in line
 
 
-@pytest.mark.parametrize(("module", "part"), [("scripts.bitstream", "ppmc2104"), ("scripts.flash", "stmc")])
+@pytest.mark.parametrize(
+    ("module", "part"), [("scripts.fpga.bitstream", "ppmc2104"), ("scripts.fpga.flash", "stmc")]
+)
 def test_unknown_board_of_a_part(module: str, part: str, tmp_path: Path) -> None:
     line = only_line(python(tmp_path, "-m", module, "nano", "--part", part))
     assert f"BOARD=nano: no such board with {part} (known: icebreaker, ulx3s-25f, ulx3s-85f)" in line
@@ -112,7 +114,7 @@ def test_unknown_board_of_a_part(module: str, part: str, tmp_path: Path) -> None
 
 def test_a_board_for_another_part_names_it(tmp_path: Path) -> None:
     """Of a board that carries no PPMC-104, the message says what it does carry."""
-    for module in ("scripts.bitstream", "scripts.flash"):
+    for module in ("scripts.fpga.bitstream", "scripts.fpga.flash"):
         line = only_line(python(tmp_path, "-m", module, "tangnano20k"))
         assert "BOARD=tangnano20k: not with ppmc104, give PART=ppmc312" in line
 
@@ -151,7 +153,7 @@ def test_unknown_part() -> None:
     ],
 )
 def test_unknown_parameter(text: str, said: str, tmp_path: Path) -> None:
-    assert said in only_line(python(tmp_path, "-m", "scripts.bitstream", "icebreaker", "-G", text))
+    assert said in only_line(python(tmp_path, "-m", "scripts.fpga.bitstream", "icebreaker", "-G", text))
 
 
 def test_missed_timing_is_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

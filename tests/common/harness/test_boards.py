@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness import project
-from scripts.flow import boards
-from scripts.flow.boards import BY_PART, HOSTS
+from scripts.fpga.flow import boards
+from scripts.fpga.flow.boards import BY_PART, HOSTS
 
 CONSTRAINTS = project.ROOT / "constraints"
 TOPS = project.RTL / "boards"

@@ -9,10 +9,10 @@ from time import process_time
 import pytest
 
 from cocotb_tests.harness.compare import compare_recording, write_report
-from cocotb_tests.harness.comparison import compare_edges, differing_spans
-from cocotb_tests.harness.stimulus import Access, Change, Edge, Recording
 from cocotb_tests.ppmc104.bench import PPMC104
 from openppmc import errors
+from openppmc.check.comparison import compare_edges, differing_spans
+from openppmc.check.records import Access, Change, Edge, Recording
 from openppmc.check.report import report
 
 INITIAL = PPMC104.reset_levels()

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import PARTS
 from cocotb_tests.harness.compare import compare_recording, replay
-from cocotb_tests.harness.follower import new_model
-from cocotb_tests.harness.part import PARTS
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.stimulus import Access, Change, Recording, steps
+from cocotb_tests.harness.side import new_model
 from openppmc.capture.common.words import exchanges
 from openppmc.capture.ppmc104.words import Words104
 from openppmc.capture.ppmc312.words import Words312
 from openppmc.capture.ppmc2104.words import Words2104
 from openppmc.capture.stmc.words import WordsStmc
+from openppmc.check.records import Access, Change, Recording, steps
 from openppmc.parts import having
 from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import Demo
+from scripts.demo.ppmc312.demo import VIEW as VIEW_312
+from scripts.demo.ppmc2104.demo import VIEW as VIEW_2104
 from scripts.demo.scenes import register_text
-from scripts.ppmc312.demo import VIEW as VIEW_312
-from scripts.ppmc2104.demo import VIEW as VIEW_2104
-from scripts.stmc.demo import VIEW as VIEW_STMC
+from scripts.demo.stmc.demo import VIEW as VIEW_STMC
 
 
 def accesses(script: str) -> list[Access]:

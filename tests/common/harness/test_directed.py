@@ -7,14 +7,9 @@ from typing import Any
 import cocotb
 import pytest
 
-from cocotb_tests.harness import directed as module
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.directed import directed
-from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness import D16, F16, ModelBench, OnModel, Side, directed, on_model, start_bench
+from cocotb_tests.harness.collect import rules_of
 from cocotb_tests.harness.running import present
-from cocotb_tests.harness.side import Side
-from cocotb_tests.harness.start import start_bench
-from cocotb_tests.harness.verifies import rules_of
 from cocotb_tests.ppmc104.bench import PPMC104
 
 
@@ -41,8 +36,8 @@ class Judge:
 def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
     """In place of the comparison; `start_bench` makes sides that want to be compared."""
     found = Judge()
-    monkeypatch.setattr(module, "check_against_model", found)
-    monkeypatch.setattr("cocotb_tests.harness.start.ModelBench", Simulated)
+    monkeypatch.setattr("cocotb_tests.harness.running.check_against_model", found)
+    monkeypatch.setattr("cocotb_tests.harness.running.ModelBench", Simulated)
     return found
 
 

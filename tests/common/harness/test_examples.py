@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness import F16
 from cocotb_tests.harness.build import SimError, part_design
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.project import ROOT
 from cocotb_tests.harness.runner import run_sim
 

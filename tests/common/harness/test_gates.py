@@ -11,7 +11,8 @@ from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.simulate import repro_line
 from cocotb_tests.ppmc104 import test_part
 from openppmc import parts
-from scripts.flow import gate_suite, gates, plain
+from scripts.fpga.flow import gates, plain
+from scripts.measure import gate_suite
 
 EVERYTHING = gate_suite.everything()
 SUITES = gate_suite.suites()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.given import Given
-from cocotb_tests.harness.stimulus import Change
+from cocotb_tests.harness.side import Given
+from openppmc.check.records import Change
 
 
 def test_what_comes_later_stands_behind() -> None:

@@ -14,11 +14,11 @@ from cocotb_tests.ppmc312.line.setting import ALL, LINE, STATIONS
 from cocotb_tests.ppmc312.line.wave import merged, wave
 from openppmc.model.ppmc312.front.serial import frame
 from scripts.demo.__main__ import chosen, part_of
-from scripts.ppmc312.line import bench as line_bench
-from scripts.ppmc312.line.talk import exchanges
-from scripts.ppmc312.line.waves import view
-from scripts.soak import blocks
-from scripts.soak import main as soak
+from scripts.demo.ppmc312.line.talk import exchanges
+from scripts.demo.ppmc312.line.waves import view
+from scripts.measure.bench import ppmc312 as line_bench
+from scripts.measure.soak import blocks
+from scripts.measure.soak import main as soak
 
 
 def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.project import DOCS, ROOT
-from scripts.trace import at_home
+from scripts.measure.trace import at_home
 
 PAGES = sorted([*DOCS.rglob("*.md"), *ROOT.glob("*.md"), *(ROOT / "drivers").rglob("*.md")])
 LINK = re.compile(r"\]\(([^)\s]+)\)")

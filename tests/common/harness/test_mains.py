@@ -1,16 +1,16 @@
 """Our main program of simulations and cocotb's own: the same pins, accesses and output edges on both.
 
-`python -m scripts.mains WORD` compares any other test in the same way.
+`python -m scripts.measure.mains WORD` compares any other test in the same way.
 """
 
 from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.batches import batches
+from cocotb_tests.harness.config import SEEDS
 from cocotb_tests.harness.gate_tests import PartTests
-from cocotb_tests.harness.mains import check_mains
-from cocotb_tests.harness.seeds import SEEDS
+from cocotb_tests.harness.random_items import batches
+from cocotb_tests.harness.runner import check_mains
 from openppmc import parts
 
 # One directed test of each part; resets between two edges, short strobes and moves are among them.

@@ -14,7 +14,7 @@ import pytest
 
 from cocotb_tests.harness.paths import ROOT
 from scripts import env, run
-from scripts.boards.description import load_all
+from scripts.fpga.boards.description import load_all
 from scripts.targets import OLD, TARGETS, VARIABLES, boards
 
 LIST = re.findall(

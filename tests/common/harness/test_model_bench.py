@@ -9,14 +9,9 @@ from typing import Any
 
 import pytest
 
-from cocotb_tests.harness.bus import HostBus
-from cocotb_tests.harness.collect import all_tests
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
+from cocotb_tests.harness import D16, F16, PARTS, HostBus, ModelBench, OnModel, on_model, start_bench
+from cocotb_tests.harness.collect import all_tests, rules_of
 from cocotb_tests.harness.model_tests import model_tests
-from cocotb_tests.harness.part import PARTS
-from cocotb_tests.harness.start import start_bench
-from cocotb_tests.harness.verifies import rules_of
 
 RTL_ONLY = {
     "p2104_ac_03_write_times_of_the_sheet",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from scripts.flow.module_rules import MOST_LINES, MOST_PORTS, all_findings, findings, inner_modules
+from scripts.measure.module_rules import MOST_LINES, MOST_PORTS, all_findings, findings, inner_modules
 
 HEAD = "// x\nmodule x (\n    input  wire logic clk_i,\n"
 

@@ -1,11 +1,11 @@
-"""The mutants by hand (`python -m scripts.mutants`): each entry still fits the RTL and the tests."""
+"""The mutants by hand (`python -m scripts.measure.mutants`): each entry still fits the RTL and the tests."""
 
 from __future__ import annotations
 
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
-from scripts.mutants.table import Mutant, mutants
+from scripts.measure.mutants.table import Mutant, mutants
 
 EVERY = list(mutants())
 

@@ -9,14 +9,14 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
-from scripts.pictures import waves
-from scripts.pictures.fit import MOST, fitted, lanes, text_width, wrapped
-from scripts.pictures.recorded import Row, labels, numbered, record, thinned, wave, write_cycle
-from scripts.ppmc312 import tables
-from scripts.ppmc312 import waves as waves_312
-from scripts.ppmc312.bench import marked
-from scripts.stmc import waves as waves_stmc
-from scripts.stmc.bench import Bench
+from scripts.pages.pictures import waves
+from scripts.pages.pictures.fit import MOST, fitted, lanes, text_width, wrapped
+from scripts.pages.pictures.recorded import Row, labels, numbered, record, thinned, wave, write_cycle
+from scripts.pages.ppmc312 import tables
+from scripts.pages.ppmc312 import waves as waves_312
+from scripts.pages.ppmc312.bench import marked
+from scripts.pages.stmc import waves as waves_stmc
+from scripts.pages.stmc.bench import Bench
 
 SINGLE_STEP = 0x42
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.config import F16
-from cocotb_tests.harness.elaborate import ports
-from cocotb_tests.harness.part import PARTS
+from cocotb_tests.harness import F16, PARTS
+from cocotb_tests.harness.build import part_design, ports
 from openppmc import parts
 
 

@@ -14,10 +14,10 @@ import pytest
 
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import RTL, ProjectError
-from scripts.prove import engine
-from scripts.prove.page import ROOMS, text, unproved
-from scripts.prove.results import by_rule
-from scripts.prove.table import FORMAL, Proof, chosen, proofs
+from scripts.measure.prove import engine
+from scripts.measure.prove.page import ROOMS, text, unproved
+from scripts.measure.prove.results import by_rule
+from scripts.measure.prove.table import FORMAL, Proof, chosen, proofs
 
 EVERY = list(proofs())
 each = pytest.mark.parametrize("proof", EVERY, ids=lambda proof: proof.name)
@@ -80,7 +80,7 @@ def test_names_choose() -> None:
 def test_unknown_proof_in_one_line() -> None:
     """Given a name that is none, then the command ends with 1 or 2 and one line."""
     done = subprocess.run(
-        [sys.executable, "-m", "scripts.prove", "nosuch"],
+        [sys.executable, "-m", "scripts.measure.prove", "nosuch"],
         cwd=ROOT,
         capture_output=True,
         text=True,

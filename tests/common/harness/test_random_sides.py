@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.bank import test_random as bank
-from cocotb_tests.harness.random_items import RandomItems
+from cocotb_tests.harness import RandomItems
 from cocotb_tests.pmc006 import test_random as pmc006
 from cocotb_tests.ppmc104 import test_random as ppmc104
 from cocotb_tests.ppmc312 import test_random as ppmc312

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from cocotb_tests.harness import project
-from scripts.flow.tables import CLEARED, MEMORIES
+from scripts.measure.tables import CLEARED, MEMORIES
 
 
 def test_every_table_is_known() -> None:

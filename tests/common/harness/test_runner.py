@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness import D16, F11, F16, Config
 from cocotb_tests.harness.build import Design, SimError, build, part_design
 from cocotb_tests.harness.collect import Item
-from cocotb_tests.harness.config import ALL_CONFIGS, D16, F11, F16, Config
-from cocotb_tests.harness.group import groups_of
-from cocotb_tests.harness.outcome import Outcome, failure_text, outcomes
-from cocotb_tests.harness.simulate import repro_line
+from cocotb_tests.harness.config import ALL_CONFIGS
+from cocotb_tests.harness.runner import groups_of
+from cocotb_tests.harness.simulate import Outcome, failure_text, outcomes, repro_line
 
 A, B = (Item("m", name, F16, "x", ()) for name in "ab")
 HEAD = "     0.00ns INFO     cocotb.regression                  "

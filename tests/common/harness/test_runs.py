@@ -8,15 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness import Part, SimOptions, cocotb_items, inside, run_item
 from cocotb_tests.harness.build import Design, locked
-from cocotb_tests.harness.collect import Item, cocotb_items
-from cocotb_tests.harness.group import run_group
-from cocotb_tests.harness.inside import HINT, inside, seen
-from cocotb_tests.harness.mutant import MUTANT
-from cocotb_tests.harness.part import Part
+from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import BUILD, FAILURES, ROOT, relative
-from cocotb_tests.harness.runner import SimOptions, attempt, outcome_of, run_item
+from cocotb_tests.harness.runner import HINT, attempt, outcome_of, run_group, seen
 from cocotb_tests.harness.simulate import Job
+from cocotb_tests.harness.variants import MUTANT
 
 ITEMS: dict[str, Item] = {
     param.values[0].test: replace(param.values[0], tag="own", uncompared="it has no part")

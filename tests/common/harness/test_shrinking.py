@@ -9,23 +9,28 @@ from typing import Any
 
 import pytest
 
-from cocotb_tests.harness.acts import Act, Step, acts_of, changes_of
-from cocotb_tests.harness.bus import HostBus
+from cocotb_tests.harness import PARTS, Config, HostBus, ModelBench, OnModel, on_model
 from cocotb_tests.harness.compare import compare_recording
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.follower import new_model
-from cocotb_tests.harness.messages import exchanges, messages, together, told
-from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
-from cocotb_tests.harness.part import PARTS
-from cocotb_tests.harness.replaying import REPLAY
+from cocotb_tests.harness.random_items import replay_item, shortened
+from cocotb_tests.harness.replay import REPLAY
 from cocotb_tests.harness.running import running_test
-from cocotb_tests.harness.shortened import replay_item, shortened
-from cocotb_tests.harness.shrink import Shrinker
-from cocotb_tests.harness.stimulus import Access, Change, Recording
+from cocotb_tests.harness.shrink import (
+    Act,
+    Shrinker,
+    Step,
+    acts_of,
+    changes_of,
+    exchanges,
+    messages,
+    together,
+    told,
+)
+from cocotb_tests.harness.side import new_model
 from cocotb_tests.pmc006 import random_host as talker
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc312 import random_host, random_noise, random_serial
-from scripts.replay import main as replay
+from openppmc.check.records import Access, Change, Recording
+from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:

@@ -10,10 +10,11 @@ import pytest
 
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.stimulus import Edge, Recording
-from scripts import size
-from scripts.flow import designs, figures, plain_sim, scan_wrapper, size_page
-from scripts.flow.yosys_job import BEST, commands, recipe_text
+from openppmc.check.records import Edge, Recording
+from scripts.fpga.flow import plain_sim
+from scripts.fpga.flow.yosys_job import BEST, commands, recipe_text
+from scripts.measure.sizes import __main__ as size
+from scripts.measure.sizes import designs, figures, scan_wrapper, size_page
 
 KEY = "part ecp5 tuned"
 OLD: figures.Figures = {KEY: {"lut": 1000, "ff": 600, "ram": 2, "of": "0"}}
@@ -145,7 +146,7 @@ def test_syntheses_of_a_clock_rate_differ() -> None:
 
 
 def test_missing_source_names_the_design(tmp_path: Path) -> None:
-    from scripts.flow import peers
+    from scripts.measure.sizes import peers
 
     entry = {
         "title": "one",
@@ -164,7 +165,7 @@ def test_missing_source_names_the_design(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("text", [None, "[{]", '[{"title": "x"}]'])
 def test_bad_description_of_peers_is_one_line(text: str | None, tmp_path: Path) -> None:
-    from scripts.flow import peers
+    from scripts.measure.sizes import peers
 
     if text is not None:
         (tmp_path / "peers.json").write_text(text)

@@ -8,12 +8,10 @@ import time
 import pytest
 
 from cocotb_tests.common.tb_stalled import BLOCKS
+from cocotb_tests.harness import Part, cocotb_items
 from cocotb_tests.harness.blocks import area_design
 from cocotb_tests.harness.build import build
-from cocotb_tests.harness.collect import cocotb_items
-from cocotb_tests.harness.outcome import FAILED
-from cocotb_tests.harness.part import Part
-from cocotb_tests.harness.simulate import Job, tried
+from cocotb_tests.harness.simulate import FAILED, Job, tried
 
 FOUND = cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}))
 ITEMS = {param.values[0].test: param.values[0] for param in FOUND}

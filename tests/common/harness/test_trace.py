@@ -6,9 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from cocotb_tests.harness.verifies import RULE_ID, part_of_rule, rules_of, verifies
-from scripts.prove.results import by_rule
-from scripts.trace import join, page, unproved
+from cocotb_tests.harness import verifies
+from cocotb_tests.harness.collect import RULE_ID, part_of_rule, rules_of
+from scripts.measure.prove.results import by_rule
+from scripts.measure.trace import join, page, unproved
 
 RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Reset levels"}
 

@@ -53,7 +53,7 @@ def run(*command: object, folder: Path = ROOT, env: dict[str, str] | None = None
 def plain_verilog(folder: Path) -> Path:
     """The folder with what `make verilog` writes for this SoC's clock."""
     for top, params in (("ppmc104", f"CLK_HZ={CLK_HZ}"), ("ppmc_wishbone", "AddrBits=1")):
-        made = run(sys.executable, "-m", "scripts.verilog", "--top", top, "--params", params)
+        made = run(sys.executable, "-m", "scripts.fpga.verilog", "--top", top, "--params", params)
         assert "ok" in made
         shutil.copy(BUILD / "verilog" / f"{top}.v", folder)
     return folder

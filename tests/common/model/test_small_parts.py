@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model import Ppmc104, predict_move
 from openppmc.model.clock import Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase, low_times
 from openppmc.model.motion.excitation import Excitation, step_list

@@ -8,8 +8,8 @@ from fractions import Fraction
 
 import pytest
 
+from cocotb_tests.harness import F16
 from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.paths import ROOT, relative
 from openppmc.model.single.codes import Error
 from openppmc.model.single.predict import predict_move

@@ -11,8 +11,8 @@ import yaml
 
 from cocotb_tests.harness.paths import ROOT
 from openppmc.parts import tops
-from scripts.packages.cores import core_files
-from scripts.packages.lists import list_files
+from scripts.fpga.packages.cores import core_files
+from scripts.fpga.packages.lists import list_files
 
 LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
 
@@ -89,7 +89,7 @@ def test_cores():
 )
 def test_other_verilator_must_be_one(program, told):
     """Given a VERILATOR that is none, then one line says so before anything passes."""
-    words = [sys.executable, "-m", "scripts.packages", "--try", "--verilator", program]
+    words = [sys.executable, "-m", "scripts.fpga.packages", "--try", "--verilator", program]
     done = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
     assert done.returncode == 1 and told in done.stdout + done.stderr
     assert len((done.stdout + done.stderr).strip().splitlines()) == 1

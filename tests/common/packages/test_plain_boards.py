@@ -11,11 +11,11 @@ import yaml
 
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import BUILD, ProjectError
-from scripts.flow.board_table import BOARDS
-from scripts.flow.plain import vendor_attributes, with_attributes
-from scripts.packages import plain_boards
+from scripts.fpga.flow.board_table import BOARDS
+from scripts.fpga.flow.plain import vendor_attributes, with_attributes
+from scripts.fpga.packages import plain_boards
 
-LAUNCHER = ROOT / "scripts" / "flow" / "launcher.py"
+LAUNCHER = ROOT / "scripts" / "fpga" / "flow" / "launcher.py"
 TYPES = {".pcf": "PCF", ".lpf": "LPF", ".cst": "CST", ".sdc": "SDC"}
 
 

@@ -16,8 +16,8 @@ from cocotb_tests.harness.paths import ROOT, relative
 from cocotb_tests.harness.project import BUILD
 from openppmc.parts import tops
 from openppmc.sim.common import verilator
-from scripts.flow.plain_file import write
-from scripts.packages.cores import vendor_boards
+from scripts.fpga.flow.plain_file import write
+from scripts.fpga.packages.cores import vendor_boards
 
 # What Quartus Lite and Standard, Vivado or GowinSynthesis reject, and other words of SystemVerilog.
 REJECTED = re.compile(

@@ -11,10 +11,10 @@ from typing import Any
 
 import pytest
 
-from cocotb_tests.harness.comparison import compare_edges
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.stimulus import Edge, steps
-from scripts.flow.plain_sim import words
+from openppmc.check.comparison import compare_edges
+from openppmc.check.records import Edge, steps
+from scripts.fpga.flow.plain_sim import words
 from scripts.site.pages import playground
 from scripts.site.players import player
 from scripts.site.script import Player

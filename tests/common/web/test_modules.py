@@ -8,9 +8,9 @@ from itertools import islice
 
 import pytest
 
-from cocotb_tests.harness.comparison import compare_edges
 from cocotb_tests.harness.paths import ROOT
-from cocotb_tests.harness.stimulus import Recording
+from openppmc.check.comparison import compare_edges
+from openppmc.check.records import Recording
 from scripts.site import hosts, wasm
 from scripts.site.module import Module
 from scripts.site.players import player

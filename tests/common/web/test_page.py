@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness.comparison import compare_edges
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.stimulus import Edge
+from openppmc.check.comparison import compare_edges
+from openppmc.check.records import Edge
 from scripts.site import wasm
 from scripts.site.pages import SITE, packages, playground
 from scripts.site.players import player

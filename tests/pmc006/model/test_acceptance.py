@@ -8,11 +8,9 @@ import importlib
 
 import pytest
 
+from cocotb_tests.harness import F16, Config, OnModel, on_model, verifies
 from cocotb_tests.harness.collect import all_tests
-from cocotb_tests.harness.config import F16, Config
-from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.model_tests import model_tests
-from cocotb_tests.harness.verifies import verifies
 from cocotb_tests.pmc006.builds import FAST_LINE
 from cocotb_tests.pmc006.host import Host
 from cocotb_tests.pmc006.moves import ready

@@ -7,7 +7,7 @@ from math import exp
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.chip import Phase
 from openppmc.model.clock import Scheduler
 from openppmc.model.pmc006.drive.chopper import Chopper, Times

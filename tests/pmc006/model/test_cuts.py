@@ -9,7 +9,7 @@ from functools import cache
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.line import command
 from openppmc.model.pmc006.part import Pmc006

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.pmc006.motion.engine import Live, Order, Plan, Stage, acceleration, plan
 from tests.pmc006.model.bench import Made, make
 from tests.pmc006.model.reference import Reference

@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.chip import Phase
 from openppmc.model.pmc006.motion.engine import Live, Order
 from openppmc.model.pmc006.motion.motion import base_code, compensation, drive_index

@@ -8,8 +8,7 @@ from math import inf, pi, sin
 
 import pytest
 
-from cocotb_tests.harness.model_bench import OnModel, on_model
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import OnModel, on_model, verifies
 from cocotb_tests.pmc006.stepping import MotorHost
 from openppmc.model.pmc006.bench.currents import (
     CLK_HZ,

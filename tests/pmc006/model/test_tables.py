@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.pmc006.codes import LETTERS, TABLE, UNKNOWN
 from openppmc.model.pmc006.instructions.operations import END, decode
 from openppmc.model.pmc006.instructions.operations import TABLE as OPERATIONS

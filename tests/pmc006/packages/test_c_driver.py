@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
+from cocotb_tests.harness import F8
 from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.config import F8
 from cocotb_tests.harness.paths import ROOT
 from tests.common.packages.c_programs import BENCH, DRIVER, Lines, pulses, result, simulate
 

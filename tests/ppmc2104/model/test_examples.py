@@ -6,7 +6,7 @@ from math import ceil
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model import predict_move
 from openppmc.model.motion.ramp import Ramp
 from tests.ppmc2104.model.host import B1, LONG, RAMP, Host, clk

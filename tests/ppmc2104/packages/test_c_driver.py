@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import F16
 from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.config import F16
 from openppmc.model.single.predict import predict_move
 from tests.common.packages.c_programs import (
     BENCH,

@@ -7,9 +7,7 @@ from math import ceil
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cocotb_tests.harness.config import Config
-from cocotb_tests.harness.model_bench import OnModel, on_model
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import Config, OnModel, on_model, verifies
 from cocotb_tests.ppmc312.host import Host
 from openppmc.model.ppmc312.stages import DIVIDERS, constant, curve, ramped
 

@@ -7,9 +7,8 @@ import random
 
 import pytest
 
-from cocotb_tests.harness.block_host import CSR, MREF, MWEF
-from cocotb_tests.harness.config import D16, F16
-from cocotb_tests.harness.model_bench import OnModel, on_model
+from cocotb_tests.harness import D16, F16, OnModel, on_model
+from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.blocks import TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from cocotb_tests.ppmc312.serial_frames import summed
 from cocotb_tests.ppmc312.serial_streams import Line, campaign
 from openppmc.model.ppmc312.front.serial import LENGTHS, Outcome, Parser

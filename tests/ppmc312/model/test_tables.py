@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.ppmc312.stages import (
     FreeCurve,
     SettingError,

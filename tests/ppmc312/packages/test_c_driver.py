@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from cocotb_tests.harness import F8
 from cocotb_tests.harness.build import part_design
-from cocotb_tests.harness.config import F8
 from tests.common.packages.c_programs import BENCH, DRIVER, TIMINGS, Lines, pulses, result, simulate, timed
 
 pytestmark = pytest.mark.xdist_group("cdriver_312")  # one worker builds and runs the programs

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from tests.stmc.model.host import INTERNAL, Host, count, init
 
 PINS = 2

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.motion.codes import Kind
 from openppmc.model.motion.excitation import step_list
 from openppmc.model.stmc.codes import decode

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cocotb_tests.harness.verifies import verifies
+from cocotb_tests.harness import verifies
 from openppmc.model.chip import Square
 from openppmc.model.motion.ramp import profile_index
 from openppmc.model.stmc.part import Stmc

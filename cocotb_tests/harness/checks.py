@@ -1,0 +1,181 @@
+"""Checks that several parts share: moves on an external clock, limit and alarm on the same edge."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import accumulate, cycle, islice
+from random import Random
+
+from .drive import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
+
+# From this interval on the rules hold to the clk (P104-BCK-05).
+EXACT = 16
+# From edges so far apart on low times do, too (chapter 9.2 of the manuals).
+EXACT_LOW = 6
+# A period below so many crystal cycles lets a pulse of rate 0 end with the high time (P104-TIM-05 c).
+BRISK = 128
+# Why a `sweep` is not compared with the golden model, too.
+TOO_MANY = "each pulse is held against the formula; 800,000 changes of a clock are too many for the model"
+
+RateOf = Callable[[Ramp, Sequence[int]], list[int]]
+
+
+@dataclass(frozen=True)
+class Move:
+    """n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
+
+    gaps: clk from edge to edge of the clock, repeated without end. high: its high time. slowed: the pulse
+    after which a slow-down limit comes (0: never).
+    """
+
+    n: int
+    gaps: tuple[int, ...]
+    high: int
+    ramp: Ramp = (0, 0, 4)
+    rate: int | None = None
+    slowed: int = 0
+
+    def rates(self, rate_of: RateOf) -> list[int]:
+        """Rate of each interval."""
+        if self.rate is not None:
+            return [self.rate] * (self.n - 1)
+        pa = self.ramp[2]
+        return rate_of(self.ramp, forced(self.n, pa, self.slowed) if self.slowed else indices(self.n, pa))
+
+
+@dataclass(frozen=True)
+class Train:
+    """What a move left: rises and falls of the clock as they act at the pins, pulses, low times if any."""
+
+    edges: list[int]
+    falls: list[int]
+    pulses: list[int]
+    lows: list[int] | None
+
+
+def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterator[str]:
+    """What contradicts the rules; `w` and `brisk` are CYC(80) and CYC(128).
+
+    Every interval that is EXACT or longer by the formula holds to the clk, and so does the low time that
+    begins it; with edges closer than EXACT_LOW this may be longer, up to W. A shorter interval may be longer
+    by whole base periods.
+    """
+    edges, pulses, lows = train.edges, train.pulses, train.lows
+    at = [bisect_left(edges, t) for t in pulses]
+    if len(pulses) != len(rate_list) + 1:
+        yield f"{len(pulses)} pulses instead of {len(rate_list) + 1}"
+        return
+    if [edges[i] for i in at] != pulses:
+        yield "a pulse is on no edge of the clock"
+        return
+    for j, (i, end, rate) in enumerate(zip(at, at[1:], rate_list, strict=False), 1):
+        length = edges[i + rate + 1] - edges[i]
+        if end - i < rate + 1 or (end - i > rate + 1 and length >= EXACT):
+            yield f"interval {j} is {edges[end] - edges[i]} instead of {length} clk"
+        if lows and length >= EXACT:
+            quick = rate == 0 and edges[i] - edges[i - 1] < brisk
+            cut = edges[i + (rate + 1) // 2] - edges[i] if rate else train.falls[i] - edges[i] if quick else w
+            most = w if rate and min(differences(edges[i : end + 1])) < EXACT_LOW else cut
+            if not min(w, cut) <= lows[j - 1] <= min(w, most):
+                yield f"pulse {j} is low for {lows[j - 1]} instead of {min(w, cut)} clk"
+    if lows and lows[-1] != w:
+        yield f"the last pulse is low for {lows[-1]} instead of {w} clk"
+
+
+class ExtMoves:
+    """An axis whose external clock is given edge by edge. Make one with `await ExtMoves.of(axis, …)`.
+
+    slow_pin: slow-down limit of the direction CW, active low. lows: the part has a pulse output. rate_of:
+    rates of ramp indices. delay: from an edge at the pin to its pulse.
+    """
+
+    def __init__(self, axis: Drive, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
+        self.axis = axis
+        self.slow_pin = slow_pin
+        self.lows = lows
+        self.rate_of = rate_of
+        self.delay = delay
+
+    @classmethod
+    async def of(
+        cls, axis: Drive, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
+    ) -> ExtMoves:
+        """Measure the delay, on the ramp in force: 2 to 3 clk to the effect of an edge, some to the pin."""
+        moves = cls(axis, slow_pin, lows, rate_of, 0)
+        train = await moves._train(Move(2, (64,), 32, ramp))
+        moves.delay = train.pulses[0] - max(t for t in train.edges if t < train.pulses[0] - 1)
+        axis.window("P104-BCK-04", "an edge of the clock to its pulse", moves.delay, 2, 5)
+        return moves
+
+    async def check(self, move: Move) -> None:
+        """Make the move and hold it against the rules."""
+        axis = self.axis
+        train = await self._train(move)
+        found = list(faults(train, move.rates(self.rate_of), axis.cfg.w, axis.cfg.cyc(BRISK)))
+        axis.check("BCK-05", f"{move}: intervals {differences(train.pulses)}", found, [])
+
+    async def _train(self, move: Move) -> Train:
+        axis, bench = self.axis, self.axis.bench
+        wanted = move.rates(self.rate_of)
+        await axis.go(0x43 if move.rate is None else 0x44, move.n, move.rate)
+        # Room for the set-up time, and for short intervals that come out longer.
+        count = axis.cfg.w // min(move.gaps) + sum(wanted) + 8 * move.n + 8
+        start = await bench.align() + 1
+        rises = list(accumulate(islice(cycle(move.gaps), count), initial=start))
+        clock = bench.drive(
+            (t + after, {axis.clock: level}) for t in rises for after, level in ((0, 1), (move.high, 0))
+        )
+        if move.slowed:
+            await axis.pulse(move.slowed)
+            bench.set(**{self.slow_pin: 0})
+        await clock
+        await bench.until(rises[-1] + move.gaps[0])
+        await axis.idle()
+        bench.set(**{self.slow_pin: 1})
+        edges = [t + self.delay for t in rises]
+        falls = [t + move.high for t in edges]
+        return Train(edges, falls, axis.pulses, axis.low_times if self.lows else None)
+
+
+def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
+    """Moves on a ramp: edges 4 to 17 clk apart, N from 2 to beyond a plateau, limits on the way.
+
+    N decides where a move turns round and whether it holds its index before (P104-PRO-03). A limit comes
+    where there is something to slow down.
+    """
+    rl, _, pa = ramp
+    fast = [j for j in range(2, pa + 3) if rate_of(ramp, [min(j - 1, pa)]) != [rl]]
+    for period in range(4, 18):
+        for n in range(2, 2 * pa + 5):
+            yield Move(n, (period,), rng.randint(2, period - 2), ramp)
+        if fast:
+            yield Move(99, (period,), 2, ramp, slowed=rng.choice(fast))
+        uneven = tuple(rng.randint(period, 2 * period) for _ in range(7))
+        yield Move(rng.randint(2, 2 * pa + 4), uneven, rng.randint(2, period - 2), ramp)
+
+
+BOTH = 0xB0
+"""Finish status without the operation's code."""
+MOVES = (
+    (0x43, 24, None, (2, 10, 22)),
+    (0x44, 24, 9, (6,)),
+    (0x45, None, 9, (6,)),
+    (0x46, None, None, (2, 10)),
+    (0x47, None, 9, (6,)),
+)
+"""Operation, its pulses and rate, pulses made when both come: up, top and down of a ramp of 4 steps."""
+
+
+async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
+    """All operations CW; `pins`: limit and alarm, both active low, as the bench names them."""
+    for code, n, rate, places in MOVES:
+        for made in places:
+            await axis.go(code, n, rate)
+            await axis.pulse(made, 100)
+            axis.bench.set(**dict.fromkeys(pins, 0))
+            await axis.idle()
+            axis.bench.set(**dict.fromkeys(pins, 1))
+            what = f"{rule}: {code:#x} behind pulse {made}"
+            await axis.result(what, made, BOTH | code & 7, (n or NO_PULSES_DONE) - made - 1)

@@ -1,0 +1,117 @@
+"""`IsaMaster` drives an 8-bit ISA bus; the address selects the register, there is no chip select."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cocotb.triggers import Lock, Timer
+
+from openppmc.check.records import Access
+
+from .bench import Bench
+from .bus import HostBus
+from .part import BusStyle
+
+STROBES_ISA = BusStyle(
+    write_on={"iow_n": 0},
+    write_off={"iow_n": 1},
+    read_on={"ior_n": 0},
+    read_off={"ior_n": 1},
+    address="sa",
+)
+
+
+@dataclass(frozen=True)
+class Times:
+    """An 8-bit I/O cycle in ns: the shortest that a bus clock of 8.33 MHz allows, wait states as usual.
+
+    `setup`: address before the command; `command`: IOR or IOW low; `late`: write data after the fall of IOW;
+    `hold`: address and write data after its rise; `gap`: to the next cycle.
+    """
+
+    setup: int = 91
+    command: int = 530
+    late: int = 40
+    hold: int = 27
+    gap: int = 163
+
+
+class IsaMaster:
+    """The only one that drives the bus; a cycle waits until the one before is over."""
+
+    def __init__(self, bench: Bench, times: Times | None = None) -> None:
+        self.bench = bench
+        self.times = times or Times()
+        self._lock = Lock()
+
+    async def wait(self, ns: float) -> None:
+        """Let so many ns pass, and a little more if an edge of clk lies right there."""
+        if ns > 0:
+            await Timer(round(ns * 500) * 2, "ps")
+        if (self.bench.sim_time() - self.bench.edge_time(0)) % self.bench.period == 0:
+            await Timer(2, "ps")
+
+    async def write(self, address: int, byte: int, aen: int = 0, command: float | None = None) -> int:
+        """One write cycle; returns the first edge that samples IOW high again."""
+        async with self._lock:
+            bench, t = self.bench, self.times
+            length = t.command if command is None else command
+            await self.wait(0)
+            bench.set_between_edges(sa=address, aen=aen)
+            await self.wait(t.setup)
+            bench.set_between_edges(iow_n=0, sd_i=byte ^ 0xFF)
+            late = min(t.late, length)
+            await self.wait(late)
+            bench.set_between_edges(sd_i=byte)
+            await self.wait(length - late)
+            edge0 = bench.set_between_edges(iow_n=1)
+            await self._release(byte ^ 0xFF)
+            return edge0
+
+    async def read(self, address: int, aen: int = 0, command: float | None = None) -> tuple[int, int, int]:
+        """One read cycle; returns (sd_oe, sd_o) as IOR rises, and the first edge with IOR low.
+
+        Checks that nobody drives before IOR falls and that the bus is free as soon as it has risen.
+        """
+        async with self._lock:
+            bench, t = self.bench, self.times
+            await self.wait(0)
+            bench.set_between_edges(sa=address, aen=aen)
+            await self.wait(t.setup)
+            bench.check("ISA-05", "sd_oe before the command", bench.level("sd_oe"), 0)
+            edge0 = bench.set_between_edges(ior_n=0)
+            await self.wait(t.command if command is None else command)
+            sample = bench.level("sd_oe"), bench.level("sd_o")
+            bench.set_between_edges(ior_n=1)
+            await Timer(2, "ps")
+            bench.check("ISA-05", "sd_oe after the command", bench.level("sd_oe"), 0)
+            await self._release(bench.pins["sd_i"])
+            return *sample, edge0
+
+    async def _release(self, data: int) -> None:
+        """Address and data go, the bus rests."""
+        await self.wait(self.times.hold)
+        self.bench.set_between_edges(sa=(self.bench.pins["sa"] + 0x155) & 0x3FF, aen=0, sd_i=data)
+        await self.wait(self.times.gap)
+
+
+class IsaHost(HostBus):
+    """`HostBus` of the part whose data register is at `base`."""
+
+    def __init__(self, master: IsaMaster, base: int) -> None:
+        super().__init__(master.bench)
+        self.master = master
+        self.base = base
+
+    async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
+        """One write cycle; the lengths are those of the bus."""
+        edge0 = await self.master.write(self.base + reg, byte)
+        self.bench.accesses.append(Access(edge0, "write", reg, byte))
+        return edge0
+
+    async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
+        """One read cycle; AssertionError if the module does not drive."""
+        driven, byte, edge0 = await self.master.read(self.base + reg)
+        self.bench.check("ISA-05", f"sd_oe at the end of a read of {self.base + reg:#x}", driven, 1)
+        self.bench.accesses.append(Access(edge0, "read", reg, byte))
+        return byte

@@ -1,0 +1,181 @@
+"""A serial line on two pins: `Wire` computes levels of characters, `SerialLine` sends and receives them."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import ceil, floor
+from typing import Any
+
+import cocotb
+from cocotb.triggers import FallingEdge, Timer
+
+from .side import Side
+
+BITS = 8
+
+
+class Wire:
+    """8N1: `rxd` is the pin that the board listens to, `txd` the one it speaks on.
+
+    `rate` in baud may be changed between characters.
+    """
+
+    def __init__(self, rxd: Any, txd: Any, rate: float) -> None:
+        self.rate = rate
+        self._out, self._in = rxd, txd
+        self._out.value = 1
+
+    def listen(self) -> None:
+        """Begin to receive; after the reset, when txd is idle."""
+        cocotb.start_soon(self._receive())
+
+    def _time(self, bits: float) -> Timer:
+        return Timer(round(bits * 1e12 / self.rate), "ps")
+
+    async def send(self, data: bytes) -> None:
+        """Send bytes back to back."""
+        for byte in data:
+            # One word with start and stop bit, least significant bit first.
+            word = 1 << BITS + 1 | byte << 1
+            for bit in range(BITS + 2):
+                self._out.value = word >> bit & 1
+                await self._time(1)
+
+    async def _receive(self) -> None:
+        while True:
+            await FallingEdge(self._in)
+            await self._time(0.5)
+            if self._in.value != 0:
+                continue
+            byte = 0
+            for bit in range(BITS):
+                await self._time(1)
+                byte |= int(self._in.value) << bit
+            await self._time(1)
+            assert int(self._in.value) == 1, f"the line is low in the stop bit of {byte:#04x}"
+            self.came(byte)
+
+    def came(self, byte: int) -> None:
+        """What to do with a character, in the middle of its stop bit."""
+        raise NotImplementedError
+
+
+Changes = list[tuple[int, int]]
+"""(edge that is the first to sample it, level), in order of time."""
+
+
+class LineTimes:
+    """Where the levels of characters belong.
+
+    t: the next free edge. bit: bit time of the line in clk. error: of the host's own, 0.02 = 2 % too long.
+    middle: the middle of the last stop bit as a receiver with the right bit time has it, from the pin's
+    change on.
+    """
+
+    t: int
+    bit: Fraction
+    error: Fraction
+    middle: Fraction
+    _free: Fraction
+
+    def open_line(self, bit: Fraction, error: float | Fraction = 0) -> None:
+        """The line is idle."""
+        self.bit, self.error = bit, Fraction(error)
+        self.middle = self._free = Fraction(0)
+
+    def back_to(self, t: int) -> None:
+        """The next character begins on edge t, which may lie before the end of the last stop bit's rest."""
+        self.t, self._free = t, Fraction(0)
+
+    def _character(self, byte: int, stop: int, spikes: Sequence[tuple[float, int]], bits: float) -> Changes:
+        """The changes of one character; `t` is behind it then."""
+        bit = self.bit * (1 + self.error)
+        start = max(self._free, Fraction(self.t))
+        levels = [0, *(byte >> place & 1 for place in range(8)), stop]
+        changes = [(start + number * bit, level) for number, level in enumerate(levels) if number < bits]
+        end = start + Fraction(bits) * bit
+        self.middle = start + Fraction(19, 2) * self.bit
+        for place, clk in spikes:
+            begin = start + Fraction(place) * bit
+            level = levels[int(place)]
+            changes += [(begin, 1 - level), (begin + clk, level)]
+        changes.sort()
+        if not stop or bits < 10:
+            changes.append((end, 1))
+            end += bit
+        self.t, self._free = ceil(end), end
+        return [(ceil(at), level) for at, level in changes]
+
+    def _rest(self, gap: float) -> None:
+        """Leave the line idle for so many bits."""
+        self._free += Fraction(gap) * self.bit
+
+    def _low(self, bits: float) -> Changes:
+        """The changes of a break, and a bit time of rest."""
+        begin, self.t = self.t, self.t + ceil(Fraction(bits) * self.bit)
+        changes = [(begin, 0), (self.t, 1)]
+        self.t += ceil(self.bit)
+        return changes
+
+
+class SerialLine(LineTimes):
+    """For hosts on a `Side`, beside them. After each method the next one goes on at `t`; the side itself
+    stands at the last change of the pin, so that something else can be done within the stop bit."""
+
+    side: Side
+
+    async def character(
+        self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
+    ) -> None:
+        """One character; stop: level of its stop bit. spikes: (place in bits, clk) where the line has the
+        wrong level. bits: how many of it are sent before the line rests."""
+        await self._drive(self._character(byte, stop, spikes, bits))
+
+    async def _drive(self, changes: Changes) -> None:
+        for edge, level in changes:
+            if self.side.pin("rxd") != level:
+                await self.side.until(max(edge, self.side.now))
+                self.side.set(rxd=level)
+
+    async def send(self, line: Iterable[int], gap: float = 0) -> None:
+        """Characters as they are; gap: idle time behind each of them in bits."""
+        for byte in line:
+            await self.character(byte)
+            self._rest(gap)
+        self.t = ceil(self._free)
+
+    async def raw(self, text: str) -> None:
+        """The same from hexadecimal text."""
+        await self.send(bytes.fromhex(text))
+
+    async def low(self, bits: float) -> None:
+        """Break: the line is low for so long, then high for a bit time."""
+        await self._drive(self._low(bits))
+
+
+def characters(
+    edges: Sequence[tuple[int, int]], start: Fraction, bit: Fraction, count: int, within: int = 0
+) -> bytes:
+    """The bytes that a transmitter sends without a gap, the first start bit from `start` on.
+
+    edges: changes (t, level) of the line since then, which is high before. AssertionError where one is not
+    within so many clk behind the place where it belongs (or before it, too, if `within` is not 0), or where a
+    start or stop bit is missing.
+    """
+    for t, _ in edges:
+        number = round((t - start) / bit)
+        late = t - ceil(start + number * bit)
+        assert -within <= late <= within, f"edge {t} is {late} clk away from its place"
+
+    def level(number: int) -> int:
+        middle = floor(start + (number + Fraction(1, 2)) * bit)
+        before = bisect_left(edges, (middle + 1, 0))
+        return edges[before - 1][1] if before else 1
+
+    line = bytearray()
+    for first in range(0, 10 * count, 10):
+        assert not level(first) and level(first + 9), "no start or stop bit"
+        line.append(sum(level(first + 1 + place) << place for place in range(8)))
+    return bytes(line)

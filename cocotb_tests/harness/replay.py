@@ -1,0 +1,146 @@
+"""Replays a recording on the RTL, compares it, and shortens it while it still differs (`shrink`)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import cocotb
+
+from openppmc.check.comparison import Comparison
+from openppmc.check.records import Change, Edge, Recording
+
+from .bench import Bench
+from .compare import compare_recording, write_report
+from .part import PARTS
+from .shrink import Act, Shrinker, acts_of, changes_of, told
+
+
+async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]:
+    """Reset the part and make the changes; all output edges, times counted as in `changes`, to edge `end`."""
+    await bench.align()
+    bench.set(rst_n=0)
+    await bench.clocks(1)
+    bench.set(**bench.part.inputs)
+    await bench.clocks(3)
+    base = bench.set(rst_n=1)
+    bench.forget()
+    driven = bench.drive((base + t, {pin: value}) for t, pin, value in changes)
+    await bench.until(base + end + 1)
+    driven.cancel()  # what is beyond the end belongs to no other run
+    return [edge._replace(t=edge.t - base) for edge in bench.recording().edges]
+
+
+REPLAY = "OPENPPMC_REPLAY"
+SECONDS = "OPENPPMC_SHRINK_S"
+WORDS = "short.txt"
+ROWS = 40
+"""Lines of acts that the message shows at most."""
+
+
+async def compared(bench: Bench, recording: Recording) -> Comparison:
+    """The recording's pin changes on the RTL and on a golden model, each fresh out of reset."""
+    edges = await rerun(bench, recording.stimulus, recording.end)
+    return compare_recording(replace(recording, edges=edges))
+
+
+class Search:
+    """For a short list of acts that shows the difference `first` of a recording on the same output.
+
+    The best one so far is in recording.json and short.txt of the bench's folder at any time.
+    """
+
+    def __init__(self, bench: Bench, first: Comparison) -> None:
+        assert first.mismatch is not None
+        self.bench, self.signal = bench, first.mismatch.signal
+        t, acts = first.mismatch.t, acts_of(first.recording)
+        self.whole = len(acts)
+        self.end = first.recording.end
+        self.see(first)
+        seconds = float(os.environ.get(SECONDS, "60"))
+        acts = [act for act in acts if act.begin <= t]
+        self.shrinker = Shrinker(acts, self.fails, seconds=seconds, kept=self.keep)
+
+    async def run(self) -> bool:
+        """Search; whether the acts show the difference at all."""
+        if await self.fails(self.shrinker.acts) is None:
+            return False
+        self.keep()
+        await self.shrinker.run()
+        write_report(self.last, self.bench.out, self.bench.repro)
+        self.keep()
+        return True
+
+    def see(self, found: Comparison) -> None:
+        """Note the best so far; a shorter list may show the difference a little later, but not much."""
+        assert found.mismatch is not None
+        self.last, t = found, found.mismatch.t
+        self.end = min(self.end, t + t // 8 + 2_000)
+
+    async def fails(self, acts: Sequence[Act]) -> int | None:
+        """Edge at which the output differs, if these acts alone do that, and no other one before it."""
+        recording = replace(
+            self.last.recording,
+            end=self.end,
+            stimulus=changes_of(self.bench.part, acts),
+            accesses=[act.access for act in acts if act.access],
+        )
+        try:
+            found = await compared(self.bench, recording)
+        except (AssertionError, ValueError):  # nothing that the golden model can be asked to do
+            return None
+        if found.mismatch is None or found.mismatch.signal != self.signal:
+            return None
+        self.see(found)
+        return found.mismatch.t
+
+    def keep(self) -> None:
+        """Write the files."""
+        out, m, shrinker = self.bench.out, self.last.mismatch, self.shrinker
+        assert m is not None
+        short = replace(self.last.recording, end=min(self.end, m.t + 200))
+        (out / "recording.json").write_text(short.to_json(), encoding="utf-8")
+        acts = shrinker.acts
+        rows = [f"  {line}" for line in told(acts)]
+        (out / "acts.txt").write_text("\n".join([*rows, ""]), encoding="utf-8")
+        head = f"shrunk from {self.whole} acts to {len(acts)} in {shrinker.trials} trials"
+        head += f", {len(rows)} lines" if len(rows) < len(acts) else ""
+        head += f", stopped {shrinker.stopped}" if shrinker.stopped else ""
+        more = [f"  … and {len(rows) - ROWS} more in acts.txt"] if len(rows) > ROWS else []
+        expected, actual = (_told(side) for side in (m.expected, m.actual))
+        tail = f"then {m.signal} differs at edge {m.t}: expected {expected}, got {actual}"
+        (out / WORDS).write_text("\n".join([f"{head}:", *rows[:ROWS], *more, tail]), encoding="utf-8")
+
+
+def _told(side: tuple[int, int] | None) -> str:
+    return "no further edge" if side is None else f"{side[1]:#x} at {side[0]}"
+
+
+async def _begun() -> tuple[Bench, Comparison]:
+    recording = Recording.from_json(Path(os.environ[REPLAY]).read_text(encoding="utf-8"))
+    bench = await Bench.start(cocotb.top, PARTS[recording.part], seed=recording.seed)
+    return bench, await compared(bench, recording)
+
+
+@cocotb.test()
+async def replay(dut: Any) -> None:
+    """Given a recording, when the RTL gets its pins, then all outputs change as in the golden model."""
+    bench, comparison = await _begun()
+    if comparison.mismatch is not None:
+        raise AssertionError(write_report(comparison, bench.out, bench.repro))
+
+
+@cocotb.test()
+async def shrink(dut: Any) -> None:
+    """Given a recording with a difference, when acts are left out, then a short list is on file."""
+    bench, first = await _begun()
+    if first.mismatch is None:
+        why = "its pins show no difference from another reset"
+    elif not await Search(bench, first).run():
+        why = "taken apart into single acts it shows no difference"
+    else:
+        return
+    (bench.out / WORDS).write_text(f"not shrunk: {why}", encoding="utf-8")

@@ -1,0 +1,71 @@
+"""Replacements of the RTL in a simulation: a mutant (`make mutate`), or copies that count coverage.
+
+MUTANT in the environment holds "FILE NUMBER COPY": the file relative to the project's root, the number of the
+mutant in its copy, and the copy. A failure is then not repeated, shrunk or recorded for traceability.
+COVERAGE names a folder: each simulation leaves a file with Verilator's counts there (`make coverage`).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from uuid import uuid4
+
+from .paths import ROOT
+
+MUTANT = "OPENPPMC_MUTANT"
+MUTANT_WARNINGS = ("-Wno-lint", "-Wno-style", "-Wno-LATCH")
+"""What Verilator need not say of a copy: a fault may well look like one."""
+
+
+def mutant_present() -> bool:
+    """Whether a mutant is tried."""
+    return bool(os.environ.get(MUTANT))
+
+
+def with_mutant(sources: Sequence[Path]) -> list[Path] | None:
+    """Sources of a design with the copy in place of the file; None if they do not have it."""
+    if not mutant_present():
+        return None
+    file, _, copy = os.environ[MUTANT].split(" ", 2)
+    found = [Path(copy) if ROOT / path == ROOT / file else path for path in sources]
+    return None if found == list(sources) else found
+
+
+def mutant_plusargs() -> list[str]:
+    """What tells the simulation which mutant it has."""
+    return [f"+mutant={os.environ[MUTANT].split(' ', 2)[1]}"] if mutant_present() else []
+
+
+COVERAGE = "OPENPPMC_COVERAGE"
+COVERAGE_COPIES = "OPENPPMC_COUNTED"
+"""Names a folder with copies of rtl/ that Verilator counts right (`scripts.measure.coverage.counted`)."""
+COVERAGE_FILE = "coverage.dat"
+"""In the folder of a run."""
+
+
+def counts_coverage() -> bool:
+    """Whether simulations count."""
+    return bool(os.environ.get(COVERAGE))
+
+
+def coverage_args() -> list[str]:
+    """What Verilator is told beside all else."""
+    return ["--coverage-line", "--coverage-toggle"] if counts_coverage() else []
+
+
+def with_counters(sources: Sequence[Path]) -> list[Path]:
+    """Sources of a design, the copies in place of what has one."""
+    folder = os.environ.get(COVERAGE_COPIES)
+    if not folder:
+        return list(sources)
+    pairs = [(path, Path(folder) / os.path.relpath(ROOT / path, ROOT)) for path in sources]
+    return [copy if copy.is_file() else path for path, copy in pairs]
+
+
+def keep_counts(folder: Path) -> None:
+    """Put away what the simulation in this folder has counted."""
+    if (where := os.environ.get(COVERAGE)) and (folder / COVERAGE_FILE).is_file():
+        Path(where).mkdir(parents=True, exist_ok=True)
+        (folder / COVERAGE_FILE).replace(Path(where) / f"{uuid4().hex}.dat")

@@ -1,0 +1,1 @@
+"""The demo of the bank: 32 axes with 32 ramps."""

@@ -1,0 +1,133 @@
+"""`make demo PART=ppmc104`: what is played, how the bus is shown, waves and picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from openppmc.capture.ppmc104.words import Words104
+from openppmc.plot.motion import SPEED
+from openppmc.plot.signals import Run, Section, Speed, Trace
+from scripts.demo.demos import Demo, View
+from scripts.demo.scenes import Levels, bit, micros, pin, spans, subtitle
+
+TITLES = {
+    "reset": "",
+    "init": "",
+    "move": "1000 pulses:\naccelerate, run, decelerate",
+    "pause": "rest",
+    "limit": "continuous,\nlimit L1",
+    "rest": "at rest: phases chopped, HOLD rises after 34 ms",
+}
+
+
+def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
+    """Phases, pulses and flags, and the limit switch that the demo presses."""
+    rows = [Trace(f"S{n}", initial["s"] >> (n - 1) & 1, bit(outputs["s"], n - 1)) for n in range(1, 6)]
+    rows += [
+        Trace(name, initial[pin], outputs[pin])
+        for name, pin in (("POUT*", "pout_n"), ("HOLD", "hold"), ("INT*", "int_n"))
+    ]
+    rows.append(Trace("L1*", 1, pin(stimulus, "l1_n")))
+    return rows
+
+
+def zooms(
+    outputs: Levels, stimulus: Sequence[Any], chapters: Mapping[str, Any], pulses: Sequence[int], clk_hz: int
+) -> list[Section]:
+    """Start of the ramp, limit stop, chopped rest."""
+    us = clk_hz // 1_000_000
+    begin = chapters["move"]["begin"]
+    start = next(t for t, level in outputs["hold"] if level == 0 and t >= begin)
+    first = [t for t in pulses if t >= start][:7]
+    ramp = Section(
+        "start of the ramp",
+        start - 150 * us,
+        first[-1] + 100 * us,
+        f"HOLD falls, POUT follows {micros(first[0] - start, clk_hz)} later; one phase step a pulse",
+        spans=spans(first, clk_hz),
+    )
+    press = next(t for t, level in pin(stimulus, "l1_n") if level == 0)
+    done = next(t for t, level in outputs["int_n"] if level == 0 and t >= press)
+    before = [t for t in pulses if press - 310 * us < t < press]
+    limit = Section(
+        "limit stop",
+        press - 330 * us,
+        press + 170 * us,
+        f"no pulse after L1; INT {done - press} clk later, until the finish status is read",
+        marks=[(press, "L1 closes")],
+        spans=spans(before, clk_hz),
+    )
+    rest = chapters["rest"]["begin"] + 12_000 * us
+    edges = [t for t, _ in outputs["s"] if t >= rest][:6]
+    chop = Section(
+        "chopped rest",
+        edges[0] - 60 * us,
+        edges[-1] + 40 * us,
+        "the two phases that hold the motor, switched on and off",
+        spans=spans(edges[:5], clk_hz),
+    )
+    return [ramp, limit, chop]
+
+
+def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
+    """The picture of a comparison's recording."""
+    recording, outputs = comparison.recording, comparison.actual
+    clk_hz = int(recording.params["CLK_HZ"])
+    pulses = [t for t, level in outputs["pout_n"] if level == 0]
+    by_key = {chapter["key"]: chapter for chapter in chapters}
+    return Run(
+        title="PPMC-104 from the host bus to the motor pins",
+        subtitle=subtitle(comparison, clk_hz),
+        clk_hz=clk_hz,
+        end=recording.end,
+        traces=traces(outputs, comparison.initial, recording.stimulus),
+        speeds=[Speed("", SPEED, pulses)],
+        chapters=[Section(TITLES[c["key"]], c["begin"], c["end"]) for c in chapters],
+        zooms=zooms(outputs, recording.stimulus, by_key, pulses, clk_hz),
+    )
+
+
+VIEW = View(
+    split={"s": ("s1", "s2", "s3", "s4", "s5")},
+    motors={"motor": "pout_n"},
+    groups=(
+        (
+            "host",
+            (
+                "host.access",
+                "pins.cs_n",
+                "pins.a0",
+                "pins.wr_n",
+                "pins.rd_n",
+                "pins.d_i",
+                "pins.d_o",
+                "pins.d_oe",
+                "pins.int_n",
+            ),
+        ),
+        (
+            "motor",
+            (
+                "motor.speed_pps",
+                "motor.pulses",
+                "pins.pout_n",
+                "pins.dir",
+                *(f"pins.s{n}" for n in range(1, 6)),
+                "pins.hold",
+            ),
+        ),
+        ("switches", ("pins.l1_n", "pins.l2_n", "pins.l3_n", "pins.l4_n", "pins.cnp_n", "pins.alm_n")),
+    ),
+)
+
+DEMO = Demo(
+    name="ppmc104",
+    part="ppmc104",
+    module="cocotb_tests.ppmc104.demo",
+    test="demo_move",
+    words=Words104(),
+    picture=picture,
+    view=VIEW,
+    marks=("move", "limit", "rest"),
+)

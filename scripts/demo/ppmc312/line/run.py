@@ -1,0 +1,32 @@
+"""What a run of the demo of the line leaves."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from openppmc.check.records import Recording
+from scripts.demo.ppmc312.line.talk import Exchange, exchanges
+
+
+@dataclass(frozen=True)
+class LineRun:
+    """What a run leaves: the recording of the line, chapters, exchanges, positions read back."""
+
+    recording: Recording
+    chapters: list[dict[str, Any]]
+    talk: list[Exchange]
+    positions: list[int]
+
+
+def load(folder: Path) -> LineRun:
+    """What a run has left in its folder."""
+    told = json.loads((folder / "talk.json").read_text())
+    return LineRun(
+        Recording.from_json((folder / "recording.json").read_text()),
+        json.loads((folder / "story.json").read_text()),
+        exchanges(told["talk"]),
+        told["positions"],
+    )

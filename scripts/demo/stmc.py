@@ -1,0 +1,143 @@
+"""`make demo PART=stmc`: what is played, how the bus is shown, waves and picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from openppmc.capture.stmc.words import WordsStmc
+from openppmc.check.records import steps
+from openppmc.plot.motion import COLOURS, SPEED
+from openppmc.plot.signals import Run, Section, Speed, Trace
+from scripts.demo.demos import Demo, View
+from scripts.demo.scenes import Levels, bit, micros, pin, spans, subtitle
+
+TITLES = {
+    "move": "300 steps:\naccelerate, run, decelerate",
+    "limit": "to the limit: slow down\nat L3, stop at L1",
+    "reference": "back to the\nreference point",
+    "rest": "at rest",
+}
+SWITCHES = (("L3*", "l3_n"), ("L1*", "l1_n"), ("CNP*", "cnp_n"))
+
+
+def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
+    """Driver outputs and flags, and the switches that the demo presses."""
+    rows = [
+        Trace(f"DRV{n}", initial["drv"] >> (n - 1) & 1, bit(outputs["drv"], n - 1), COLOURS[f"S{n}"])
+        for n in range(1, 5)
+    ]
+    rows += [Trace(name, initial[port], outputs[port]) for name, port in (("HOLD", "hold"), ("IRQ", "irq"))]
+    return rows + [Trace(name, 1, pin(stimulus, port)) for name, port in SWITCHES]
+
+
+def first(changes: Sequence[tuple[int, int]], level: int, since: int) -> int:
+    """Edge of the first change to a level from `since` on."""
+    return next(t for t, value in changes if value == level and t >= since)
+
+
+def start(outputs: Levels, moves: Sequence[int], begin: int, clk_hz: int) -> Section:
+    """The first steps of the ramp."""
+    us = clk_hz // 1_000_000
+    fall = first(outputs["hold"], 0, begin)
+    shown = [t for t in moves if t >= fall][:5]
+    return Section(
+        "start of the ramp",
+        fall - 300 * us,
+        shown[-1] + 200 * us,
+        f"HOLD falls; step 0 with the first tick of 48.675 kHz {micros(shown[0] - fall, clk_hz)} later",
+        spans=spans(shown, clk_hz),
+    )
+
+
+def stop(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Section:
+    """The stop limit in the ramp down."""
+    us = clk_hz // 1_000_000
+    before = [t for t in moves if t < press][-4:]
+    end = first(outputs["irq"], 1, press)
+    return Section(
+        "stop limit in the ramp down",
+        before[0] - 150 * us,
+        press + 600 * us,
+        f"no step after L1; IRQ {end - press} clk later, until the finish status is read",
+        marks=[(press, "L1 closes")],
+        spans=spans(before, clk_hz),
+    )
+
+
+def reference(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Section:
+    """The reference point, then chopping."""
+    us = clk_hz // 1_000_000
+    before = [t for t in moves if t < press][-3:]
+    off = [t for t, level in outputs["drv"] if t > press][:3]
+    return Section(
+        "reference point, then chopped",
+        before[0] - 150 * us,
+        off[-1] + 400 * us,
+        "the windings that hold the motor, switched "
+        f"{micros(off[2] - off[1], clk_hz)} on, {micros(off[1] - off[0], clk_hz)} off",
+        marks=[(press, "CNP closes")],
+        spans=spans(before, clk_hz),
+    )
+
+
+def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
+    """The picture of a comparison's recording."""
+    recording, outputs = comparison.recording, comparison.actual
+    clk_hz = int(recording.params["CLK_HZ"])
+    moves = steps(outputs["drv"])
+    by_key = {chapter["key"]: chapter for chapter in chapters}
+    stimulus = recording.stimulus
+    return Run(
+        title="J105 STMC: the PC/104 board from the ISA bus to the driver",
+        subtitle=subtitle(comparison, clk_hz),
+        clk_hz=clk_hz,
+        end=recording.end,
+        traces=traces(outputs, comparison.initial, stimulus),
+        speeds=[Speed("", SPEED, moves)],
+        chapters=[Section(TITLES.get(c["key"], ""), c["begin"], c["end"]) for c in chapters],
+        zooms=[
+            start(outputs, moves, by_key["move"]["begin"], clk_hz),
+            stop(outputs, moves, first(pin(stimulus, "l1_n"), 0, 0), clk_hz),
+            reference(outputs, moves, first(pin(stimulus, "cnp_n"), 0, 0), clk_hz),
+        ],
+        unit="1000 steps/s",
+    )
+
+
+_SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
+VIEW = View(
+    split={"s": ("s1", "s2", "s3", "s4", "s5"), "drv": ("drv1", "drv2", "drv3", "drv4")},
+    motors={"motor": "s"},
+    groups=(
+        (
+            "ISA bus",
+            (
+                "host.access",
+                *(f"pins.{pin}" for pin in ("sa", "aen", "iow_n", "ior_n", "sd_i", "sd_o", "sd_oe", "irq")),
+            ),
+        ),
+        (
+            "motor",
+            (
+                "motor.speed_pps",
+                "motor.pulses",
+                *(f"pins.drv{n}" for n in range(1, 5)),
+                "pins.hold",
+            ),
+        ),
+        ("switches", tuple(f"pins.{pin}" for pin in _SWITCHES)),
+    ),
+    pulses=steps,
+)
+
+DEMO = Demo(
+    name="stmc",
+    part="j105_stmc",
+    module="cocotb_tests.stmc.demo",
+    test="demo_board",
+    words=WordsStmc("FAMILY"),
+    picture=picture,
+    view=VIEW,
+    marks=("move", "limit", "reference", "rest"),
+)

@@ -1,1 +1,0 @@
-"""Synthesis, place and route, and the accounting of their results."""

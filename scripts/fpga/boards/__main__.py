@@ -1,0 +1,81 @@
+"""`make boards`: write tops, constraint files and tables from the descriptions, or compare them (--check)."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console, relative
+from scripts.fpga.boards import carrier, constraints, tables, top
+from scripts.fpga.boards.description import FOLDER, Description, load_all
+from scripts.fpga.boards.pads import Fitted, fit
+from scripts.fpga.boards.verilog import laid_out
+
+
+def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
+    """Each part on each board."""
+    return [
+        fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
+        for board in boards
+        for on in board.parts
+    ]
+
+
+def own_files(one: Fitted, layout: Callable[[str], str]) -> dict[Path, str]:
+    """Top, through `layout`, and constraint files of a board with a part."""
+    tops = {project.RTL / name: layout(text) for name, text in top.file(one.board, one).items()}
+    return {**tops, **{FOLDER / name: text for name, text in constraints.files(one).items()}}
+
+
+def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
+    """Everything that is written from the descriptions, tops laid out so."""
+    boards = load_all()
+    every = fitted_parts(boards)
+    found = {path: text for one in every for path, text in own_files(one, layout).items()}
+    docs, sources = project.DOCS / "boards.md", project.RTL / "files.yml"
+    readme = project.ROOT / "README.md"
+    found[docs] = tables.page(boards, every, docs.read_text(encoding="utf-8"))
+    found[readme] = tables.readme(boards, readme.read_text(encoding="utf-8"))
+    bridge = project.DOCS / "uart_bridge.md"
+    found[bridge] = tables.bridge(bridge.read_text(encoding="utf-8"))
+    found[sources] = tables.listing(boards, every, sources.read_text(encoding="utf-8"))
+    return found
+
+
+def left_over(wanted: dict[Path, str]) -> list[Path]:
+    """Tops and constraint files of no description."""
+    there = [*(project.RTL / "boards").glob("*/board_*.sv"), *FOLDER.glob("*/*/*")]
+    return sorted(path for path in there if path.is_file() and path not in wanted)
+
+
+def main() -> int:
+    """Write all files; exit code 1 when --check finds a stale one."""
+    parser = argparse.ArgumentParser(prog="boards", description=__doc__)
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing, name the files that are not fresh"
+    )
+    options = parser.parse_args()
+    wanted = all_files()
+    stale = [path for path, text in wanted.items() if not path.is_file() or path.read_text() != text]
+    over = left_over(wanted)
+    if options.check:
+        for path in stale:
+            console.print(f"{relative(path)}: not as `make boards` writes it")
+        for path in over:
+            console.print(f"{relative(path)}: belongs to no part of a board.yml")
+        return int(bool(stale or over))
+    for path in stale:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(wanted[path])
+        console.print(f"wrote {relative(path)}")
+    if over:
+        raise ProjectError(f"{relative(over[0])} belongs to no part of a board.yml: remove it")
+    console.print(f"boards: {len(wanted)} files, {len(stale)} of them new or changed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,139 @@
+"""Tables written between markers: pins and boards in pages, tops in rtl/files.yml."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
+from openppmc import parts
+from openppmc.host.selftest.plan import Plan
+from scripts.fpga.boards.description import Description
+from scripts.fpga.boards.pads import Fitted
+
+WAYS = {"in": "in", "out": "out", "inout": "in, out"}
+
+
+def pin_table(fitted: Fitted) -> str:
+    """Each signal with its direction, package pin and place."""
+    rows = [f"| `{pad.bit}` | {WAYS[pad.way]} | {pad.pin} | {pad.where} |" for pad in fitted.pads]
+    return "\n".join(["| signal | | FPGA pin | where |", "|---|---|---|---|", *rows])
+
+
+def board_table(boards: tuple[Description, ...]) -> str:
+    """All boards with their FPGA, clocks and parts."""
+    rows = ["| `BOARD` | board | FPGA | oscillator | `clk` | `PART` | built here |"]
+    rows.append("|---|---|---|---|---|---|---|")
+    for board in boards:
+        names = ", ".join(f"`{device.name}`" for device in board.devices) or "–"
+        rates = dict.fromkeys(f"{on.mhz:g}" for on in board.parts)
+        parts = ", ".join(dict.fromkeys(f"`{on.part}`" for on in board.parts))
+        tool = board.vendor.get("tool", "").capitalize()
+        built = f"**not run here**: for {tool}" if tool else "yes"
+        clocks = f"{board.clock['mhz']:g} MHz | {' or '.join(rates)} MHz"
+        rows.append(f"| {names} | {board.title} | {board.chip} | {clocks} | {parts} | {built} |")
+    return "\n".join(rows)
+
+
+def flash_table(boards: tuple[Description, ...]) -> str:
+    """Boards that `make flash` loads, with the first part of each."""
+    rows = ["| board | FPGA | bitstream and load | port |", "| --- | --- | --- | --- |"]
+    for board in boards:
+        first = board.parts[0]
+        part = "" if first.part == "ppmc104" else f" PART={first.part}"
+        loads = [f"`make flash BOARD={device.name}{part}`" for device in board.devices]
+        if loads:
+            clk = f"{board.chip}, `clk` {first.mhz:g} MHz"
+            rows.append(f"| {board.title} | {clk} | {' or '.join(loads)} | {board.port} |")
+    return "\n".join(rows)
+
+
+def jumper_table(fitted: list[Fitted]) -> str:
+    """The wires of the self-test on each board with the UART host; what has no pin there is told."""
+    rows = ["| board | part | from | to | for |", "|---|---|---|---|---|"]
+    for one in fitted:
+        if "uart" not in one.on.hosts or not one.on.row.selftest or not one.board.devices:
+            continue
+        plan: Plan = one.on.row.load("selftest")
+        places = {pad.bit: pad.where for pad in one.pads}
+        for wire in plan.jumpers:
+            ends = [
+                f"{places[bit].split(',')[0]} (`{bit}`)" if bit in places else f"`{bit}` has no pin"
+                for bit in (wire.output, wire.input)
+            ]
+            rows.append(f"| {one.board.title} | `{one.on.part}` | {ends[0]} | {ends[1]} | {wire.what} |")
+    return "\n".join(rows)
+
+
+def recorder_table() -> str:
+    """Pins in a record of each part, from the lowest bit on; of the bank's with 8 axes."""
+    rows = ["| part | levels | pins, from the lowest bit on |", "| --- | --- | --- |"]
+    for row in parts.having("selftest"):
+        plan: Plan = row.load("selftest")
+        width = record_width(row)
+        pins = ", ".join(f"`{name}`" + (f" {bits}" if bits > 1 else "") for name, bits in plan.layout(width))
+        axes = " (8 axes)" if row.name == "bank" else ""
+        rows.append(f"| {row.title}{axes} | {width} | {pins} |")
+    return "\n".join(rows)
+
+
+def record_width(row: parts.Row) -> int:
+    """Levels that the carrier of a part records, from its text; of a bank those of 8 axes."""
+    path = project.RTL / row.folder / f"{row.rtl}_carrier.sv"
+    found = re.search(r"localparam int unsigned Watch = ([^;]*);", path.read_text(encoding="utf-8"))
+    words = re.fullmatch(r"(\d+)(?: \+ (\d+) \* AXES)?", found[1]) if found else None
+    if words is None:
+        raise ProjectError(f"{project.relative(path)}: no line `localparam int unsigned Watch = …`")
+    return int(words[1]) + 8 * int(words[2] or 0)
+
+
+def bridge(text: str) -> str:
+    """docs/uart_bridge.md with its table of levels anew."""
+    return put(text, "<!-- recorder -->", "<!-- /recorder -->", recorder_table(), "docs/uart_bridge.md")
+
+
+def put(text: str, begin: str, end: str, body: str, where: str) -> str:
+    """`text` with `body` between the lines `begin` and `end`; ProjectError if they are not there."""
+    head, found, rest = text.partition(f"{begin}\n")
+    _, closed, tail = rest.partition(end)
+    if not found or not closed:
+        raise ProjectError(f"{where}: put the lines {begin} and {end} where the table shall be")
+    return f"{head}{begin}\n{body}\n{end}{tail}"
+
+
+def page(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
+    """docs/boards.md with all its tables anew."""
+    text = put(text, "<!-- boards -->", "<!-- /boards -->", board_table(boards), "docs/boards.md")
+    text = put(text, "<!-- jumpers -->", "<!-- /jumpers -->", jumper_table(fitted), "docs/boards.md")
+    for one in fitted:
+        name = f"pins {one.board.constraints(one.on)}"
+        text = put(text, f"<!-- {name} -->", f"<!-- /{name} -->", pin_table(one), "docs/boards.md")
+    return text
+
+
+def readme(boards: tuple[Description, ...], text: str) -> str:
+    """The README with its table of boards anew."""
+    return put(text, "<!-- boards -->", "<!-- /boards -->", flash_table(boards), "README.md")
+
+
+def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
+    """rtl/files.yml with clock modules and tops of the boards anew."""
+    clocks = dict.fromkeys(board.clock["module"] for board in boards if "module" in board.clock)
+    files = [project.RTL / _clock(module) for module in clocks]
+    names = [path.relative_to(project.RTL).as_posix() for path in files]
+    names += [f"boards/{one.board.name}/{one.top}.sv" for one in fitted]
+    carriers = dict.fromkeys(f"{one.on.row.rtl}_carrier" for one in fitted)
+    order = [group for group in project.listed() if group in ("panel", *carriers)]
+    body = "\n".join([f"  needs: [{', '.join(order)}]", "  files:", *(f"    - {name}" for name in names)])
+    return put(text, "  # written by `make boards`", "  # end", body, "rtl/files.yml")
+
+
+def _clock(module: str) -> Path:
+    """Where a clock module is."""
+    found = sorted((project.RTL / "boards").glob(f"*/{module}.sv"))
+    if not found:
+        raise ProjectError(
+            f"rtl/boards/<board>/{module}.sv is not there: a board.yml names this clock module"
+        )
+    return found[0].relative_to(project.RTL)

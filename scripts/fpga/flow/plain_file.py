@@ -1,0 +1,36 @@
+"""Files of plain Verilog that other tools have read, of parts, bridges and board tops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
+from scripts.fpga.flow import boards, gates, plain
+from scripts.fpga.flow.plain_check import check
+
+FOLDER = project.BUILD / "verilog"
+
+
+def write(top: str, folder: Path, params: Mapping[str, plain.Value] | None = None) -> Path:
+    """The file of a top module, into a folder; ProjectError if there is no such top or a tool refuses it."""
+    known = plain.tops()
+    if top in boards.PART_OF:
+        sources, cells = boards.sources(top), boards.VENDOR_CELLS
+    elif top in known:
+        sources, cells = project.files(known[top][0]), None
+    else:
+        tops = (*known, *boards.PART_OF)
+        raise ProjectError(f"TOP={top}: no such part, bridge or board (known: {', '.join(tops)})")
+    values = plain.given(top, sources, params or {})
+    made = gates.netlist(plain.FAMILY, top, sources, values) / "netlist.v"
+    folder.mkdir(parents=True, exist_ok=True)
+    path, new = folder / f"{top}.v", folder / f".{top}.v"
+    new.write_bytes(made.read_bytes())
+    try:
+        check(new, top, cells)
+        new.replace(path)
+    finally:
+        new.unlink(missing_ok=True)
+    return path

@@ -1,0 +1,49 @@
+"""Yosys jobs, as `make report`, `make bitstream` and `make test-gates` run them."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError
+from scripts.fpga.flow.netlist import Breakdown, flat_counts, kept_counts
+
+FAMILIES = ("ecp5", "ice40")
+
+
+def run_yosys(folder: Path, job: dict) -> Path:
+    """Run one synthesis job in its own process; ProjectError with the last lines of its log when it fails."""
+    folder.mkdir(parents=True, exist_ok=True)
+    stem = f"{job['family']}-{job['recipe']}{'-kept' if job['keep'] else ''}"
+    # Relative to the root, where yosys runs: its commands end a name at a space.
+    job = {**job, "json": project.relative(folder / f"{stem}.json")}
+    job_file, log = folder / f"{stem}.job", folder / f"{stem}.log"
+    job_file.write_text(json.dumps(job, indent=1))
+    with log.open("w") as sink:
+        done = subprocess.run(
+            [sys.executable, "-m", "scripts.fpga.flow.yosys_job", str(job_file)],
+            cwd=project.ROOT,
+            stdout=sink,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            check=False,
+        )
+    if done.returncode:
+        lines = [line for line in log.read_text().splitlines() if line.strip()]
+        errors = [line for line in lines if "error" in line.lower()][:12] or lines[-8:]
+        raise ProjectError("\n".join([f"yosys failed ({project.relative(log)})", *errors]))
+    return folder / f"{stem}.json"
+
+
+def synthesize(folder: Path, base: dict, family: str, recipe: str) -> tuple[Breakdown, Path]:
+    """Synthesize flattened and with the hierarchy kept; the figures and the flattened netlist's path."""
+    job = {**base, "family": family, "recipe": recipe}
+    kept = run_yosys(folder, {**job, "keep": True})
+    flat = run_yosys(folder, {**job, "keep": False})
+    result = Breakdown()
+    result.kept, result.module = kept_counts(kept, base["top"])
+    result.total, result.flat = flat_counts(flat, base["top"], set(result.kept))
+    return result, flat

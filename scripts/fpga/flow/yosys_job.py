@@ -1,0 +1,107 @@
+"""One yosys run in a process of its own: SystemVerilog in, mapped JSON netlist out (and, if asked, Verilog).
+
+Started as ``python -m scripts.fpga.flow.yosys_job JOB.json``; the job names sources, top, parameters, family,
+recipe and output. A process of its own keeps yosys' log in one file and lets two families run side by side.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
+FLOW3 = "scratchpad -copy abc9.script.flow3mfs abc9.script"
+
+# What each recipe adds: a command before the family's pass, and options of that pass. flow2 and flow3 are
+# abc9 scripts that repeat mapping and restructuring; the delay targets (in ps) let abc9 give back area where
+# there is time; -cmp2softlogic compares with constants without carry chains, whose ends cost a cell each on
+# ECP5.
+RECIPES: dict[str, dict[str, tuple[str, str]]] = {
+    "ecp5": {
+        "default": ("", ""),
+        "nowidelut": ("", "-nowidelut"),
+        "relaxed": ("scratchpad -set abc9.D 9000", "-nowidelut"),
+        "soft": ("", "-nowidelut -cmp2softlogic"),
+        "flow2": (FLOW2, "-nowidelut"),
+        "flow3": (FLOW3, "-nowidelut"),
+        "flow2-soft": (FLOW2, "-nowidelut -cmp2softlogic"),
+        "flow3-soft": (FLOW3, "-nowidelut -cmp2softlogic"),
+        "flow2-noccu2": (FLOW2, "-nowidelut -noccu2"),
+    },
+    "ice40": {
+        "default": ("", ""),
+        "dff": ("", "-dff"),
+        "relaxed": ("scratchpad -set abc9.D 18000", ""),
+        "flow2": (FLOW2, ""),
+        "flow3": (FLOW3, ""),
+        "flow2-dff": (FLOW2, "-dff"),
+    },
+    "gowin": {
+        "default": ("", ""),
+        "noalu": ("", "-noalu"),
+        "nowidelut": ("", "-nowidelut"),
+        "flow2": (FLOW2, ""),
+        "flow2-nowidelut": (FLOW2, "-nowidelut"),
+        "flow2-noalu": (FLOW2, "-nowidelut -noalu"),
+    },
+    "plain": {"default": ("", "")},  # no family: Verilog that is read (`plain`)
+}
+# From processes to expressions and registers, as somebody would write them; nothing is mapped.
+PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
+PLAIN += "; opt_clean; memory_collect"
+# Chosen with `synth.py --sweep`: smallest without losing clock rate.
+# Registers get the name of the signal they drive, before abc9 drops the signals of the hierarchy.
+RENAME = "rename -wire"
+# Other names only change the order in which abc9 and nextpnr visit the cells: the luck in a clock rate. The
+# first entry is the recipe itself.
+PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
+BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
+
+
+def recipe_text(family: str, recipe: str) -> str:
+    """Return the yosys commands of a recipe as one line."""
+    pre, options = RECIPES[family][recipe]
+    synth = f"synth_{family} {options}".strip()
+    passes = [pre, f"{synth} -run begin:map_luts", RENAME, f"{synth} -run map_luts:"]
+    return "; ".join(filter(None, passes))
+
+
+def commands(job: dict) -> list[str]:
+    """The yosys commands of a job, in order."""
+    read = ["read_slang", "--top", job["top"], *(f"-I{path}" for path in job["include"])]
+    read += [f"-D{define}" for define in job.get("defines", ())]
+    for name, value in job["params"].items():
+        read += ["-G", f'{name}="{value}"' if isinstance(value, str) else f"{name}={value}"]
+    pre, args = RECIPES[job["family"]][job["recipe"]]
+    synth = f"synth_{job['family']} -top {job['top']} {args}".strip()
+    if job["keep"]:
+        read += ["--keep-hierarchy", *job["sources"]]
+        passes = PLAIN.split("; ") if job["family"] == "plain" else [f"{synth} -noflatten"]
+    else:
+        read += job["sources"]
+        passes = [
+            f"{synth} -run begin:map_luts",
+            RENAME,
+            *PERTURB[job.get("turn", 0)],
+            f"{synth} -run map_luts:",
+        ]
+    if "verilog" in job:
+        passes += [f"write_verilog -noattr {job['verilog']}"]
+    return [*filter(None, [" ".join(read), pre]), *passes, f"write_json {job['json']}"]
+
+
+def main() -> int:
+    """Run the job file named on the command line."""
+    job = json.loads(Path(sys.argv[1]).read_text())
+    import pyosys.libyosys as ys
+
+    design = ys.Design()
+    for command in commands(job):
+        print(f"\n>>> {command}", flush=True)
+        ys.run_pass(command, design)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

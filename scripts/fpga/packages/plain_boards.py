@@ -1,0 +1,173 @@
+"""FuseSoC library of the boards in plain Verilog, which edalize's own flows build (D-89).
+
+`make verilog` and a release write it. `make test WITH=fusesoc BOARD=…` starts this file: it writes one board
+again and builds its bitstream with the tools of this environment.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, console, relative
+from scripts.fpga.flow.board_table import BOARDS, Board
+from scripts.fpga.flow.boards import CONSTRAINTS
+from scripts.fpga.flow.plain_file import FOLDER, write
+from scripts.fpga.packages.cores import vlnv
+
+NAME = "openppmc_boards_verilog"
+CORE = vlnv("verilog", "boards")
+LIBRARY = FOLDER / "boards"
+WORK = BUILD / "edalize"
+HOST = "uart"  # the default of the tops
+HEAD = f"""CAPI=2:
+# Written by `make verilog` with the plain Verilog beside it: boards for edalize's open flows.
+# fusesoc run --setup --build --target=icebreaker {CORE}
+name: {CORE}
+description: OpenPPMC, boards with a PPMC-104 in plain Verilog
+"""
+TYPES = {".pcf": "PCF", ".lpf": "LPF", ".cst": "CST", ".sdc": "SDC"}
+# Whoever has the tools of edalize's flows needs no launcher.
+LAUNCHER = ROOT / "scripts" / "fpga" / "flow" / "launcher.py"
+_FMAX = re.compile(r"Max frequency for clock .*: ([\d.]+) MHz \((PASS|FAIL) at ([\d.]+) MHz\)")
+
+
+@dataclass(frozen=True)
+class Built:
+    """A bitstream, with the clock rate reached and the one asked in MHz."""
+
+    path: Path
+    mhz: float
+    asked: float
+
+
+def constraints(on: Board) -> list[Path]:
+    """Pins, and clocks where they have a file of their own."""
+    pins = CONSTRAINTS / on.constraints[HOST]
+    clocks = pins.with_name("clocks.sdc")
+    return [pins, *([clocks] if clocks.is_file() else [])]
+
+
+def flow(name: str, **options: Iterable[str] | str) -> str:
+    """YAML of a flow of edalize with its options."""
+    rows = {key: value if isinstance(value, str) else list(value) for key, value in options.items()}
+    text = "".join(f"      {key}: {json.dumps(value)}\n" for key, value in rows.items())
+    return f"    flow: {name}\n    flow_options:\n{text}"
+
+
+def options(on: Board) -> str:
+    """Flow and options as `make bitstream` has them, but for yosys' recipe and further seeds."""
+    if on.family == "ice40":
+        return flow("icestorm", nextpnr_options=on.route)
+    if on.family == "ecp5":
+        return flow("trellis", nextpnr_options=on.route, ecppack_options=("--compress",))
+    # edalize says --device and the family itself.
+    device = on.route[on.route.index("--device") + 1]
+    more = ("--vopt", "sspi_as_gpio", "--freq", f"{on.clk_hz / 1e6:g}")
+    packing = ("--sspi_as_gpio",)
+    named = {"device": device, "device_family": "C", "board": on.loader}
+    return flow("apicula", nextpnr_options=more, gowin_pack_options=packing, **named)
+
+
+def core(boards: Mapping[str, Board]) -> str:
+    """The core file with a target a board."""
+    files, targets = "\nfilesets:\n", "\ntargets:\n"
+    for name, on in boards.items():
+        top, fileset = on.top[HOST], name.replace("-", "_")
+        files += f"  {fileset}:\n    files:\n      - {top}.v: {{file_type: verilogSource-2005}}\n"
+        for path in constraints(on):
+            files += f"      - {path.relative_to(CONSTRAINTS)}: {{file_type: {TYPES[path.suffix]}}}\n"
+        targets += f"  # {on.title}, {on.device}, clk {on.clk_hz / 1e6:g} MHz\n"
+        targets += f"  {name}:\n    filesets: [{fileset}]\n    toplevel: {top}\n{options(on)}"
+    return HEAD + files + targets
+
+
+def write_library(names: Iterable[str] = (), folder: Path = LIBRARY) -> Path:
+    """The library of these boards (none: all) into a folder of its own; the path of its core file."""
+    for name in names:
+        if name not in BOARDS:
+            raise ProjectError(f"BOARD={name}: no FuseSoC target (there are {', '.join(BOARDS)})")
+    chosen = {name: BOARDS[name] for name in names or BOARDS}
+    shutil.rmtree(folder, ignore_errors=True)
+    for top in dict.fromkeys(on.top[HOST] for on in chosen.values()):
+        write(top, folder)
+    for on in chosen.values():
+        for path in constraints(on):
+            copy = folder / path.relative_to(CONSTRAINTS)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            copy.write_bytes(path.read_bytes())
+    made = folder / f"{NAME}.core"
+    made.write_text(core(chosen), encoding="utf-8")
+    return made
+
+
+def judged(name: str, folder: Path) -> Built:
+    """What is in FuseSoC's folder of a board; ProjectError without a bitstream, or for another clock."""
+    on = BOARDS[name]
+    found = [path for path in folder.glob(f"*{on.suffix}") if path.stat().st_size]
+    log = folder / "next.log"
+    rates = _FMAX.findall(log.read_text(encoding="utf-8")) if log.is_file() else []
+    if not found or not rates:
+        raise ProjectError(f"{name}: no bitstream in {relative(folder)}")
+    # The last one is that after routing.
+    reached, verdict, asked = rates[-1]
+    # nextpnr works in whole picoseconds.
+    if verdict != "PASS" or abs(float(asked) - on.clk_hz / 1e6) > 0.01:
+        raise ProjectError(f"{name}: {reached} MHz, {verdict} at {asked} MHz; clk is {on.clk_hz / 1e6:g} MHz")
+    return Built(found[0], float(reached), float(asked))
+
+
+def build(name: str, library: Path, work: Path = WORK) -> Built:
+    """FuseSoC's bitstream of a board; ProjectError with its last words if it makes none."""
+    folder = work / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    # Relative: the shell of edalize's makefile ends a word at a space.
+    launcher = [os.path.relpath(path, folder) for path in (sys.executable, LAUNCHER)]
+    words = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
+    words += ["--cores-root", relative(library), "run", "--setup", "--build", f"--target={name}"]
+    done = subprocess.run(
+        [*words, f"--work-root={relative(folder)}", CORE],
+        cwd=ROOT,
+        env=os.environ | {"EDALIZE_LAUNCHER": " ".join(launcher), "MAKEFLAGS": ""},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    log = folder / "fusesoc.log"
+    log.write_text(done.stdout, encoding="utf-8")
+    if done.returncode:
+        lines = [line for line in done.stdout.splitlines() if "error" in line.lower()]
+        told = lines[:4] or done.stdout.splitlines()[-4:]
+        raise ProjectError("\n".join([f"fusesoc --target={name} failed ({relative(log)})", *told]))
+    return judged(name, folder)
+
+
+def main() -> int:
+    """Entry point."""
+    parser = argparse.ArgumentParser(prog="python -m scripts.fpga.packages.plain_boards", description=__doc__)
+    parser.add_argument("board", help=", ".join(BOARDS))
+    name = parser.parse_args().board
+    library = WORK / "library"
+    write_library([name], library)
+    built = build(name, library)
+    console.print(
+        f"[green]ok[/]   {relative(built.path)}, {built.path.stat().st_size} bytes, "
+        f"{built.mhz:g} MHz reached, {built.asked:g} MHz asked"
+    )
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,1 @@
+"""The ROM of the PMC006B4's planner (`make rom`)."""

@@ -1,0 +1,107 @@
+"""`make rom`: the planner's ROM and its entries in the package, written from pmc006_calc.asm."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console, relative
+from scripts.fpga.rom.calc_asm import WORDS, AsmError, Program, assemble, names_of
+
+FOLDER = project.RTL / "pmc006" / "motion"
+ASM = FOLDER / "pmc006_calc.asm"
+ROM = FOLDER / "pmc006_calc_rom.sv"
+PACKAGE = FOLDER / "pmc006_calc_pkg.sv"
+BEGIN = "  // ---- written by `make rom` from pmc006_calc.asm: where the program is entered, how long it is "
+END = "  // ---- end of what is written "
+WIDTH = 117
+
+HEAD = f"""\
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_calc_rom: the planner's program: planning of a motion, the update tick, compensation.
+// Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
+// Timing: code_o is the word of addr_i one clk later, while fetch_i.
+// Note:   written by `make rom` from pmc006_calc.asm, where the program can be read and changed; not by hand.
+`default_nettype none
+
+module pmc006_calc_rom
+  import pmc006_calc_pkg::*;
+(
+    input  wire logic       clk_i,
+    input  wire logic       fetch_i,  // read a word
+    input  wire logic [8:0] addr_i,   // its address
+    output instr_t          code_o    // the word; it stands until the next one
+);
+
+  (* rom_style = "block" *)
+  instr_t rom[{WORDS}];
+
+  initial begin
+    for (int unsigned i = ProgramWords; i < {WORDS}; i++) rom[i] = 17'h00010;  // halt
+"""
+TAIL = """\
+  end
+
+  always_ff @(posedge clk_i) if (fetch_i) code_o <= rom[addr_i];
+
+endmodule
+
+`default_nettype wire
+"""
+
+
+def rom_text(program: Program) -> str:
+    """The module with the program; each word with the line that it is made of."""
+    at_label: dict[int, list[str]] = {}
+    for name, at in program.labels.items():
+        at_label.setdefault(at, []).append(name)
+    lines, width = [], len(f"rom[{len(program.words) - 1}]")
+    for at, word in enumerate(program.words):
+        labels = "".join(f"{name}: " for name in at_label.get(at, []))
+        lines.append(f"    {f'rom[{at}]':{width}} = 17'h{word.code:05x};  // {labels}{word.text}")
+    return HEAD + "\n".join(lines) + "\n" + TAIL
+
+
+def package_text(package: str, program: Program) -> str:
+    """The package with the entries and the length of this program between its marks."""
+    before, begin, rest = package.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise ProjectError(f"{relative(PACKAGE)}: the marks of `make rom` are gone")
+    body = [f"  localparam logic [8:0] {name} = 9'd{at};" for name, at in program.entries().items()]
+    body.append(f"  localparam int unsigned ProgramWords = {len(program.words)};")
+    return "\n".join([before + BEGIN.ljust(WIDTH, "-"), "", *body, "", END]) + after
+
+
+def wanted() -> dict[Path, str]:
+    """What the files should be."""
+    package = PACKAGE.read_text(encoding="utf-8")
+    try:
+        program = assemble(ASM.read_text(encoding="utf-8"), names_of(package))
+    except AsmError as error:
+        raise ProjectError(f"{relative(ASM)}:{error}") from None
+    return {ROM: rom_text(program), PACKAGE: package_text(package, program)}
+
+
+def main() -> int:
+    """Write both files; exit code 1 when --check finds a stale one."""
+    parser = argparse.ArgumentParser(prog="calc_rom", description=__doc__)
+    parser.add_argument("--check", action="store_true", help="write nothing, name files that are stale")
+    check = parser.parse_args().check
+    texts = wanted()
+    stale = [path for path, text in texts.items() if not path.is_file() or path.read_text("utf-8") != text]
+    if check:
+        for path in stale:
+            console.print(f"{relative(path)}: not as `make rom` writes it")
+        return int(bool(stale))
+    for path in stale:
+        path.write_text(texts[path], encoding="utf-8")
+        console.print(f"wrote {relative(path)}")
+    console.print(f"rom: {len(texts)} files, {len(stale)} of them new or changed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,53 @@
+"""`make verilog [TOP=…] [PARAMS=…]`: parts, bridges and boards as plain Verilog-2005, in build/verilog/.
+
+Each file is read by yosys' `read_verilog` and by Verilator before it is there. Without TOP the boards go into
+a folder of their own with a FuseSoC core that builds them (D-89).
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import ProjectError, console
+from scripts.fpga.flow import plain
+from scripts.fpga.flow.plain_file import FOLDER, write
+from scripts.fpga.packages.plain_boards import write_library
+
+
+def parameters(text: str) -> dict[str, plain.Value]:
+    """Values from NAME=VALUE with commas between; ProjectError when one has another form."""
+    found: dict[str, plain.Value] = {}
+    for word in filter(None, text.split(",")):
+        name, equals, value = word.partition("=")
+        if not equals or not name.isidentifier() or not value.isalnum():
+            raise ProjectError(
+                f"PARAMS={text}: expected NAME=VALUE, such as CLK_HZ=50000000,TIMING=DATASHEET"
+            )
+        found[name] = int(value) if value.isdigit() else value
+    return found
+
+
+def main() -> int:
+    """Entry point."""
+    parser = argparse.ArgumentParser(
+        prog="python -m scripts.fpga.verilog", description=(__doc__ or "").split("\n")[0]
+    )
+    parser.add_argument("--top", help="one top module; without it all parts, bridges and boards")
+    parser.add_argument("--params", default="", help="NAME=VALUE of its parameters, with commas between")
+    args = parser.parse_args()
+    params = parameters(args.params)
+    if params and not args.top:
+        raise ProjectError("PARAMS needs TOP, the module whose parameters these are")
+    for top in [args.top] if args.top else plain.tops():
+        path = write(top, FOLDER, params)
+        lines = len(path.read_text(encoding="utf-8").splitlines())
+        console.print(f"[green]ok[/]   {project.relative(path)}, {lines} lines")
+    if not args.top:
+        console.print(f"[green]ok[/]   {project.relative(write_library())} and its boards")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

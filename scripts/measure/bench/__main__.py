@@ -1,0 +1,127 @@
+"""`make bench`: how fast a demo simulates on each side; for the PPMC-104 the virtual board and commands, too.
+
+The figures go between their markers of docs/benchmarks.md: seconds, which are those of one machine and its
+load, and ratios of one run, which repeat.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+
+from rich.table import Table
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.build import SimError
+from cocotb_tests.harness.project import console
+from openppmc.host import PpmcError
+from openppmc.sim import SimError as BoardError
+from scripts.demo.demos import Demo
+from scripts.fpga.flow.machine import machine
+from scripts.measure.bench import board, captures, costs
+from scripts.measure.bench.sides import LABELS, PLAIN, Times, turns
+from scripts.measure.sizes.report import markdown_table
+
+RUNS = 3
+HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
+
+
+def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
+    """A table in the terminal and, with `text` above it, in docs/benchmarks.md."""
+    table = Table(title=title, title_justify="left")
+    for index, head in enumerate(heads):
+        table.add_column(head, justify="right" if index else "left")
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)
+    project.update_benchmarks(f"bench:{marker}", f"{text}\n\n{markdown_table(heads, list(rows))}")
+
+
+def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
+    """What the turns of a demo's run took, and its rows."""
+    times = None
+    console.print("building …")
+    for run, times in enumerate(turns(demo, RUNS), 1):
+        shown = ", ".join(f"{side} {taken[-1]:.2f} s" for side, taken in times.seconds.items())
+        console.print(f"{name}, turn {run} of {RUNS}: {shown}")
+    assert times is not None
+    clocks = times.recording.end
+    rows = []
+    for side, label in LABELS.items():
+        middle = times.middle(side)
+        figures = [
+            f"{clocks:,}",
+            f"{len(times.recording.edges):,}",
+            f"{middle:.2f}",
+            f"{clocks / middle:,.0f}",
+        ]
+        rows.append([label, *figures, f"{times.ratio(side):.2f}"])
+    return times, rows
+
+
+def bench(name: str, demo: Demo) -> None:
+    """Measure and write all that there is for a part."""
+    times, rows = played(name, demo)
+    mhz = int(str(times.recording.params["CLK_HZ"])) / 1e6
+    text = (
+        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, start of the simulator included.\n"
+        "All sides produce the same output edges. The seconds depend on the machine and its load; the "
+        f"last column is the median of the ratios in one turn. {machine()}."
+    )
+    if name == costs.PART:
+        figures = board.measure()
+        alone = times.recording.end / times.middle(PLAIN)
+        rows.append(
+            [
+                "virtual board: RTL, UART bridge, motor",
+                "",
+                "",
+                "",
+                f"{figures.clk:,.0f}",
+                f"{alone / figures.clk:.2f}",
+            ]
+        )
+        text += (
+            " The virtual board runs at full speed with a turning motor; its cycles / s are of "
+            "processor time."
+        )
+        tell(
+            "board",
+            "virtual board",
+            f"The virtual board at {board.CLK_HZ / 1e6:g} MHz and {board.BAUD:,} baud, through pyserial. "
+            f"{machine()}.",
+            board.HEADS,
+            figures.rows(),
+        )
+        tell(
+            "costs",
+            "cycles of commands",
+            "Waits of a host, counted at the pins of the PPMC-104 (FAST) with the shortest bus accesses: "
+            "from the end of the last data byte until the next command is executed, and from the start of "
+            "a command until its last answer is read.",
+            costs.HEADS,
+            costs.rows(costs.measure()),
+        )
+        captures.bench()
+    tell(name, f"run of `make demo PART={name}`, median of {RUNS} turns", text, HEADS, rows)
+    console.print("written: docs/benchmarks.md")
+
+
+def main() -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="python -m scripts.measure.bench", description=__doc__)
+    parser.add_argument("--part", default="ppmc104")
+    row = project.part(parser.parse_args().part)
+    try:
+        if row.bench:
+            own: Callable[[], int] = row.load("bench")
+            return own()
+        bench(row.name, row.load("demo"))
+    except (SimError, BoardError, PpmcError) as error:
+        return project.fail(str(error))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

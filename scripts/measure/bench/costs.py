@@ -1,0 +1,29 @@
+"""How many clk a table build and a command with its answer take, at the pins of the RTL: all but the host."""
+
+from __future__ import annotations
+
+import json
+
+from cocotb_tests.harness.build import build, part_design
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.config import F16
+from cocotb_tests.harness.runner import run_sim
+from scripts.measure.bench.sides import FOLDER
+
+PART, MODULE, TEST = "ppmc104", "cocotb_tests.ppmc104.costs", "count_costs"
+CLOCKS = (16, 100)  # MHz
+HEADS = ["what", "cycles", *(f"µs at {mhz} MHz" for mhz in CLOCKS)]
+
+
+def measure() -> dict[str, int]:
+    """clk by what was done. SimError if it fails."""
+    design = part_design(PART, F16)
+    build(design)
+    run_sim(design, Item(MODULE, TEST, F16, PART, ()), 1, folder=FOLDER / "costs", repro="make bench")
+    found: dict[str, int] = json.loads((FOLDER / "costs" / "costs.json").read_text())
+    return found
+
+
+def rows(found: dict[str, int]) -> list[list[str]]:
+    """A row each, under HEADS."""
+    return [[what, f"{clk:,}", *(f"{clk / mhz:,.1f}" for mhz in CLOCKS)] for what, clk in found.items()]

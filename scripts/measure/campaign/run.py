@@ -1,0 +1,119 @@
+"""Runs a campaign on Dask: what is on file is taken over, the rest goes to workers; each result is noted.
+
+A lost worker's job is done again by another one. Ctrl-C ends the workers and what they have started; the next
+run of the same campaign goes on behind what was written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import islice
+from typing import Any
+
+from cocotb_tests.harness.project import ProjectError
+from scripts.measure.campaign.cluster import Workers, client
+from scripts.measure.campaign.jobs import Campaign, Done, Job
+from scripts.measure.campaign.show import Show
+from scripts.measure.campaign.store import RESULTS, Store
+from scripts.measure.campaign.tree import tree
+
+AHEAD = 3
+"""Jobs under way for each worker: it never waits for the next one, and few are dropped by Ctrl-C."""
+LOST = "its workers were lost"
+
+
+def run(
+    campaign: Campaign, workers: Workers, fresh: bool = False, store: Store | None = None
+) -> Iterator[Done]:
+    """Each job's result, in the order in which they end, those on file first. Raises what a job raises.
+
+    fresh: take over nothing. store: another file than the project's.
+    """
+    with store or Store(RESULTS) as file, Show(campaign.title or campaign.name, campaign.count) as show:
+        now = tree()
+        if fresh:
+            file.forget(campaign.name)
+        stamps: dict[str, str] = {}
+        left: list[Job] = []
+
+        def todo() -> Iterator[Job]:
+            """The jobs that are not on file; for those that are, `olds` gets the result."""
+            for job in campaign.jobs:
+                stamps[job.key] = job.stamp or now
+                if (old := file.good(campaign.name, job.key, stamps[job.key])) is None:
+                    yield job
+                else:
+                    olds.append(old)
+
+        olds: list[Done] = []
+        jobs = todo()
+        # A campaign that is all on file needs no workers.
+        left += islice(jobs, 1)
+        fresh_ones = _on_workers(campaign, left, jobs, workers, now) if left else iter(())
+        for done in _mixed(fresh_ones, olds):
+            if not done.old:
+                file.note(campaign.name, stamps.pop(done.key), done)
+            show.step(done.good, done.old)
+            yield done
+
+
+def _mixed(fresh: Iterator[Done], olds: list[Done]) -> Iterator[Done]:
+    """What has ended, and what was found on file meanwhile."""
+    while olds:
+        yield olds.pop(0)
+    for done in fresh:
+        while olds:
+            yield olds.pop(0)
+        yield done
+    while olds:
+        yield olds.pop(0)
+
+
+def _on_workers(
+    campaign: Campaign, first: list[Job], jobs: Iterator[Job], workers: Workers, now: str
+) -> Iterator[Done]:
+    with client(workers) as dask:
+        from distributed import as_completed
+
+        from scripts.measure.campaign.on_worker import OwnSession, carry_out, stop_children
+
+        dask.register_plugin(OwnSession())
+
+        def submit(job: Job) -> Any:
+            future = dask.submit(carry_out, campaign.work, job.what, now, pure=False)
+            keys[future.key] = job.key
+            return future
+
+        keys: dict[str, str] = {}
+        window = AHEAD * max(workers.count, len(dask.scheduler_info()["workers"]))
+        running = as_completed([submit(job) for job in [*first, *islice(jobs, window - 1)]])
+        try:
+            for future in running:
+                for job in islice(jobs, 1):
+                    running.add(submit(job))
+                yield _ended(future, keys.pop(future.key))
+        finally:
+            if keys:
+                dask.cancel([future for future in running.futures], force=True)
+                if not workers.scheduler:
+                    _quietly(lambda: dask.run(stop_children))
+
+
+def _ended(future: Any, key: str) -> Done:
+    from distributed import KilledWorker
+
+    try:
+        result, seconds = future.result()
+    except KilledWorker:
+        return Done(key, False, {"message": LOST}, 0.0)
+    except ProjectError:
+        raise
+    return Done(key, result.good, dict(result.data), seconds)
+
+
+def _quietly(act: Callable[[], object]) -> None:
+    """Do it; whatever it says does not matter any more."""
+    try:
+        act()
+    except Exception:  # noqa: BLE001
+        pass

@@ -1,0 +1,91 @@
+"""Copies of the RTL, line by line the same, that Verilator counts right.
+
+Verilator puts a block's counter behind its last statement, where it counts nothing if that is a `return`;
+and up to its pull request 8425 it loses the counters of a package that has nothing but functions. So in
+the copy a `return x;` that ends its function is written as `<function> = x;`, what follows an
+`if (c) return x;` stands in its else, and a package begins with a variable.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from cocotb_tests.harness.build import locked
+from cocotb_tests.harness.project import BUILD, RTL, relative
+from scripts.measure.syntax import children, found, function_name, kind, span, tree
+
+KEPT = " int unsigned openppmc_counted /*verilator public_flat_rw*/;"
+
+
+class Copy:
+    """The changes of a text, each some text in place of [start, end)."""
+
+    def __init__(self, text: str) -> None:
+        self._changes: list[tuple[int, int, str]] = []
+        root = tree(text)
+        functions = list(found(root, "FunctionDeclaration"))
+        for package in found(root, "PackageDeclaration") if functions else ():
+            self._put(span(package.header)[1], KEPT)
+        for function in functions:
+            statements = [node for node in children(function) if kind(node) != "FunctionPrototype"]
+            self._list(statements, function_name(function))
+        self.text = text
+        for start, end, new in sorted(self._changes, reverse=True):
+            self.text = self.text[:start] + new + self.text[end:]
+
+    def _put(self, at: int, new: str) -> None:
+        self._changes.append((at, at, new))
+
+    def _list(self, statements: Sequence[Any], name: str) -> None:
+        """What ends a function, or a branch that does."""
+        for number, node in enumerate(statements):
+            if node is statements[-1]:
+                self._last(node, name)
+            elif kind(node) == "ConditionalStatement" and not node.elseClause and _returns(node.statement):
+                self._last(node.statement, name)
+                self._put(span(node)[1], " else begin")
+                self._list(statements[number + 1 :], name)
+                self._put(span(statements[-1])[1], " end")
+                return
+
+    def _last(self, node: Any, name: str) -> None:
+        if kind(node) == "ReturnStatement":
+            start = span(node)[0]
+            self._changes.append((start, start + len("return"), f"{name} ="))
+        elif kind(node) == "ConditionalStatement":
+            self._last(node.statement, name)
+            if node.elseClause:
+                self._last(node.elseClause.clause, name)
+        elif kind(node) == "CaseStatement":
+            for item in found(node, "StandardCaseItem", "DefaultCaseItem"):
+                self._last(item.clause, name)
+        elif kind(node) == "SequentialBlockStatement":
+            self._list(list(children(node)), name)
+
+
+def _returns(node: Any) -> bool:
+    """Whether nothing behind this statement runs."""
+    if kind(node) == "SequentialBlockStatement":
+        inside = list(children(node))
+        return bool(inside) and _returns(inside[-1])
+    return kind(node) == "ReturnStatement"
+
+
+def copies() -> Path:
+    """Folder with a copy of rtl/, made if need be; its files have the paths that they have in the project."""
+    files = sorted(RTL.rglob("*.sv"))
+    sha = hashlib.sha256(Path(__file__).read_bytes())
+    for file in files:
+        sha.update(file.read_bytes())
+    folder = BUILD / "counted" / sha.hexdigest()[:16]
+    with locked(folder.with_suffix(".lock")):
+        if not (folder / "done").is_file():
+            for file in files:
+                copy = folder / relative(file)
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                copy.write_text(Copy(file.read_text(encoding="utf-8")).text, encoding="utf-8")
+            (folder / "done").touch()
+    return folder

@@ -1,0 +1,126 @@
+"""Functions that only elaboration calls: no simulation runs them, so their lines and branches are no points.
+
+A function is one if every call of that name in rtl/ stands in a parameter, a dimension, the head of a
+generate block or the values of an instance's parameters, or has nothing but parameters, genvars
+and numbers as arguments, or stands in such a function. Names are taken as they are written: one call
+elsewhere keeps all functions of the name in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from cocotb_tests.harness.project import ROOT, RTL, relative
+from scripts.measure.syntax import children, found, function_name, kind, span, tree
+
+CONSTANT = (
+    *("ParameterDeclaration", "ParameterDeclarationStatement", "ParameterValueAssignment"),
+    *("VariableDimension", "LoopGenerate"),
+)
+"""Kinds of nodes in which only constants stand; of a LoopGenerate its head."""
+NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
+
+
+@dataclass(frozen=True)
+class Call:
+    """One in rtl/. inside: the function that it stands in, "" if none; constant: see above."""
+
+    name: str
+    inside: str
+    constant: bool
+
+
+@dataclass(frozen=True)
+class Function:
+    """Lines from `function` to `endfunction`."""
+
+    file: str
+    name: str
+    first: int
+    last: int
+
+
+def _last(node: Any) -> str:
+    """The name without packages and selects."""
+    while kind(node) == "ScopedName":
+        node = node.right
+    return str(node.getFirstToken().valueText)
+
+
+def _constants(root: Any) -> set[str]:
+    """Names of the parameters and genvars."""
+    names = set()
+    for node in found(root, "ParameterDeclaration", "LoopGenerate"):
+        if kind(node) == "LoopGenerate":
+            names.add(str(node.identifier.valueText))
+            names |= _constants_in(node.block)
+        else:
+            names |= {_last(one) for one in found(node, "Declarator")}
+    return names
+
+
+def _constants_in(node: Any) -> set[str]:
+    return set().union(*(_constants(child) for child in children(node)))
+
+
+def calls(root: Any) -> Iterator[Call]:
+    """All calls of a file."""
+    constants = _constants(root)
+
+    def fixed(call: Any) -> bool:
+        names = [name for child in list(children(call))[1:] for name in found(child, *NAMES)]
+        return all("::" in str(name) or str(name.getFirstToken().valueText) in constants for name in names)
+
+    def walk(node: Any, inside: str, constant: bool) -> Iterator[Call]:
+        name = kind(node)
+        if name == "FunctionDeclaration":
+            inside = function_name(node)
+        if name == "InvocationExpression" and kind(node.left) in NAMES:
+            yield Call(_last(node.left), inside, constant or fixed(node))
+        heads: list[Any] = []
+        if name == "LoopGenerate":
+            heads = [node.block]
+        elif name == "IfGenerate":
+            heads = [child for child in children(node) if child is not node.condition]
+        elif name in CONSTANT:
+            constant = True
+        for child in children(node):
+            outside = any(span(child) == span(head) for head in heads)
+            yield from walk(child, inside, constant or bool(heads and not outside))
+
+    yield from walk(root, "", False)
+
+
+def functions(file: str, text: str, root: Any) -> Iterator[Function]:
+    """Those of a file."""
+    for node in found(root, "FunctionDeclaration"):
+        first, last = (text.count("\n", 0, at) + 1 for at in span(node))
+        yield Function(file, function_name(node), first, last)
+
+
+def only_elaborated(every: Iterable[Call]) -> set[str]:
+    """Names of which no call runs in a simulation, and that are called at all."""
+    every = list(every)
+    names = {call.name for call in every}
+    while True:
+        runs = {call.name for call in every if not call.constant and call.inside not in names}
+        if not runs & names:
+            return names
+        names -= runs
+
+
+@cache
+def left_out() -> list[Function]:
+    """The functions of rtl/ that only elaboration calls."""
+    every: list[Call] = []
+    known: list[Function] = []
+    for path in sorted(RTL.rglob("*.sv")):
+        text = (ROOT / path).read_text(encoding="utf-8")
+        root = tree(text)
+        every += calls(root)
+        known += functions(relative(path), text, root)
+    names = only_elaborated(every)
+    return [function for function in known if function.name in names]

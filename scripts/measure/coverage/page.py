@@ -1,0 +1,143 @@
+"""docs/coverage.md."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from cocotb_tests.harness.crosses import Cross, Crosses
+from openppmc import parts
+from scripts.measure.coverage.elaborated import left_out
+from scripts.measure.coverage.points import BRANCH, LINE, TOGGLE
+from scripts.measure.coverage.sums import LEFT_OUT, Sums, folder_of
+
+KINDS = (LINE, BRANCH, TOGGLE)
+HEAD = """# Coverage
+
+Written by `make coverage`: all simulations of `make test`, with builds in which Verilator counts. A point (a
+line, a way of a branch, a bit that rises or falls) is reached if any instance in any simulation reaches it;
+whether a test would notice a fault there, [mutants](mutants.md) tell. A figure without the points that are
+explained stands behind the one with all of them.
+
+Counting builds have copies of the sources in which Verilator counts `return` and packages right
+([how](testing.md#coverage)). Functions that only elaboration calls, below, are no points at all.
+"""
+
+
+def percent(value: float) -> str:
+    """One digit behind the point; 100 % is said only of all."""
+    return "100" if value == 100 else f"{min(value, 99.9):.1f}"
+
+
+def cell(sums: Sums, place: str, kind: str) -> str:
+    """Percentage, and how many are explained or open."""
+    figure = sums.figure(place, kind)
+    if not figure.all:
+        return "–"
+    text = f"{percent(figure.percent)} % of {figure.all}"
+    left = figure.all - figure.reached - figure.known
+    if kind != TOGGLE and figure.known:
+        text += f"; {percent(figure.left)} % without {figure.known} explained"
+    if kind != TOGGLE and left:
+        text += f", **{left} open**"
+    return text
+
+
+def folders(sums: Sums) -> Iterator[str]:
+    """Table of folders."""
+    yield "| folder of rtl/ | " + " | ".join(KINDS) + " |"
+    yield "|---" * (1 + len(KINDS)) + "|"
+    for folder in sums.folders():
+        yield f"| {folder} | " + " | ".join(cell(sums, folder, kind) for kind in KINDS) + " |"
+    for folder, why in LEFT_OUT.items():
+        yield f"\n{folder}: {why}."
+
+
+def files(sums: Sums) -> Iterator[str]:
+    """Table of files that are not reached as a whole."""
+    yield "| file | " + " | ".join(KINDS) + " |"
+    yield "|---" * (1 + len(KINDS)) + "|"
+    for folder in sums.folders():
+        for file in sums.files(folder):
+            if any(sums.figure(file, kind).percent < 100 for kind in KINDS):
+                yield f"| {file} | " + " | ".join(cell(sums, file, kind) for kind in KINDS) + " |"
+
+
+def holes(sums: Sums) -> Iterator[str]:
+    """Each hole of lines and branches, with its reason."""
+    every = [hole for kind in (LINE, BRANCH) for hole in sums.holes(kind)]
+    if not every:
+        yield "None."
+        return
+    yield "| place | what | source | why |"
+    yield "|---|---|---|---|"
+    for hole in sorted(every, key=lambda hole: (hole.file, hole.line, hole.kind)):
+        text = hole.text.replace("|", "\\|")
+        what = f"{hole.kind} {hole.what}".strip()
+        yield f"| {hole.file} | {what} | `{text}` | {hole.why or '**open**'} |"
+
+
+def elaborated() -> Iterator[str]:
+    """The functions that are no points."""
+    yield "| file | functions |"
+    yield "|---|---|"
+    names: dict[str, list[str]] = {}
+    for function in left_out():
+        if folder_of(function.file) not in LEFT_OUT:
+            names.setdefault(function.file, []).append(function.name)
+    for file, found in names.items():
+        yield f"| {file} | " + ", ".join(found) + " |"
+
+
+def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
+    """One table; **0** has not been seen, – cannot be."""
+    yield f"| {table.name} | " + " | ".join(table.columns) + " |"
+    yield "|---" * (1 + len(table.columns)) + "|"
+    reasons: dict[str, None] = {}
+    for row in table.rows:
+        shown = []
+        for column in table.columns:
+            number, why = counts[row, column], table.why_never(row, column)
+            if number or not why:
+                shown.append(f"{number:,}" if number else "**0**")
+            else:
+                shown.append("–")
+                reasons[why] = None
+        yield f"| {row} | " + " | ".join(shown) + " |"
+    if reasons:
+        yield "\n– : " + "; ".join(reasons) + "."
+
+
+def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
+    """The crosses of a part."""
+    found: Crosses = part.load("crosses")
+    yield f"### {part.title}\n"
+    if not any(key.startswith(f"{part.name}\t") for key in counts):
+        yield "Nothing counted.\n"
+        return
+    for table in found.tables:
+        own: Counter[tuple[str, str]] = Counter()
+        for key, number in counts.items():
+            name, title, row, column = key.split("\t")
+            if (name, title) == (part.name, table.name):
+                own[row, column] += number
+        yield from cross(table, own)
+        yield ""
+
+
+def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool = False) -> str:
+    """The whole page, from so many of all tests; `old`: perhaps with earlier states of the sources."""
+    much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
+    much += " They ran at different times, some perhaps on earlier sources." if old else ""
+    lines = [HEAD, f"{much}\n", "## The RTL\n", *folders(sums)]
+    lines += ["\n### Files with holes\n", *files(sums), "\n### Holes of lines and branches\n", *holes(sums)]
+    lines += ["\n### Left out: functions that only elaboration calls\n"]
+    lines += [
+        "Each call has constants alone, or stands in a parameter, a dimension, a generate block's head or"
+    ]
+    lines += ["such a function: no simulation runs them.\n", *elaborated()]
+    lines += ["\n## What the sheets cross\n"]
+    lines += ["Counted in the golden models that the simulations are compared with. A **0** was not seen.\n"]
+    for part in parts.having("crosses"):
+        lines += of_part(part, counts)
+    return "\n".join(lines).rstrip() + "\n"

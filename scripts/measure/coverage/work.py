@@ -1,0 +1,76 @@
+"""One job of the coverage campaign: a group of tests with counting builds, in a pytest of its own."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from cocotb_tests.harness.crosses import SUFFIX
+from cocotb_tests.harness.project import ROOT, ProjectError
+from cocotb_tests.harness.variants import COVERAGE, COVERAGE_COPIES
+from scripts.measure.campaign.jobs import Result
+from scripts.measure.coverage import points
+from scripts.measure.coverage.collecting import OUT
+from scripts.measure.coverage.counted import copies
+
+WALL_S = {"OPENPPMC_WALL_S": "1200"}
+"""A counting simulation takes several times as long."""
+
+
+def groups(words: Sequence[str] = ()) -> list[list[str]]:
+    """The tests of `make test` that simulate, a list a simulator process; of names that hold a word."""
+    with TemporaryDirectory(prefix="openppmc-") as folder:
+        out = Path(folder) / "groups.json"
+        command = [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "--collect-only",
+            "-p",
+            "scripts.measure.coverage.collecting",
+        ]
+        command += ["cocotb_tests", *(["-k", " or ".join(words)] if words else [])]
+        done = subprocess.run(
+            command, cwd=ROOT, env={**os.environ, OUT: str(out)}, capture_output=True, text=True, check=False
+        )
+        if not out.is_file():
+            said = (done.stdout + done.stderr).strip().splitlines()
+            raise ProjectError(f"pytest collects nothing: {said[-1] if said else done.returncode}")
+        found: list[list[str]] = json.loads(out.read_text(encoding="utf-8"))
+    if not found:
+        raise ProjectError(f"no test matches T={','.join(words)}")
+    return found
+
+
+def run_group(tests: Sequence[str]) -> Result:
+    """Run these tests; what they have reached, packed, and their crosses."""
+    with TemporaryDirectory(prefix="openppmc-") as folder:
+        environment = {**os.environ, **WALL_S, COVERAGE: folder, COVERAGE_COPIES: str(copies())}
+        command = [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "-p",
+            "no:cacheprovider",
+            *tests,
+        ]
+        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+        reached = points.read(sorted(Path(folder).glob("*.dat")))
+        crosses: Counter[str] = Counter()
+        for file in Path(folder).glob(f"*{SUFFIX}"):
+            for line in file.read_text(encoding="utf-8").splitlines():
+                for *key, number in json.loads(line):
+                    crosses["\t".join(key)] += number
+    data = {"points": reached.pack(), "crosses": dict(crosses), "tests": len(tests)}
+    if done.returncode:
+        tail = "\n".join((done.stdout + done.stderr).strip().splitlines()[-15:])
+        return Result(False, {**data, "message": f"{tests[0]}, {len(tests)} tests:\n{tail}"})
+    return Result(True, data)

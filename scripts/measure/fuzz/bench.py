@@ -1,0 +1,96 @@
+"""Builds a line's program from tb/fuzz, plays words into it, compares with the golden model."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import struct
+import subprocess
+from array import array
+from collections.abc import Iterator
+from functools import cache
+from itertools import zip_longest
+from pathlib import Path
+
+from cocotb_tests.harness.build import locked
+from cocotb_tests.harness.paths import ROOT, SIM_BUILDS
+from cocotb_tests.harness.project import ProjectError, files, include_dirs
+from openppmc.sim.common import verilator
+from scripts.measure.fuzz.lines import LINES, Line
+
+FOLDER = ROOT / "tb/fuzz"
+ARGS = "--cc --exe --build -O3 --assert --x-assign unique --x-initial unique --threads 1 -Wno-fatal -Wno-lint"
+ROW = struct.Struct("<IQ")
+SHOWN = 24
+"""Words of a difference that are told at most."""
+
+
+@cache
+def program(name: str) -> Path:
+    """The program of a line, built if its sources have changed. ProjectError with the end of the log."""
+    line = LINES[name]
+    sources = [*files(line.group), FOLDER / f"{line.top}.sv", FOLDER / "main.cpp"]
+    words = [*ARGS.split(), "--prefix", "Vfuzz", "--top-module", line.top, "-o", "fuzz"]
+    words += [f"-G{key}={value}" for key, value in line.params.items()]
+    words += ["-CFLAGS", "-O2"]
+    sha = hashlib.sha256(repr((words, verilator.version())).encode())
+    headers = [path for folder in include_dirs() for path in sorted(folder.glob("*.svh"))]
+    for path in (*sources, *headers):
+        sha.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    folder = SIM_BUILDS / f"fuzz-{name}-{sha.hexdigest()[:16]}"
+    made = folder / "fuzz"
+    with locked(folder.with_suffix(".lock")):
+        if not made.is_file():
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+            words += ["--Mdir", str(folder), *(f"-I{path}" for path in include_dirs()), *map(str, sources)]
+            ran = subprocess.run(
+                verilator.command(words, folder),
+                cwd=folder,
+                env=verilator.environment(folder),
+                text=True,
+                check=False,
+                capture_output=True,
+                stdin=subprocess.DEVNULL,
+            )
+            if ran.returncode:
+                tail = "\n".join((ran.stdout + ran.stderr).splitlines()[-15:])
+                raise ProjectError(f"the bench of line {name} does not build:\n{tail}")
+    return made
+
+
+def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
+    """What the RTL made of these words: (number of the word, what)."""
+    ran = subprocess.run([str(program(name))], input=words.tobytes(), capture_output=True, check=False)
+    if ran.returncode:
+        said = (ran.stdout[-400:] + ran.stderr[-400:]).decode(errors="replace")
+        raise AssertionError(f"{name}: the bench ended with {ran.returncode}: {said}")
+    yield from ROW.iter_unpack(ran.stdout)
+
+
+def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | None:
+    """The first word of which RTL and golden model make something else, and what; None if there is none."""
+    for real, ideal in zip_longest(rtl_events(name, words), line.expected(words)):
+        if real != ideal:
+            place = min(event[0] for event in (real, ideal) if event)
+            texts = [f"{event[1]:016x} at {event[0]}" if event else "nothing" for event in (ideal, real)]
+            return place, f"expected {texts[0]}, the RTL has {texts[1]}"
+    return None
+
+
+def shortened(name: str, line: Line, words: array[int]) -> str:
+    """A difference in words: the fewest of the last ones that still differ."""
+    found = difference(name, line, words)
+    assert found is not None
+    words = words[: found[0] + 1]
+    size = len(words) // 2
+    while size:
+        rest = words[size:]
+        if rest and difference(name, line, rest) is not None:
+            words = rest
+            size = min(size, len(words) // 2)
+        else:
+            size //= 2
+    found = difference(name, line, words)
+    assert found is not None
+    return f"{name}: {' '.join(f'{word:02x}' for word in words[-SHOWN:])}: {found[1]}"

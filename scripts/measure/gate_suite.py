@@ -1,0 +1,145 @@
+"""Which tests run on netlists: the part tests as they are, on every family that the part is made for, mostly
+in every configuration. What each part leaves out, and why, stands in its cocotb_tests/<part>/gates.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from cocotb_tests.gates import board
+from cocotb_tests.harness import gate_tests, project
+from cocotb_tests.harness import part as common_part
+from cocotb_tests.harness.build import Design
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.gate_tests import PartTests
+from cocotb_tests.harness.project import ProjectError
+from openppmc import parts
+from scripts.fpga.flow import gates, plain
+
+QUICK = "quick"
+# The quick subset: what each part lists, in one build on all families of the part, and the board on this one.
+QUICK_BOARD = "ice40"
+
+TOO_BIG = "the part does not fit into this family"
+
+
+def suites() -> list[PartTests]:
+    """The tests of each part that has some for netlists, from the table of parts."""
+    return [row.load("gates") for row in parts.having("gates")]
+
+
+def families(of: PartTests) -> list[str]:
+    """What there is of the part: netlists for the FPGA families that it is made for, plain Verilog."""
+    made = project.part(of.name).families if of.netlists else ()
+    return [*(family for family in gates.FAMILIES if family in made), plain.FAMILY]
+
+
+@dataclass(frozen=True)
+class GateTest:
+    """One simulation of one netlist. `item` is tagged with the family; `group` is its row in the table.
+
+    params: of the part's top. inside: as in `PartTests`.
+    """
+
+    family: str
+    item: Item
+    quick: bool = False
+    params: tuple[tuple[str, Any], ...] = ()
+    inside: tuple[str, ...] = ()
+    four_state: bool = False
+
+    @property
+    def top(self) -> str:
+        """Top module of the netlist."""
+        return board.TOP if self.item.module == board.MODULE else project.part(self.item.part).top
+
+    def design(self) -> Design:
+        """What is simulated; synthesizes the netlist if there is none."""
+        config = self.item.config
+        if self.top == board.TOP:
+            folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
+            return gates.design(self.family, board.TOP, folder)
+        return gates.part_design(self.family, self.item.part, dict(self.params), self.inside)
+
+    @property
+    def group(self) -> tuple[str, str]:
+        """Family, and the top with its configuration."""
+        return self.family, f"{self.top} {self.item.config.name}"
+
+
+def left_out() -> dict[str, str]:
+    """Tests of the parts' test modules that do not run on netlists, with the reason.
+
+    ProjectError for a test function that has no reason: nothing is left out unseen.
+    """
+    every = suites()
+    reasons: dict[str, str] = {}
+    for part in every:
+        found = [name for name in part.functions if name not in part.simulating]
+        if unknown := [name for name in found if name not in part.not_applicable]:
+            raise ProjectError(f"gates.py of {part.name} does not say why {', '.join(unknown)} is left out")
+        reasons |= {name: part.not_applicable[name] for name in found}
+    for part in every:
+        reasons |= part.too_long
+    reasons |= {f"{part.name} in {', '.join(part.unbuilt)}": part.why for part in every if part.unbuilt}
+    for part in every:
+        if not part.netlists:
+            reasons[f"netlists of {part.name}"] = gate_tests.NO_NETLISTS
+            continue
+        too_big = [family for family in gates.FAMILIES if family not in families(part)]
+        reasons |= {f"{part.name} on {family}": TOO_BIG for family in too_big}
+    return reasons
+
+
+def _tagged(item: Item, family: str) -> Item:
+    tag = f"{item.tag}-{family}" if item.tag else family
+    return replace(item, tag=tag, target="test-verilog" if family == plain.FAMILY else "test-gates")
+
+
+def _test(part: PartTests, item: Item, family: str) -> GateTest:
+    pins = part.pins or common_part.PARTS[item.part]
+    params = {**pins.params(item.config), **part.params}
+    sampled = part.is_quick(item), part.is_four_state(item)
+    more = tuple(params.items()), part.inside
+    return GateTest(family, _tagged(item, family), sampled[0], *more, sampled[1])
+
+
+def _directed(part: PartTests, family: str) -> list[GateTest]:
+    return [_test(part, item, family) for item in part.items]
+
+
+def _random(part: PartTests, family: str, seed: int | None) -> list[GateTest]:
+    items = [make(n) for make, seeds in part.sample.items() for n in (seeds if seed is None else (seed,))]
+    return [_test(part, item, family) for item in items if part.built(item)]
+
+
+def _board(family: str) -> list[GateTest]:
+    quick = family in (QUICK_BOARD, plain.FAMILY)
+    return [GateTest(family, _tagged(item, family), quick=quick) for item in board.items()]
+
+
+def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> list[GateTest]:
+    """All tests of these families, those of one netlist side by side; `seed` chooses another random host."""
+    tests = []
+    every = suites()
+    for family in of:
+        for part in every:
+            if family in families(part):
+                tests += [*_directed(part, family), *_random(part, family, seed)]
+        tests += _board(family)
+    return sorted(tests, key=lambda test: test.group)
+
+
+def chosen(tests: Sequence[GateTest], word: str | None, four_state: bool = False) -> list[GateTest]:
+    """The tests whose name holds `word`, or one of several with commas between them (case does not count).
+
+    `quick` stands for the quick subset, or for that of a simulator with X.
+    """
+    if word is None:
+        return list(tests)
+    if word == QUICK:
+        return [test for test in tests if (test.four_state if four_state else test.quick)]
+    words = word.lower().split(",")
+    return [test for test in tests if any(word in test.item.id.lower() for word in words)]

@@ -1,0 +1,215 @@
+"""`make test-gates`: the part's tests on the netlists of both FPGA families, and the board top's by its UART.
+`make test-verilog` (--plain): the same tests on plain Verilog, as `make verilog` writes it.
+
+First the netlists and simulators that the chosen tests need are built, then the tests run, J at a time, as a
+campaign: after an interruption the next run does the rest. At the end a table lists what each netlist
+passed. Exit code 0 only if all chosen tests ran and passed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from rich import box
+from rich.table import Table
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.build import ICARUS, ICARUS_MISSING, SimError, build, icarus_installed, sim_main
+from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.runner import SimOptions, attempt
+from scripts.fpga.flow import gates, plain
+from scripts.measure.campaign.cluster import Workers, add_arguments, workers_of
+from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
+from scripts.measure.campaign.run import run
+from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
+
+# A failing test runs again with waves, which needs another build: only when few tests were asked for.
+WAVES_UP_TO = 20
+# Wall-clock limit of a simulation in s: a netlist takes five times as long as the RTL.
+LIMIT = {"OPENPPMC_WALL_S": "1500"}
+
+
+@dataclass
+class Row:
+    """One netlist in the table; `old` tests passed in an earlier run on the same sources."""
+
+    tests: int = 0
+    passed: int = 0
+    failed: list[str] = field(default_factory=list)
+    build: float = 0.0
+    run: float = 0.0
+    cpu: float = 0.0
+    old: int = 0
+
+
+def _measured(work: Callable[[], str]) -> Result:
+    """A result with the message of a failure, and s of the clock and of all processors."""
+    begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
+    message = work()
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return Result(not message, {"message": message, "wall": time.monotonic() - begin, "cpu": cpu})
+
+
+def build_one(test: GateTest) -> Result:
+    """Make netlist and simulator of this test's row."""
+
+    def work() -> str:
+        try:
+            build(test.design())
+        except (SimError, ProjectError) as error:
+            return str(error)
+        return ""
+
+    return _measured(work)
+
+
+def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
+    """Run one test: with this seed of simulations, and with waves if it fails."""
+    test, seed, waves = what
+
+    def work() -> str:
+        try:
+            return attempt(test.item, SimOptions(seed=seed, waves_on_failure=waves), LIMIT, test.design())
+        except ProjectError as error:
+            return str(error)
+
+    return _measured(work)
+
+
+def _named(campaign: str) -> str:
+    """Results of one main program or simulator say nothing of another."""
+    return campaign if sim_main() == "own" else f"{campaign}-{sim_main()}"
+
+
+def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], workers: Workers) -> None:
+    """Build each row's netlist; one that cannot be built fails all its tests."""
+    first = {" ".join(test.group): test for test in reversed(tests)}
+    jobs = [Job(name, test) for name, test in first.items()]
+    # What is built is on disk, and an earlier result says nothing of that.
+    for done in run(
+        Campaign(_named("gates-build"), build_one, jobs, len(jobs), "building netlists"), workers, True
+    ):
+        row = rows[first[done.key].group]
+        row.build, row.cpu = done.data.get("wall", 0.0), done.data.get("cpu", 0.0)
+        if done.good:
+            if not console.is_terminal:
+                console.print(f"built: {done.key} in {row.build:.0f} s")
+            continue
+        row.failed = [test.item.id for test in tests if test.group == first[done.key].group]
+        console.print(done.data["message"], markup=False)
+
+
+def run_all(
+    tests: Sequence[GateTest], seed: int | None, workers: Workers, fresh: bool = False
+) -> dict[tuple[str, str], Row]:
+    """Build, then run. Failures are printed at once."""
+    rows: dict[tuple[str, str], Row] = {}
+    for test in tests:
+        rows.setdefault(test.group, Row()).tests += 1
+    build_all(tests, rows, workers)
+    todo = {f"{test.item.id} {seed}": test for test in tests if not rows[test.group].failed}
+    waves = len(tests) <= WAVES_UP_TO
+    jobs = [Job(key, (test, seed, waves)) for key, test in todo.items()]
+    for done in run(Campaign(_named("gates"), run_one, jobs, len(jobs), "running tests"), workers, fresh):
+        _add(rows[todo[done.key].group], todo[done.key], done)
+    return rows
+
+
+def _add(row: Row, test: GateTest, done: Done) -> None:
+    row.run += done.data.get("wall", 0.0)
+    row.cpu += done.data.get("cpu", 0.0)
+    row.old += done.old
+    if done.good:
+        row.passed += 1
+    else:
+        row.failed.append(test.item.id)
+        console.print(done.data["message"], markup=False)
+    if not console.is_terminal and row.passed + len(row.failed) == row.tests:
+        console.print(f"done: {' '.join(test.group)}: {row.passed} of {row.tests} passed")
+
+
+def table(rows: dict[tuple[str, str], Row], title: str = "gate-level tests") -> Table:
+    """Family x configuration, and the sum."""
+    shown = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD)
+    for head in ("family", "configuration"):
+        shown.add_column(head)
+    for head in ("tests", "passed", "failed", "build / s", "run / s", "CPU / s"):
+        shown.add_column(head, justify="right")
+    total = Row()
+    for (family, config), row in [*rows.items(), (("total", ""), total)]:
+        if row is total:
+            shown.add_section()
+        else:
+            total.tests += row.tests
+            total.passed += row.passed
+            total.failed += row.failed
+            total.build += row.build
+            total.run += row.run
+            total.cpu += row.cpu
+        times = (f"{seconds:.0f}" for seconds in (row.build, row.run, row.cpu))
+        style = "bold red" if row.failed else "bold" if row is total else None
+        figures = (str(row.tests), str(row.passed), str(len(row.failed)))
+        shown.add_row(family, config, *figures, *times, style=style)
+    return shown
+
+
+def arguments() -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="python -m scripts.measure.gates", description=(__doc__ or "").split("\n")[0]
+    )
+    add_arguments(parser)
+    parser.add_argument(
+        "-k", metavar="T", help="only tests whose name holds T; quick: the sample that CI runs"
+    )
+    parser.add_argument("--plain", action="store_true", help="plain Verilog instead of netlists")
+    parser.add_argument("--seed", type=int, help="seed of all simulations; of the random hosts only this one")
+    return parser.parse_args()
+
+
+def main() -> int:
+    """Entry point."""
+    args = arguments()
+    try:
+        four_state = sim_main() == ICARUS
+    except ValueError as error:
+        raise ProjectError(str(error)) from None
+    if four_state and not icarus_installed():
+        console.print(f"skipped: {ICARUS_MISSING}")
+        return 0
+    workers = workers_of(args)
+    families = (plain.FAMILY,) if args.plain else gates.FAMILIES
+    what = "tests on plain Verilog" if args.plain else "gate-level tests"
+    tests = chosen(everything(args.seed, families), args.k, four_state)
+    if not tests:
+        raise ProjectError(f"{what}: none matches T={args.k}")
+    reasons = left_out()
+    begin = time.monotonic()
+    rows = run_all(tests, args.seed, workers, args.fresh)
+    console.print(table(rows, what))
+    if args.k is None:
+        for name, reason in reasons.items():
+            console.print(f"not applicable to a netlist: {name} ({reason})")
+    failed = [name for row in rows.values() for name in row.failed]
+    passed = sum(row.passed for row in rows.values())
+    console.print(
+        f"{passed} of {len(tests)} {what} passed in {time.monotonic() - begin:.0f} s "
+        "(times in the table are sums over the workers)"
+    )
+    if old := sum(row.old for row in rows.values()):
+        console.print(f"{old} of them in an earlier run on the same sources (FRESH=1 runs them again)")
+    for name in failed[:10]:
+        console.print(f"  failed: {name}", markup=False)
+    if len(failed) > 10:
+        console.print(f"  and {len(failed) - 10} more")
+    return 0 if passed == len(tests) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,383 @@
+"""`make lint`: every check of the sources; all findings are printed, then one summary line.
+
+With ``--fix`` (`make format`) the layout of RTL and Python is put right instead.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from importlib.metadata import distributions
+from pathlib import Path
+
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+from rich.markup import escape
+
+from cocotb_tests.harness import header, project
+from cocotb_tests.harness.project import ProjectError, console, relative
+from openppmc.parts import Row, tops
+from openppmc.sim.common import verilator as start
+from openppmc.sources import needed, walls
+from scripts.fpga.flow.boards import HOSTS_OF, parameters
+from scripts.fpga.flow.boards import sources as board_sources
+from scripts.measure import prose
+from scripts.measure.module_rules import all_findings
+from scripts.measure.sizes import figures
+from scripts.measure.tables import differences
+
+CLOCKS = (8_000_000, 11_059_200, 16_000_000, 25_000_000, 100_000_000, 200_000_000)
+BANKS = (
+    (4, 8_000_000, 16_000_000),
+    (8, 25_000_000, 12_500_000),
+    (16, 54_000_000, 13_500_000),
+    (32, 25_000_000, 12_500_000),
+    (32, 100_000_000, 16_000_000),
+    (64, 200_000_000, 16_000_000),
+)
+"""AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
+CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
+FORMAT_FLAGS = "--flagfile=.verible-format.flags"
+TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
+BUILT = {".venv", "build", ".git", "node_modules"}
+MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA", "CK")))
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: the tool, what it looks at, and a function returning its findings (empty: all is well)."""
+
+    tool: str
+    target: str
+    run: Callable[[], str]
+
+
+def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
+    """Run a tool from the project's root; its output when it failed or, unless `ok_output`, said anything."""
+    try:
+        done = subprocess.run(
+            command,
+            cwd=project.ROOT,
+            env=env,
+            text=True,
+            check=False,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+    except FileNotFoundError:
+        return f"{command[0]}: not installed (run `make setup`)"
+    text = done.stdout.strip()
+    if done.returncode:
+        return text or f"{Path(command[0]).name} ended with exit code {done.returncode}"
+    return "" if ok_output else text
+
+
+def rtl_files(*suffixes: str) -> list[str]:
+    """All SystemVerilog files below rtl/ and tb/formal/, relative to the root."""
+    folders = (project.RTL, project.ROOT / "tb" / "formal")
+    return sorted(
+        relative(path) for suffix in suffixes for room in folders for path in room.rglob(f"*{suffix}")
+    )
+
+
+def python_paths() -> list[str]:
+    """Folders and files that ruff looks at."""
+    return [
+        name
+        for name in ("openppmc", "scripts", "cocotb_tests", "tests", "conftest.py")
+        if Path(name).exists()
+    ]
+
+
+def ruff(*arguments: str) -> str:
+    """Findings of ruff in all Python of the project."""
+    return tool(sys.executable, "-m", "ruff", *arguments, "-q", *python_paths())
+
+
+def verible_lint() -> str:
+    """Style of the RTL."""
+    return tool("verible-verilog-lint", "--rules_config=.rules.verible_lint", *rtl_files(".sv", ".svh"))
+
+
+def verible_format() -> str:
+    """Layout of the RTL: names the files that `make format` would change."""
+    text = tool("verible-verilog-format", FORMAT_FLAGS, "--verify", "--inplace", *rtl_files(".sv"))
+    return "\n".join(line for line in text.splitlines() if line.strip())
+
+
+def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
+    """Verilator -Wall of one top for one set of parameters, assertions as in simulation.
+
+    It goes as far as C++, because --lint-only does not see combinational loops.
+    """
+    folder = project.BUILD / "lint" / "-".join([top, *map(str, params.values())])
+    folder.mkdir(parents=True, exist_ok=True)
+    words = ["--cc", "--assert", "-Wall", "--timing", "--Mdir", relative(folder)]
+    words += ["--top-module", top, *(f"-I{relative(path)}" for path in project.include_dirs())]
+    for name, value in params.items():
+        words.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
+    words += ["lint/verilator.vlt", "lint/verilator_newer.vlt", *(relative(path) for path in files)]
+    text = tool(*start.command(words, project.ROOT), env=start.environment(project.ROOT))
+    # What begins with a dash is statistics.
+    return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
+
+
+def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
+    """Elaboration by yosys' read_slang, assertions included, then yosys' own checks; warnings count."""
+    job = {
+        "includes": [relative(path) for path in project.include_dirs()],
+        "sources": [relative(path) for path in files],
+        "top": top,
+        "params": params,
+    }
+    done = subprocess.run(
+        [sys.executable, "-m", "scripts.fpga.flow.elaborate", json.dumps(job)],
+        cwd=project.ROOT,
+        text=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
+    told = [line for line in lines if "warning:" in line.lower() or "error:" in line.lower()]
+    if done.returncode and not told:
+        told = lines[-4:] or [f"ended with exit code {done.returncode}"]
+    return "\n".join(dict.fromkeys(told))
+
+
+def listed() -> str:
+    """Every RTL file is in rtl/files.yml, once, and every listed one exists."""
+    groups = project.listed()
+    names = [path for group in groups.values() for path in group.files]
+    found = [
+        f"rtl/files.yml does not list {relative(p)}"
+        for p in sorted(project.RTL.rglob("*.sv"))
+        if p not in names
+    ]
+    found += [
+        f"rtl/files.yml lists {relative(path)} twice" for path in sorted(set(names)) if names.count(path) > 1
+    ]
+    found += [
+        f"rtl/files.yml lists {relative(path)}, which does not exist" for path in names if not path.is_file()
+    ]
+    known = set(needed(groups, "boards", *(row.rtl for row in tops())))
+    found += [f"rtl/files.yml: group {group} belongs to no part" for group in groups if group not in known]
+    return "\n".join(found)
+
+
+def walled() -> str:
+    """No file names a module or package of a group that its own does not need; no need is for nothing."""
+    return "\n".join(walls(project.listed()))
+
+
+def text_files() -> list[Path]:
+    """Text files of the project: what git knows and would add; without git all but what is built."""
+    listing = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=project.ROOT,
+        text=True,
+        capture_output=True,
+        check=False,
+    )
+    if listing.returncode == 0:
+        paths = [project.ROOT / name for name in listing.stdout.splitlines()]
+    else:
+        paths = [
+            path for path in project.ROOT.rglob("*") if not BUILT & set(path.relative_to(project.ROOT).parts)
+        ]
+    return [path for path in paths if path.suffix in TEXT_SUFFIXES and path.is_file()]
+
+
+def texts() -> str:
+    """No leftover marks, tabs, or spaces at line ends."""
+    found = []
+    for path in text_files():
+        if path.suffix == ".json" or path.name == "Makefile":
+            continue
+        for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+            words = line.replace(":", " ").replace("(", " ").split()
+            if any(mark in words for mark in MARKS):
+                found.append(f"{relative(path)}:{number}: leftover mark")
+            if line != line.rstrip():
+                found.append(f"{relative(path)}:{number}: spaces at the end of the line")
+            if "\t" in line:
+                found.append(f"{relative(path)}:{number}: tab")
+    return "\n".join(found)
+
+
+def locked() -> str:
+    """Every installed package has the version of requirements.lock."""
+    lines = (project.ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
+    rows = [Requirement(line) for line in lines if not line.startswith("#")]
+    versions = {
+        canonicalize_name(row.name): str(row.specifier).removeprefix("==")
+        for row in rows
+        if row.marker is None or row.marker.evaluate()
+    }
+    found = []
+    for installed in distributions(path=[sysconfig.get_path("purelib")]):
+        name = canonicalize_name(installed.metadata["Name"])
+        version = versions.get(name, "no version")
+        # venv installs a setuptools of its own before Python 3.12.
+        if installed.version != version and name != "setuptools":
+            found.append(f"{name} {installed.version} is installed, requirements.lock has {version}")
+    return "\n".join(sorted(found))
+
+
+def board_checks() -> list[Check]:
+    """The board tops and what they share, with each host that they can be built for."""
+    every = []
+    on_boards = [path.stem for path in project.listed()["boards"].files if path.stem.startswith("board_")]
+    for top in ["ppmc104_carrier", *on_boards]:
+        hosts = HOSTS_OF.get(top, ("uart", "bus")) if "HOST" in parameters(top) else ("",)
+        for host in hosts:
+            params: dict[str, int | str] = {"HOST": host.upper()} if host else {}
+            label, files = f"{top} {host}".rstrip(), board_sources(top)
+            every.append(Check("verilator -Wall", label, partial(verilator, top, files, params)))
+            every.append(Check("read_slang", label, partial(slang, top, files, params)))
+    return every
+
+
+def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
+    """With which parameters a part's top is looked at, each with words for the summary."""
+    known = header.parameters(project.top_file(part))
+    if "AXES" in known:
+        for index, (axes, clk_hz, xtal_hz) in enumerate(BANKS):
+            label = f"{part.name} {axes} axes {clk_hz / 1e6:g} MHz"
+            idle = index % 2
+            yield label, {"AXES": axes, "CLK_HZ": clk_hz, "XTAL_HZ": xtal_hz, "PHASE_IDLE": idle}
+        return
+    for index, clk_hz in enumerate(CLOCKS):
+        for timing in ("FAST", "DATASHEET"):
+            params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
+            label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
+            if "PHASE_IDLE" in known:
+                # Both levels with both timings without doubling the runs.
+                params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
+                label += f" PHASE_IDLE={params['PHASE_IDLE']}"
+            yield label, params
+
+
+def checks() -> list[Check]:
+    """All checks, the slow ones first so that two workers end together."""
+    every = []
+    for part in tops():
+        files = project.sources(part)
+        for label, params in settings(part):
+            every.append(Check("verilator -Wall", label, partial(verilator, part.top, files, params)))
+            every.append(Check("read_slang", label, partial(slang, part.top, files, params)))
+    every += board_checks()
+    return [
+        *every,
+        Check("verible-verilog-lint", "rtl/", verible_lint),
+        Check("verible-verilog-format", "rtl/", verible_format),
+        Check("ruff check", "Python", lambda: ruff("check", "--output-format=concise")),
+        Check(
+            "ruff format",
+            "Python",
+            lambda: ruff("format", "--check"),
+        ),
+        Check(
+            "import-linter", "Python", lambda: tool(project.tool("lint-imports"), *CONTRACTS, ok_output=True)
+        ),
+        Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
+        Check("figures", "docs/sizes.json", lambda: "\n".join(figures.stale(figures.read()))),
+        Check("rtl/files.yml", "complete", listed),
+        Check("rtl/files.yml", "walls between groups", walled),
+        Check("modules", "ports and lines", all_findings),
+        Check("tables", "netlists as simulations", lambda: differences(project.BUILD / "lint" / "tables")),
+        Check(
+            "docs",
+            "pictures and tables fresh",
+            lambda: tool(sys.executable, "-m", "scripts.pages", "--check", ok_output=True),
+        ),
+        Check(
+            "rom",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.fpga.rom.calc_rom", "--check", ok_output=True),
+        ),
+        Check(
+            "packages",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.fpga.packages", "--check", ok_output=True),
+        ),
+        Check(
+            "packages",
+            "templates and FuseSoC run",
+            lambda: tool(sys.executable, "-m", "scripts.fpga.packages", "--try", ok_output=True),
+        ),
+        Check(
+            "boards",
+            "fresh",
+            lambda: tool(sys.executable, "-m", "scripts.fpga.boards", "--check", ok_output=True),
+        ),
+        Check("requirements.lock", "installed packages", locked),
+        Check("texts", "marks, tabs, line ends", texts),
+        Check("prose", "lint/prose.txt", prose.worse),
+    ]
+
+
+def guarded(check: Check) -> str:
+    """A check's findings, a ProjectError among them."""
+    try:
+        return check.run()
+    except ProjectError as error:
+        return str(error)
+
+
+def fix() -> int:
+    """Lay out RTL and Python in place."""
+    problems = [
+        tool("verible-verilog-format", FORMAT_FLAGS, "--inplace", *rtl_files(".sv"), ok_output=True),
+        ruff("check", "--output-format=concise", "--fix", "--select", "I"),
+        ruff("format"),
+    ]
+    for text in filter(None, problems):
+        console.print(escape(text))
+    console.print(
+        "format: done" if not any(problems) else "[bold red]format: not everything could be laid out[/]"
+    )
+    return int(any(problems))
+
+
+def main() -> int:
+    """Run all checks; exit code 1 when any of them found something."""
+    parser = argparse.ArgumentParser(prog="lint.py", description=__doc__)
+    parser.add_argument("--fix", action="store_true", help="lay out the sources instead of checking them")
+    os.chdir(project.ROOT)
+    if parser.parse_args().fix:
+        return fix()
+    every = checks()
+    bad, seen = 0, dict[str, str]()
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        for check, findings in zip(every, pool.map(guarded, every), strict=True):
+            name = f"{check.tool:22} {check.target}"
+            if not findings:
+                console.print(f"[green]ok[/]   {name}")
+                continue
+            bad += 1
+            console.print(f"[bold red]FAIL[/] {name}")
+            if findings in seen:
+                console.print(f"     the same as for {seen[findings]}")
+            else:
+                console.print(escape("\n".join("     " + line for line in findings.splitlines())))
+            seen.setdefault(findings, check.target)
+    if bad:
+        console.print(f"[bold red]lint: {bad} of {len(every)} checks have findings[/]")
+        return 1
+    console.print(f"[bold green]lint: {len(every)} checks, no findings[/]")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,100 @@
+"""Show which directed test kills each hand-made mutant: `python -m scripts.measure.mutants [WORD...]`.
+
+The changed file goes to build/mutants/, never into rtl/. A line a mutant: the test that fails, what in it
+(`table`). Ends with 1 if a mutant survives or is found otherwise than its entry says.
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from cocotb_tests.harness.build import SimError
+from cocotb_tests.harness.collect import Item
+from cocotb_tests.harness.project import ProjectError, console
+from cocotb_tests.harness.project import run as guarded
+from cocotb_tests.harness.runner import run_group
+from cocotb_tests.harness.simulate import Job as Simulation
+from cocotb_tests.harness.simulate import Outcome
+from scripts.measure.campaign.cluster import add_arguments, workers_of
+from scripts.measure.campaign.jobs import Campaign, Job, Result
+from scripts.measure.campaign.run import run
+from scripts.measure.mutants.table import Mutant, mutants
+
+CHECK, COMPARISON, ASSERTION, HANGS = "check", "comparison", "assertion", "no end"
+BATCH = 8
+"""Tests in one process; the first one in which any fails is the last."""
+
+
+def cause(outcome: Outcome) -> str:
+    """What has failed: a check of the test, else an assertion of the RTL, else the comparison."""
+    compared = ": first difference at edge" in outcome.headline
+    if outcome.kind != "failed":
+        return HANGS
+    if "%Error" in outcome.headline or (compared and "%Error" in outcome.text):
+        return ASSERTION
+    return COMPARISON if compared else CHECK
+
+
+def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
+    """The tests that fail, of the first process in which one does."""
+    for at in range(0, len(items), BATCH):
+        job = Simulation(
+            mutant.design(items[0]), tuple(items[at : at + BATCH]), 1, env={"OPENPPMC_WALL_S": "120"}
+        )
+        bad = {item: outcome for item, (outcome, _) in run_group(job).items() if not outcome.good}
+        if bad:
+            return bad
+    return {}
+
+
+def found(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
+    """The tests that find it: the one that is listed, else the first of those that its words choose."""
+    items, every = mutant.items(), mutant.items(wide=True)
+    listed = [item for item in every if item.test == mutant.caught]
+    return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})
+
+
+def judge(what: tuple[Mutant, bool]) -> Result:
+    """Whether it is as the entry says, and a line about it."""
+    right, line = _judged(*what)
+    return Result(right, {"line": line})
+
+
+def _judged(mutant: Mutant, wide: bool) -> tuple[bool, str]:
+    try:
+        bad = found(mutant, wide)
+    except (SimError, ValueError) as error:
+        return False, f"{mutant.id}: {error}"
+    if not bad:
+        return not mutant.caught, f"{mutant.id}: survives{mutant.why and f' ({mutant.why})'}"
+    causes = {item: cause(outcome) for item, outcome in bad.items()}
+    # A check of a test says most: it names the rule.
+    first = min(bad, key=lambda item: causes[item] != CHECK)
+    right = (first.test, causes[first]) == (mutant.caught, mutant.by)
+    return right, f"{mutant.id}: {first.test}, {causes[first]}: {bad[first].headline[:150]}"
+
+
+def main() -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.mutants")
+    parser.add_argument("words", nargs="*", metavar="WORD")
+    add_arguments(parser)
+    parser.add_argument("--wide", action="store_true", help="a survivor meets all tests of its build")
+    args = parser.parse_args()
+    chosen = [one for one in mutants() if not args.words or any(word in one.id for word in args.words)]
+    if not chosen:
+        raise ProjectError(f"{' '.join(args.words)}: no such mutant")
+    wrong = 0
+    jobs = [Job(f"{one.id}{' wide' if args.wide else ''}", (one, args.wide)) for one in chosen]
+    for done in run(Campaign("mutants", judge, jobs, len(jobs)), workers_of(args), args.fresh):
+        line = done.data.get("line") or f"{done.key}: {done.data['message']}"
+        console.print(
+            f"{'as listed' if done.good else 'NOT AS LISTED'}  {line}", markup=False, soft_wrap=True
+        )
+        wrong += not done.good
+    console.print(f"{len(chosen) - wrong} of {len(chosen)} mutants as listed")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(guarded(main))

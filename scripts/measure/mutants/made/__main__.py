@@ -1,0 +1,100 @@
+"""`make mutate`: mutants of rtl/, each against proofs and tests until one fails.
+
+Writes docs/mutants.md if all folders take part, else build/mutants.md. What is killed stays so while its file
+stays; survivors are tried again when the sources have changed. Ends with 1 if a mutant does not compile, or a
+folder's score is below its goal."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Container
+
+from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, relative
+from cocotb_tests.harness.project import run as guarded
+from scripts.measure.campaign.cluster import add_arguments, workers_of
+from scripts.measure.campaign.jobs import Campaign, Done, Job
+from scripts.measure.campaign.run import run
+from scripts.measure.campaign.store import Store
+from scripts.measure.campaign.tree import SIMULATED, tree
+from scripts.measure.mutants.made.chosen import folder_of, rtl_files, sample
+from scripts.measure.mutants.made.page import QUICK, SO_FAR, Tried, page, score
+from scripts.measure.mutants.made.suites import Suites
+from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, digest, run_one
+
+NAME = "mutate"
+GOAL, LEAST = 95.0, 70.0
+"""Score of a folder in %; of a small sample, which says little."""
+SMALL = 50
+NOT_GUIDED = "`make coverage` first makes this much quicker"
+
+
+def known() -> dict[str, str]:
+    """Key -> stamp of the mutants that are killed, of files that are as they were."""
+    with Store() as store:
+        return {
+            done.key: stamp
+            for stamp, done in store.all(NAME)
+            if done.data.get("verdict") == KILLED and done.data["file"] == digest(done.key.split(" ")[0])
+        }
+
+
+def on_file(keys: Container[str]) -> list[Done]:
+    """The last result of each of these mutants, if its file is as it was."""
+    with Store() as store:
+        found = {done.key: done for _, done in store.all(NAME) if done.key in keys and "file" in done.data}
+    return [done for done in found.values() if done.data["file"] == digest(done.key.split(" ")[0])]
+
+
+def main() -> int:
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m scripts.measure.mutants.made", description=__doc__)
+    parser.add_argument("-k", metavar="T", default="", help="a folder of rtl/, or files whose path holds T")
+    parser.add_argument("--count", type=int, help="so many mutants of each folder (default: all)")
+    parser.add_argument("--so-far", action="store_true", help="run nothing: the page from what is on file")
+    parser.add_argument("--quick", action="store_true", help="the first two batches of tests alone")
+    add_arguments(parser)
+    args = parser.parse_args()
+    if args.count is not None and args.count < 1:
+        raise ProjectError("--count must be 1 or more")
+    files = rtl_files(args.k)
+    suites = None if args.so_far else Suites()
+    stamp, killed = tree(SIMULATED), {} if args.fresh else known()
+    faults = {}
+    jobs = []
+    for file, fault in sample(files, args.count):
+        groups = suites.of(file, fault.line) if suites else []
+        first = args.quick or bool(Tried(file, fault, "", "").why)
+        mutant = Mutant(file, fault, tuple(groups[:2] if first else groups), briefly=first)
+        faults[mutant.key] = (file, fault)
+        jobs.append(Job(mutant.key, mutant, killed.get(mutant.key, f"{stamp}{' quick' * first}")))
+    tried = []
+    campaign = Campaign(NAME, run_one, jobs, len(jobs), "mutants")
+    for done in on_file(faults) if args.so_far else run(campaign, workers_of(args), args.fresh):
+        file, fault = faults[done.key]
+        one = Tried(file, fault, done.data.get("verdict", BROKEN), done.data.get("test", ""))
+        tried.append(one)
+        if one.verdict in (ALIVE, BROKEN) and not one.why:
+            console.print(f"{one.verdict}: {file}:{fault.line}: {fault.what}: {one.source}", markup=False)
+            if one.verdict == BROKEN:
+                console.print(f"  {one.test or done.data.get('message', '')}", markup=False)
+    tried.sort(key=lambda one: (one.file, one.fault.number))
+    path = BUILD / "mutants.md" if args.k else DOCS / "mutants.md"
+    note = QUICK if args.quick else SO_FAR if args.so_far else ""
+    path.write_text(page(tried, files, note), encoding="utf-8")
+    bad = 0
+    for folder in sorted({folder_of(file) for file in files}):
+        mine = [one for one in tried if folder_of(one.file) == folder]
+        found = score(mine, len(mine))
+        console.print(
+            f"{folder}: {found.killed} of {len(mine)} killed, {found.endless} without end, "
+            f"{found.equivalent} equivalent, {found.alive} alive"
+        )
+        goal = LEAST if len(mine) <= SMALL else GOAL
+        bad += bool(found.broken) or (found.percent is not None and found.percent < goal)
+    hint = "" if suites is None or suites.guided else f" (no coverage on file: {NOT_GUIDED})"
+    console.print(f"{relative(path)} written{hint}")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(guarded(main))

@@ -1,0 +1,159 @@
+"""The mutants of a file of RTL: small faults at places of slang's syntax tree.
+
+Only what is decided when the hardware runs is changed: expressions and assignments of always blocks,
+continuous assignments, inputs of instances. Left as they are: parameters, declarations, widths and ranges,
+generate conditions, case labels, functions, assertions and all else that SYNTHESIS leaves out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from scripts.measure.syntax import children, kind, span, tree
+
+SWAPS = {
+    "&&": "||",
+    "||": "&&",
+    "==": "!=",
+    "!=": "==",
+    "<": "<=",
+    "<=": "<",
+    ">": ">=",
+    ">=": ">",
+    "+": "-",
+    "-": "+",
+    "&": "|",
+    "|": "&",
+    "^": "|",
+    "<<": ">>",
+    ">>": "<<",
+}
+"""Operator -> the one that is written in its place."""
+LOGIC = ("&&", "||")
+ASSIGNMENTS = ("AssignmentExpression", "NonblockingAssignmentExpression")
+SKIPPED = (
+    *("ParameterValueAssignment", "DataDeclaration", "LocalVariableDeclaration", "FunctionDeclaration"),
+    *("SimpleRangeSelect", "AscendingRangeSelect", "DescendingRangeSelect", "BitSelect", "InitialBlock"),
+    *("FinalBlock", "TypedefDeclaration", "ParameterDeclarationStatement", "OpenRangeList", "RangeList"),
+    *("AssertPropertyStatement", "ImmediateAssertStatement", "ConcurrentAssertionMember"),
+)
+"""Kinds of nodes that nothing below is changed of."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A mutant. `text` stands in place of file[start:end]; dropped: the statement there is left out.
+
+    number: from 1, in its file. what: in words, for tables.
+    """
+
+    number: int
+    start: int
+    end: int
+    text: str
+    what: str
+    line: int
+    dropped: bool = False
+
+
+def alone(text: str, fault: Fault) -> str:
+    """The file with this fault and nothing else changed."""
+    return text[: fault.start] + ("begin end" if fault.dropped else f"({fault.text})") + text[fault.end :]
+
+
+class Finder:
+    """Walks over a file and collects its faults."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.found: list[Fault] = []
+        self.unused: list[tuple[int, int]] = []
+        self._module(tree(text))
+
+    def _add(self, node: Any, text: str, what: str, dropped: bool = False) -> None:
+        start, end = span(node)
+        line = self.text.count("\n", 0, start) + 1
+        self.found.append(Fault(len(self.found) + 1, start, end, text, what, line, dropped))
+
+    def _of(self, node: Any) -> str:
+        start, end = span(node)
+        return self.text[start:end]
+
+    def _module(self, node: Any) -> None:
+        """Look for what runs: always blocks, assignments, instances."""
+        name = kind(node)
+        if name in ("AlwaysFFBlock", "AlwaysCombBlock", "AlwaysBlock", "ContinuousAssign"):
+            if self._of(node).startswith("assign unused"):
+                self.unused.append(span(node))
+            self._walk(node)
+        elif name == "NamedPortConnection":
+            self._walk(node)
+        elif name not in SKIPPED:
+            for child in children(node):
+                self._module(child)
+
+    def _walk(self, node: Any) -> None:
+        """Everything that runs."""
+        name = kind(node)
+        if name in SKIPPED or "Event" in name:
+            return
+        skipped: list[Any] = []
+        if name in ASSIGNMENTS:
+            skipped.append(node.left)
+            parent = node.parent
+            if name == ASSIGNMENTS[1] and kind(parent) == "ExpressionStatement":
+                self._add(parent, "", "left out", dropped=True)
+        elif name == "ConditionalStatement":
+            self._condition(node.predicate)
+        elif name == "ConditionalExpression":
+            self._add(node.predicate, f"!({self._of(node.predicate)})", "other way round")
+        elif name == "MultipleConcatenationExpression":
+            skipped.append(node.expression)
+        elif name == "CastExpression":
+            skipped.append(node.left)
+        elif name == "StandardCaseItem":
+            skipped.append(node.expressions)
+        elif name == "ForLoopStatement":
+            skipped += [node.initializers, node.stopExpr, node.steps]
+        else:
+            self._expression(node, name)
+        spans = [span(one) for one in skipped if hasattr(one, "sourceRange")]
+        for child in children(node):
+            place = span(child)
+            if not any(start <= place[0] and place[1] <= end for start, end in spans):
+                self._walk(child)
+
+    def _condition(self, predicate: Any) -> None:
+        """An if that is always taken, and one that never is; of a reset the second alone."""
+        text = self._of(predicate)
+        if "rst" not in text:
+            self._add(predicate, "1'b1", "always")
+        self._add(predicate, "1'b0", "never")
+
+    def _expression(self, node: Any, name: str) -> None:
+        text = self._of(node)
+        if hasattr(node, "operatorToken") and hasattr(node, "left"):
+            sign = node.operatorToken.valueText
+            if sign in SWAPS:
+                left, right = self._of(node.left), self._of(node.right)
+                self._add(node, f"({left}) {SWAPS[sign]} ({right})", f"{sign} as {SWAPS[sign]}")
+                if sign in LOGIC:
+                    self._add(node, left, f"left of {sign} alone")
+                    self._add(node, right, f"right of {sign} alone")
+        elif name in ("UnaryLogicalNotExpression", "UnaryBitwiseNotExpression"):
+            self._add(node, self._of(node.operand), f"without {text[0]}")
+        elif name == "IntegerVectorExpression":
+            self._add(node, f"({text} ^ 1'b1)", "lowest bit turned")
+        elif name == "IntegerLiteralExpression":
+            self._add(node, f"({text} + 1)", "one more")
+        elif name == "UnbasedUnsizedLiteralExpression" and text in ("'0", "'1"):
+            self._add(node, {"'0": "'1", "'1": "'0"}[text], "all bits turned")
+
+
+def faults(text: str) -> list[Fault]:
+    """All mutants of a file, in the order of their places; what only quiets the linter is left as it is."""
+    finder = Finder(text)
+    return [
+        fault for fault in finder.found if not any(start <= fault.start < end for start, end in finder.unused)
+    ]

@@ -1,0 +1,147 @@
+"""docs/mutants.md: a score a folder and a module, and the survivors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import yaml
+
+from cocotb_tests.harness.project import ROOT, ProjectError
+from scripts.measure.mutants.made.chosen import folder_of, of_file
+from scripts.measure.mutants.made.faults import Fault
+from scripts.measure.mutants.made.work import ALIVE, BROKEN, ENDLESS, KILLED, PROOF
+
+JUDGED = Path(__file__).with_name("judged.yml")
+HEAD = """# Mutants
+
+Written by `make mutate`. A mutant is the RTL with one small fault: an operator, a constant, a condition,
+an assignment ([how they are made](testing.md#mutants-by-rule)). It is killed if a proof or a test fails; the
+proofs of its block come first. *No end*: tests only come to no end with it, which is counted apart.
+*Equivalent*: somebody has found that it does what the RTL does. The score is the share of the killed ones
+among those that are killed or alive and not equivalent.
+"""
+QUICK = "**Each mutant here has met the first of its tests alone: some that are alive would be killed.**\n"
+SO_FAR = "They ran at different times; some that are alive have met the first of their tests alone.\n"
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A mutant and what became of it; `test` that killed it."""
+
+    file: str
+    fault: Fault
+    verdict: str
+    test: str
+
+    @property
+    def source(self) -> str:
+        """Its line."""
+        return lines(self.file)[self.fault.line - 1].strip()
+
+    @property
+    def why(self) -> str:
+        """Why it is equivalent; "" if nobody has said so."""
+        return judged().get((self.file, self.source, self.fault.what), "")
+
+
+@cache
+def lines(file: str) -> list[str]:
+    """Lines of a file of the project."""
+    return (ROOT / file).read_text(encoding="utf-8").splitlines()
+
+
+@cache
+def judged() -> Mapping[tuple[str, str, str], str]:
+    """The entries of judged.yml; ProjectError for one whose text no longer stands in its file."""
+    entries = yaml.safe_load(JUDGED.read_text(encoding="utf-8")) or []
+    for entry in entries:
+        if not any(entry["line"] == line.strip() for line in lines(entry["file"])):
+            raise ProjectError(f"{JUDGED.name}: {entry['file']} has no line {entry['line']!r}")
+    return {(entry["file"], entry["line"], entry["what"]): entry["why"] for entry in entries}
+
+
+@dataclass(frozen=True)
+class Score:
+    """Counts of some mutants."""
+
+    made: int
+    killed: int
+    proved: int
+    endless: int
+    equivalent: int
+    alive: int
+    broken: int
+
+    @property
+    def percent(self) -> float | None:
+        """None if there is none to judge."""
+        counted = self.killed + self.alive
+        return 100 * self.killed / counted if counted else None
+
+
+def score(tried: Sequence[Tried], made: int) -> Score:
+    """Of these mutants, of so many that there are."""
+    alive = [one for one in tried if one.verdict == ALIVE]
+    equivalent = sum(bool(one.why) for one in alive)
+    count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in (KILLED, ENDLESS, BROKEN)}
+    proved = sum(one.test.startswith(PROOF) for one in tried)
+    left = len(alive) - equivalent
+    return Score(made, count[KILLED], proved, count[ENDLESS], equivalent, left, count[BROKEN])
+
+
+def row(name: str, tried: Sequence[Tried], made: int) -> str:
+    """Of the tables."""
+    found = score(tried, made)
+    percent = "–" if found.percent is None else f"{found.percent:.1f} %"
+    killed = (found.killed, found.proved, found.endless)
+    figures = (made, len(tried), *killed, found.equivalent, found.alive, percent)
+    return f"| {name} | " + " | ".join(map(str, figures)) + " |"
+
+
+def table(title: str, rows: Sequence[str]) -> Iterator[str]:
+    """With its head."""
+    yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | alive | score |"
+    yield "|---|---|---|---|---|---|---|---|---|"
+    yield from rows
+
+
+def folder_rows(tried: Sequence[Tried], files: Sequence[str]) -> Iterator[str]:
+    """A line a folder, and all together."""
+    for folder in sorted({folder_of(file) for file in files}):
+        made = sum(len(of_file(file)) for file in files if folder_of(file) == folder)
+        yield row(folder, [one for one in tried if folder_of(one.file) == folder], made)
+    yield row("**all**", tried, sum(len(of_file(file)) for file in files))
+
+
+def survivors(tried: Sequence[Tried]) -> Iterator[str]:
+    """Those alive, and those without end."""
+    yield "| place | source | mutant | |"
+    yield "|---|---|---|---|"
+    for one in tried:
+        if one.verdict in (ALIVE, ENDLESS):
+            text = one.source.replace("|", "\\|")
+            what = one.fault.what.replace("|", "\\|")
+            said = (
+                f"equivalent: {one.why}" if one.why else "no end" if one.verdict == ENDLESS else "**alive**"
+            )
+            yield f"| {one.file} | `{text}` | {what} | {said} |"
+
+
+def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
+    """The whole page. note: how far the tests went (QUICK, SO_FAR)."""
+    modules = [
+        row(file, mine, len(of_file(file)))
+        for file in files
+        if (mine := [t for t in tried if t.file == file])
+    ]
+    parts = [
+        HEAD,
+        *([note] if note else []),
+        *table("folder of rtl/", list(folder_rows(tried, files))),
+        "\n## Modules\n",
+    ]
+    parts += [*table("file", modules), "\n## Survivors\n", *survivors(tried)]
+    return "\n".join(parts) + "\n"

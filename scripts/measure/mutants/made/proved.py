@@ -1,0 +1,51 @@
+"""The quick proofs whose blocks hold a file, and which of them a mutant of it makes fail."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+from cocotb_tests.harness.project import ROOT
+from scripts.measure.mutants.made.faults import Fault, alone
+from scripts.measure.prove.check import check, place
+from scripts.measure.prove.table import Change, Proof, proofs
+
+LIMIT = 60
+"""Seconds of a solver; a proof takes a few."""
+
+
+def _held(proof: Proof) -> set[str]:
+    """Names of the files that the block of a proof is made of, packages as well."""
+    texts = {path.stem: path.read_text(encoding="utf-8") for path in proof.sources()}
+    found: set[str] = set()
+    fresh = {proof.file.stem}
+    while fresh:
+        found |= fresh
+        code = (re.sub("//.*", "", texts[name]) for name in fresh)
+        fresh = {word for text in code for word in re.findall(r"\w+", text)} & texts.keys() - found
+    return found
+
+
+@cache
+def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
+    """Those of the block itself, and those of the blocks that it is part of, but for stand-ins."""
+    name = Path(file).stem
+    quick = (one for one in proofs() if not one.night)
+    found = [one for one in quick if ROOT / file in one.sources() and name in _held(one)]
+    own = [one for one in found if one.block == name]
+    return own, [one for one in found if one not in own]
+
+
+def failing(file: str, fault: Fault, tried: Sequence[Proof]) -> str:
+    """The first of the proofs with a counterexample, or without a trace to a cover; "" if all stand."""
+    text = alone((ROOT / file).read_text(encoding="utf-8"), fault)
+    change = Change(f"{Path(file).stem}-{fault.number}", file, text)
+    for proof in tried:
+        outcome = check(proof, LIMIT, change)
+        shutil.rmtree(place(proof, change), ignore_errors=True)
+        if outcome.refuted or any(clk < 0 for _, clk in outcome.reached):
+            return proof.name
+    return ""

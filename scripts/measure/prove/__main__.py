@@ -1,0 +1,67 @@
+"""Prove properties of the RTL blocks: `python -m scripts.measure.prove [NAME,...]`.
+
+Without a name all quick ones, with `--night` all. `--break` breaks the RTL of each as its entry says and
+expects it to fail. Ends with 1 if one is not as it should be.
+"""
+
+from __future__ import annotations
+
+import argparse
+from concurrent.futures import ThreadPoolExecutor, as_completed
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from cocotb_tests.harness.project import console, run
+from scripts.measure.prove.check import LIMIT, Outcome, check
+from scripts.measure.prove.engine import abc
+from scripts.measure.prove.results import keep
+from scripts.measure.prove.table import chosen
+
+
+def line(outcome: Outcome, breaking: bool) -> str:
+    """What is printed of one."""
+    took = f"{outcome.seconds:.1f} s"
+    if breaking:
+        told = "found     " if outcome.refuted else "NOT FOUND "
+        return f"{told} {outcome.name}: {outcome.trouble or 'all properties hold'} ({took})"
+    if outcome.trouble:
+        again = f"\n         again: make prove T={outcome.name}"
+        return f"FAILED   {outcome.name}: {outcome.trouble} ({took}){again}"
+    covers = ", ".join(f"{label} in {clk} clk" for label, clk in outcome.reached)
+    return f"proved   {outcome.name}: {len(outcome.labels)} properties; {covers} ({took})"
+
+
+def main() -> int:
+    """Command line; the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.prove")
+    parser.add_argument("names", nargs="*", metavar="NAME[,NAME]")
+    parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="how many at a time (2)")
+    parser.add_argument("--night", action="store_true", help="also those that take long")
+    parser.add_argument("--break", dest="breaking", action="store_true", help="with broken RTL: must fail")
+    parser.add_argument("--limit", type=int, default=LIMIT, metavar="S", help=f"seconds a run ({LIMIT})")
+    args = parser.parse_args()
+    todo = chosen([word for words in args.names for word in words.split(",")], args.night)
+    abc()
+    bad = 0
+    shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
+    # Threads: what takes time are programs that each of them waits for.
+    jobs = [(proof, args.limit, proof.broken() if args.breaking else None) for proof in todo]
+    with (
+        ThreadPoolExecutor(args.n) as pool,
+        Progress(*shown, console=console, disable=not console.is_terminal) as progress,
+    ):
+        task = progress.add_task("breaking" if args.breaking else "proving", total=len(todo))
+        for job in as_completed([pool.submit(check, *job) for job in jobs]):
+            outcome = job.result()
+            console.print(line(outcome, args.breaking), markup=False, soft_wrap=True)
+            bad += not (outcome.refuted if args.breaking else outcome.good)
+            progress.advance(task)
+            if not args.breaking:
+                keep(outcome)
+    what = "found" if args.breaking else "proved"
+    console.print(f"{len(todo) - bad} of {len(todo)} {what}")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(run(main))

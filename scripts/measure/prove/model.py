@@ -1,0 +1,68 @@
+"""Wrapper and RTL to and-inverter graphs: one with the assertions as bad states, one with the covers.
+
+Started as ``python -m scripts.measure.prove.model JOB.json``, in a separate process because yosys leaves
+through exit() on an error and writes its log to stdout. The job names sources, includes, top, folder and
+the labels that count (none: all). The folder gets prove.aig and cover.aig with the names of inputs and
+registers (.aim), the design for a trace (.il), and labels.json: the labels of the outputs of each, in order.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+ANY = ("proc", "setundef -anyseq t:$buf")
+"""What nobody drives, the outputs of a stand-in, becomes one free input for all who read it. Left an X, each
+reader would take it for what is simplest."""
+LOWER = ("async2sync", "chformal -lower")
+SHAPE = ("opt_clean", "memory_map -formal", "formalff -clk2ff -ff2anyinit -hierarchy")
+GATES = ("setundef -undriven -anyseq", "opt -full", "techmap", "opt -full", "dffunmap", "aigmap", "opt_clean")
+
+
+def read(job: dict[str, Any], kind: str) -> str:
+    """The command that elaborates; covers are without the assertions of the RTL, which SYNTHESIS hides."""
+    words = ["read_slang", "--threads", "1", "--top", job["top"], *(f"-I{path}" for path in job["includes"])]
+    words += ["--no-synthesis-define"] if kind == "prove" else ["-D", "FV_COVERS=1"]
+    return " ".join([*words, *job["sources"]])
+
+
+def labels(design: Any) -> list[str]:
+    """Labels of the assertions in the order in which write_aiger makes outputs of them."""
+    cells = design.top_module().cells_
+    return [str(name.str()).lstrip("\\") for name in cells if cells[name].type.str() == "$assert"]
+
+
+def narrow(design: Any, only: list[str]) -> list[str]:
+    """Commands that take away the assertions whose labels begin with none of these words."""
+    return [f"delete c:{label}" for label in labels(design) if only and not label.startswith(tuple(only))]
+
+
+def main() -> int:
+    """Run the job file named on the command line."""
+    import pyosys.libyosys as ys
+
+    def run(design: Any, command: str) -> None:
+        print(f"\n>>> {command}", flush=True)
+        ys.run_pass(command, design)
+
+    job = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
+    found = {}
+    for kind in ("prove", "cover"):
+        base = f"{job['folder']}/{kind}"
+        design = ys.Design()
+        begin = [read(job, kind), *ANY, f"prep -flatten -top {job['top']}", *LOWER]
+        rest = [*SHAPE, f"write_rtlil {base}.il", *GATES]
+        for command in begin:
+            run(design, command)
+        for command in [*narrow(design, job["only"]), *rest]:
+            run(design, command)
+        found[kind] = labels(design)
+        run(design, f"write_aiger -I -B -zinit -no-startoffset -map {base}.aim {base}.aig")
+    Path(job["folder"], "labels.json").write_text(json.dumps(found), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

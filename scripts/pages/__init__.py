@@ -1,0 +1,1 @@
+"""`make docs`: pictures and tables of docs/."""

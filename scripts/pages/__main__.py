@@ -1,0 +1,95 @@
+"""Redraw the pictures of docs/: WaveDrom JSON and plots to docs/<part>/img/, computed tables into the manual.
+
+`python -m scripts.pages` (`make docs`) writes; `--check` writes nothing, lists what is stale and
+exits with 1 if anything is. The files are the same byte for byte on each run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from cocotb_tests.harness.project import DOCS, ProjectError, console, fail, relative, replace_between, run
+from openppmc import parts
+from scripts.measure.prove import page as proofs
+from scripts.measure.sizes import figures, size_page
+from scripts.pages.pictures import house, plots, waves
+from scripts.pages.pictures.manual import Manual
+from scripts.pages.wiring import pages as wiring
+
+
+def image(name: str) -> Path:
+    """Where the picture "<part>/<what>", or "<what>" of pages about the whole, stands."""
+    part, _, what = name.rpartition("/")
+    return DOCS / part / "img" / f"{what}.svg"
+
+
+def wanted() -> dict[Path, bytes]:
+    """Path and content of every generated file of docs/."""
+    files: dict[Path, bytes] = {}
+    for source in sorted(DOCS.glob("*/wavedrom/*.json")):
+        try:
+            files[source.parents[1] / "img" / f"{source.stem}.svg"] = waves.render(source)
+        except ValueError as error:
+            raise ProjectError(str(error)) from None
+    for name, plot in house.PLOTS.items():
+        files[image(name)] = plots.render(plot)
+    for row in parts.having("manual"):
+        manual: Manual = row.load("manual")
+        for what, diagram in manual.diagrams.items():
+            name = f"{row.folder}/{what}"
+            files[image(name)] = waves.draw(diagram(), name)
+        for what, plot in manual.plots.items():
+            files[image(f"{row.folder}/{what}")] = plots.render(plot)
+        page = DOCS / row.folder / "README.md"
+        text = page.read_text(encoding="utf-8")
+        for marker, table in manual.tables.items():
+            text = replace_between(text, marker, table())
+        files[page] = text.encode()
+    page = DOCS / "benchmarks.md"
+    text = page.read_text(encoding="utf-8")
+    measured = figures.read()
+    for marker, block in size_page.BLOCKS.items():
+        text = replace_between(text, marker, block(measured))
+    files[page] = text.encode()
+    files |= wiring.pages()
+    files[proofs.PAGE] = proofs.text().encode()
+    return files
+
+
+def stale(files: dict[Path, bytes]) -> list[Path]:
+    """Generated files that are missing or differ, and pictures of a part that have lost their source."""
+    changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
+    kept = sorted(DOCS.glob("**/img/*.svg"))
+    kept += sorted(wiring.FOLDER.glob("*.md"))
+    return changed + [path for path in kept if path not in files]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Command line; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="docs", description="Redraw the pictures of docs/.")
+    parser.add_argument("--check", action="store_true", help="change nothing, fail if something is stale")
+    check = parser.parse_args(arguments).check
+    try:
+        files = wanted()
+    except ProjectError as error:
+        return fail(str(error))
+    found = stale(files)
+    for path in found:
+        console.print(f"{'stale' if check else 'written' if path in files else 'removed'}: {relative(path)}")
+    if check:
+        console.print(f"{len(files)} generated files, {len(found)} stale")
+        return 1 if found else 0
+    for path in found:
+        if path in files:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(files[path])
+        else:
+            path.unlink()
+    console.print(f"{len(files)} generated files, {len(found)} changed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(run(main))

@@ -1,0 +1,10 @@
+"""What is drawn and computed for docs/bank/."""
+
+from __future__ import annotations
+
+from scripts.pages.bank.diagrams import DIAGRAMS
+from scripts.pages.bank.plots import PLOTS
+from scripts.pages.bank.tables import TABLES
+from scripts.pages.pictures.manual import Manual
+
+MANUAL = Manual(TABLES, PLOTS, DIAGRAMS)

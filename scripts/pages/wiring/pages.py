@@ -1,0 +1,83 @@
+"""The pages docs/boards/<board>.md: drawings, levels, order lists."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cocotb_tests.harness.project import DOCS
+from scripts.fpga.boards.__main__ import fitted_parts
+from scripts.fpga.boards.description import load_all
+from scripts.fpga.boards.pads import Fitted
+from scripts.pages.wiring.circuits import Use, order, uses
+from scripts.pages.wiring.draw import draw
+
+FOLDER = DOCS / "boards"
+HEAD = """\
+# Wiring of the {title}
+
+For {revisions}: [revisions](../boards.md#revisions).
+
+Written by `make docs` from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change those, not this.
+A drawing, the levels and an order list for each part that the board carries. Why it is so, other drivers and
+switches: [boards.md](../boards.md#4-power-and-levels); before a winding is connected: [Before the motor
+turns](../boards.md#10-before-the-motor-turns). None of these was built by us.
+
+- **Every pin of a header is 3.3 V and must never see more**: not 5 V, not the motor's supply, not through a
+  pull-up. 5 V and more are allowed on the right side of the drawings only, behind the shifter, buffer,
+  optocoupler or driver that is drawn.
+- {resistor} at a wire: from there to GND or 3.3 V, on the FPGA's side. It holds the line still while the
+  FPGA is not configured.
+- Take what your machine needs: a circuit without a machine behind it is left out, with its lines of the
+  order list. With `HOST=uart` nothing stands at the bus pins.
+- Order numbers are examples of parts that were sold when this was written; any part of the same type and
+  case does.
+
+Contents: {contents}
+"""
+
+
+def pages() -> dict[Path, bytes]:
+    """Path and content of every page and drawing."""
+    files: dict[Path, bytes] = {}
+    fitted = fitted_parts(load_all())
+    for board in dict.fromkeys(one.board.name for one in fitted):
+        mine = [one for one in fitted if one.board.name == board]
+        files[FOLDER / f"{board}.md"] = _page(mine).encode()
+        for one in mine:
+            files[FOLDER / "img" / f"{board}-{one.on.name}.svg"] = draw(one)
+    return files
+
+
+def _page(fitted: list[Fitted]) -> str:
+    board = fitted[0].board
+    names = [one.on.name for one in fitted]
+    resistor = uses(fitted[0])[0].resistor
+    contents = " · ".join(f"[{_title(one)}](#{one.on.name})" for one in fitted)
+    head = HEAD.format(
+        title=board.title, revisions=board.revisions, name=board.name, resistor=resistor, contents=contents
+    )
+    assert len(set(names)) == len(names)
+    return "\n".join([head, *(_section(one) for one in fitted)])
+
+
+def _title(one: Fitted) -> str:
+    return one.on.row.title + (", bus host" if one.on.hosts == ("bus",) else "")
+
+
+def _section(one: Fitted) -> str:
+    found = uses(one)
+    rows = [f'<a id="{one.on.name}"></a>', "", f"## {_title(one)}", ""]
+    rows += [f"![Wiring](img/{one.board.name}-{one.on.name}.svg)", ""]
+    rows += ["| circuit | header pins | the other side |", "|---|---|---|"]
+    rows += [_levels(use) for use in found]
+    rows += ["", "Order list, for all of it:", "", "| number | what | order number |", "|---:|---|---|"]
+    rows += [f"| {number} | {what} | {which} |" for number, what, which in order(found)]
+    return "\n".join([*rows, ""])
+
+
+def _levels(use: Use) -> str:
+    pins = ", ".join(f"`{pad.where.split(',')[0]}`" for pad in use.pads)
+    far = use.circuit.level
+    never = "" if far.startswith(("3.3 V", "GND")) else f" **{far}**: never to the header"
+    here = "no voltage: see the drawing" if use.circuit.key == "straps" else "3.3 V"
+    return f"| {use.circuit.title} | {pins}: {here} | {never.strip() or far} |"

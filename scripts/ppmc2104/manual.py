@@ -1,9 +1,0 @@
-"""What is drawn and computed for docs/ppmc2104/."""
-
-from __future__ import annotations
-
-from scripts.pictures.manual import Manual
-from scripts.ppmc2104 import flow, plots
-from scripts.ppmc2104.tables import TABLES
-
-MANUAL = Manual(TABLES, {**plots.PLOTS, **flow.PLOTS})

@@ -1,1 +1,0 @@
-"""scripts/ppmc312/line"""
