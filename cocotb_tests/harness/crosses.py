@@ -115,9 +115,9 @@ PHASES = ("before the first pulse", "up", "top", "down", "constant")
 CLOCKS = ("internal", "internal, plain", "external", "external, plain")
 STATES = ("before initialisation", "at rest", "in motion", "decelerating")
 
-ENDLESS = "an endless operation has no count to come to its end"
+ENDLESS = "an endless operation has no count that can end"
 CONSTANT = "only operations with a ramp slow down"
-ORIGIN = "only an origin search looks at the origin"
+ORIGIN = "only an origin search samples the origin"
 ONE_PULSE = "a single step does not wait for the external clock, and is over with its pulse"
 NEVER_CAUSE = {
     **{(name, COUNT_DONE): ENDLESS for name in ("constant, endless", "ramp, endless", "origin search")},
@@ -129,7 +129,7 @@ NEVER_CAUSE = {
 }
 NEVER_PHASE = {
     ("slow-down limit", "constant"): CONSTANT,
-    ("slow-down limit", "down"): "the way down is not begun twice",
+    ("slow-down limit", "down"): "the deceleration is not started twice",
     **{(ORIGIN_FOUND, phase): ORIGIN for phase in ("up", "top", "down")},
 }
 NEVER_CLOCK = {("single step", clock): ONE_PULSE for clock in ("external", "external, plain")}
