@@ -48,7 +48,7 @@ def method(proof: Proof) -> str:
 
 def row(proof: Proof) -> str:
     """One line of the table."""
-    says = "<br>".join(proof.says)
+    says = " <br>".join(f"{text}." for text in proof.says)
     if proof.why:
         says += f"<br>*Bounded:* {proof.why}"
     taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "nothing"
