@@ -298,7 +298,7 @@ module ppmc_axis
           base: base_q
       };
 
-// The assertions check that there is no pulse at or after an immediate cause, that a motion which no cause
+  // The assertions check that there is no pulse at or after an immediate cause, that a motion which no cause
   // ends has completed its count, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
