@@ -5,8 +5,8 @@
 // Timing: hit_o and half_o are combinational from tick_i. half_o is high from its base clock on. If rising_i
 //         is still high then, it is high from 2 cycles after the last cycle of rising_i: late, but never
 //         missed.
-// Assumes: ticks are at least 3 cycles apart. A part whose hosts send divisors (J105 STMC) uses divisor - 1
-//         as rate_i.
+// Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) uses
+//         divisor - 1 as rate_i.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
 `include "ppmc_assert.svh"
 `default_nettype none

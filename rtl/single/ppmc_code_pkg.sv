@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_code_pkg: common command set of the single-axis parts (PPMC-104BFP, J105 STMC): bits of the codes,
+// ppmc_code_pkg: common command set of the single-axis devices (PPMC-104BFP, J105 STMC): bits of the codes,
 //         error numbers, and actions of a byte.
 // Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; STMC section 2.4 (error numbers), 3.0, 3.1.
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_command: accepts the bytes of the host, checks them, collects parameters and outputs the actions; for
-//         the parts with one axis.
+//         the single-axis devices.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
 // Timing: take_o marks the C-event: act_o and all state changes of this block belong to the edge that ends
@@ -21,7 +21,7 @@ module ppmc_command
     input wire logic open_i,  // bytes may be accepted
     input wire logic stops_only_i,  // only stop commands may be accepted
     output logic take_o,  // the byte is accepted at the next edge
-    // meaning of the byte in this part
+    // meaning of the byte in this device
     input wire decoded_t decoded_i,  // byte_i as a code
     input wire logic [7:0] data_i,  // byte_i in the form in which parameters are stored
     input wire error_e value_i,  // error in params_o; ErrUndefined: no error

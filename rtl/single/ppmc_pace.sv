@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace: determines when an accepted byte takes effect in a part with one axis: immediately (FAST) or
+// ppmc_pace: determines when an accepted byte takes effect in a single-axis device: immediately (FAST) or
 //         after the processing times of the old chip (DATASHEET).
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
 // Timing: DATASHEET times start at the C-event (2 cycles after the write event) or at the pulse or decision

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_setup: settings of the initialisation in a part with one axis, except the ramp (ppmc_ramp_table).
+// ppmc_setup: settings of the initialisation in a single-axis device, except the ramp (ppmc_ramp_table).
 // Rules:  P104-INI-01/05/06/08, P104-PHS-02/05; STMC-INI-04/06, STMC-CHP-02.
 // Timing: all outputs change at the edge that ends the cycle of the input that causes the change.
 `default_nettype none

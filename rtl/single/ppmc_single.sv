@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_single: common core of the parts with one axis (PPMC-104BFP, J105 STMC), from host port to motor pins.
-//         A part differs in its parameters and in the meaning of the bytes, which it decodes outside this
-//         block.
+// ppmc_single: common core of the single-axis devices (PPMC-104BFP, J105 STMC), from host port to motor pins.
+//         The devices differ in their parameters and in the meaning of the bytes, which they decode
+//         outside this block.
 // Rules:  those of its blocks.
 // Timing: a command acts 4 cycles after the rising edge of clk_i that first samples the end of its write;
 //         motor pins follow one cycle later.
@@ -18,11 +18,11 @@ module ppmc_single
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0,        // 1: with the processing times of the old chip
     parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
-    parameter traits_t     Traits                   // configuration of the part
+    parameter traits_t     Traits                   // configuration of the device
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    // host bus: pins of the part
+    // host bus: pins of the device
     input  wire logic             cs_ni,          // chip select
     input  wire logic             rd_ni,          // read strobe
     input  wire logic             wr_ni,          // write strobe
@@ -31,7 +31,7 @@ module ppmc_single
     output logic           [ 7:0] d_o,            // data read by the host
     output logic                  d_oe_o,         // the host is reading: drive d_o
     output logic                  int_no,         // L: a motion has ended
-    // meaning of the bytes, decoded by the part
+    // meaning of the bytes, decoded by the device
     output sent_t                 sent_o,         // current byte of the host
     input  wire meaning_t         meaning_i,      // meaning of the current byte
     output asked_t                asked_o,        // command requested with the current byte

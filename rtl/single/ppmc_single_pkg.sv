@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_single_pkg: types that connect ppmc_single with the part around it, and the configuration of such a
-//         part.
+// ppmc_single_pkg: types that connect ppmc_single with the device around it, and the device configuration.
 // Rules:  those of ppmc_single.
 // How:    the current byte is output (sent_t) and its meaning is returned (meaning_t). With this meaning the
 //         parameters are complete: they are output (asked_t), and the result of their check is returned
@@ -15,7 +14,7 @@ package ppmc_single_pkg;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 
-  // Differences between the parts with one axis, in addition to the meaning of their bytes.
+  // Differences between the single-axis devices, in addition to the meaning of their bytes.
   typedef struct packed {
     int unsigned step_bits;     // bits of PA, at most 16
     int unsigned steps_min;     // smallest PA
@@ -42,7 +41,7 @@ package ppmc_single_pkg;
     logic [31:0] params;  // parameters received so far, the last one in the high bits
   } sent_t;
 
-  // Meaning of the current byte in this part.
+  // Meaning of the current byte in this device.
   typedef struct packed {
     decoded_t   decoded;  // byte as a code
     logic [7:0] data;     // byte in the form in which parameters are stored
