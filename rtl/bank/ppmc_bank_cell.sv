@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_cell: pins of one axis of a bank: executes the orders of its visits, each in its cycle, and
-//         outputs no pulse while a switch ends the motion.
+//         suppresses pulses when a switch ends the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: an order is valid in the cell from the cycle after load_i on. It is executed at the end of the
 //         cycle in which clock_i = at_i; halt is executed at the end of the first cycle. A switch acts in the

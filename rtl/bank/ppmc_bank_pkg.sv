@@ -15,7 +15,7 @@ package ppmc_bank_pkg;
   localparam logic [3:0] REG_DATA = 4'h0;
   localparam logic [3:0] REG_STATUS = 4'h1;
   localparam logic [3:0] REG_CONFIG = 4'h2;
-  localparam logic [3:0] REG_POSITION = 4'h4;  // to 7
+  localparam logic [3:0] REG_POSITION = 4'h4;  // 4 to 7, lowest byte first
   localparam logic [3:0] REG_MASK = 4'h8;
   localparam logic [3:0] REG_MAP = 4'h9;
   localparam logic [3:0] REG_GO = 4'hA;
@@ -176,7 +176,7 @@ package ppmc_bank_pkg;
     logic       exc_off;
     logic       switching;  // the times of the chopper are set
     logic       read;       // a read command
-    logic [2:0] select;     // data that it selects
+    logic [2:0] select;     // data selected by the read command
     logic       halt;       // a stop command that acts immediately
     logic       kill;       // the pin cell has ended the motion
     logic       undo;       // with kill: the last ordered pulse was not output

@@ -6,8 +6,8 @@
 //         from the third edge after the start of a read strobe has left them. mail_o, progress_o and
 //         config_no are valid one cycle after axis_i.
 // How:    RAM words of the addressed axis are read in every cycle. If a visit writes a word in the cycle in
-//         which it is read, the word read before is kept. The path of the
-//         registers of the bank (other1_q, other2_q) has no such hold.
+//         which it is read, the word read before is kept. The registers of the
+//         bank (other1_q, other2_q) are passed on in every cycle.
 `default_nettype none
 
 module ppmc_bank_window

@@ -75,7 +75,7 @@ module ppmc_bridge_exec
 
   state_e state_q;
   result_e result_q;
-  logic [8:0] length;  // of the answer
+  logic [8:0] length;  // number of data bytes in the answer
   logic [7:0] pos_q;
   logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then remaining bytes; left_q: of the script
   logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2 its results are valid

@@ -12,7 +12,7 @@ module ppmc_bridge_wait
     input  wire logic        ms_i,       // strobe every millisecond
     input  wire logic        start_i,    // a new script: set the default limit
     input  wire logic        set_i,      // set another limit
-    input  wire logic [15:0] limit_i,    // this limit, ms
+    input  wire logic [15:0] limit_i,    // new limit, ms
     input  wire logic        waiting_i,  // a wait is in progress
     output logic             over_o      // the limit has been reached
 );

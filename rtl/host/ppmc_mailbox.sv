@@ -14,7 +14,7 @@ module ppmc_mailbox #(
     input  wire logic                    rst_ni,
     // host port
     input  wire logic                    wr_i,       // the host has written
-    input  wire logic                    wr_a0_i,    // as a command
+    input  wire logic                    wr_a0_i,    // the write is a command
     input  wire logic [             7:0] wr_data_i,  // byte written
     input  wire logic                    rd_done_i,  // the host has read out_o
     output logic      [             7:0] out_o,      // output buffer

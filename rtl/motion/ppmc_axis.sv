@@ -4,10 +4,10 @@
 //         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08,
 //         STMC-CLK-01..05.
 // Timing: motion_o.busy rises at the edge that ends the cycle of start_i. Pulse 1 occurs WidthXtal crystal
-//         cycles later, or, if run_i was low, that time after the end of the RUN gate (external clock: at the
-//         first edge at or after this time). When no pulse is left, busy falls one cycle after low_o, or at
-//         the next edge if low_o is already 0; event_o.done is high in the cycle before. No output is a pin:
-//         the pins follow low_o and event_o through one register (ppmc_motor_port).
+//         cycles later; if run_i was low, this time begins at the end of the RUN gate. With the external
+//         clock, pulse 1 occurs at the first edge at or after this time. When no pulse is left, busy falls
+//         one cycle after low_o, or at the next edge if low_o is already 0; event_o.done is high in the cycle
+//         before. No output is a pin: pins follow low_o and event_o through one register (ppmc_motor_port).
 // Edges:  the comment above `edges` describes the external clock.
 `include "ppmc_assert.svh"
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ramp_builder: fills the ramp table: for every rate r from fast_i + 1 to slow_i, the first step with a
-//         rate below r; for fast_i, the last rate of the acceleration, PA.
+//         rate below r; for fast_i, where the acceleration ends, PA.
 // Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 cycles for every legal initialisation).
 // Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete. If
 //         fast_i = slow_i, the table holds only PA and busy_o is short. addr_o = slow_i from the end of a

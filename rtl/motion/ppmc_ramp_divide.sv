@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_divide: bit-serial divider; the highest bit of dividend and quotient is the first.
+// ppmc_ramp_divide: bit-serial divider; dividend and quotient begin with their highest bit.
 // Rules:  P104-RMP-02.
 // Timing: bit_o follows its bit_i by one cycle. run_i = 0 for one cycle begins a new number.
 // How:    non-restoring division: after a trial with a negative remainder, the next trial adds the divisor.

@@ -20,7 +20,7 @@ module ppmc_rate_counter #(
     input  wire logic                tick_i,     // a base clock that is counted
     input  wire logic [RateBits-1:0] rate_i,     // rate of the running interval
     input  wire logic                wait_i,     // the interval must not end yet
-    input  wire logic                rising_i,   // rate_i is not final yet
+    input  wire logic                rising_i,   // rate_i may still rise
     output logic                     hit_o,      // this base clock ends the interval
     output logic                     half_o      // base clock floor((rate + 1) / 2) is this one or has passed
 );
