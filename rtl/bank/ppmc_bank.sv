@@ -10,7 +10,7 @@ module ppmc_bank
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
-    parameter int unsigned CLK_HZ     = 100_000_000,  // clk frequency in Hz, 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 100_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,   // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter bit          PHASE_IDLE = 1'b1          // level of s until the first initialisation
 ) (

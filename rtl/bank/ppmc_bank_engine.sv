@@ -36,7 +36,7 @@ module ppmc_bank_engine
     output logic answer_we_o,  // write answer_o
     output answer_t answer_o,  // answer to a read command
     output order_t order_o,  // order to the pin cell
-    output logic [RoundBits-1:0] at_o,  // cycle of its edge
+    output logic [RoundBits-1:0] at_o,  // cycle of order_o in the round
     output logic call_o,  // set the pending interrupt of the axis
     output logic calm_o  // clear the pending interrupt of the axis
 );

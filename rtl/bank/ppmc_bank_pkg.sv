@@ -147,7 +147,7 @@ package ppmc_bank_pkg;
     logic       sets;    // the other pins change
     logic       arm;     // with sets: pulses may follow; with pulse: another pulse may follow
     logic       search;  // the origin ends the motion
-    logic       ccw;     // level of dir; it also selects the limit
+    logic       ccw;     // level of dir; selects the limit
     logic       hold;
     logic [5:1] s;       // pin levels
   } order_t;
@@ -168,7 +168,7 @@ package ppmc_bank_pkg;
   typedef struct packed {
     logic       start;      // an operation starts
     logic       proceed;    // GO: pulse 1 is scheduled
-    logic       refuse;     // GO: no operation is waiting for it
+    logic       refuse;     // GO: no operation is waiting
     logic       finish;     // a motion ends
     logic       ready;      // an initialisation is complete
     logic       init;       // an initialisation begins
@@ -183,7 +183,7 @@ package ppmc_bank_pkg;
     logic       flag_stop;  // deceleration by a command
     logic       flag_slow;  // deceleration by a slow-down limit
     logic       pulse;      // a pulse is ordered
-    logic       last;       // with pulse: it is the last one
+    logic       last;       // with pulse: last pulse
     logic       up;         // with pulse: index + 1
     logic       back;       // with pulse: index - 1
     logic       turn;       // with pulse: the deceleration begins

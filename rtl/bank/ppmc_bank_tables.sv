@@ -13,12 +13,12 @@ module ppmc_bank_tables #(
     input  wire logic                rst_ni,
     // build
     input  wire logic                book_i,       // build a table from the inputs below
-    input  wire logic [AxisBits-1:0] book_axis_i,  // axis of the table
+    input  wire logic [AxisBits-1:0] book_axis_i,  // axis of the table to build
     input  wire logic [         7:0] slow_i,       // start-up rate
     input  wire logic [         7:0] fast_i,       // high-speed rate
     input  wire logic [StepBits-1:0] steps_i,      // acceleration pulses PA
     output logic                     booked_o,     // a build is in progress
-    output logic      [AxisBits-1:0] for_o,        // axis of this build
+    output logic      [AxisBits-1:0] for_o,        // axis of the running build
     // look up
     input  wire logic [AxisBits-1:0] axis_i,       // axis of the look-up
     input  wire logic [         7:0] rate_i,       // r

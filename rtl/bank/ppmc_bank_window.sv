@@ -29,12 +29,12 @@ module ppmc_bank_window
     // visits
     input  wire logic                    ready_i,      // 0: the axes are being reset
     input  wire logic    [RoundBits-1:0] axis_i,       // axis of the next visit
-    output mail_t                        mail_o,       // input buffer of this axis
-    output progress_t                    progress_o,   // bytes of its answer that were read
-    output logic         [          1:0] config_no,    // vsel and csel of this axis, inverted
+    output mail_t                        mail_o,       // input buffer of axis_i
+    output progress_t                    progress_o,   // bytes of the answer of axis_i that were read
+    output logic         [          1:0] config_no,    // vsel and csel of axis_i, inverted
     input  wire logic    [RoundBits-1:0] done_axis_i,  // axis of the visit that ends
-    input  wire status_t                 status_i,     // status of this axis
-    input  wire logic    [         31:0] position_i,   // position of this axis
+    input  wire status_t                 status_i,     // status of done_axis_i
+    input  wire logic    [         31:0] position_i,   // position of done_axis_i
     input  wire logic                    answer_we_i,  // write answer_i
     input  wire answer_t                 answer_i,     // answer to a read command
     // bank

@@ -34,7 +34,7 @@ module ppmc_uart_host #(
     input  wire logic [Axes*6-1:0] switches_ni,  // switches for op PINS
     input  wire logic [  Axes-1:0] hold_i,       // HOLD for op PINS: motor at standstill
     input  wire logic [  Axes-1:0] pout_ni,      // pulses to count
-    input  wire logic [  Axes-1:0] dir_i,        // direction of these pulses
+    input  wire logic [  Axes-1:0] dir_i,        // direction of the pulses on pout_ni
     input  wire logic [ Watch-1:0] watch_i,      // levels for the recorder, synchronous to clk_i
     output logic                   active_o      // a script is running or its answer is being sent
 );

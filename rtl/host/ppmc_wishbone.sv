@@ -15,7 +15,7 @@ module ppmc_wishbone #(
     input  wire logic                rst_ni,
     // Wishbone; adr_i bits are numbered as in a byte address
     input  wire logic                cyc_i,   // bus cycle of the master
-    input  wire logic                stb_i,   // transfer of this cycle
+    input  wire logic                stb_i,   // transfer of the bus cycle
     input  wire logic                we_i,    // the transfer is a write
     input  wire logic [AddrBits+2:2] adr_i,   // register
     input  wire logic [         3:0] sel_i,   // bit 0: bits 7..0 are used

@@ -64,8 +64,8 @@ package ppmc_motion_pkg;
   // Events of a motion at the next edge.
   typedef struct packed {
     logic pulse;     // a pulse begins
-    logic last;      // with pulse: it is the last one
-    logic complete;  // with pulse: it completes the count
+    logic last;      // with pulse: last pulse
+    logic complete;  // with pulse: the count is complete
     logic stop;      // immediate end
     logic done;      // the motion has ended
   } event_t;

@@ -85,7 +85,7 @@ package ppmc_code_pkg;
   typedef struct packed {
     logic        error;   // the last byte was faulty
     logic [2:0]  number;  // error number if error = 1, else number of remaining parameters
-    logic [7:0]  code;    // code of these parameters
+    logic [7:0]  code;    // code of the parameters
     logic [31:0] params;  // parameters received so far, the last one in the high bits
   } asking_t;
 

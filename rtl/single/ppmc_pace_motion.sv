@@ -28,8 +28,8 @@ module ppmc_pace_motion #(
     input  wire logic        single_i,    // the running operation is a single step
     input  wire logic        stop_i,      // immediate end decided at the next edge
     input  wire logic        pulse_i,     // pulse event at the next edge
-    input  wire logic        last_i,      // with pulse_i: it is the last one
-    input  wire logic        final_i,     // with pulse_i: it completes the count
+    input  wire logic        last_i,      // with pulse_i: last pulse
+    input  wire logic        final_i,     // with pulse_i: the count is complete
     output logic             ready_o,     // initialisation complete
     output logic             go_o,        // pulse 1 may occur; only valid while the operation runs
     output logic             linger_o,    // the motion must not end yet
