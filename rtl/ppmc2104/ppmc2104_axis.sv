@@ -15,33 +15,33 @@ module ppmc2104_axis
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0
 ) (
-    input wire logic clk_i,
-    input wire logic rst_ni,
+    input  wire logic                         clk_i,
+    input  wire logic                         rst_ni,
     // instructions
-    input wire axis_action_t act_i,  // actions of this axis, effective at the next edge
-    input wire logic [7:0] code_i,  // code of act_i.init and act_i.start
-    input wire logic [31:0] params_i,  // parameters of code_i
-    input wire logic [7:0] code_late_i,  // code of the other actions
-    input wire logic [31:0] params_late_i,  // parameters of code_late_i
-    input wire logic ready_i,  // 1: no table build, no open window for this axis
-    output state_t state_o,  // state for the other blocks
-    output logic end_o,  // an operation with I = 0 ends
-    input wire error_e error_i,  // error register
-    output logic [23:0] answer_o,  // answer to the read instruction code_late_i
+    input  wire axis_action_t                 act_i,          // actions, effective at the next rising edge
+    input  wire logic         [          7:0] code_i,         // code of act_i.init and act_i.start
+    input  wire logic         [         31:0] params_i,       // parameters of code_i
+    input  wire logic         [          7:0] code_late_i,    // code of the other actions
+    input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
+    input  wire logic                         ready_i,        // 1: no table build and no open window
+    output state_t                            state_o,        // state for the other blocks
+    output logic                              end_o,          // an operation with I = 0 ends
+    input  wire error_e                       error_i,        // error register
+    output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
-    output logic [RATE_BITS-1:0] lut_addr_o,  // r; lut_data_i is expected two cycles later
-    input wire logic [STEP_BITS-1:0] lut_data_i,  // thr(r), two cycles after lut_addr_o
+    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; lut_data_i is expected two cycles later
+    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r), two cycles after lut_addr_o
     // processing times
-    input wire logic run_open_i,  // 1: RUN is sampled
-    input wire logic poll_i,  // 1: limits and alarm are sampled
-    input wire logic linger_i,  // 1: a stopped operation does not end yet
+    input  wire logic                         run_open_i,     // 1: RUN is sampled
+    input  wire logic                         poll_i,         // 1: limits and alarm are sampled
+    input  wire logic                         linger_i,       // 1: a stopped operation does not end yet
     // pins
-    input wire levels_t levels_i,  // inputs of this axis, synchronised
-    input wire logic extck_i,  // external base clock, asynchronous
-    output logic [5:1] s_no,  // phases
-    output logic hold_o,  // motor at standstill for the hold delay
-    output logic pout_no,  // pulse, active low
-    output logic dir_o  // 0: CW, 1: CCW
+    input  wire levels_t                      levels_i,       // inputs of this axis, synchronised
+    input  wire logic                         extck_i,        // external base clock, asynchronous
+    output logic              [          5:1] s_no,           // phases
+    output logic                              hold_o,         // standstill for the hold delay
+    output logic                              pout_no,        // pulse, active low
+    output logic                              dir_o           // 0: CW, 1: CCW
 );
 
   op_code_t op_code;
