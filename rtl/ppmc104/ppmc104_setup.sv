@@ -22,7 +22,7 @@ module ppmc104_setup
 );
 
   logic programmed_q;
-  logic [7:0] on_q, off_q;  // programmed chopper times, units
+  logic [7:0] on_q, off_q;  // chopper times set by the host, units
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, params_i};

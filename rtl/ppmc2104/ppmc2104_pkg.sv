@@ -75,7 +75,7 @@ package ppmc2104_pkg;
   typedef struct packed {
     logic [1:0] prefix;    // 00
     logic       second;    // A: axis 2
-    logic       chop;      // S: chop at rest
+    logic       chop;      // S: chop at standstill
     logic       external;  // C: base clock from the EXTCK pin
     logic       half;      // E: half step
     logic [1:0] motor;     // MM

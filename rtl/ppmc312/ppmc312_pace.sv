@@ -25,7 +25,7 @@ module ppmc312_pace
   localparam int unsigned Width = 22;
 
   if (Datasheet) begin : g_pace
-    // Crystal periods. The time that passes before idle_i falls, about 1 us, is neglected.
+    // Crystal periods. The latency of the instruction up to this block, about 1 us, is neglected.
     localparam int unsigned PerUs = 16;
     localparam int unsigned Lead = WIDTH_XTAL + 8;
 

@@ -75,8 +75,8 @@ package ppmc312_pkg;
     logic       rated;      // parameters 1, 2 are a rate
     logic       rate_zero;  // a rate of 0 selects RH
     logic       counted;    // parameters 3 .. 6 are a number of pulses
-    logic [5:0] now;        // statuses that accept it, OV = 0
-    logic [5:0] later;      // statuses that accept it, OV = 1
+    logic [5:0] now;        // statuses that accept the code with OV = 0
+    logic [5:0] later;      // statuses that accept the code with OV = 1
     logic [4:0] len_a;      // legal lengths of code and parameters, len_a >= len_b
     logic [4:0] len_b;
   } info_t;

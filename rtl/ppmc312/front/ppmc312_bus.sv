@@ -26,7 +26,7 @@ module ppmc312_bus #(
     output logic            d_oe_o,       // 1: drive d_o
     output logic            wrq_no,       // wait request
     // registers
-    input  wire logic       wait_i,       // EWRQ: 1: the wait request is used
+    input  wire logic       wait_i,       // EWRQ, 1: the wait request is used
     output logic            wr_o,         // strobe: a write is complete
     output logic      [2:0] wr_rs_o,      // register; valid with wr_o
     output logic      [7:0] wr_data_o,    // written byte; valid with wr_o

@@ -5,8 +5,8 @@
 // Timing: a block is offered one cycle after the write of its header; irq_no follows its terms by one cycle.
 //         A report can be read 6 cycles after rd_load_o, which is asserted at least 8 cycles after the last
 //         byte of the previous report.
-// Note:   blocks and reports have the logical order between this block and the core, the reverse order on the
-//         bus.
+// Note:   between this module and the core, blocks and reports have the logical order (header first); on the
+//         bus the order is reversed.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -5,8 +5,8 @@
 //         heard_i, the middle of a stop bit: SndWait + 0.5 bits after its end. Edge n of the frame occurs
 //         ceil(n * bit time) after the rise; the first start bit is edge SndLead, the fall of snd_o the last
 //         one.
-// Rate:   the phase increases by step_i per cycle. When it exceeds 2**Width a bit has ended, and the next
-//         cycle adds wrap_i instead, which is step_i minus the modulus.
+// Rate:   the phase increases by step_i per cycle. When it overflows (Width bits), a bit has ended, and the
+//         next cycle adds wrap_i instead, which is step_i minus the modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
 

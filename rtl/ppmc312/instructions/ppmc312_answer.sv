@@ -19,11 +19,11 @@ module ppmc312_answer
     output logic                               busy_o,       // from the cycle after start_i to that of done_o
     output logic                               done_o,       // strobe: the answer is written
     // sources of the last bytes
-    input  wire logic    [          31:0]      value_i,      // TailPos: the position
+    input  wire logic    [          31:0]      value_i,      // TailPos: position
     input  wire logic    [           5:0][7:0] sums_i,       // TailSums: pulses of both sides
     input  wire logic    [           2:0]      codes_i,      // TailCodes: number of codes
-    output logic                               peek_o,       // TailCodes: a code is requested,
-    output logic         [           1:0]      peek_at_o,    // namely that of this entry
+    output logic                               peek_o,       // TailCodes: a code is requested
+    output logic         [           1:0]      peek_at_o,    // TailCodes: entry of this code
     input  wire logic    [           7:0]      code_i,       // code of entry peek_at_o, two cycles later
     // source of the instruction
     output logic         [BLOCK_BITS-1:0]      echo_addr_o,  // byte, 0 = header

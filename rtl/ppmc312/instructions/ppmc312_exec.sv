@@ -55,7 +55,7 @@ module ppmc312_exec
     StBoot,
     StIdle,
     StFetch,
-    StFirst,    // checks reset and unread answers; comparisons settle
+    StFirst,    // checks for reset and unread answers; comparisons settle
     StSettle,
     StAct,
     StWait,     // processing time of 26 and 80; the verdict is held
@@ -151,7 +151,7 @@ module ppmc312_exec
   assign hold_o = act || state_q inside {StWrite, StReadback} || write_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset is always executed. No other instruction is executed while an answer to the host is unread.
+  // A reset is always executed. No other instruction of the host is executed while its last answer is unread.
   assign reset_o = state_q == StFirst && reset_q;
   assign unread = state_q == StFirst && host && class2_i.full_host && !reset_o;
 
@@ -164,7 +164,7 @@ module ppmc312_exec
   assign evt_n = inner ? flags[0] : flags[1];
   assign evt_count = stored_i.event_count[evt_n];
   assign empty = evt_count == '0;
-  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;  // by the other kind of instruction
+  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;  // event pin in use
   assign full = inner ? evt_count == 3'd4 : stored_i.fifo_count == 4'd8;
   assign registers = act && verdict == VerdictGo && (inner ? !flags[1] : ov) && !used && !full;
   assign copy = registers;

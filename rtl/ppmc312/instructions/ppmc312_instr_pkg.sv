@@ -43,9 +43,9 @@ package ppmc312_instr_pkg;
     logic [7:0]      head;
     logic [7:0]      code;
     logic [3:0]      extra;  // bytes after the code, 0 .. 9
-    logic [2:0][7:0] data;   // first of these bytes, data[0] first
-    tail_e           tail;   // source of the last of these bytes
-    logic            echo;   // then append the instruction as received
+    logic [2:0][7:0] data;   // first bytes after the code, data[0] first
+    tail_e           tail;   // source of the last bytes after the code
+    logic            echo;   // 1: append the instruction as received
   } answer_t;
 
   // Commands to the blocks that write answers and the data blocks of a table read. All except keep are
@@ -134,7 +134,7 @@ package ppmc312_instr_pkg;
   typedef struct packed {
     logic       done;     // strobe: finished
     logic       limited;  // with done: a limit prevents the start
-    logic       refused;  // with done: the device is no longer at standstill
+    logic       refused;  // with done: the status no longer allows the start
     logic [7:0] kind;     // with done: status byte of the answer
   } move_state_t;
 

@@ -42,7 +42,7 @@ module ppmc312_judge
 
   assign host = block_i.source == SrcHost;
   assign flags = block_i.par[0];
-  assign ov = info_i.has_ov && flags[2] && host;  // a triggered instruction is executed
+  assign ov = info_i.has_ov && flags[2] && host;  // triggered instructions are executed, not registered
   assign le = flags[4];
   assign trig_pos = !flags[0];
   assign rate = {block_i.par[1], block_i.par[2]};

@@ -29,9 +29,9 @@ module ppmc312_store
     input  wire logic           fetch_event_i,  // 1: the entry is from an event buffer
     input  wire logic    [ 3:0] fetch_addr_i,   // byte, 0 = header
     input  wire logic           peek_i,         // 1: read the code of an entry instead
-    input  wire logic           peek_n_i,       // event buffer of this entry
-    input  wire logic    [ 1:0] peek_at_i,      // number of this entry
-    output logic         [ 7:0] fetch_data_o    // the byte, two cycles later
+    input  wire logic           peek_n_i,       // with peek_i: event buffer
+    input  wire logic    [ 1:0] peek_at_i,      // with peek_i: entry
+    output logic         [ 7:0] fetch_data_o    // requested byte, two cycles later
 );
 
   typedef struct packed {
@@ -119,7 +119,7 @@ module ppmc312_store
     end else begin
       head_valid_q <= armed_q != written_q && !fire && !drop;
       halt_o       <= fire && head_q.halt && !head_q.trig[0];
-      // armed_q is ahead of done_q, because only an entry that due_q indicates is taken.
+      // armed_q is equal to done_q or ahead of it, because entries are taken only while due_q = 1.
       due_q        <= !drop && (fire || (take_fifo ? done_next != armed_q : done_q != armed_q));
       if (drop) begin
         armed_q <= written_q;

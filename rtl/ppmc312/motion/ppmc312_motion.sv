@@ -30,7 +30,7 @@ module ppmc312_motion
     input  wire logic          decel_i,        // strobe: decelerate to the end
     input  wire settings_t     settings_i,     // high-speed limit, monitoring
     // pins
-    input  wire levels_t       levels_i,       // filtered
+    input  wire levels_t       levels_i,       // switches and drive inputs, filtered
     input  wire logic          run_i,          // 1: starts are not held
     input  wire logic          extck_i,        // external clock, asynchronous
     output logic               pout_o,         // 1: a pulse is active
@@ -38,7 +38,7 @@ module ppmc312_motion
     // alarm
     input  wire alarm_t        multi_i,        // multiple occurrence
     input  wire logic          leave_i,        // strobe: alarm clear, and no alarm is active
-    output alarm_t             alarm_o,        // to be reported
+    output alarm_t             alarm_o,        // alarm to be reported
     // state
     output status_e            status_o,       // status of the device
     output logic               end_wait_o,     // a motion waits for END

@@ -9,9 +9,9 @@
 module ppmc312_window (
     input  wire logic clk_i,       // clock
     input  wire logic rst_ni,      // reset, asynchronous
-    input  wire logic set_i,       // strobe: latch enable_i and repeat_i
-    input  wire logic enable_i,    // 1: start the monitor
-    input  wire logic repeat_i,    // 0: the monitor ends after one report
+    input  wire logic set_i,       // strobe: latch enable_i and repeat_i; restart
+    input  wire logic enable_i,    // with set_i: 1: enable, 0: disable the monitor
+    input  wire logic repeat_i,    // with set_i: 0: the monitor ends after one report
     input  wire logic evaluate_i,  // 1: the state follows inside_i
     input  wire logic inside_i,    // 1: the position is within the range
     output logic      enabled_o,   // 1: the monitor is active

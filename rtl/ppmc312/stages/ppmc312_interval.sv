@@ -2,10 +2,9 @@
 // ppmc312_interval: determines when the next pulse of a motion begins and how long it lasts. The rate is the
 //         number of base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
-// Timing: due_o is combinational. For pulse 1 it is asserted WidthXtal (in cycles) after arm_i; for pulse k +
-//         1 so that the pulse fires exactly ceil(ticks * cycles per tick) cycles after pulse 1; with the
-//         external clock on the tick itself. Two pulses are at least 4 cycles apart; lost time is not made
-//         up.
+// Timing: due_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
+//         pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1; with the external clock,
+//         on the tick itself. Two pulses are at least 4 cycles apart; lost time is not made up.
 // Note:   ppmc_base_clock and ppmc_rate_counter need 3 cycles per base clock; here a base clock may last one
 //         cycle.
 `include "ppmc_assert.svh"
@@ -114,7 +113,7 @@ module ppmc312_interval #(
       end else begin
         if (elapsed_now) past_q <= 1'b1;
         if (!old) age_q <= age_q + 1'b1;
-        // may wrap below 0; past_q is 1 by then
+        // left_q may wrap below 0; past_q is 1 by then
         if (tick) left_q <= left_q - 1'b1;
       end
     end

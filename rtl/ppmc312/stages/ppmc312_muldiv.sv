@@ -4,7 +4,7 @@
 // Rules:  P312-TBL-02/04, P312-MOT-11 (exact integer products and quotients).
 // Timing: busy_o is high for steps_i cycles after start_i, for a division one cycle more; then the result is
 //         valid.
-// Assumes: h < operand < 2**(HiBits - 1) for a division.
+// Assumes: for a division, h < operand < 2**(HiBits - 1); h is operand_i in the cycle of start_i.
 // How:    multiply: h + operand * (low bits of lo_i), shifted right; after n steps the low n bits of the
 //         result are on top of lo. Divide: {hi, lo} by the operand, shifted left; after n steps hi is the
 //         remainder and the low n bits of lo are the quotient. The division is non-restoring: the next step,

@@ -22,9 +22,9 @@ module ppmc312_stage_builder
     output logic busy_o,  // from the cycle after start_i until all is written
     output logic thin_o,  // a stage has at most 1 pulse; valid until the next start
     output entry_t entry_o,  // write port of the table
-    output logic [1:0] begins_o,  // strobes: first stage of the sides, unless a later one follows
-    input wire logic [6:0] first_acc_i,  // acceleration side: last stage of begins_o, 0 .. 126
-    input wire logic [6:0] first_dec_i,  // deceleration side: last stage of begins_o, 0 .. 126
+    output logic [1:0] begins_o,  // strobes: first stage of a side, if no later strobe follows
+    input wire logic [6:0] first_acc_i,  // stage of the last begins_o[0], 0 .. 126
+    input wire logic [6:0] first_dec_i,  // stage of the last begins_o[1], 0 .. 126
     // arithmetic, shared with the planner
     output logic op_start_o,  // strobe: start an operation
     output logic op_mul_o,  // 1: multiply, 0: divide

@@ -21,7 +21,7 @@ package ppmc312_stage_pkg;
   typedef struct packed {
     logic [6:0]  stage;
     logic        part;   // 1: with only some pulses of this stage
-    logic [23:0] left;   // number of these pulses
+    logic [23:0] left;   // with part: number of pulses
   } walk_t;
 
   // Ramp of an initialisation, or description of a free curve when its transfer begins.
@@ -43,7 +43,7 @@ package ppmc312_stage_pkg;
     logic [2:0]  base;       // base clock, see ppmc312_interval
     logic [6:0]  first_acc;  // first stage of each side
     logic [6:0]  first_dec;
-    logic [15:0] rate_acc;   // rate of this first stage
+    logic [15:0] rate_acc;   // rate of the first stage of each side
     logic [15:0] rate_dec;
     logic [15:0] fast;       // high-speed rate
     logic [23:0] acc;        // pulses of each side

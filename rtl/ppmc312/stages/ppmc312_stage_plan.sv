@@ -3,10 +3,11 @@
 //         deceleration.
 // Rules:  P312-MOT-10..13 (kinds, pulses of the sides), P312-GEN-06 (t(x)).
 // Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles; a plan with an
-//         end at most 7 cycles more, a triangular one 60. If the deceleration side does not begin with a full
-//         stage, 5 cycles + its number of stages are added. Results are valid until the next start.
+//         end takes at most 7 cycles more, a triangular one 60. If the deceleration does not begin with a
+//         full stage, 5 cycles + the stages of the deceleration side are added. Results are valid until the
+//         next start.
 // How:    one pass reads the table upward and adds the pulses of the sides. It keeps the sums at the last
-//         stage that is fast enough: one for stages of both sides, one for stages of only one side.
+//         stage that is fast enough: of stages that both sides have, and of stages that only one side has.
 // Note:   t(x) is output as it is and plus 1; "no such stage" is the stage before the first used one. Rates
 //         need not fall with the stages.
 `default_nettype none
@@ -50,9 +51,9 @@ module ppmc312_stage_plan
   typedef enum logic [3:0] {
     StIdle,
     StFind,      // look-up and sums
-    StOwn,       // adds the stages that only one side has,
-    StAcc,       // the acceleration of stages that both sides have,
-    StDec,       // and their deceleration: the total
+    StOwn,       // adds pulses of stages that only one side has
+    StAcc,       // adds acceleration pulses of stages that both sides have
+    StDec,       // adds deceleration pulses of these stages: total
     StKind,
     StDecOwn,    // adds all pulses of the deceleration side
     StDecAll,
@@ -61,7 +62,7 @@ module ppmc312_stage_plan
     StRestDec,
     StMultiply,
     StDivide,
-    StSplit,     // acceleration of a triangular profile
+    StSplit,     // adds the acceleration of a triangular profile
     StSplitOwn,
     StMeet       // searches the start of the deceleration
   } state_e;
@@ -69,7 +70,7 @@ module ppmc312_stage_plan
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
   logic [1:0] valid_q, in_acc_q, in_dec_q;  // stage is in the side: [0] this one, [1] the one before
-  // StMeet, one cycle late: no pulse is left, or below 0; first cycle; the stage counts.
+  // In StMeet, one cycle late: no pulse left, result below 0, first cycle, stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;

@@ -2,10 +2,11 @@
 // ppmc312_stage_seq: selects what the next pulse of a motion along a stage table does: its rate, or the end
 //         of the motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
-// Timing: next_* are valid from 4 cycles after a pulse. A request acts if it precedes the boundary: slow_i by
-//         2 cycles, change_i by 5 for a constant rate and by 9 for a ramp. When a stage becomes a constant
-//         rate, a search for t(rate) takes 129 cycles: after that boundary a ramp begins 136 cycles later or
-//         more, a deceleration to the end (only where rates do not fall) 132 cycles or more.
+// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if it is high 2 cycles
+//         before it; change_i acts if it occurs 5 cycles before the boundary (constant rate) or 9 cycles
+//         (ramp). When a stage becomes a constant rate, a search for t(rate) takes 129 cycles: a ramp begins
+//         at the earliest 136 cycles after that boundary, a deceleration to the end (only where rates do not
+//         fall) 132 cycles.
 // How:    the running interval is a stage (up or down) or a constant rate. Flags are compared in the first
 //         cycle; then the decision is made and delayed two cycles, while the stage that it needs is read.
 // Note:   a boundary is the end of an interval; with step_i = 1 a pulse begins there.
@@ -32,9 +33,9 @@ module ppmc312_stage_seq
     input  wire logic          change_ramp_i,  // 1: change along the table; 2 cycles after change_i
     input  wire logic          slow_i,         // 1: decelerate to the end
     // decision
-    output logic               next_end_o,     // no pulse: the motion ends,
-    output logic               next_low_o,     // because there is nothing to decelerate
-    output logic               next_count_o,   // because the last pulse has been output
+    output logic               next_end_o,     // no further pulse: the motion ends
+    output logic               next_low_o,     // end, because there is nothing to decelerate
+    output logic               next_count_o,   // end, because the last pulse has been output
     output logic               next_slow_o,    // slow_i has been evaluated
     output logic               next_walk_o,    // the deceleration to the end begins
     output logic        [15:0] next_rate_o,    // rate of the next interval, base clocks
@@ -55,9 +56,9 @@ module ppmc312_stage_seq
     logic drop;   // the deceleration to the end begins
     logic fixed;  // the rate is read from the table
     logic enter;  // a stage begins, with all its pulses
-    logic part;   // or with some of them
+    logic part;   // a stage begins, with some of its pulses
     logic used;   // the held change is consumed
-    logic take;   // and its rate becomes the constant rate
+    logic take;   // the held rate becomes the constant rate
     logic own;    // the rate of this stage becomes the constant rate
   } choice_t;
 
@@ -65,7 +66,7 @@ module ppmc312_stage_seq
     logic flat;
     logic down;
     logic walk;
-    logic last;     // deceleration to the end of the count
+    logic last;     // deceleration that ends with the count
     logic changed;
   } mode_t;
 
