@@ -41,7 +41,7 @@ module ppmc312_carrier #(
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            wrq_n,
     output logic            irq_n,
-    // switches, drive and encoder; active low, except epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,

@@ -164,7 +164,8 @@ module ppmc312_exec
   assign evt_n = inner ? flags[0] : flags[1];
   assign evt_count = stored_i.event_count[evt_n];
   assign empty = evt_count == '0;
-  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;  // event pin in use
+  // The event pin is in use by the other kind of trigger (command FIFO or event buffer).
+  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;
   assign full = inner ? evt_count == 3'd4 : stored_i.fifo_count == 4'd8;
   assign registers = act && verdict == VerdictGo && (inner ? !flags[1] : ov) && !used && !full;
   assign copy = registers;
