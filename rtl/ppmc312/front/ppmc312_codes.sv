@@ -39,7 +39,7 @@ module ppmc312_codes
       I_MASK: begin
         bytes = 4'd1;
         info.flagged = 1'b1;
-        info.flags = 8'h01;  // repeat after each report
+        info.flags = 8'h01;  // RES: monitoring continues after a report
       end
       S_END, S_ERROR, S_COUNTS:                                              info.local_read = 1'b1;
       8'h41: begin
