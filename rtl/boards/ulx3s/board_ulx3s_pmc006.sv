@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and pmc006_carrier.sv; change those, not this.
 // board_ulx3s_pmc006: PMC006B4 on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz from the 25 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/pmc006/pins.lpf.
-// Timing: of pmc006_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/pmc006/pins.lpf.
+// Timing: see pmc006_carrier.
 `default_nettype none
 
 module board_ulx3s_pmc006 #(
@@ -51,7 +51,7 @@ module board_ulx3s_pmc006 #(
     // what happens
     output logic            mon_step,
     output logic            mon_dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0    // boot pin of the ESP32
