@@ -43,12 +43,12 @@ module board_ulx3s_pmc006 #(
     output logic      [4:0] gpo,
     // converter: one bus, two strobes
     input  wire logic [9:0] conv,
-    input  wire logic       adc_stb,      // rises: conv is the voltage of GPI1
-    input  wire logic       bemf_stb,     // rises: conv is the back-EMF
+    input  wire logic       adc_stb,      // rising edge: conv is the voltage of GPI1
+    input  wire logic       bemf_stb,     // rising edge: conv is the back-EMF
     // EEPROM: 1 pulls low
     inout  wire logic       scl,
     inout  wire logic       sda,
-    // what happens
+    // monitor
     output logic            mon_step,
     output logic            mon_dir,
     // LEDs, 1 = on
