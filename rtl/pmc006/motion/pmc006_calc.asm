@@ -8,19 +8,19 @@
 ; (M…), constants (K…), registers (R…), conditions, outputs and phases.
 ;
 ;   load X           hi = X
-;   add X            hi = hi + X; Carry: it did not fit
+;   add X            hi = hi + X; Carry: overflow
 ;   sub X            hi = hi - X; Carry: X was not greater
-;   load.lo, add.lo, sub.lo    the same, but the result goes to lo, and hi = 0
+;   load.lo, add.lo, sub.lo    the same with the result in lo, and hi = 0
 ;   mul.N X          {hi, lo} = hi + X * (the lowest N bits of lo); N = 1, 2, 16, 32. After 16 the product is RMid
 ;   shift.N          {hi, lo} moves right by N bits; it is mul.N K0
 ;   div X            lo = {hi, lo} / X, hi = the remainder
 ;   add.dec, sub.dec, div.dec  with RWay of the deceleration
 ;   root             VN = square root of lo, hi = 0; VN must be 0 before
 ;   store M          word M = hi
-;   out O            output O = hi; out Acc, out Dec: that coefficient goes up by one
-;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp is over
-;   jump L [if C]    go on at label L; without a condition always
-;   halt             the run is over
+;   out O            output O = hi; out Acc, out Dec: increment that coefficient
+;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp has ended
+;   jump L [if C]    continue at label L if condition C is true; without a condition, always
+;   halt             end of the run
 ;
 ; Abbreviations: V current speed, VN next speed, LT live target, VE = VSTOP, R steps left, na, nd the
 ; coefficients.
