@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_timer_fv: proves in every cycle and for every limit that past_o is high if that number of crystal
-// cycles has passed.
+// ppmc_xtal_timer_fv: proves in every cycle and for every limit that past_o is high if and only if that number
+// of crystal cycles has passed.
 `include "ppmc_fv.svh"
 `default_nettype none
 

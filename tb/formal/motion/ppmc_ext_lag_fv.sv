@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag_fv: proves that the time from a pulse to the first base edge is added after the last base edge
-// of the interval, exact to the cycle.
+// ppmc_ext_lag_fv: proves to the cycle that the time before the first base edge of an interval and the time
+// after its last one add up to the extra time, unless the former alone is at least as long.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -12,7 +12,7 @@ module ppmc_pace_fv
     input wire logic [7:0] code_i
 );
 
-  localparam int unsigned Longest = 200;  // cycles of a command other than an initialisation
+  localparam int unsigned Longest = 200;  // limit in cycles of a command other than an initialisation
 
   action_t act_i, act_o;
   logic [ 7:0] code_o;

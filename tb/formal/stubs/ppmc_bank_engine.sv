@@ -10,7 +10,7 @@ module ppmc_bank_engine
   import ppmc_code_pkg::init_code_t;
 #(
     parameter int unsigned Quantum   = 25,    // cycles
-    parameter int unsigned TimeBits  = 18,    // width of an interval in cycles
+    parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
     parameter bit          PhaseIdle = 1'b1,
     parameter int unsigned RoundBits = 5
 ) (
