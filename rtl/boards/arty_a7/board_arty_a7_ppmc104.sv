@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/arty_a7/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_arty_a7_ppmc104: PPMC-104 with UART or bus host on Arty A7-35T, -100T (XC7A35T, XC7A100T), clk 100 MHz, its
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/arty_a7/ppmc104/pins.xdc. For Vivado; linted, but not
-//         built or run by this project.
-// Timing: of ppmc104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/arty_a7/ppmc104/pins.xdc. For Vivado; linted, but not built
+//         or run by this project.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_arty_a7_ppmc104 #(
@@ -49,7 +49,7 @@ module board_arty_a7_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led
 );
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/de10nano/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_de10nano_ppmc104: PPMC-104 with UART or bus host on DE10-Nano (5CSEBA6U23I7), clk 50 MHz, its oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/de10nano/ppmc104/pins.qsf. For Quartus; linted, but not
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/de10nano/ppmc104/pins.qsf. For Quartus; linted, but not
 //         built or run by this project.
-// Timing: of ppmc104_carrier.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_de10nano_ppmc104 #(
@@ -48,7 +48,7 @@ module board_de10nano_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led
 );
 

@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc104: PPMC-104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
 //         the bridge.
-// Timing: of ppmc104_carrier.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc104 #(
@@ -37,7 +37,7 @@ module board_icebreaker_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

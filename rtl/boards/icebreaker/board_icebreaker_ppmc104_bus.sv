@@ -2,10 +2,10 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc104_bus: PPMC-104 with bus host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc104-bus/pins.pcf. The three PMODs have 24
-//         pins: S5, HOLD, L3*, L4*, ALM*, CLOCK, AUX* are given up, and so are AUXI, AUXO, CSEL, VSEL. The break-off
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc104-bus/pins.pcf. The three PMODs have 24
+//         pins, so S5, HOLD, L3*, L4*, ALM*, CLOCK, AUX*, AUXI, AUXO, CSEL and VSEL have no pins. The break-off
 //         section must not be connected to PMOD 2: its buttons would act as limit switches.
-// Timing: of ppmc104_carrier.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc104_bus #(
@@ -32,7 +32,7 @@ module board_icebreaker_ppmc104_bus #(
     output logic      [4:1] s,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

@@ -2,10 +2,10 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc2104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc2104: PPMC-2104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc2104/pins.pcf. CSEL, RUN and ERRINT are
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc2104/pins.pcf. CSEL, RUN and ERRINT are
 //         straps of the bridge; S5 of axis 1, the phases of axis 2, the external base clocks and AUXI have no pins.
 //         The break-off section must be off.
-// Timing: of ppmc2104_carrier.
+// Timing: see ppmc2104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc2104 #(
@@ -34,7 +34,7 @@ module board_icebreaker_ppmc2104 #(
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and stmc_carrier.sv; change those, not this.
 // board_icebreaker_stmc: J105 STMC with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/stmc/pins.pcf.
-// Timing: of stmc_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/stmc/pins.pcf.
+// Timing: see stmc_carrier.
 `default_nettype none
 
 module board_icebreaker_stmc #(
@@ -29,7 +29,7 @@ module board_icebreaker_stmc #(
     // motor
     output logic      [5:1] s,
     output logic            hold,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/tangnano20k/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_tangnano20k_ppmc312: PPMC-312 with UART host on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from the 27
 //         MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k/ppmc312/pins.cst. Two general inputs and two
-//         general outputs only, and no bus; the header has no more pins.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano20k/ppmc312/pins.cst. Only two general inputs and
+//         two general outputs, and no bus, because the header has no more pins.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_tangnano20k_ppmc312 #(
@@ -44,7 +44,7 @@ module board_tangnano20k_ppmc312 #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [1:0] auxo_n,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic      [3:0] led_n
 );
 

@@ -2,11 +2,11 @@
 // Written by `make boards` from constraints/tangnano20k/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_tangnano20k_ppmc312_serial: PPMC-312 in serial mode on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from
 //         the 27 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k/ppmc312-serial/pins.cst. Frames are taken from
-//         the USB-UART and from the RS-485 line, replies go to both. The header has no pins left for general inputs
-//         and outputs, the external base clock, hsp (no function) and mod[2] (1 at all speeds); adr lies on the
-//         lamps.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano20k/ppmc312-serial/pins.cst. Frames are accepted
+//         from the USB-UART and from the RS-485 line; replies are sent to both. The header has no pins left for
+//         general inputs and outputs, the external base clock, hsp (no function) and mod[2] (1 at all speeds). adr
+//         uses the LED pins.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_tangnano20k_ppmc312_serial #(

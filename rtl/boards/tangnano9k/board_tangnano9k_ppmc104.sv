@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/tangnano9k/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_tangnano9k_ppmc104: PPMC-104 with UART or bus host on Tang Nano 9K (GW1NR-LV9QN88PC6/I5), clk 54 MHz from the
 //         27 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano9k/ppmc104/pins.cst. Two of the AUXI pins are
-//         given up: the header has 37 pins with 3.3 V.
-// Timing: of ppmc104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano9k/ppmc104/pins.cst. Two of the AUXI inputs have no
+//         pins, because the header has only 37 pins with 3.3 V.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_tangnano9k_ppmc104 #(
@@ -49,7 +49,7 @@ module board_tangnano9k_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic      [3:0] led_n
 );
 

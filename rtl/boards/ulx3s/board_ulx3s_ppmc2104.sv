@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc2104_carrier.sv; change those, not this.
 // board_ulx3s_ppmc2104: PPMC-2104 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc2104/pins.lpf.
-// Timing: of ppmc2104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/ppmc2104/pins.lpf.
+// Timing: see ppmc2104_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc2104 #(
@@ -51,7 +51,7 @@ module board_ulx3s_ppmc2104 #(
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32

@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_ulx3s_ppmc312: PPMC-312 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc312/pins.lpf.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/ppmc312/pins.lpf.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc312 #(
@@ -54,7 +54,7 @@ module board_ulx3s_ppmc312 #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32

@@ -2,9 +2,9 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_ulx3s_ppmc312_serial: PPMC-312 in serial mode on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc312-serial/pins.lpf. Frames are taken from the
-//         USB-UART and from the RS-485 line, replies go to both.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/ppmc312-serial/pins.lpf. Frames are accepted from the
+//         USB-UART and from the RS-485 line; replies are sent to both.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc312_serial #(
@@ -52,7 +52,7 @@ module board_ulx3s_ppmc312_serial #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0  // boot pin of the ESP32

@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/ulx3s_v31/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_ulx3s_v31_ppmc104: PPMC-104 with UART or bus host on ULX3S v3.1.6 … v3.1.8 (LFE5U-25F, -85F, CABGA381), clk
 //         100 MHz from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s_v31/ppmc104/pins.lpf.
-// Timing: of ppmc104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s_v31/ppmc104/pins.lpf.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_ulx3s_v31_ppmc104 #(
@@ -48,7 +48,7 @@ module board_ulx3s_v31_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32
