@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds a deframer with the characters of a line and prints the events that it reports, for scripts/fuzz.
+// Feeds a deframer with the characters of a line and prints the events that it reports, for scripts/measure/fuzz.
 //
 // Standard input: words of 16 bits, lowest byte first. Bits 7:0: a character; bit 8: the character has no
 // stop bit; bit 9: a silence instead of a character.

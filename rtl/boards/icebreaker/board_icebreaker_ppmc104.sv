@@ -10,18 +10,18 @@
 module board_icebreaker_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
     input  wire logic       clock,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,

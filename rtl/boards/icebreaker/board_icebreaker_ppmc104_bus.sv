@@ -11,12 +11,12 @@
 module board_icebreaker_ppmc104_bus #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0         // level of s before the first initialisation
+    parameter bit          PHASE_IDLE = 1'b0         // level of s until the first initialisation
 ) (
     input  wire logic       clk_12m,     // 12 MHz
     input  wire logic       btn_n,       // 0: reset
     input  wire logic       host_rst_n,  // 0: reset, from the host
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -24,7 +24,7 @@ module board_icebreaker_ppmc104_bus #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       cnp_n,

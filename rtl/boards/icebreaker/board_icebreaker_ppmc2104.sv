@@ -11,16 +11,16 @@
 module board_icebreaker_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
-    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0: as on the old chip
+    parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // switches, 0 = active
+    // switches, active low
     input  wire logic [2:1] fl_n,
     input  wire logic [2:1] bl_n,
     input  wire logic [2:1] fhl_n,

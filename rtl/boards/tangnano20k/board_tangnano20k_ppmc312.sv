@@ -10,15 +10,15 @@
 module board_tangnano20k_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter              TIMING  = "FAST",
-    parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_27m,   // 27 MHz
     input  wire logic       btn,       // 1: reset
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,

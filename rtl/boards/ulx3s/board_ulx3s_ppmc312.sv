@@ -10,16 +10,16 @@ module board_ulx3s_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter              TIMING  = "FAST",
     parameter              HOST    = "UART",      // or "BUS", "SERIAL"
-    parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
     input  wire logic       host_rst_n,  // 0: reset, from the host
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; unless HOST = "BUS" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,
@@ -28,7 +28,7 @@ module board_ulx3s_ppmc312 #(
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            wrq_n,
     output logic            irq_n,
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,
