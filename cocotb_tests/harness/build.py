@@ -27,9 +27,7 @@ from typing import Any
 import cocotb_tools.config
 from cocotb_tools.runner import as_sv_literal, get_runner
 
-from openppmc.sim.common import verilator
-from openppmc.sim.common.build import copy_runtime
-from openppmc.sim.common.verilator import seen_from
+from openppmc.sim.common.build import copy_runtime, seen_from, verilator_command, verilator_environment
 
 from .config import Config
 from .part import PARTS
@@ -104,18 +102,18 @@ def verilate(
     """
     # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program is
     # asked for the functions of our main program by their names (`native`).
-    libs = verilator.seen_from(folder, cocotb_tools.config.libs_dir)
+    libs = seen_from(folder, cocotb_tools.config.libs_dir)
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
     words += ["--timescale", "1ps/1ps", *(["--trace"] if waves else []), *args]
     words += map(str, (*MAINS[main], *sources))
     jobs = str(min(4, os.cpu_count() or 1))
     with open(log, "w", encoding="utf-8") as out:
-        for command in (verilator.command(words, folder), ["make", "-j", jobs, "-f", "Vtop.mk"]):
+        for command in (verilator_command(words, folder), ["make", "-j", jobs, "-f", "Vtop.mk"]):
             subprocess.run(
                 command,
                 cwd=folder,
-                env=verilator.environment(folder),
+                env=verilator_environment(folder),
                 stdin=subprocess.DEVNULL,
                 stdout=out,
                 stderr=subprocess.STDOUT,
@@ -322,9 +320,9 @@ def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
         for value in (*good, *bad):
             words = ["--lint-only", "-Wno-WIDTH", "--top-module", design.top, f"-G{name}={value}", *files]
             done = subprocess.run(
-                verilator.command(words, ROOT),
+                verilator_command(words, ROOT),
                 cwd=ROOT,
-                env=verilator.environment(ROOT),
+                env=verilator_environment(ROOT),
                 capture_output=True,
                 text=True,
                 check=False,

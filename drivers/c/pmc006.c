@@ -19,7 +19,7 @@
 typedef struct {
     char code;
     char reader;  /* instruction that reads it; its own code: a write out of range reads */
-    int32_t read; /* data of that */
+    int32_t read; /* data of the reader instruction */
     int32_t low, high;
 } setting_t;
 
@@ -80,7 +80,7 @@ static uint8_t sum_of(const uint8_t *frame)
     return (uint8_t)(sum & 0xFFu);
 }
 
-/* One frame and its reply from `from`. */
+/* Send one frame and receive its reply from `from`. */
 static ppmc104_result_t exchange(const pmc006_t *dev, char code, uint32_t data, uint8_t from, uint32_t *reply)
 {
     const ppmc_line_t *line = dev->line;
@@ -119,8 +119,9 @@ static ppmc104_result_t exchange(const pmc006_t *dev, char code, uint32_t data, 
     return PPMC104_OK;
 }
 
-/* Replies do not name their instruction: after a silence or a damaged reply a late one would answer the next question.
- * The word pointer is written until that very value returns. */
+/* Replies do not contain the code of their instruction: after a silence or a damaged reply, a late reply
+ * would answer the next request. Therefore the word pointer is written until exactly its value is
+ * returned. */
 static ppmc104_result_t in_step(pmc006_t *dev)
 {
     unsigned n;
@@ -230,7 +231,7 @@ ppmc104_result_t pmc006_set_address(pmc006_t *dev, unsigned address)
     return result;
 }
 
-/* An instruction that begins a write to the EEPROM, and its end. */
+/* Send an instruction that begins a write to the EEPROM, and wait for its end. */
 static ppmc104_result_t write_eeprom(pmc006_t *dev, char code)
 {
     unsigned long polls = 0;
@@ -282,7 +283,7 @@ ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status)
     status->forward = (two & 16) != 0;
     status->autostart = (two & 32) != 0;
     if (result == PPMC104_OK && status->ext_on != dev->ext) {
-        dev->known = dev->known && dev->ext == 0u; /* it was reset, or switched on by a program */
+        dev->known = dev->known && dev->ext == 0u; /* it was reset, or a program switched it on */
         dev->ext = status->ext_on;
     }
     return result;
@@ -310,7 +311,7 @@ static ppmc104_result_t count_of(pmc006_t *dev, uint32_t *count)
     return result;
 }
 
-/* Compare what a reset would have changed. */
+/* Compare the values that a reset would have changed. */
 static ppmc104_result_t look_for_reset(pmc006_t *dev)
 {
     pmc006_status_t status;
@@ -349,7 +350,7 @@ ppmc104_result_t pmc006_set_position(pmc006_t *dev, int32_t position)
     ppmc104_result_t result;
 
     if (dev->moving) {
-        return PMC006_ERR_BUSY; /* its end could not be confirmed */
+        return PMC006_ERR_BUSY; /* the end could not be confirmed */
     }
     result = look_for_reset(dev);
     if (result == PPMC104_OK) {
@@ -374,7 +375,7 @@ ppmc104_result_t pmc006_outputs(pmc006_t *dev, uint8_t bits)
 
 /* ---- motions ---- */
 
-/* Checks before a start; the direction; where it begins. */
+/* Check the conditions of a start; set the direction; store the position. */
 static ppmc104_result_t prepare(pmc006_t *dev, bool forward)
 {
     pmc006_status_t status;
@@ -395,7 +396,8 @@ static ppmc104_result_t prepare(pmc006_t *dev, bool forward)
     return result == PPMC104_OK ? count_of(dev, &dev->begin) : result;
 }
 
-/* A start is not repeated: a lost reply does not say whether the motor moves, pmc006_wait() does. */
+/* A start is not repeated: a lost reply does not indicate whether the motor moves; pmc006_wait() finds
+ * out. */
 static ppmc104_result_t begin(pmc006_t *dev, char code, int32_t data, bool endless, int32_t steps)
 {
     int32_t reply = 0;
@@ -535,7 +537,7 @@ ppmc104_result_t pmc006_wait(pmc006_t *dev, pmc006_end_t *end)
     return PPMC104_OK;
 }
 
-/* A motion and its end; PMC006_ERR_NO_SWITCH unless all steps were made. */
+/* Make a motion and wait for its end; PMC006_ERR_NO_SWITCH unless all steps were made. */
 static ppmc104_result_t travel(pmc006_t *dev, int32_t steps)
 {
     pmc006_end_t end = {false, false, false, false, false, 0, 0};
@@ -561,7 +563,7 @@ ppmc104_result_t pmc006_home(pmc006_t *dev, unsigned ext, bool forward, int32_t 
     result = pmc006_clear_stops(dev);
     if (result == PPMC104_OK) result = pmc006_get(dev, PMC006_PORTS, &ports);
     if (result == PPMC104_OK) result = pmc006_get(dev, PMC006_EXT_EDGE, &edge);
-    /* The edge counts: from a switch that is on already the motor moves off first. */
+    /* The stop acts on an edge: if the switch is active already, the motor moves off it first. */
     if (result == PPMC104_OK && ((ports >> 10 & bit) != 0) == ((edge & bit) != 0)) {
         result = travel(dev, away);
     }
@@ -597,7 +599,7 @@ ppmc104_result_t pmc006_program(pmc006_t *dev, const uint32_t *words, unsigned c
     for (n = 0; n < count && result == PPMC104_OK; ++n) {
         result = pmc006_ask(dev, 'G', 0, &reply);
         if (result == PPMC104_OK && (uint32_t)reply != words[n]) {
-            return PMC006_ERR_REFUSED; /* a program runs, or the buffer is being burnt */
+            return PMC006_ERR_REFUSED; /* a program is running, or the buffer is being burnt */
         }
     }
     return result;

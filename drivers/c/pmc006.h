@@ -24,10 +24,10 @@ extern "C" {
 
 /** Settings of pmc006_set() and pmc006_get(): letter of the instruction, range, factory value. */
 #define PMC006_ACCELERATION 'u'     /**< 0 .. 5: 1700 * 2^n steps/s^2; 0 */
-#define PMC006_DECELERATION 'o'     /**< likewise */
+#define PMC006_DECELERATION 'o'     /**< the same */
 #define PMC006_MAX_SPEED 'v'        /**< 1 .. 16 000; 1000 after each power-up */
 #define PMC006_START_SPEED 'L'      /**< 65 .. 3000, not above the maximum speed; 600 */
-#define PMC006_STOP_SPEED 'S'       /**< likewise */
+#define PMC006_STOP_SPEED 'S'       /**< the same */
 #define PMC006_MICROSTEPS 'm'       /**< 0, 2, 4, 8, 16, 32, 64, 128; 16 */
 #define PMC006_CURRENT 'e'          /**< peak current in mA, 400 .. 4000; 800 */
 #define PMC006_REDUCE 'a'           /**< 1: reduced current at standstill; 1. Write only: see pmc006_status_t */
@@ -62,8 +62,8 @@ typedef struct {
 
 /** Status 1 and 2. */
 typedef struct {
-    bool busy;          /**< a motion is planned or runs */
-    bool ext1, ext2;    /**< stopped by EXT1, EXT2: starts are refused until pmc006_clear_stops() */
+    bool busy;          /**< a motion is planned or running */
+    bool ext1, ext2;    /**< stopped by EXT1, EXT2: starts are rejected until pmc006_clear_stops() */
     bool reduce;        /**< current reduction at standstill is on */
     bool stall;         /**< stalled */
     bool released;      /**< no current */
@@ -85,38 +85,41 @@ typedef struct {
 
 /** Fill `dev`; nothing is sent. @param address 1 .. 120, or PMC006_FACTORY */
 ppmc104_result_t pmc006_setup(pmc006_t *dev, const ppmc_line_t *line, unsigned address);
-/** Wait until the controller answers: it is deaf for up to 80 ms after power-up. Motions continue; position unknown. */
+/** Wait until the controller responds: it accepts no frames for up to 80 ms after power-up. Motions
+ * continue; position unknown. */
 ppmc104_result_t pmc006_open(pmc006_t *dev);
 
 /** @name Settings
- * They act until the next power-up, after pmc006_save() longer where the manual allows it. PMC006_ERR_REFUSED: the
- * controller kept its old value. @{ */
+ * A setting is valid until the next power-up; after pmc006_save() longer, if the manual allows it.
+ * PMC006_ERR_REFUSED: the controller kept its old value. @{ */
 ppmc104_result_t pmc006_set(pmc006_t *dev, char setting, int32_t value);
 ppmc104_result_t pmc006_get(pmc006_t *dev, char setting, int32_t *value);
 /** Change the address, 1 .. 120. */
 ppmc104_result_t pmc006_set_address(pmc006_t *dev, unsigned address);
-/** Save the settings in the EEPROM and wait for the end of the write (the original does not report that). */
+/** Save the settings in the EEPROM and wait for the end of the write (the original device does not report
+ * it). */
 ppmc104_result_t pmc006_save(pmc006_t *dev);
 /** @} */
 
 /** @name Motions
- * They return when the controller has accepted them. @{ */
+ * The functions return when the controller has accepted the motion. @{ */
 /** Move. @param steps forward positive, not 0, not -2^31 */
 ppmc104_result_t pmc006_move(pmc006_t *dev, int32_t steps);
-/** Move to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is there already. */
+/** Move to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is reached already. */
 ppmc104_result_t pmc006_move_to(pmc006_t *dev, int32_t position);
 /** Run at constant speed until a stop. @param speed 1 .. 16 000; PMC006_MAX_SPEED changes it later */
 ppmc104_result_t pmc006_run(pmc006_t *dev, bool forward, int32_t speed);
-/** Stop at once. No error at standstill. */
+/** Stop immediately. No error at standstill. */
 ppmc104_result_t pmc006_stop(pmc006_t *dev);
-/** Decelerate, then stop: only after pmc006_run(). PMC006_ERR_REFUSED in a move, which has no such instruction. */
+/** Decelerate, then stop: only after pmc006_run(). PMC006_ERR_REFUSED in a move, because it has no such
+ * instruction. */
 ppmc104_result_t pmc006_stop_slowly(pmc006_t *dev);
 /**
- * Find a switch at EXT1 or EXT2, move off it by `back` steps and set the position to 0. Waits for all of it; the limit
- * of the waits must be long enough.
+ * Find a switch at EXT1 or EXT2, move off it by `back` steps and set the position to 0. Waits for the
+ * complete sequence; the limit of the waits must be long enough.
  * @param ext 1 or 2
  * @param back 1 or more
- * @return PMC006_ERR_NO_SWITCH: the motion ended without it
+ * @return PMC006_ERR_NO_SWITCH: the motion ended before the switch was active
  */
 ppmc104_result_t pmc006_home(pmc006_t *dev, unsigned ext, bool forward, int32_t back);
 /** @} */
@@ -124,8 +127,9 @@ ppmc104_result_t pmc006_home(pmc006_t *dev, unsigned ext, bool forward, int32_t 
 /**
  * Wait for the end of the motion that this driver started.
  * @param end may be null; valid if the result is PPMC104_OK
- * @return PPMC104_UNCONFIRMED: the motor is at standstill, and neither the position nor a flag of the controller nor a
- *         stop that was sent explains it, for example after a reset; PMC006_ERR_REFUSED: no motion was started
+ * @return PPMC104_UNCONFIRMED: the motor is at standstill, and this is explained neither by the position
+ * nor by a flag of the controller nor by a stop that was sent, for example after a reset;
+ * PMC006_ERR_REFUSED: no motion was started
  */
 ppmc104_result_t pmc006_wait(pmc006_t *dev, pmc006_end_t *end);
 
@@ -133,9 +137,9 @@ ppmc104_result_t pmc006_status(pmc006_t *dev, pmc006_status_t *status);
 /** Clear the flags of EXT1, EXT2 and the stall. */
 ppmc104_result_t pmc006_clear_stops(pmc006_t *dev);
 /**
- * Step counter of the controller.
- * @return PPMC104_POSITION_UNKNOWN: not set since pmc006_open(), or the controller was reset. The driver notices a
- *         reset by the loss of PMC006_MAX_SPEED (other than 1000) and PMC006_EXT_ON
+ * Return the step counter of the controller.
+ * @return PPMC104_POSITION_UNKNOWN: not set since pmc006_open(), or the controller was reset. The driver
+ * detects a reset by the loss of PMC006_MAX_SPEED (other than 1000) and PMC006_EXT_ON
  */
 ppmc104_result_t pmc006_position(pmc006_t *dev, int32_t *position);
 ppmc104_result_t pmc006_set_position(pmc006_t *dev, int32_t position);
@@ -144,17 +148,18 @@ ppmc104_result_t pmc006_outputs(pmc006_t *dev, uint8_t bits);
 
 /** @name Program
  * Words as in the manual: opcode and option, then the operand. @{ */
-/** Load into the program buffer and read back. @param count 1 .. PMC006_WORDS_MAX */
+/** Load words into the program buffer and read them back. @param count 1 .. PMC006_WORDS_MAX */
 ppmc104_result_t pmc006_program(pmc006_t *dev, const uint32_t *words, unsigned count);
 /** Burn the buffer into the EEPROM and wait for the end of the write. */
 ppmc104_result_t pmc006_program_burn(pmc006_t *dev);
-/** Run from an instruction, 0 .. 99. The position counts on; motions of a program are not waited for. */
+/** Run the program from an instruction, 0 .. 99. The position counter continues; the driver does not wait
+ * for motions of a program. */
 ppmc104_result_t pmc006_program_run(pmc006_t *dev, unsigned instruction);
 /** Halt the program; it does not run after power-up either (PMC006_AUTOSTART). A motion continues. */
 ppmc104_result_t pmc006_program_halt(pmc006_t *dev);
 /** @} */
 
-/** One frame and its reply, without repetition; for instructions that have no function here. */
+/** Send one frame and read its reply, without repetition; for instructions that have no function here. */
 ppmc104_result_t pmc006_ask(pmc006_t *dev, char code, int32_t data, int32_t *reply);
 
 #ifdef __cplusplus

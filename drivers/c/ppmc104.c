@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Driver for the PPMC-104 stepper controller; what each function does is said in ppmc104.h. */
+/* Driver for the PPMC-104 stepper controller; ppmc104.h documents the functions. */
 #include "ppmc104.h"
 
 #include <stddef.h>
@@ -21,7 +21,7 @@
 #define CODE_INPUTS 0x81u
 #define CODE_OUTPUTS 0x82u
 #define CODE_REMAINING 0x83u
-#define CODE_UNKNOWN 0x87u /* of no command of this part or its sisters: refused, without any other effect */
+#define CODE_UNKNOWN 0x87u /* unknown to this part and related devices: rejected, without any other effect */
 #define CODE_SWITCHING 0x84u
 #define CODE_AUX_INPUTS 0x85u
 #define CODE_AUX_OUTPUTS 0x86u
@@ -122,7 +122,7 @@ ppmc104_result_t ppmc104_rate_from_pps(const ppmc104_speed_t *speed, uint32_t pp
         whole = speed->xtal_hz - extra;
         part = 4u * base_quanta(speed) * pps;
     }
-    /* The interval is what is rounded: the speed is in error by at most half a step of it. */
+    /* The interval is rounded, so the error of the speed is at most that of half a rate step. */
     count = (whole + part / 2u) / part;
     if (count < 1u || count > 256u) {
         return PPMC104_BAD_ARGUMENT;
@@ -145,7 +145,7 @@ uint32_t ppmc104_rate_to_mpps(const ppmc104_speed_t *speed, uint8_t rate)
         whole = speed->xtal_hz;
         part = 4u * (count * base_quanta(speed) + (speed->extra ? EXTRA_QUANTA : 0u));
     }
-    /* In two steps, so that 32 bits are enough. */
+    /* In two steps, so that 32 bits are sufficient. */
     return whole / part * 1000u + whole % part * 1000u / part;
 }
 
@@ -194,9 +194,10 @@ ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8
     }
 }
 
-/* Status once a motion whose last byte was taken has begun. With DATASHEET timing BUSY rises 27 .. 112 us after that
- * byte, and bytes wait for it (P104-DS-03, STMC-BUS-13): so one that does nothing is sent if BUSY is 0. It may stay in
- * the buffer when BUSY rises: the old chip takes only stops during a fast motion (P104-DS-12). */
+/* Return the status after a motion whose last byte was accepted has begun. With DATASHEET timing, BUSY
+ * rises 27 .. 112 us after that byte, and bytes wait for it (P104-DS-03, STMC-BUS-13). Therefore a byte
+ * without effect is sent if BUSY is 0. It may stay in the buffer when BUSY rises: the old chip accepts
+ * only stops during a fast motion (P104-DS-12). */
 static ppmc104_result_t settle(ppmc104_t *dev, uint8_t *status)
 {
     ppmc104_result_t result = ppmc104_poll(dev, PPMC104_STATUS_IBF, 0u, PPMC104_STATUS_BUSY, status);
@@ -214,7 +215,7 @@ bool ppmc104_busy(ppmc104_t *dev)
     uint8_t status = ppmc104_status(dev);
 
     if (dev->starting && settle(dev, &status) != PPMC104_OK) {
-        return true; /* not known to be at rest */
+        return true; /* not known to be at standstill */
     }
     return (status & PPMC104_STATUS_BUSY) != 0u;
 }
@@ -230,8 +231,8 @@ ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8
     return result;
 }
 
-/* One byte: room for it, the write, and what the part made of it. A stop does not wait for room during a motion: what
- * it may replace is a byte whose own call did not wait for it any longer. */
+/* Send one byte: wait for an empty buffer, write, check the response of the part. A stop does not wait for
+ * an empty buffer during a motion: it may replace only a byte whose own call has timed out. */
 static ppmc104_result_t put(ppmc104_t *dev, unsigned reg, uint8_t value)
 {
     const bool stop = reg == PPMC104_REG_STATUS && (value == CODE_STOP || value == CODE_STOP_SLOWLY);
@@ -334,7 +335,7 @@ ppmc104_result_t ppmc104_init(ppmc104_t *dev, const ppmc104_config_t *config)
 
 /* ---- operations ---- */
 
-/* `skip`: parameters that the operation does not have, counted from the rate byte. */
+/* `skip`: number of parameters that the operation does not have, counted from the rate byte. */
 static ppmc104_result_t operate(ppmc104_t *dev, unsigned op, uint8_t flags, uint8_t allowed, uint8_t rate,
                                 uint32_t pulses, unsigned skip, unsigned count)
 {
@@ -518,7 +519,7 @@ uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number)
     return number != 0u || (finish->raw & FINISH_CAUSES) != 0u ? number + 1u : 0u;
 }
 
-/* ---- the rest ---- */
+/* ---- other functions ---- */
 
 ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off)
 {

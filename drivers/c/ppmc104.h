@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file ppmc104.h
- * Driver for the PPMC-104 stepper controller: C99, no dependencies, no heap, no floating point, no globals.
- *
- * The driver reaches the part through two functions that the user supplies, one for a read cycle and one
- * for a write cycle. All waits are bounded. One ppmc104_t serves one part; calls for the same part must not
- * overlap (lock them, or keep them in one thread).
- *
- * Speeds are rate bytes, as the part takes them; ppmc104_rate_from_pps() and ppmc104_rate_to_mpps()
- * translate. Distances are pulses.
+ * Driver for the PPMC-104 stepper controller: C99, no dependencies, no heap, no floating point, no
+ * globals.
+ * The driver accesses the part through two functions that the user supplies, one for a read access and
+ * one for a write access. All waits are bounded. One ppmc104_t serves one part; calls for the same part
+ * must not overlap (lock them, or keep them in one thread).
+ * Speeds are rate bytes, as in the commands of the part; ppmc104_rate_from_pps() and
+ * ppmc104_rate_to_mpps() convert them. Distances are pulses.
  */
 #ifndef PPMC104_H
 #define PPMC104_H
@@ -26,23 +25,23 @@ extern "C" {
 
 /** Bits of the status register. */
 #define PPMC104_STATUS_OBF 0x01u  /**< a byte can be fetched */
-#define PPMC104_STATUS_IBF 0x02u  /**< do not write yet */
-#define PPMC104_STATUS_BUSY 0x04u /**< an operation runs */
-#define PPMC104_STATUS_ERR 0x80u  /**< the last byte was refused; bits 6..4 say why */
+#define PPMC104_STATUS_IBF 0x02u  /**< wait before the next write */
+#define PPMC104_STATUS_BUSY 0x04u /**< an operation is running */
+#define PPMC104_STATUS_ERR 0x80u  /**< the last byte was rejected; bits 6..4: reason */
 
-/** Result of every function that talks to the part. 1 .. 8 are the part's error numbers 0 .. 7, plus one. */
+/** Result of every function that accesses the part. 1 .. 8 are the part's error numbers 0 .. 7, plus one. */
 typedef enum {
     PPMC104_OK = 0,
-    PPMC104_ERR_UNKNOWN = 1,        /**< number 0: no such command, or a stop with nothing to stop */
-    PPMC104_ERR_BUSY = 2,           /**< number 1: not while an operation runs */
-    PPMC104_ERR_UNINITIALISED = 3,  /**< number 2: an operation before a good initialisation */
-    PPMC104_ERR_DATA = 4,           /**< number 3: a data byte nobody asked for, at rest */
+    PPMC104_ERR_UNKNOWN = 1,        /**< number 0: unknown command, or a stop without a motion */
+    PPMC104_ERR_BUSY = 2,           /**< number 1: not allowed while an operation is running */
+    PPMC104_ERR_UNINITIALISED = 3,  /**< number 2: an operation before a valid initialisation */
+    PPMC104_ERR_DATA = 4,           /**< number 3: a data byte that was not requested, at standstill */
     PPMC104_ERR_RAMP_LONG = 5,      /**< number 4: ramp longer than 11 220 pulses */
     PPMC104_ERR_RAMP = 6,           /**< number 5: high speed below start speed, or ramp below 4 pulses */
-    PPMC104_ERR_DATA_BUSY = 7,      /**< number 6: a data byte nobody asked for, during an operation */
-    PPMC104_ERR_DECELERATING = 8,   /**< number 7: it decelerates already */
-    PPMC104_TIMEOUT = 16,           /**< the part did not get ready within the limit */
-    PPMC104_NO_PART = 17,           /**< as TIMEOUT, and what was read cannot come from a part */
+    PPMC104_ERR_DATA_BUSY = 7,      /**< number 6: a data byte that was not requested, in an operation */
+    PPMC104_ERR_DECELERATING = 8,   /**< number 7: already decelerating */
+    PPMC104_TIMEOUT = 16,           /**< the part was not ready within the limit */
+    PPMC104_NO_PART = 17,           /**< as TIMEOUT, and the bytes read cannot come from a part */
     PPMC104_BAD_ARGUMENT = 18,      /**< out of range; nothing was sent */
     PPMC104_UNCONFIRMED = 19,       /**< the part does not confirm the end of the motion: it was reset, or the counts
                                      *   disagree; its position is unknown */
@@ -52,29 +51,29 @@ typedef enum {
     /* PPMC-2104: its error numbers 1 .. 13, plus 32. */
     PPMC2104_ERR_UNKNOWN = 33,       /**< no such instruction */
     PPMC2104_ERR_DATA = 34,          /**< a data byte that no instruction requested */
-    PPMC2104_ERR_CUT = 35,           /**< an unfinished instruction was dropped */
+    PPMC2104_ERR_CUT = 35,           /**< an unfinished instruction was discarded */
     PPMC2104_ERR_UNINITIALISED = 36, /**< no initial setting */
-    PPMC2104_ERR_BUSY = 37,          /**< not while the axis moves */
-    PPMC2104_ERR_STANDSTILL = 38,    /**< nothing to stop */
-    PPMC2104_ERR_START = 39,         /**< limit, alarm or origin active: nothing moves */
-    PPMC2104_ERR_NO_RAMP = 40,       /**< nothing to decelerate: the motion continues */
+    PPMC2104_ERR_BUSY = 37,          /**< not allowed while the axis moves */
+    PPMC2104_ERR_STANDSTILL = 38,    /**< no motion to stop */
+    PPMC2104_ERR_START = 39,         /**< limit, alarm or origin active: no motion */
+    PPMC2104_ERR_NO_RAMP = 40,       /**< no deceleration possible: the motion continues */
     PPMC2104_ERR_RAMP = 41,          /**< rates or ramp too short */
     PPMC2104_ERR_RAMP_LONG = 42,     /**< ramp longer than 11 220 pulses */
     PPMC2104_ERR_SWITCHING = 43,     /**< chopper time below 64 */
     PPMC2104_ERR_FAST = 44,          /**< faster than one axis may run (DATASHEET) */
     PPMC2104_ERR_FAST_BOTH = 45,     /**< faster than both axes may run (DATASHEET) */
-    /* PPMC-312: rejections; ppmc312_t::detail has the part's numbers. */
+    /* PPMC-312: rejections; ppmc312_t::detail contains the part's numbers. */
     PPMC312_ERR_PARAMETER = 64, /**< F0: a value is out of range */
-    PPMC312_ERR_STATE = 65,     /**< F1: not in this state */
+    PPMC312_ERR_STATE = 65,     /**< F1: not allowed in this state */
     PPMC312_ERR_LIMIT = 66,     /**< F2: the limit in the direction of the motion is active */
     PPMC312_ERR_ALARM = 67,     /**< F4: alarm; the part needs ppmc312_driver(dev, PPMC312_ALARM_CLEAR) */
     PPMC312_ERR_UNKNOWN = 68,   /**< F5: no such instruction */
     PPMC312_ERR_SIZE = 69,      /**< F6: wrong size */
-    PPMC312_ERR_FULL = 70,      /**< F7: buffer full, or the event pin serves the other buffer */
+    PPMC312_ERR_FULL = 70,      /**< F7: buffer full, or the other buffer uses the event pin */
     PPMC312_ERR_BUS_ONLY = 71,  /**< the serial line does not have this instruction; nothing was sent */
     /* PMC006B4 */
     PMC006_ERR_REFUSED = 96,  /**< the controller kept its old value, or did not start */
-    PMC006_ERR_BUSY = 97,     /**< not while a motion runs */
+    PMC006_ERR_BUSY = 97,     /**< not allowed while a motion is running */
     PMC006_ERR_EEPROM = 98,   /**< the EEPROM is busy, or the save has failed */
     PMC006_ERR_NO_SWITCH = 99 /**< the motion ended without the switch */
 } ppmc104_result_t;
@@ -82,53 +81,55 @@ typedef enum {
 /** Last operation: written by the driver only. */
 typedef struct {
     uint8_t operation; /**< 2 .. 7 as in ppmc104_finish_t, 0: the driver has not started one */
-    uint8_t flags;     /**< its flags */
-    uint8_t ended;     /**< its finish status, if it has been read */
-    bool counted;      /**< its end is confirmed and is part of the position */
+    uint8_t flags;     /**< flags of this operation */
+    uint8_t ended;     /**< finish status of this operation, if it was read */
+    bool counted;      /**< the end is confirmed and included in the position */
     uint32_t pulses;   /**< requested; operations without a count: 16 777 216 */
 } ppmc104_order_t;
 
-/** Polls of the status register in a wait, if ppmc104_t::limit is left as ppmc104_setup() sets it. */
+/** Polls of the status register in a wait, unless ppmc104_t::limit is changed after ppmc104_setup(). */
 #define PPMC104_DEFAULT_LIMIT 1000000ul
 
 /** One part. Fill it with ppmc104_setup(); `limit` and `give_up` may be changed at any time after it. */
 typedef struct {
-    uint8_t (*read)(void *ctx, unsigned reg);                 /**< one read cycle of register 0 or 1 */
-    void (*write)(void *ctx, unsigned reg, uint8_t value);    /**< one write cycle */
+    uint8_t (*read)(void *ctx, unsigned reg);                 /**< one read access of register 0 or 1 */
+    void (*write)(void *ctx, unsigned reg, uint8_t value);    /**< one write access */
     void *ctx;                                                /**< passed to the functions */
-    /** Polls before a wait ends with a time-out, at least 1. Leave room: after an initialisation the part may
-     *  be deaf for 40 000 clk (FAST) or 163 ms (DATASHEET). Not used if `give_up` is set. */
+    /** Polls before a wait ends with a time-out, at least 1. Choose a large value: after an initialisation
+     * the part may not respond for 40 000 cycles (FAST) or 163 ms (DATASHEET). Not used if `give_up` is
+     * set. */
     unsigned long limit;
-    /** If not null: called after each unsuccessful poll with the number of polls so far in this wait (from 1);
-     *  true ends the wait with a time-out. It may look at a clock, feed a watchdog or sleep. */
+    /** If not null: called after each unsuccessful poll with the number of polls so far in this wait (from
+     * 1); true ends the wait with a time-out. It may read a clock, feed a watchdog or sleep. */
     bool (*give_up)(void *ctx, unsigned long polls);
-    bool starting; /**< of the driver: an operation was accepted and has not been seen running */
+    bool starting; /**< of the driver: an operation was accepted, BUSY = 1 not read yet */
     uint8_t status_reg; /**< of the driver: number of the status register */
     uint8_t zero;  /**< of the driver: bits of the status register that read 0 on every part */
-    ppmc104_order_t order; /**< of the driver: what ppmc104_wait() expects */
+    ppmc104_order_t order; /**< of the driver: operation that ppmc104_wait() expects */
 } ppmc104_t;
 
 /** Base clock of the speeds. */
 typedef enum {
-    PPMC104_BASE_500K, /**< internal, pin CSEL = H: crystal / 32 */
-    PPMC104_BASE_125K, /**< internal, pin CSEL = L: crystal / 128 */
+    PPMC104_BASE_500K, /**< internal, pin CSEL high: crystal / 32 */
+    PPMC104_BASE_125K, /**< internal, pin CSEL low: crystal / 128 */
     PPMC104_BASE_PIN   /**< pin CLOCK */
 } ppmc104_base_t;
 
-/** What the wiring of the part says about its speeds. */
+/** Wiring of the part that determines its speeds. */
 typedef struct {
     uint32_t xtal_hz;    /**< parameter XTAL_HZ, 1 000 000 .. 16 000 000 */
-    ppmc104_base_t base; /**< which base clock */
-    uint32_t pin_hz;     /**< with PPMC104_BASE_PIN: its frequency, 1 .. xtal_hz / 16; else not used */
-    bool extra;          /**< pin VSEL = L: 7.5 us more per interval; not with PPMC104_BASE_PIN */
+    ppmc104_base_t base; /**< base clock */
+    uint32_t pin_hz;     /**< with PPMC104_BASE_PIN: frequency in Hz, 1 .. xtal_hz / 16; else not used */
+    bool extra;          /**< pin VSEL low: 7.5 us more per interval; not with PPMC104_BASE_PIN */
 } ppmc104_speed_t;
 
-/** Initialisation. motor, half_step and active_high count only after reset or ppmc104_excitation_off(). */
+/** Initialisation. motor, half_step and active_high take effect only after reset or
+ * ppmc104_excitation_off(). */
 typedef struct {
     uint8_t motor;       /**< phases: 3, 4 or 5 */
-    bool half_step;      /**< half instead of full steps */
-    bool active_high;    /**< H switches a coil on */
-    bool chop;           /**< phases chopped at rest */
+    bool half_step;      /**< half steps instead of full steps */
+    bool active_high;    /**< a high level switches a coil on */
+    bool chop;           /**< phases chopped at standstill */
     bool external_clock; /**< base clock from pin CLOCK */
     uint8_t rate_start;  /**< RL, rate of the first and last pulses, high_rate .. 255 */
     uint8_t rate_high;   /**< RH, rate on the plateau, 0 .. rate_start */
@@ -139,20 +140,20 @@ typedef struct {
 #define PPMC104_CW 0x00u
 #define PPMC104_CCW 0x08u        /**< direction CCW; else CW */
 #define PPMC104_NO_INT 0x10u     /**< no interrupt at the end */
-#define PPMC104_POUT_ONLY 0x80u  /**< phases stand still; ppmc104_move() and ppmc104_run() only */
+#define PPMC104_POUT_ONLY 0x80u  /**< phases do not change; ppmc104_move() and ppmc104_run() only */
 
 /**
- * Finish status, decoded. `ended` and all causes false: complete, or the origin was found. A part that was reset has
- * `operation` 0: nothing is known then.
+ * Decoded finish status. If `ended` is true and all causes are false, the operation is complete, or the
+ * origin was found. A part that was reset reports `operation` 0: the end of the motion is unknown then.
  */
 typedef struct {
-    bool ended;        /**< an operation has ended since the last time this was read */
-    bool stopped;      /**< by a stop command */
-    bool alarm;        /**< by the alarm input */
-    bool limit;        /**< by L1 or L2 */
-    bool slow_limit;   /**< by L3 or L4 */
+    bool ended;        /**< an operation has ended since the last read of this status */
+    bool stopped;      /**< cause: stop command */
+    bool alarm;        /**< cause: alarm input */
+    bool limit;        /**< cause: L1 or L2 */
+    bool slow_limit;   /**< cause: L3 or L4 */
     uint8_t operation; /**< 2 step, 3 move, 4 constant, 5 jog, 6 run, 7 home */
-    uint8_t raw;       /**< the byte itself */
+    uint8_t raw;       /**< undecoded byte */
 } ppmc104_finish_t;
 
 /** Pins of ppmc104_inputs(), 0 = active. */
@@ -167,112 +168,120 @@ typedef struct {
 const char *ppmc104_strerror(ppmc104_result_t result);
 
 /**
- * Nearest rate byte for a speed.
+ * Return the nearest rate byte for a speed.
  * @param pps  pulses per second, 1 .. 500 000
  * @param rate the byte, if the result is PPMC104_OK
- * @return PPMC104_BAD_ARGUMENT if `speed` is not legal or the speed is out of its reach
+ * @return PPMC104_BAD_ARGUMENT if `speed` is not legal, or if no rate byte is possible for this speed
  */
 ppmc104_result_t ppmc104_rate_from_pps(const ppmc104_speed_t *speed, uint32_t pps, uint8_t *rate);
 
 /**
- * Speed of a rate byte in thousandths of a pulse per second, rounded down.
+ * Return the speed of a rate byte in thousandths of a pulse per second, rounded down.
  * @return 0 if `speed` is not legal
  */
 uint32_t ppmc104_rate_to_mpps(const ppmc104_speed_t *speed, uint8_t rate);
 
-/** Fill `dev`; no bus cycle. */
+/** Fill `dev`, without a bus access. */
 void ppmc104_setup(ppmc104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
                    void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx);
 
-/** Is there a part that answers? Reads the input signals; nothing else changes. Not during an operation. */
+/** Check that a part responds. Only reads the input signals. Not during an operation. */
 ppmc104_result_t ppmc104_probe(ppmc104_t *dev);
 
 /** Initialise. Never moves the motor. Values out of range: PPMC104_BAD_ARGUMENT. */
 ppmc104_result_t ppmc104_init(ppmc104_t *dev, const ppmc104_config_t *config);
 
 /** @name Operations
- * They return as soon as the part has accepted them. `flags` is a sum of the flags above, `pulses` is
- * 1 .. 16 777 216. @{ */
+ * The functions return when the part has accepted the operation. `flags` is a sum of the flags above,
+ * `pulses` is 1 .. 16 777 216. @{ */
 ppmc104_result_t ppmc104_step(ppmc104_t *dev, uint8_t flags);
 /** With acceleration and deceleration, at the rates of the initialisation. */
 ppmc104_result_t ppmc104_move(ppmc104_t *dev, uint8_t flags, uint32_t pulses);
 ppmc104_result_t ppmc104_move_constant(ppmc104_t *dev, uint8_t flags, uint8_t rate, uint32_t pulses);
-/** At constant speed until a stop or the hard limit. */
+/** Move at constant speed until a stop or the hard limit. */
 ppmc104_result_t ppmc104_jog(ppmc104_t *dev, uint8_t flags, uint8_t rate);
-/** Accelerates, then runs until a stop or the slow-down limit. */
+/** Accelerate, then run until a stop or the slow-down limit. */
 ppmc104_result_t ppmc104_run(ppmc104_t *dev, uint8_t flags);
-/** At constant speed until the origin input; no pulse if it is active already. */
+/** Move at constant speed until the origin input is active; no pulse if it is active already. */
 ppmc104_result_t ppmc104_home(ppmc104_t *dev, uint8_t flags, uint8_t rate);
 /** @} */
 
-/** No further pulse. PPMC104_ERR_UNKNOWN if nothing runs. During a motion a stop replaces a byte that still waits. */
+/** Stop without a further pulse. PPMC104_ERR_UNKNOWN without a motion. In a motion, a stop replaces a
+ * waiting byte. */
 ppmc104_result_t ppmc104_stop(ppmc104_t *dev);
-/** Decelerate, then end. PPMC104_ERR_DECELERATING if it does already, PPMC104_ERR_UNKNOWN if nothing runs. */
+/** Decelerate, then end. PPMC104_ERR_DECELERATING if already decelerating, PPMC104_ERR_UNKNOWN without a
+ * motion. */
 ppmc104_result_t ppmc104_stop_slowly(ppmc104_t *dev);
 
-/** Status register; needs no handshake. */
+/** Return the status register; needs no handshake. */
 uint8_t ppmc104_status(ppmc104_t *dev);
 /**
- * True while an operation runs, from the return of the function that started it on. A part with DATASHEET timing shows
- * BUSY up to 112 us later (rule P104-DS-03); the first call after a start may wait for that with an unknown command,
- * which leaves error 0 in the status register. True as well if that wait ends with a time-out.
+ * Return true while an operation is running, beginning with the return of the function that started it.
+ * With DATASHEET timing, BUSY rises up to 112 us later (rule P104-DS-03). Therefore the first call after a
+ * start may wait for BUSY with an unknown command, which leaves error 0 in the status register. The result
+ * is also true if this wait ends with a time-out.
  */
 bool ppmc104_busy(ppmc104_t *dev);
 /**
- * Wait for the end of the operation, then read the finish status (which clears the interrupt) and compare it and the
- * remaining pulses with the operation that was started. An interrupt routine may have read the finish status before.
- * The limit of the waits (`limit`, `give_up`) must be long enough for the motion.
+ * Wait for the end of the operation, then read the finish status (which clears the interrupt). Compare it
+ * and the remaining pulses with the operation that was started. An interrupt routine may have read the
+ * finish status before. The limit of the waits (`limit`, `give_up`) must be long enough for the motion.
  * @param finish may be null; valid if the result is PPMC104_OK or PPMC104_UNCONFIRMED
- * @return PPMC104_UNCONFIRMED: the part was reset during the motion, runs another program's motion, or disagrees about
- *         the count
+ * @return PPMC104_UNCONFIRMED: the part was reset during the motion, runs a motion of another program, or
+ * its count disagrees
  */
 ppmc104_result_t ppmc104_wait(ppmc104_t *dev, ppmc104_finish_t *finish);
 
 /** @name Reads
- * Not during an operation (PPMC104_ERR_BUSY). @{ */
+ * Not allowed during an operation (PPMC104_ERR_BUSY). @{ */
 /**
- * Lifts the interrupt. Call it before the next operation of an interrupt-driven program: once that runs, the part
- * refuses, the interrupt stays, and the end makes no new edge. So a routine for a late interrupt takes PPMC104_ERR_BUSY
- * as "not now" and returns.
+ * Read the finish status, which clears the interrupt. An interrupt-driven program must call it before the
+ * next operation: during the next operation the part rejects the read, the interrupt stays pending, and
+ * the end causes no new edge. Therefore a routine for a late interrupt treats PPMC104_ERR_BUSY as "not
+ * now" and returns.
  */
 ppmc104_result_t ppmc104_finish(ppmc104_t *dev, ppmc104_finish_t *finish);
 ppmc104_result_t ppmc104_inputs(ppmc104_t *dev, uint8_t *levels);          /**< PPMC104_IN_..., 0 = active */
 ppmc104_result_t ppmc104_outputs(ppmc104_t *dev, uint8_t *levels);         /**< S1..S5, hold, dir: bits 7..3, 2, 1 */
 ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< AUXI3..0 in bits 3..0 */
 /**
- * Pulses that the last operation did not put out, 0 .. 16 777 216. Uses and keeps no finish status, so the
- * caller gives the one of this operation: the part's number alone cannot tell 0 pulses from 1.
- * @return PPMC104_UNCONFIRMED if that is the finish status of a part that was reset
+ * Return the pulses that the last operation did not make, 0 .. 16 777 216. The function does not read the
+ * finish status, and the driver does not store it. Therefore the caller passes the one of this operation:
+ * the number of the part alone does not distinguish 0 pulses from 1.
+ * @return PPMC104_UNCONFIRMED if this is the finish status of a part that was reset
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
-/** What the part's number of remaining pulses means after a motion with this finish status. */
+/** Convert the part's number of remaining pulses to pulses, for a motion with this finish status. */
 uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number);
 /** @} */
 
-/** Chopper times at rest, 0 .. 255: about 3 us each plus 27 us (on) and 33 us (off). Not during an operation. */
+/** Set the chopper times at standstill, 0 .. 255: about 3 us each plus 27 us (on) and 33 us (off). Not
+ * during an operation. */
 ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off);
-/** Bits 3..0: 1 puts L on AUXO3..0. Always allowed. */
+/** Bits 3..0: 1 drives AUXO3..0 low. Always allowed. */
 ppmc104_result_t ppmc104_aux_outputs(ppmc104_t *dev, uint8_t bits);
-/** Pin AUX: true puts L on it. Always allowed. */
+/** Pin AUX: true drives it low. Always allowed. */
 ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on);
 /**
- * All coils off, initialisation void. PPMC104_ERR_BUSY during an operation: the part would take it for AUX ON. At rest
- * it is sent behind a command that the part does not know, which comes through only once a motion that was just sent
- * has begun (see ppmc104_busy()).
+ * Switch all coils off; the initialisation becomes void. PPMC104_ERR_BUSY during an operation, because the
+ * part would execute the code as AUX ON. At standstill the code is sent after a command that the part does
+ * not know. The part accepts that command only when a motion that was just sent has begun (see
+ * ppmc104_busy()).
  */
 ppmc104_result_t ppmc104_excitation_off(ppmc104_t *dev);
 
 /** @name Bytes
  * For commands that have no function here. @{ */
-/** A command and its parameters; after each byte the part is asked whether it took it. count 0 .. 4. */
+/** Send a command and its parameters; after each byte, check whether the part has accepted it. count 0 ..
+ * 4. */
 ppmc104_result_t ppmc104_command(ppmc104_t *dev, uint8_t code, const uint8_t *data, unsigned count);
-/** One data byte. */
+/** Send one data byte. */
 ppmc104_result_t ppmc104_data(ppmc104_t *dev, uint8_t value);
-/** `count` bytes of an answer, low byte first. count 1 .. 4. */
+/** Read `count` bytes of an answer, low byte first. count 1 .. 4. */
 ppmc104_result_t ppmc104_fetch(ppmc104_t *dev, unsigned count, uint32_t *value);
-/** A read command and its answer of `count` bytes. */
+/** Send a read command and read its answer of `count` bytes. */
 ppmc104_result_t ppmc104_ask(ppmc104_t *dev, uint8_t code, unsigned count, uint32_t *value);
-/** A read command and its answer of one byte. */
+/** Send a read command and read its answer of one byte. */
 ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
 /** @} */
 
@@ -280,13 +289,13 @@ ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
  * Shared by the drivers of the other parts; programs do not need it. @{ */
 /** Poll until status & mask == value, or a bit of `or_set` is 1; `status` receives the last byte read. */
 ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status);
-/** Whether a wait has taken too long after this number of unsuccessful polls. */
+/** Return whether a wait has exceeded its limit after this number of unsuccessful polls. */
 bool ppmc104_over(ppmc104_t *dev, unsigned long polls);
 /** Wait until IBF = 0, or until a bit of `or_set` is 1, then write a byte. */
 ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set);
-/** Decode a finish status; the end of `order` is remembered in it. */
+/** Decode a finish status, and store the end of the operation in `order`. */
 void ppmc104_decode_finish(uint8_t raw, ppmc104_order_t *order, ppmc104_finish_t *finish);
-/** Replace a finish status that was read before by the remembered one. */
+/** Replace a finish status that was read before by the stored one. */
 void ppmc104_recall(ppmc104_order_t *order, ppmc104_finish_t *finish);
 /** Compare the finish status and the part's number of remaining pulses with the order. */
 ppmc104_result_t ppmc104_confirm(const ppmc104_order_t *order, const ppmc104_finish_t *finish, uint32_t number);

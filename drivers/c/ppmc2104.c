@@ -68,7 +68,8 @@ bool ppmc2104_busy(ppmc2104_t *dev, unsigned axis)
     return is_axis(axis) && (ppmc2104_status(dev) & busy_bit(axis)) != 0u;
 }
 
-/* Discard what others left unread: with DATASHEET timing it stays until the next answer is ready. */
+/* Discard bytes that another program left unread: with DATASHEET timing they stay until the next answer is
+ * ready. */
 static ppmc104_result_t drain(ppmc2104_t *dev)
 {
     unsigned n;
@@ -94,7 +95,8 @@ static ppmc104_result_t fetch_byte(ppmc2104_t *dev, uint8_t code, uint8_t *byte)
     return result;
 }
 
-/* Read and clear both error registers; the first one that is not 0, of `axis` before the other, is the result. */
+/* Read and clear both error registers. The result is the first error that is not 0, with that of `axis`
+ * first. */
 static ppmc104_result_t read_errors(ppmc2104_t *dev, unsigned axis)
 {
     uint8_t number[2] = {0u, 0u}, first;
@@ -254,7 +256,7 @@ static ppmc104_result_t send_motion(ppmc2104_t *dev, unsigned axis, const ppmc21
     /* The pulses-only bit is bit 7 of the code in both parts. */
     result = ppmc2104_command(dev, for_axis(0x40u | motion->flags | (unsigned)motion->op, axis), data, count);
     if (result == PPMC104_OK || result == PPMC104_TIMEOUT) {
-        /* Without the confirmed end of the last motion nothing is known. */
+        /* Without the confirmed end of the last motion the position is unknown. */
         dev->known[axis - 1u] = dev->known[axis - 1u] && (order->operation == 0u || order->counted);
         order->operation = (uint8_t)motion->op;
         order->flags = motion->flags;
@@ -342,7 +344,7 @@ static ppmc104_result_t stop_by(ppmc2104_t *dev, unsigned axis, unsigned code)
         return PPMC104_BAD_ARGUMENT;
     }
     result = ppmc2104_command(dev, for_axis(code, axis), NULL, 0u);
-    /* The stop acts although it ended an unfinished instruction (P2104-STP-07). */
+    /* The stop takes effect although it ended an unfinished instruction (P2104-STP-07). */
     return result == PPMC2104_ERR_CUT ? PPMC104_OK : result;
 }
 
@@ -416,7 +418,7 @@ ppmc104_result_t ppmc2104_wait(ppmc2104_t *dev, unsigned axis, ppmc104_finish_t 
         dev->known[axis - 1u] = false;
         order->operation = 0u;
     } else if (!order->counted) {
-        /* An origin search has no cause bit and leaves pulses all the same. */
+        /* An origin search has no cause bit, but may leave pulses. */
         made = order->pulses - (finish->operation == PPMC2104_HOME ? number + 1u : ppmc104_left(finish, number));
         made = (order->flags & PPMC104_CCW) != 0u ? ~made + 1u : made;
         dev->position[axis - 1u] = ppmc104_signed((uint32_t)dev->position[axis - 1u] + made);
@@ -454,7 +456,7 @@ ppmc104_result_t ppmc2104_set_position(ppmc2104_t *dev, unsigned axis, int32_t p
     return PPMC104_OK;
 }
 
-/* ---- the rest ---- */
+/* ---- other functions ---- */
 
 ppmc104_result_t ppmc2104_inputs(ppmc2104_t *dev, unsigned axis, uint8_t *levels)
 {

@@ -71,7 +71,7 @@ typedef struct {
 } ppmc2104_motion_t;
 
 /**
- * Fill `dev`; no bus cycle.
+ * Fill `dev`, without a bus access.
  * @param run may be null, see ppmc2104_t
  */
 void ppmc2104_setup(ppmc2104_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
@@ -88,16 +88,17 @@ ppmc104_result_t ppmc2104_open(ppmc2104_t *dev);
 ppmc104_result_t ppmc2104_init(ppmc2104_t *dev, unsigned axis, const ppmc2104_config_t *config);
 
 /** @name Motions
- * They return when the part has accepted them. PPMC2104_ERR_START: a limit, the alarm or the origin is active; nothing
- * moves. @{ */
+ * The functions return when the part has accepted the motion. PPMC2104_ERR_START: a limit, the alarm or
+ * the origin is active; nothing moves. @{ */
 ppmc104_result_t ppmc2104_start(ppmc2104_t *dev, unsigned axis, const ppmc2104_motion_t *motion);
 /** Move with ramps. @param pulses CW positive, -16 777 216 .. 16 777 216, not 0 */
 ppmc104_result_t ppmc2104_move(ppmc2104_t *dev, unsigned axis, int32_t pulses);
-/** Move with ramps to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is there already or too far. */
+/** Move with ramps to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is reached already
+ * or too far. */
 ppmc104_result_t ppmc2104_move_to(ppmc2104_t *dev, unsigned axis, int32_t position);
 /**
- * Start both axes on the same clock edge: `run` takes RUN low, both motions are sent, `run` takes RUN high. If one of
- * them is rejected, neither axis moves.
+ * Start both axes on the same clock edge: `run` sets RUN low, both motions are sent, `run` sets RUN high.
+ * If one of them is rejected, neither axis moves.
  * @return PPMC104_BAD_ARGUMENT without `run`
  */
 ppmc104_result_t ppmc2104_start_both(ppmc2104_t *dev, const ppmc2104_motion_t *first,
@@ -111,9 +112,9 @@ ppmc104_result_t ppmc2104_stop(ppmc2104_t *dev, unsigned axis);
 ppmc104_result_t ppmc2104_stop_slowly(ppmc2104_t *dev, unsigned axis);
 /** @} */
 
-/** Status register; needs no handshake. */
+/** Return the status register; needs no handshake. */
 uint8_t ppmc2104_status(ppmc2104_t *dev);
-/** Whether an operation of the axis runs or waits for RUN. */
+/** Return whether an operation of the axis is running or waits for RUN. */
 bool ppmc2104_busy(ppmc2104_t *dev, unsigned axis);
 
 /**
@@ -126,40 +127,45 @@ bool ppmc2104_busy(ppmc2104_t *dev, unsigned axis);
 ppmc104_result_t ppmc2104_wait(ppmc2104_t *dev, unsigned axis, ppmc104_finish_t *finish);
 
 /**
- * Position of the axis at standstill: pulses since ppmc2104_set_position(), CW positive, modulo 2^32. The part has no
- * position counter; the driver counts the motions that ppmc2104_wait() has confirmed.
- * @return PPMC104_POSITION_UNKNOWN: not set, or lost at an unconfirmed end; PPMC2104_ERR_BUSY: call ppmc2104_wait()
+ * Return the position of the axis at standstill: pulses since ppmc2104_set_position(), CW positive, modulo
+ * 2^32. The part has no position counter; the driver counts the motions that ppmc2104_wait() has
+ * confirmed.
+ * @return PPMC104_POSITION_UNKNOWN: not set, or unknown after an unconfirmed end; PPMC2104_ERR_BUSY: call
+ * ppmc2104_wait()
  */
 ppmc104_result_t ppmc2104_position(ppmc2104_t *dev, unsigned axis, int32_t *position);
-/** State the position of the axis, for example 0 after PPMC2104_HOME. Only at standstill. */
+/** Set the position of the axis, for example to 0 after PPMC2104_HOME. Only at standstill. */
 ppmc104_result_t ppmc2104_set_position(ppmc2104_t *dev, unsigned axis, int32_t position);
 
 /** @name Reads
  * Not while the axis moves (PPMC2104_ERR_BUSY), except ppmc2104_aux_inputs(). @{ */
-/** Clears the interrupt of this axis. Call it before the next start in an interrupt-driven program. */
+/** Read the finish status, which clears the interrupt of this axis. An interrupt-driven program must call
+ * it before the next start. */
 ppmc104_result_t ppmc2104_finish(ppmc2104_t *dev, unsigned axis, ppmc104_finish_t *finish);
 ppmc104_result_t ppmc2104_inputs(ppmc2104_t *dev, unsigned axis, uint8_t *levels);  /**< PPMC2104_IN_... */
 ppmc104_result_t ppmc2104_outputs(ppmc2104_t *dev, unsigned axis, uint8_t *levels); /**< S1..S5, hold, dir */
-/** Pulses that the last motion did not make; `finish`: of this motion, see ppmc104_remaining(). */
+/** Return the pulses that the last motion did not make; `finish`: of this motion, see ppmc104_remaining(). */
 ppmc104_result_t ppmc2104_remaining(ppmc2104_t *dev, unsigned axis, const ppmc104_finish_t *finish, uint32_t *pulses);
 ppmc104_result_t ppmc2104_aux_inputs(ppmc2104_t *dev, uint8_t *levels); /**< AUXI1, AUXI0 in bits 1, 0 */
 /** @} */
 
-/** Chopper times at standstill in units of 0.5 us, 64 .. 255 each. Not while the axis moves. */
+/** Set the chopper times at standstill in units of 0.5 us, 64 .. 255 each. Not while the axis moves. */
 ppmc104_result_t ppmc2104_switching(ppmc2104_t *dev, unsigned axis, uint8_t on, uint8_t off);
-/** Time from the end of a motion to HOLD: 128 us * (units + 1). Not while the axis moves. */
+/** Set the time from the end of a motion to HOLD: 128 us * (units + 1). Not while the axis moves. */
 ppmc104_result_t ppmc2104_hold_delay(ppmc2104_t *dev, unsigned axis, uint8_t units);
-/** Bits 1, 0: 1 puts L on AUXO1, AUXO0. */
+/** Bits 1, 0: 1 drives AUXO1, AUXO0 low. */
 ppmc104_result_t ppmc2104_aux_outputs(ppmc2104_t *dev, uint8_t bits);
-/** All coils of the axis off, initial setting void, position unknown. Not while the axis moves. */
+/** Switch all coils of the axis off: the initial setting becomes void, the position unknown. Not while the
+ * axis moves. */
 ppmc104_result_t ppmc2104_excitation_off(ppmc2104_t *dev, unsigned axis);
 
 /**
- * A command and its parameters, and the part's check of both; for commands that have no function here.
+ * Send a command and its parameters, and read the part's check of both; for commands that have no function
+ * here.
  * @param count 0 .. 4
  */
 ppmc104_result_t ppmc2104_command(ppmc2104_t *dev, uint8_t code, const uint8_t *data, unsigned count);
-/** A read command and its answer of `count` bytes, 1 .. 3. */
+/** Send a read command and read its answer of `count` bytes, 1 .. 3. */
 ppmc104_result_t ppmc2104_ask(ppmc2104_t *dev, uint8_t code, unsigned count, uint32_t *value);
 
 #ifdef __cplusplus

@@ -64,14 +64,14 @@
 #define EVENT_BYTES 9u
 #define EVENT_BYTES_LINE 7u
 #define COLLECT_MAX 256u
-#define GAP_READS 4u /* after a block the next one appears 8 cycles or more later */
-#define LOOK_POLLS 256u /* polls of CSR between two looks at the state in a wait */
+#define GAP_READS 4u /* after a block, the next one appears at least 8 cycles later */
+#define LOOK_POLLS 256u /* polls of CSR between two status reads in a wait */
 
 /* Causes of END codes 31 .. 39 on the line. */
 static const uint8_t CAUSES[9] = {0x80u, 0x20u, 0x01u, 0x02u, 0u, 0x08u, 0x04u, 0x40u, 0x10u};
 
 typedef struct {
-    uint8_t header, code, count; /* count: data bytes behind the code */
+    uint8_t header, code, count; /* count: data bytes after the code */
     uint8_t data[BLOCK_MAX];
 } block_t;
 
@@ -168,14 +168,14 @@ static void keep(ppmc312_t *dev, uint8_t source, uint8_t code, const uint8_t *da
 
 /* ---- blocks on the bus ---- */
 
-/* Read the block that waits. What its pointer, length and header do not allow is damage on the bus. */
+/* Read the waiting block. A pointer, length or header that is not legal means damage on the bus. */
 static ppmc104_result_t read_block(ppmc312_t *dev, block_t *block)
 {
     uint8_t raw[BLOCK_MAX];
     unsigned count = POINTER_EMPTY - dev->bus.read(dev->bus.ctx, REG_POINTER), n;
 
     if (count < BLOCK_MIN || count > BLOCK_MAX) {
-        (void)dev->bus.read(dev->bus.ctx, REG_CONTROL); /* half read by others: from its begin */
+        (void)dev->bus.read(dev->bus.ctx, REG_CONTROL); /* partly read by another program: begin again */
         count = POINTER_EMPTY - dev->bus.read(dev->bus.ctx, REG_POINTER);
         if (count < BLOCK_MIN || count > BLOCK_MAX) {
             return PPMC104_BAD_REPLY;
@@ -196,7 +196,7 @@ static ppmc104_result_t read_block(ppmc312_t *dev, block_t *block)
     return PPMC104_OK;
 }
 
-/* Store a block that is not an answer to the host. A damaged one is an error. */
+/* Store a block that is not an answer to the host. A damaged block is an error. */
 static ppmc104_result_t sort(ppmc312_t *dev, const block_t *block)
 {
     const bool stopped = block->code == PPMC312_REPORT_STOPPED;
@@ -212,7 +212,7 @@ static ppmc104_result_t sort(ppmc312_t *dev, const block_t *block)
     return PPMC104_BAD_REPLY;
 }
 
-/* Fetch all that waits; an answer that no call waits for any more is dropped. */
+/* Fetch all waiting blocks; discard an answer whose call has ended. */
 static ppmc104_result_t collect_bus(ppmc312_t *dev)
 {
     block_t block;
@@ -285,7 +285,8 @@ static uint8_t digit(unsigned value)
     return (uint8_t)(value < 10u ? '0' + value : 'a' + value - 10u);
 }
 
-/* Value of a hexadecimal digit, 16 for anything else: capital letters are a fault on this line. */
+/* Return the value of a hexadecimal digit, 16 for any other character: capital letters are an error on
+ * this line. */
 static unsigned digit_value(uint8_t character)
 {
     if (character >= '0' && character <= '9') {
@@ -325,7 +326,7 @@ static ppmc104_result_t send_frame(const ppmc312_t *dev, uint8_t control, const 
     return PPMC104_OK;
 }
 
-/* Data bytes of a reply, as far as its kind and first byte decide. */
+/* Return the number of data bytes of a reply, as far as its kind and first byte determine it. */
 static unsigned reply_size(uint8_t kind, unsigned gives, const uint8_t *data, unsigned count)
 {
     if (kind == LINE_DATA) {
@@ -379,7 +380,7 @@ static ppmc104_result_t receive_frame(const ppmc312_t *dev, unsigned gives, uint
     return result;
 }
 
-/* Code and data on the line for an instruction of the bus; 0: the line does not have it. */
+/* Write code and data for the line for an instruction of the bus; return 0 if the line does not have it. */
 static unsigned to_line(const uint8_t *body, unsigned count, uint8_t *out)
 {
     static const uint8_t motions[5] = {0x83u, 0x84u, 0x82u, 0x86u, 0x85u}; /* of 82 .. 86 */
@@ -436,8 +437,9 @@ static unsigned line_gives(uint8_t code)
     }
 }
 
-/* An instruction in the codes of the line. Repeated after a rejected checksum, because nothing was executed then, and
- * if it only reads. Positions and states are read twice: the checksum does not cover bit 7 of a byte. */
+/* Send an instruction in the codes of the line. It is repeated after a rejected checksum, because nothing
+ * was executed then, and if it only reads. Positions and states are read twice, because the checksum does
+ * not cover bit 7 of a byte. */
 static ppmc104_result_t talk(ppmc312_t *dev, const uint8_t *body, unsigned count, uint8_t *data, uint8_t *error)
 {
     const unsigned gives = line_gives(body[0]);
@@ -470,7 +472,8 @@ static ppmc104_result_t talk(ppmc312_t *dev, const uint8_t *body, unsigned count
             return result;
         }
         if (result == PPMC104_OK) {
-            /* During a motion no two positions are equal: at last the upper bytes must do. */
+            /* During a motion no two positions are equal; in the last attempt only the upper bytes are
+             * compared. */
             const unsigned compared = body[0] != CODE_STATUS && attempt + 1u == ATTEMPTS ? gives - 2u : gives;
             bool same = have;
             for (n = 0; n < gives; ++n) {
@@ -551,7 +554,7 @@ static ppmc104_result_t exchange_line(ppmc312_t *dev, const uint8_t *body, unsig
         answer->data[n] = 0u;
     }
     if (body[0] == CODE_POSITION) {
-        first = 1u; /* the bus names the counter first */
+        first = 1u; /* the bus sends the number of the counter first */
         answer->data[0] = body[1];
     }
     if (body[0] == CODE_RESET) {
@@ -583,7 +586,7 @@ static ppmc104_result_t collect(ppmc312_t *dev)
     return news && result == PPMC104_OK ? PPMC104_BAD_REPLY : result;
 }
 
-/* `body`: code and parameters. A rejection becomes a result; any other code than the sent one is damage. */
+/* `body`: code and parameters. A rejection becomes a result; an answer with another code is damaged. */
 static ppmc104_result_t instruct(ppmc312_t *dev, uint8_t header, const uint8_t *body, unsigned count, uint8_t code,
                                  block_t *answer)
 {
@@ -633,7 +636,7 @@ ppmc104_result_t ppmc312_ask(ppmc312_t *dev, uint8_t code, const uint8_t *data, 
     return result;
 }
 
-/* An instruction that answers exactly `want` bytes. */
+/* Send an instruction whose answer has exactly `want` bytes. */
 static ppmc104_result_t ask_exactly(ppmc312_t *dev, uint8_t code, const uint8_t *data, unsigned count, uint8_t *answer,
                                     unsigned want)
 {
@@ -834,7 +837,7 @@ static bool rate_legal(const ppmc312_t *dev, uint16_t rate)
     return !dev->table || (rate >= dev->rate_min && rate <= dev->rate_max);
 }
 
-/* Code and parameters of a motion; 0 if it is not legal. */
+/* Write code and parameters of a motion; return 0 if the motion is not legal. */
 static unsigned encode(const ppmc312_t *dev, const ppmc312_motion_t *motion, uint8_t *body)
 {
     const bool origin = motion->op == PPMC312_SEARCH || motion->op == PPMC312_RETURN;
@@ -960,7 +963,7 @@ ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc31
     return triggered(dev, (uint8_t)(CODE_CHANGE + (ramp ? 0u : 1u)), &rate, when, position);
 }
 
-/* Does the end fit the order? */
+/* Return whether the end agrees with the order. */
 static bool agrees(const ppmc312_t *dev)
 {
     const bool endless = dev->op != PPMC312_MOVE && dev->op != PPMC312_CONSTANT && dev->op != PPMC312_STEP;
@@ -976,7 +979,8 @@ static bool agrees(const ppmc312_t *dev)
     return dev->cause == PPMC312_CAUSE_NORMAL ? made == dev->pulses : made <= dev->pulses;
 }
 
-/* The part is at standstill and the report of the end is missing. On the line a damaged frame may have lost it. */
+/* The part is at standstill and the report of the end is missing. On the line a damaged frame may be the
+ * cause. */
 static ppmc104_result_t recover(ppmc312_t *dev)
 {
     const uint8_t code = LINE_END_CODE;
@@ -1003,7 +1007,7 @@ ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end)
     for (;;) {
         result = collect(dev);
         if (result == PPMC104_BAD_REPLY && dev->line != NULL) {
-            result = PPMC104_OK; /* what it said is lost: see recover() */
+            result = PPMC104_OK; /* its content was lost: see recover() */
             dev->busy = false;
         }
         if (result != PPMC104_OK) {

@@ -43,7 +43,7 @@ typedef struct {
     uint16_t rate_start; /**< RS, 0x11 .. 0xFFFF, at least rate_high + 128 */
     uint16_t rate_high;  /**< RH, 2 .. 0xFFEF */
     uint32_t up;         /**< NA, pulses of the acceleration, 1 .. 0xFFFFFF; too few: detail 05 */
-    uint16_t rate_stop;  /**< RP, as rate_start; 0: deceleration as the acceleration. Only on the bus */
+    uint16_t rate_stop;  /**< RP, as rate_start; 0: deceleration like the acceleration. Only on the bus */
     uint32_t down;       /**< ND, as `up`, if rate_stop is not 0 */
 } ppmc312_table_t;
 
@@ -51,8 +51,8 @@ typedef struct {
 typedef struct {
     ppmc312_clock_t clock;
     uint8_t up_stages;     /**< 2 .. 127 */
-    uint8_t down_stages;   /**< 2 .. 127; 0: deceleration as the acceleration */
-    const uint16_t *rates; /**< as many as the longer ramp has stages, 2 or more each */
+    uint8_t down_stages;   /**< 2 .. 127; 0: deceleration like the acceleration */
+    const uint16_t *rates; /**< one per stage of the longer ramp, 2 or more each */
     const uint32_t *up;    /**< pulses of each stage, 2 .. 0xFFFFFF */
     const uint32_t *down;  /**< not used if down_stages is 0 */
 } ppmc312_curve_t;
@@ -60,7 +60,7 @@ typedef struct {
 /** Motions; the values are instruction codes. */
 typedef enum {
     PPMC312_SEARCH = 0x10,       /**< at `rate` to the origin */
-    PPMC312_RETURN = 0x11,       /**< with ramps past the origin, back to it at the start rate */
+    PPMC312_RETURN = 0x11,       /**< with ramps past the origin, back to it at the start-up rate */
     PPMC312_MOVE = 0x82,         /**< `pulses` with ramps */
     PPMC312_CONSTANT = 0x83,     /**< `pulses` at `rate` */
     PPMC312_STEP = 0x84,         /**< one pulse */
@@ -68,7 +68,8 @@ typedef enum {
     PPMC312_RUN_CONSTANT = 0x86  /**< at `rate`, until a stop */
 } ppmc312_op_t;
 
-/** When an instruction acts. All but NOW use the override buffer: its answer is a report then. */
+/** Time at which an instruction is executed. All except NOW use the override buffer: the answer is a report
+ * then. */
 typedef enum {
     PPMC312_NOW = 0,
     PPMC312_AT_POSITION = 4, /**< not for motions */
@@ -115,15 +116,15 @@ typedef struct {
 #define PPMC312_REPORT_EVENT_FAILED 0xF8u
 #define PPMC312_REPORT_OVERRIDE_FAILED 0xF9u
 
-/** Where a report comes from. */
+/** Source of a report. */
 #define PPMC312_FROM_PART 0x23u
 #define PPMC312_FROM_EVENT 0x0Bu    /**< `code` is that of the executed instruction */
-#define PPMC312_FROM_OVERRIDE 0x1Bu /**< likewise */
+#define PPMC312_FROM_OVERRIDE 0x1Bu /**< the same for the override buffer */
 
 #define PPMC312_DATA_MAX 29u   /**< data bytes of an answer */
 #define PPMC312_REPORTS_MAX 8u /**< reports that the driver stores */
 
-/** A report. Longer data are cut. */
+/** A report. Longer data are truncated. */
 typedef struct {
     uint8_t source, code, count;
     uint8_t data[8];
@@ -161,13 +162,14 @@ typedef struct {
     bool lost;
 } ppmc312_t;
 
-/** Fill `dev` for the parallel bus; no bus cycle. `reg` is the register, 0 .. 7. */
+/** Fill `dev` for the parallel bus, without a bus access. `reg` is the register, 0 .. 7. */
 void ppmc312_setup(ppmc312_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
                    void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx);
 /** Fill `dev` for a station of a line, 0 .. 15; nothing is sent. */
 ppmc104_result_t ppmc312_setup_line(ppmc312_t *dev, const ppmc_line_t *line, unsigned station);
 
-/** Check that the part answers, fetch what waits, read the version. Motions continue; the positions are unknown. */
+/** Check that the part responds, read the waiting blocks, read the version. Motions continue; the positions
+ * are unknown. */
 ppmc104_result_t ppmc312_open(ppmc312_t *dev, uint8_t *version);
 /** Reset by instruction FF: no table, position unknown. */
 ppmc104_result_t ppmc312_reset(ppmc312_t *dev);
@@ -178,11 +180,11 @@ ppmc104_result_t ppmc312_table(ppmc312_t *dev, const ppmc312_table_t *table);
 ppmc104_result_t ppmc312_curve(ppmc312_t *dev, const ppmc312_curve_t *curve);
 
 /** @name Motions
- * They return when the part has accepted them. PPMC312_ERR_LIMIT: nothing moves. @{ */
+ * The functions return when the part has accepted the motion. PPMC312_ERR_LIMIT: nothing moves. @{ */
 ppmc104_result_t ppmc312_start(ppmc312_t *dev, const ppmc312_motion_t *motion);
 /** Move with ramps at the high rate. @param pulses CW positive, not 0 */
 ppmc104_result_t ppmc312_move(ppmc312_t *dev, int32_t pulses);
-/** The same to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is there already. */
+/** The same to a position. PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT if it is reached already. */
 ppmc104_result_t ppmc312_move_to(ppmc312_t *dev, int32_t position);
 /** Stop, immediately or with the ramp. @param position for PPMC312_AT_POSITION */
 ppmc104_result_t ppmc312_stop(ppmc312_t *dev, bool slowly, ppmc312_when_t when, int32_t position);
@@ -191,31 +193,32 @@ ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc31
 /** @} */
 
 /**
- * Wait for the end of the motion that this driver started. Fetches reports; ppmc312_report() returns the others. While
- * override or event buffers are in use the driver sends no status instruction on the bus, because an unread answer and
- * a trigger are an alarm together; a part that is reset then ends the wait with PPMC104_TIMEOUT.
+ * Wait for the end of the motion that this driver started. Fetch reports; ppmc312_report() returns the
+ * others. While override or event buffers are in use, the driver sends no status instruction on the bus,
+ * because an unread answer together with a trigger causes an alarm. A reset of the part during this time
+ * ends the wait with PPMC104_TIMEOUT.
  * @param end may be null; valid if the result is PPMC104_OK
- * @return PPMC104_UNCONFIRMED: the part is at standstill without a report, or its position disagrees with the order;
- *         PPMC312_ERR_STATE: no motion was started
+ * @return PPMC104_UNCONFIRMED: the part is at standstill without a report, or its position disagrees with
+ * the order; PPMC312_ERR_STATE: no motion was started
  */
 ppmc104_result_t ppmc312_wait(ppmc312_t *dev, ppmc312_end_t *end);
 
 /** Fetch reports and return the oldest one; `code` is PPMC312_REPORT_NONE if there is none. */
 ppmc104_result_t ppmc312_report(ppmc312_t *dev, ppmc312_report_t *report);
 
-/** State of the part; at any time. */
+/** Return the state of the part; allowed at any time. */
 ppmc104_result_t ppmc312_status(ppmc312_t *dev, ppmc312_status_t *status);
 /**
- * Pulse position, or encoder position; at any time.
- * @return PPMC104_POSITION_UNKNOWN: ppmc312_set_position() was not called since the last reset, or there is no table: a
- *         part without one may have been reset
+ * Return the pulse position or the encoder position; allowed at any time.
+ * @return PPMC104_POSITION_UNKNOWN: ppmc312_set_position() was not called since the last reset, or the
+ * part has no table: it may have been reset
  */
 ppmc104_result_t ppmc312_position(ppmc312_t *dev, bool encoder, int32_t *position);
 /** Set the pulse or encoder position. Only at standstill and with a table. */
 ppmc104_result_t ppmc312_set_position(ppmc312_t *dev, bool encoder, int32_t position);
 
 /** @name Event buffers 0 and 1
- * An edge of the pin executes the next entry, in turn. @{ */
+ * An edge of the pin executes the next entry, in order. @{ */
 ppmc104_result_t ppmc312_event_motion(ppmc312_t *dev, unsigned buffer, const ppmc312_motion_t *motion);
 /** Register another instruction: its code and parameters as on the bus. @param count 0 .. 9, on the line 0 .. 7 */
 ppmc104_result_t ppmc312_event(ppmc312_t *dev, unsigned buffer, uint8_t code, const uint8_t *data, unsigned count);
@@ -229,15 +232,15 @@ typedef enum {
     PPMC312_EXCITATION_OFF = 0x21,
     PPMC312_COUNTER_CLEAR = 0x22,
     PPMC312_ZERO_CLAMP = 0x23,
-    PPMC312_ALARM_CLEAR = 0x24, /**< also the way out of the alarm state */
-    PPMC312_INTERLOCK = 0x44,   /**< on and off in turn */
-    PPMC312_RUN_MONITOR = 0x45  /**< on and off in turn */
+    PPMC312_ALARM_CLEAR = 0x24, /**< also ends the alarm state */
+    PPMC312_INTERLOCK = 0x44,   /**< alternately on and off */
+    PPMC312_RUN_MONITOR = 0x45  /**< alternately on and off */
 } ppmc312_driver_t;
 ppmc104_result_t ppmc312_driver(ppmc312_t *dev, ppmc312_driver_t what);
 
 ppmc104_result_t ppmc312_inputs(ppmc312_t *dev, uint8_t *levels);          /**< AUXI */
 ppmc104_result_t ppmc312_control_inputs(ppmc312_t *dev, uint16_t *levels); /**< 27: first byte in bits 15..8 */
-ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< 0 .. 63, 1 = L */
+ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< 0 .. 63, 1 = low */
 ppmc104_result_t ppmc312_input_mask(ppmc312_t *dev, uint8_t mask);         /**< watched bits of AUXI; 0: off */
 ppmc104_result_t ppmc312_speed_limit(ppmc312_t *dev, uint16_t rate);       /**< high-speed limit, 2 or more */
 ppmc104_result_t ppmc312_end_monitor(ppmc312_t *dev, bool on);             /**< a motion waits for end_n */
@@ -248,7 +251,7 @@ ppmc104_result_t ppmc312_interlock_at(ppmc312_t *dev, int32_t position);
 ppmc104_result_t ppmc312_line_errors(ppmc312_t *dev, uint8_t *last, uint8_t counts[3]);
 
 /**
- * Any instruction of the bus with its answer; on the line it is translated.
+ * Send any instruction of the bus and read its answer; on the line it is translated.
  * @param count  parameter bytes, 0 .. 29
  * @param answer PPMC312_DATA_MAX bytes, or null
  * @param got    number of data bytes of the answer, or null

@@ -2,10 +2,10 @@
 /**
  * @file ppmc_bank.h
  * Driver for a bank of PPMC-104 axes: C99, no dependencies, no heap, no floating point, no globals.
- *
- * Each axis is a PPMC-104, so this driver stands on ppmc104.h: add ppmc104.c and ppmc_bank.c to a program. Two functions
- * that the user supplies reach the window of 10 address bits. Axes count from 0, as in the address. One ppmc_bank_t
- * serves one bank; calls for the same bank must not overlap, those for its axes included.
+ * Each axis is a PPMC-104, so this driver uses ppmc104.h: add ppmc104.c and ppmc_bank.c to a program. Two
+ * functions that the user supplies access the window of 10 address bits. Axes count from 0, as in the
+ * address. One ppmc_bank_t serves one bank; calls for the same bank must not overlap, including those for
+ * its axes.
  */
 #ifndef PPMC_BANK_H
 #define PPMC_BANK_H
@@ -16,13 +16,13 @@
 extern "C" {
 #endif
 
-/** Most axes that a bank has; others have 4, 8, 16 or 32. */
+/** Largest number of axes of a bank; others have 4, 8, 16 or 32. */
 #define PPMC_BANK_AXES_MAX 64u
 
 /** Address of a register of an axis: the `address` argument of the access functions. Memory mapped, times 4. */
 #define PPMC_BANK_ADDRESS(axis, reg) ((unsigned)(axis) << 4 | (unsigned)(reg))
 
-/** Registers beside those of ppmc104.h, 0 and 1. */
+/** Registers in addition to 0 and 1, which are those of ppmc104.h. */
 #define PPMC_BANK_REG_CONFIG 0x2u
 #define PPMC_BANK_REG_POSITION 0x4u
 #define PPMC_BANK_REG_MASK 0x8u
@@ -31,22 +31,23 @@ extern "C" {
 #define PPMC_BANK_REG_STOP 0xBu
 #define PPMC_BANK_REG_INFO 0xCu
 
-/** Axes as a number: bit n is axis n. */
+/** Set of axes: bit n is axis n. */
 typedef uint64_t ppmc_bank_set_t;
 
 /** One bank. Fill it with ppmc_bank_open(). */
 typedef struct {
-    uint8_t (*read)(void *ctx, unsigned address);              /**< one read cycle of the window */
-    void (*write)(void *ctx, unsigned address, uint8_t value); /**< one write cycle */
+    uint8_t (*read)(void *ctx, unsigned address);              /**< one read access of the window */
+    void (*write)(void *ctx, unsigned address, uint8_t value); /**< one write access of the window */
     void *ctx;                                                 /**< passed to the functions */
-    uint8_t axes;                                              /**< how many it has */
+    uint8_t axes;                                              /**< number of axes */
     ppmc_bank_set_t held;                                      /**< of the driver: MASK, while a group is loaded */
 } ppmc_bank_t;
 
 /**
- * One axis. Fill it with ppmc_bank_axis(), and leave it where it is: `part` points to it. Every function of ppmc104.h
- * works with `&axis.part`, and `part.limit` and `part.give_up` are as there. What a bank does not have
- * (config.external_clock, ppmc104_aux...) the part refuses with PPMC104_ERR_UNKNOWN.
+ * One axis. Fill it with ppmc_bank_axis(), and do not move it in memory, because `part` points to it.
+ * Every function of ppmc104.h works with `&axis.part`; `part.limit` and `part.give_up` are those of
+ * ppmc104.h. The part rejects functions that a bank does not have (config.external_clock, ppmc104_aux...)
+ * with PPMC104_ERR_UNKNOWN.
  */
 typedef struct {
     ppmc104_t part;
@@ -55,54 +56,59 @@ typedef struct {
 } ppmc_bank_axis_t;
 
 /**
- * Fill `bank` and look who is there; empties MASK. Nothing moves, and what moves goes on.
+ * Fill `bank` and check which bank responds; clear MASK. No motion starts, and running motions continue.
  * @return PPMC104_NO_PART if INFO is not that of a bank with version 1 of the window
  */
 ppmc104_result_t ppmc_bank_open(ppmc_bank_t *bank, uint8_t (*read)(void *ctx, unsigned address),
                                 void (*write)(void *ctx, unsigned address, uint8_t value), void *ctx);
 
-/** Fill `axis`; no bus cycle. PPMC104_BAD_ARGUMENT if the bank does not have that number. */
+/** Fill `axis`, without a bus access. PPMC104_BAD_ARGUMENT if the bank does not have that number. */
 ppmc104_result_t ppmc_bank_axis(const ppmc_bank_t *bank, unsigned number, ppmc_bank_axis_t *axis);
 
 /**
- * Base clock of the operations and chopper phases that begin from now on; both true after reset.
+ * Set the base clock of the operations and chopper phases that begin from now on; both true after reset.
  * @param fast  crystal / 32 (PPMC104_BASE_500K), else crystal / 128 (PPMC104_BASE_125K)
  * @param plain intervals without the extra 7.5 us
  */
 ppmc104_result_t ppmc_bank_config(const ppmc_bank_t *bank, unsigned number, bool fast, bool plain);
 
 /** @name Positions
- * Pulses since the reset of the bank, CW up. Allowed at any time. A reset during a motion makes ppmc104_wait() return
- * PPMC104_UNCONFIRMED; the count begins at 0 again then, wherever the motor is. @{ */
+ * Pulses since the reset of the bank, CW positive. Allowed at any time. After a reset during a motion,
+ * ppmc104_wait() returns PPMC104_UNCONFIRMED; the count begins at 0 again then, at any position of the
+ * motor. @{ */
 ppmc104_result_t ppmc_bank_position(const ppmc_bank_t *bank, unsigned number, int32_t *position);
-/** @param positions as many as the bank has axes */
+/** @param positions array with one element for each axis of the bank */
 void ppmc_bank_positions(const ppmc_bank_t *bank, int32_t *positions);
 /** @} */
 
-/** Axes whose motion has ended and whose finish status nobody has read; int_n is low while there are any. */
+/** Return the axes whose motion has ended and whose finish status was not read; int_n is low while there
+ * are any. */
 ppmc_bank_set_t ppmc_bank_pending(const ppmc_bank_t *bank);
 
-/** Axes with BUSY = 1. */
+/** Return the axes with BUSY = 1. */
 ppmc_bank_set_t ppmc_bank_busy(const ppmc_bank_t *bank);
 
-/** Ends every motion on the same clk, without ramps. */
+/** End every motion on the same rising edge, without ramps. */
 void ppmc_bank_stop_all(const ppmc_bank_t *bank);
 
 /** @name Groups
- * Motions that begin on the same clk: ppmc_bank_hold(), the motions by the functions of ppmc104.h, which wait with
- * BUSY = 1, then ppmc_bank_go(), or ppmc_bank_drop() if one of them was refused. @{ */
+ * Motions that begin on the same rising edge. Call ppmc_bank_hold(), then the functions of ppmc104.h for
+ * the motions, which wait with BUSY = 1, then ppmc_bank_go(), or ppmc_bank_drop() if one of the motions
+ * was rejected. @{ */
 /**
- * From now on motions of these axes wait for ppmc_bank_go().
- * @return PPMC104_BAD_ARGUMENT: none, or one that is not there; PPMC104_ERR_BUSY: one moves
+ * Let the next motions of these axes wait for ppmc_bank_go().
+ * @return PPMC104_BAD_ARGUMENT: `axes` is empty or has an axis that does not exist; PPMC104_ERR_BUSY: an
+ * axis moves
  */
 ppmc104_result_t ppmc_bank_hold(ppmc_bank_t *bank, ppmc_bank_set_t axes);
 /**
- * Start what waits. Groups end here.
+ * Start the waiting motions. The group ends.
  * @param refused axes that did not begin with the others; may be null
- * @return result of the first of these: PPMC104_ERR_UNKNOWN if nothing waited (never started, or ended by a switch)
+ * @return result of the first of these axes: PPMC104_ERR_UNKNOWN if no motion was waiting (never started,
+ * or ended by a switch)
  */
 ppmc104_result_t ppmc_bank_go(ppmc_bank_t *bank, ppmc_bank_set_t *refused);
-/** Call the group off: what waits ends with a stop (finish status `stopped`), without a pulse. */
+/** Cancel the group: waiting motions end with a stop (finish status `stopped`), without a pulse. */
 void ppmc_bank_drop(ppmc_bank_t *bank);
 /** @} */
 

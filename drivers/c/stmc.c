@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Driver for the controller of the J105 STMC; what each function does is said in stmc.h. */
+/* Driver for the controller of the J105 STMC; stmc.h documents the functions. */
 #include "stmc.h"
 
-/* Read codes by map: sheet, family. */
+/* Read codes by map: data sheet, family. */
 static const uint8_t CODE_INPUTS[2] = {0x82u, 0x81u};
 static const uint8_t CODE_OUTPUTS[2] = {0x83u, 0x82u};
 static const uint8_t CODE_REMAINING[2] = {0x84u, 0x83u};
@@ -141,7 +141,7 @@ bool stmc_busy(stmc_t *dev)
 
 ppmc104_result_t stmc_wait(stmc_t *dev, ppmc104_finish_t *finish)
 {
-    /* A wrong code would be another read, so the codes must be known. */
+    /* A wrong code would be another read, so the read codes must be known. */
     if (!dev->probed) {
         uint8_t status;
         ppmc104_result_t result = PPMC104_OK;

@@ -3,11 +3,11 @@
  * @file stmc.h
  * Driver for the controller of the J105 STMC: C99, no dependencies, no heap, no floating point, no globals.
  *
- * Handshake, status register, error numbers and motion codes are those of the PPMC-104, so this driver stands on
- * ppmc104.h: add ppmc104.c and stmc.c to a program. Results, flags and the decoded finish status are the types of
- * ppmc104.h. For the board on ISA or PC/104 stmc_ports.h has the access functions.
- *
- * Speeds are divisors, as the part takes them: step clock / divisor steps per second. Distances are steps.
+ * Handshake, status register, error numbers and motion codes are those of the PPMC-104, so this driver
+ * uses ppmc104.h: add ppmc104.c and stmc.c to a program. Results, flags and the decoded finish status are
+ * the types of ppmc104.h. stmc_ports.h contains the access functions for the board on ISA or PC/104.
+ * Speeds are divisors, as in the commands of the part: step clock / divisor steps per second. Distances
+ * are steps.
  */
 #ifndef STMC_H
 #define STMC_H
@@ -18,39 +18,41 @@
 extern "C" {
 #endif
 
-/** Step clocks in Hz: inside the part (at a 16 MHz crystal), and the "external" one of the J105 board. */
+/** Step clocks in Hz: internal clock of the part (at a 16 MHz crystal), and "external" clock of the J105
+ * board. */
 #define STMC_CLOCK_INTERNAL 12500u
 #define STMC_CLOCK_BOARD 48675u
 
-/** Lowest divisor that stmc_divisor() gives: the part's sheet advises against lower ones. The part takes 1 .. 255. */
+/** Lowest divisor that stmc_divisor() returns: the data sheet advises against lower ones. The part accepts
+ * 1 .. 255. */
 #define STMC_DIVISOR_MIN 5u
 
 /** Codes of the part's read commands: parameter READ_MAP, FAMILY by default. */
 typedef enum {
     STMC_MAP_SHEET, /**< 80h, 82h, 83h, 84h */
-    STMC_MAP_FAMILY /**< 80h .. 83h, as the sister parts */
+    STMC_MAP_FAMILY /**< 80h .. 83h, as the related devices */
 } stmc_map_t;
 
 /** One part. Fill it with stmc_setup(); `bus.limit` and `bus.give_up` may be changed at any time after it. */
 typedef struct {
-    ppmc104_t bus;  /**< how the part is reached; its waits */
-    stmc_map_t map; /**< stmc_probe() finds it out */
-    bool probed;    /**< of the driver: stmc_probe() has; else stmc_wait() does */
+    ppmc104_t bus;  /**< access functions of the part; limits of the waits */
+    stmc_map_t map; /**< detected by stmc_probe() */
+    bool probed;    /**< of the driver: stmc_probe() was called; else stmc_wait() probes */
 } stmc_t;
 
-/** Initialisation. motor, half_step and active_high count only after a reset. */
+/** Initialisation. motor, half_step and active_high take effect only after a reset. */
 typedef struct {
     uint8_t motor;         /**< phases: 3, 4 or 5 */
-    bool half_step;        /**< half instead of full steps */
-    bool active_high;      /**< H switches a phase on; true for the driver on the board */
-    bool chop;             /**< phases chopped at rest */
+    bool half_step;        /**< half steps instead of full steps */
+    bool active_high;      /**< a high level switches a phase on; true for the driver on the board */
+    bool chop;             /**< phases chopped at standstill */
     bool external_clock;   /**< step clock: external, else internal */
     uint8_t divisor_start; /**< D1, of the first and last steps, divisor_high .. 255 */
-    uint8_t divisor_high;  /**< D2, of the top speed, 1 .. divisor_start */
+    uint8_t divisor_high;  /**< D2, at the top speed, 1 .. divisor_start */
     uint16_t ramp;         /**< PA, steps from start to top speed; 0: no ramp */
 } stmc_config_t;
 
-/** Levels of stmc_inputs(). The switches are active with 0, MON lets the motor run with 1. */
+/** Levels of stmc_inputs(). The switches are active low; the motor may run with MON = 1. */
 #define STMC_IN_CNP 0x80u
 #define STMC_IN_MON 0x40u
 #define STMC_IN_L1 0x08u
@@ -62,48 +64,52 @@ typedef struct {
 const char *stmc_strerror(ppmc104_result_t result);
 
 /**
- * Nearest divisor for a speed: 345 steps/s at 48 675 Hz is 141.
+ * Return the nearest divisor for a speed: 345 steps/s at 48 675 Hz is 141.
  * @param clock_hz step clock, 1 .. 1 000 000
  * @param speed    steps per second, 1 or more
  * @param divisor  STMC_DIVISOR_MIN .. 255, if the result is PPMC104_OK
- * @return PPMC104_BAD_ARGUMENT if the speed is out of reach
+ * @return PPMC104_BAD_ARGUMENT if no divisor is possible for this speed
  */
 ppmc104_result_t stmc_divisor(uint32_t clock_hz, uint32_t speed, uint8_t *divisor);
 
-/** Speed of a divisor in thousandths of a step per second, rounded down; 0 for a divisor or clock out of range. */
+/** Return the speed of a divisor in thousandths of a step per second, rounded down; 0 for an illegal
+ * divisor or clock. */
 uint32_t stmc_milli_speed(uint32_t clock_hz, uint8_t divisor);
 
-/** Fill `dev`; no bus cycle. */
+/** Fill `dev`, without a bus access. */
 void stmc_setup(stmc_t *dev, uint8_t (*read)(void *ctx, unsigned reg),
                 void (*write)(void *ctx, unsigned reg, uint8_t value), void *ctx);
 
-/** Is there a part that answers, and which read codes has it? Moves nothing. PPMC104_ERR_BUSY during a motion. */
+/** Check that a part responds, and detect its read codes. Moves nothing. PPMC104_ERR_BUSY during a motion. */
 ppmc104_result_t stmc_probe(stmc_t *dev);
 
 /** Initialise. Never moves the motor. Values out of range: PPMC104_BAD_ARGUMENT. */
 ppmc104_result_t stmc_init(stmc_t *dev, const stmc_config_t *config);
 
 /** @name Motions
- * They return as soon as the part has accepted them. `flags`: PPMC104_CW or PPMC104_CCW, PPMC104_NO_INT. `steps` is
- * 1 .. 16 777 216, a divisor 1 .. 255. @{ */
+ * The functions return when the part has accepted the motion. `flags`: PPMC104_CW or PPMC104_CCW,
+ * PPMC104_NO_INT. `steps` is 1 .. 16 777 216, a divisor 1 .. 255. @{ */
 ppmc104_result_t stmc_step(stmc_t *dev, uint8_t flags);
 /** With acceleration and deceleration, at the speeds of the initialisation. */
 ppmc104_result_t stmc_move(stmc_t *dev, uint8_t flags, uint32_t steps);
 ppmc104_result_t stmc_move_constant(stmc_t *dev, uint8_t flags, uint8_t divisor, uint32_t steps);
-/** At constant speed until a stop or the stop limit. */
+/** Move at constant speed until a stop or the stop limit. */
 ppmc104_result_t stmc_jog(stmc_t *dev, uint8_t flags, uint8_t divisor);
-/** Accelerates, then runs until a stop or the deceleration limit. */
+/** Accelerate, then run until a stop or the deceleration limit. */
 ppmc104_result_t stmc_run(stmc_t *dev, uint8_t flags);
-/** At constant speed until the reference point; no step if it is active already. Any limit ends it as well. */
+/** Move at constant speed until the reference point; no step if it is active already. Any limit ends the
+ * motion as well. */
 ppmc104_result_t stmc_home(stmc_t *dev, uint8_t flags, uint8_t divisor);
 /** @} */
 
-/** No further step. PPMC104_ERR_UNKNOWN if nothing runs. */
+/** Stop without a further step. PPMC104_ERR_UNKNOWN without a motion. */
 ppmc104_result_t stmc_stop(stmc_t *dev);
-/** Decelerate, then end. PPMC104_ERR_DECELERATING if it does already, PPMC104_ERR_UNKNOWN if nothing runs. */
+/** Decelerate, then end. PPMC104_ERR_DECELERATING if already decelerating, PPMC104_ERR_UNKNOWN without a
+ * motion. */
 ppmc104_result_t stmc_stop_slowly(stmc_t *dev);
 
-/** True while a motion runs, from the return of the function that started it on; see ppmc104_busy(). */
+/** Return true while a motion is running, beginning with the return of its start function; see
+ * ppmc104_busy(). */
 bool stmc_busy(stmc_t *dev);
 /**
  * Wait for the end of the motion, then read the finish status (which clears the interrupt) and compare it and the
@@ -114,13 +120,14 @@ bool stmc_busy(stmc_t *dev);
 ppmc104_result_t stmc_wait(stmc_t *dev, ppmc104_finish_t *finish);
 
 /** @name Reads
- * Not during a motion (PPMC104_ERR_BUSY). @{ */
-/** Lifts the interrupt; what an interrupt routine does with PPMC104_ERR_BUSY says ppmc104_finish(). `ended` is always
- * true, `alarm` means that MON was low. */
+ * Not allowed during a motion (PPMC104_ERR_BUSY). @{ */
+/** Read the finish status, which clears the interrupt; see ppmc104_finish() for PPMC104_ERR_BUSY in an
+ * interrupt routine. `ended` is always true; `alarm` means that MON was low. */
 ppmc104_result_t stmc_finish(stmc_t *dev, ppmc104_finish_t *finish);
 ppmc104_result_t stmc_inputs(stmc_t *dev, uint8_t *levels);  /**< STMC_IN_... */
 ppmc104_result_t stmc_outputs(stmc_t *dev, uint8_t *levels); /**< S1..S5, HOLD, direction: bits 7..3, 2, 1 */
-/** Steps that the last motion did not make, 0 .. 16 777 216; `finish`: of this motion, see ppmc104_remaining(). */
+/** Return the steps that the last motion did not make, 0 .. 16 777 216; `finish`: of this motion, see
+ * ppmc104_remaining(). */
 ppmc104_result_t stmc_remaining(stmc_t *dev, const ppmc104_finish_t *finish, uint32_t *steps);
 /** @} */
 

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /**
  * @file stmc_ports.h
- * A J105 STMC in the I/O space of a PC: the access functions for stmc_setup(), on inb() and outb() or what the
- * compiler calls them. Known: Linux on x86 (after ioperm(), so as root), DJGPP and Open Watcom for DOS. For anything
- * else define STMC_INB(port) and STMC_OUTB(port, value) before this file is included.
+ * A J105 STMC in the I/O space of a PC: the access functions for stmc_setup(), based on inb() and outb()
+ * or the equivalents of the compiler. Supported: Linux on x86 (after ioperm(), therefore as root), DJGPP
+ * and Open Watcom for DOS. For any other compiler define STMC_INB(port) and STMC_OUTB(port, value) before
+ * this file is included.
  */
 #ifndef STMC_PORTS_H
 #define STMC_PORTS_H
 
 #include "stmc.h"
 
-/** Where the board is: data register; the status and command register is the next port. */
+/** Port of the data register of the board; the status and command register is the next port. */
 #ifndef STMC_BASE
 #define STMC_BASE 0x3B0u
 #endif
@@ -18,7 +19,7 @@
 #if defined(STMC_INB) != defined(STMC_OUTB)
 #error "define both STMC_INB and STMC_OUTB, or none"
 #elif defined(STMC_INB)
-/* the program's own */
+/* defined by the program */
 #elif defined(__linux__) && (defined(__i386__) || defined(__x86_64__))
 #include <sys/io.h>
 #define STMC_INB(port) inb((unsigned short)(port))
@@ -45,7 +46,7 @@ static inline void stmc_port_write(void *ctx, unsigned reg, uint8_t value)
     STMC_OUTB((unsigned)(uintptr_t)ctx + reg, value);
 }
 
-/** Fill `dev` for a board at these ports, e.g. STMC_BASE; no bus cycle. */
+/** Fill `dev` for a board at these ports, e.g. STMC_BASE; without a bus access. */
 static inline void stmc_setup_ports(stmc_t *dev, unsigned base)
 {
     stmc_setup(dev, stmc_port_read, stmc_port_write, (void *)(uintptr_t)base);

@@ -1,4 +1,4 @@
-"""A host on the bus of the PPMC-104: initialise, move, count pulses. Nothing but cocotb: copy it."""
+"""A host on the bus of the PPMC-104: initialise, move, count pulses. It needs only cocotb: copy it."""
 
 import cocotb
 from cocotb.clock import Clock
@@ -27,13 +27,13 @@ async def write(dut, a0, byte):
     await ClockCycles(dut.clk, 4)
     dut.cs_n.value = dut.wr_n.value = 1
     await ClockCycles(dut.clk, 4)
-    while await read(dut, COMMAND) & IBF:  # until the part has taken the byte
+    while await read(dut, COMMAND) & IBF:  # until the part has accepted the byte
         pass
 
 
 @cocotb.test()
 async def ramp_of_fourteen_pulses(dut):
-    """Given RL 99, RH 49 and PA 4, when 14 pulses are ordered, then the ramp is 200 us … 100 us … 200 us."""
+    """With RL 99, RH 49 and PA 4, a move of 14 pulses has intervals of 200 us … 100 us … 200 us."""
     Clock(dut.clk, PERIOD, "ps").start()
     dut.a0.value = dut.d_i.value = dut.clock.value = dut.auxi.value = dut.rst_n.value = 0
     for pin in IDLE_HIGH:

@@ -1,6 +1,6 @@
-"""The same move with this project's host and golden model: every edge of every output is compared.
+"""The same move with the host of this project, compared with the golden model at every edge of every output.
 
-It runs on cocotb's own main program as well, without `directed` and without `make test`.
+It runs with the main program of cocotb as well, without `directed` and without `make test`.
 """
 
 import cocotb
@@ -11,7 +11,7 @@ from cocotb_tests.ppmc104.lab import Lab
 
 @cocotb.test()
 async def ramp_as_the_golden_model_has_it(dut):
-    """Given RL 99, RH 49 and PA 4, when 14 pulses are ordered, then all outputs are the golden model's."""
+    """With RL 99, RH 49 and PA 4, all outputs of a move of 14 pulses equal those of the golden model."""
     lab = await Lab.start(dut, (0x0A, 99, 49, 4))
     assert len(await lab.move(0x43, 14)) == 14
     assert check_against_model(lab.bench).mismatch is None

@@ -5,7 +5,7 @@
 module axil_host (
     input  wire logic clk,
     input  wire logic rst_n,
-    output logic      done    // the session has passed
+    output logic      done    // 1: the session has passed
 );
 
   logic awvalid = 1'b0, wvalid = 1'b0, bready = 1'b0, arvalid = 1'b0, rready = 1'b0;
@@ -49,8 +49,8 @@ module axil_host (
       .dir
   );
 
-  // Both tasks start and end after a falling edge. A ready that is sampled high on a falling edge is still high at
-  // the rising edge that follows: there the transfer takes place.
+  // Both tasks start and end after a falling edge. A ready that is sampled high on a falling edge is still
+  // high at the next rising edge, at which the transfer takes place.
   task automatic write_reg(input logic register, input logic [7:0] value);
     logic aw_taken, w_taken;
     awvalid = 1'b1;

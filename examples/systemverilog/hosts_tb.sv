@@ -29,7 +29,7 @@ module hosts_tb;
       .done(done[2])
   );
 
-  // rst_n has a falling edge, which a simulator without X at time 0 needs for the asynchronous reset.
+  // A simulator without X at time 0 needs a falling edge of rst_n for the asynchronous reset.
   initial begin
     repeat (2) @(negedge clk);
     rst_n = 1'b0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host program, the same for each bridge. The module that includes it has the tasks
+// Host program, the same for each bridge. The module that includes it defines the tasks
 //   write_reg(register, value) and read_reg(register, value): register 0 is data, 1 is status and command
 // and the signals rst_n, irq, pout_n, dir and done.
 
@@ -14,7 +14,7 @@ task automatic check(input logic good, input string what);
   if (!good) $fatal(1, "%m: %s; %0d pulses", what, pulses);
 endtask
 
-// Status once the input buffer is empty (IBF, bit 1). ERR (bit 7) is 1 if the device rejected the last byte.
+// Return the status when the input buffer is empty (IBF, bit 1). ERR (bit 7) = 1: the last byte was rejected.
 task automatic ready(output logic [7:0] status);
   do read_reg(Status, status); while (status[1]);
   check(!status[7], $sformatf("status %h: byte rejected", status));
@@ -26,7 +26,7 @@ task automatic send(input logic register, input logic [7:0] value);
   write_reg(register, value);
 endtask
 
-// A byte of an answer: OBF (bit 0) is 1 when it can be read.
+// Read a byte of an answer: OBF (bit 0) is 1 when it can be read.
 task automatic receive(output logic [7:0] value);
   logic [7:0] status;
   do read_reg(Status, status); while (!status[0]);
@@ -49,7 +49,7 @@ initial begin
   send(Data, 8'd8);
   send(Data, 8'd0);
 
-  // Acceleration/deceleration move, CCW, of D + 1 pulses.
+  // Acceleration/deceleration move, CCW, D + 1 pulses.
   pulses = 0;
   send(Command, 8'h4B);
   send(Data, 8'(Pulses - 1));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// spi_host: an SPI master in mode 0 that drives a PPMC-104 through ppmc_spi; 8 cycles for a period of sck.
+// spi_host: an SPI master in mode 0 that drives a PPMC-104 through ppmc_spi; 8 cycles per period of sck.
 `default_nettype none
 
 module spi_host (
     input  wire logic clk,
     input  wire logic rst_n,
-    output logic      done    // the session has passed
+    output logic      done    // 1: the session has passed
 );
 
-  localparam int HalfCycles = 4;  // half a period of sck in cycles; sck low needs more than 3
+  localparam int HalfCycles = 4;  // half a period of sck, cycles; low needs more than 3
 
   logic sck = 1'b0, mosi = 1'b0, ss_n = 1'b1;
   logic miso, irq, hold, pout_n, dir;

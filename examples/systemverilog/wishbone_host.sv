@@ -5,7 +5,7 @@
 module wishbone_host (
     input  wire logic clk,
     input  wire logic rst_n,
-    output logic      done    // the session has passed
+    output logic      done    // 1: the session has passed
 );
 
   logic cyc = 1'b0, stb = 1'b0, we = 1'b0;
@@ -39,8 +39,8 @@ module wishbone_host (
       .dir
   );
 
-  // Starts and ends after a falling edge. ack is sampled on falling edges too; the transfer is complete at the
-  // rising edge that follows, so the request stays until the next falling edge.
+  // Starts and ends after a falling edge. ack is sampled on falling edges too. The transfer is complete at
+  // the rising edge that follows, so the request is stable until the next falling edge.
   task automatic transfer(input logic write, input logic register, input logic [7:0] value);
     cyc       = 1'b1;
     stb       = 1'b1;

@@ -36,7 +36,7 @@ class Commands(PartGroup):
         Command("status", "common.looks:status", "Position, switches, state. Disturbs nothing."),
         Command("monitor", "common.looks:monitor", "Watch position and switches until Ctrl-C."),
         Command(
-            "plan", "common.plan:plan", "Predict a move. Needs no board.", (BRIDGE, SERIAL), numbers=True
+            "plan", "common.moves:plan", "Predict a move. Needs no board.", (BRIDGE, SERIAL), numbers=True
         ),
         Command(
             "table",
@@ -94,37 +94,37 @@ class Commands(PartGroup):
         ),
         Command("stop", "pmc006.moves:stop", parts=(PMC,)),
         Command("home", "pmc006.moves:home", parts=(PMC,)),
-        Command("scan", "pmc006.looks:scan", parts=(PMC,)),
-        Command("info", "pmc006.looks:info", parts=(PMC,)),
-        Command("status", "pmc006.looks:status", parts=(PMC,)),
-        Command("monitor", "pmc006.looks:monitor", parts=(PMC,)),
+        Command("scan", "pmc006.moves:scan", parts=(PMC,)),
+        Command("info", "pmc006.moves:info", parts=(PMC,)),
+        Command("status", "pmc006.moves:status", parts=(PMC,)),
+        Command("monitor", "pmc006.moves:monitor", parts=(PMC,)),
         Command("script", "pmc006.script:script", parts=(PMC,)),
         Command(
             "set",
-            "pmc006.looks:set_values",
+            "pmc006.moves:set_values",
             "Change settings, or tell them: `set current=1500 microsteps=32`. `save` keeps them.",
             (PMC,),
         ),
-        Command("io", "pmc006.looks:io", "Inputs and outputs: `io gpo1=1 gpo3=0` switches outputs.", (PMC,)),
+        Command("io", "pmc006.moves:io", "Inputs and outputs: `io gpo1=1 gpo3=0` switches outputs.", (PMC,)),
         Command(
             "address",
-            "pmc006.looks:address",
+            "pmc006.moves:address",
             "Give a controller another address, at once; `save` keeps it.",
             (PMC,),
         ),
         Command(
             "save",
-            "pmc006.looks:save",
+            "pmc006.moves:save",
             "Keep the settings for the next power-up (those with a star in `info`).",
             (PMC,),
         ),
         Command(
             "reset-flags",
-            "pmc006.looks:reset_flags",
+            "pmc006.moves:reset_flags",
             "Clear the flags of EXT1, EXT2 and a stall, so that motors may start again. Nothing moves.",
             (PMC,),
         ),
-        Command("program", "pmc006.program:program", "pmc006: user programs.", (PMC,)),
+        Command("program", "pmc006.script:program", "pmc006: user programs.", (PMC,)),
     )
 
 

@@ -3,9 +3,9 @@
     with openppmc.sim.start("start=2000") as board:
         print(board.port)
 
-It is built from a checkout of the project; docs/virtual_board.md has the words of the text. Room `common` has
-the board, its build, its text, and lines of modelled stations, which run in Python. A part's folder has
-`machine`, what is around the part (places of switches, words of its own), and for stations `line`.
+It is built from a checkout of the project; docs/virtual_board.md lists the words of the text. Folder `common` has
+the board, its build, its text, and lines of modelled stations, which run in Python. The module of a device has
+the machine around it (positions of switches, additional words), and for stations the line.
 """
 
 from typing import TYPE_CHECKING
@@ -14,21 +14,19 @@ from ..lazy import lazy
 
 if TYPE_CHECKING:
     from .common.board import AxisStatus, SimBoard, Status, start
+    from .common.build import SimError
     from .common.known import KNOWN
-    from .common.line_child import LineStatus, SimLine, start_line
-    from .common.lines import part_of
+    from .common.lines import LineStatus, SimLine, part_of, start_line
     from .common.spec import Spec, SpecError, parse_spec
-    from .common.verilator import SimError
 else:
     __getattr__, __dir__ = lazy(
         __name__,
         """
         .common.board AxisStatus SimBoard Status start
+        .common.build SimError
         .common.known KNOWN
-        .common.line_child LineStatus SimLine start_line
-        .common.lines part_of
+        .common.lines LineStatus SimLine part_of start_line
         .common.spec Spec SpecError parse_spec
-        .common.verilator SimError
         """,
     )
 

@@ -10,11 +10,10 @@ from pathlib import Path
 
 from ..streams import guarded
 from .common.board import AxisStatus, SimBoard, Status, start
-from .common.line_child import SimLine, start_line
-from .common.lines import line_kind, line_parts, part_of
+from .common.build import SimError
+from .common.lines import SimLine, line_kind, line_parts, part_of, start_line
 from .common.machine import machine_kind
 from .common.spec import SpecError, known_words
-from .common.verilator import SimError
 
 USAGE = (
     f"usage: python -m openppmc.sim [word=value,…,link=PATH]\nwords: {known_words()}; docs/virtual_board.md\n"

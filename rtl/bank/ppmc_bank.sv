@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank: 4 to 64 axes, each a PPMC-104 to its host, served by one engine.
+// ppmc_bank: 4 to 64 axes on one engine; for the host, each axis is a PPMC-104.
 // Rules:  BANK-GEN-01..05 and, through its blocks, all others. Manual: docs/bank/README.md.
-// Timing: axis a is visited every R = max(AXES, 8) clk; edges are exact to the clk. d_o stands 5 clk after a read strobe
-//         has begun.
+// Timing: axis a is visited every R = max(AXES, 8) cycles; edges are exact to the cycle. d_o is valid 5
+//         cycles after a read strobe has begun.
 `default_nettype none
 
 module ppmc_bank
@@ -10,7 +10,7 @@ module ppmc_bank
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
-    parameter int unsigned CLK_HZ     = 100_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 100_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,   // crystal of the old chip in Hz, 1e6 .. 16e6
     parameter bit          PHASE_IDLE = 1'b1          // level of s until the first initialisation
 ) (
@@ -25,14 +25,14 @@ module ppmc_bank
     output logic      [       7:0] d_o,
     output logic                   d_oe,
     output logic                   int_n,   // L: a motion has ended
-    // switches, L = active, one bit an axis
+    // switches, L = active, one bit for each axis
     input  wire logic [  AXES-1:0] l1_n,    // CW limit
     input  wire logic [  AXES-1:0] l2_n,    // CCW limit
     input  wire logic [  AXES-1:0] l3_n,    // CW slow-down limit
     input  wire logic [  AXES-1:0] l4_n,    // CCW slow-down limit
     input  wire logic [  AXES-1:0] cnp_n,   // origin
     input  wire logic [  AXES-1:0] alm_n,   // alarm
-    // motors, one bit an axis; five bits S5..S1
+    // motors, one bit for each axis; five bits S5..S1
     output logic      [5*AXES-1:0] s,
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
@@ -80,8 +80,8 @@ module ppmc_bank
 
   // ---- host, engine --------------------------------------------------------------------------------
 
-  localparam int unsigned Quantum = 4 * CLK_HZ / XTAL_HZ;  // clk
-  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);  // slowest interval
+  localparam int unsigned Quantum = 4 * CLK_HZ / XTAL_HZ;  // quantum in cycles
+  localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);  // bits of the slowest interval
 
   logic go, go_now, stop, stopping, answer_we, call, calm;
   logic [5:0][RoundBits-1:0] axis;
@@ -178,7 +178,8 @@ module ppmc_bank
 
   seen_t views[AXES];
 
-  // AND and OR take half the cells of a multiplexer. Three axes behind the one in the last stage is that in stage 2.
+  // AND and OR need half the cells of a multiplexer. The axis in stage 2 is three axes after the one in the
+  // last stage.
   always_comb begin
     seen = '0;
     for (int unsigned i = 0; i < AXES; i++) seen |= views[i] & {$bits(seen_t) {turn[(i+Round-3)%Round]}};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_carrier: everything of a board with a bank but its clock generator and pads: the bank, and as its host
-//         either the UART bridge with a view of one axis, or an SPI slave with all of the window.
-// Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a (from 0)
-//         has bit a of each port, and of s the bits 5 a to 5 a + 4 (S1 to S5).
-// Timing: of ppmc_bank; the inputs need no synchroniser outside.
+// ppmc_bank_carrier: all blocks of a board with a bank except clock generator and pads: the bank and its host
+//         interface. This is either the UART bridge with a view of one axis, or an SPI slave with the
+//         complete window.
+// Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
+//         (from 0) has bit a of each port, and bits 5 a to 5 a + 4 of s (S1 to S5).
+// Timing: that of ppmc_bank; the inputs need no synchroniser outside.
 `default_nettype none
 
 module ppmc_bank_carrier #(
@@ -12,8 +13,8 @@ module ppmc_bank_carrier #(
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
     parameter bit          PHASE_IDLE = 1'b1,         // level of s before the first initialisation
     parameter              HOST       = "UART",       // or "SPI"
-    parameter int unsigned BAUD       = 115_200,      // of the bridge after reset
-    parameter int unsigned RECORD     = 0             // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,      // line rate of the bridge after reset
+    parameter int unsigned RECORD     = 0             // 2**RECORD records of pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic              clk,
     input  wire logic              rst_n,
@@ -26,7 +27,7 @@ module ppmc_bank_carrier #(
     input  wire logic              mosi,
     output logic                   miso_o,
     output logic                   miso_oe,
-    output logic                   int_n,       // some axis has an interrupt pending
+    output logic                   int_n,       // at least one axis has a pending interrupt
     // switches, 0 = active
     input  wire logic [  AXES-1:0] l1_n,
     input  wire logic [  AXES-1:0] l2_n,
@@ -39,9 +40,9 @@ module ppmc_bank_carrier #(
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
     output logic      [  AXES-1:0] dir,
-    // lamps, 1 = on
-    output logic                   led_link,    // a script or a frame is running, or an answer on its way
-    output logic                   led_moving,  // some motor is
+    // LEDs, 1 = on
+    output logic                   led_link,    // a script or a frame is running, or an answer is being sent
+    output logic                   led_moving,  // at least one motor is moving
     output logic                   led_switch   // a limit or an alarm is active
 );
 
@@ -124,12 +125,12 @@ module ppmc_bank_carrier #(
     assign unused   = uart_rxd ^ part_oe;
   end else begin : g_uart
     localparam int unsigned AxisBits = $clog2(AXES);
-    localparam int unsigned Watch = 32 + 14 * AXES;  // everything that is recorded, first pin in the low bits
+    localparam int unsigned Watch = 32 + 14 * AXES;  // recorded levels, first pin in the low bits
 
     logic host_cs_n;
     logic [3:0] host_a;
     logic [7:0] to_host, axis, straps;
-    logic [AxisBits-1:0] n;  // the axis that op PINS shows
+    logic [AxisBits-1:0] n;  // axis for op PINS
 
     logic [Watch-1:0] watch;
 

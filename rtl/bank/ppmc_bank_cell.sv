@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_cell: the pins of one axis of a bank: carries out the orders of its visits, each at its clk, and lets no
-// pulse pass a switch.
+// ppmc_bank_cell: pins of one axis of a bank: executes the orders of its visits, each in its cycle, and
+//         suppresses pulses when a switch ends the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
-// Timing: an order stands in the cell from the clk after load_i on and is carried out at the end of the clk in which
-//         clock_i = at_i; halt at the end of the first one. A switch acts in the clk in which switches_i shows it.
+// Timing: an order is valid in the cell from the cycle after load_i on. It is executed at the end of the
+//         cycle in which clock_i = at_i; halt is executed at the end of the first cycle. A switch acts in the
+//         cycle in which it is active on switches_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,29 +17,29 @@ module ppmc_bank_cell
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [RoundBits-1:0] clock_i,  // clk of the round
+    input wire logic [RoundBits-1:0] clock_i,  // number of the cycle in the round
     // orders
     input wire logic load_i,  // the order is for this axis
-    input wire order_t order_i,  // what to do
-    input wire logic [RoundBits-1:0] at_i,  // when
+    input wire order_t order_i,  // pin changes
+    input wire logic [RoundBits-1:0] at_i,  // cycle of the pin changes
     input wire logic stop_i,  // end every motion
     input wire switches_t switches_i,  // synchronous levels
-    // what the visits see
-    output logic armed_o,  // pulses may come
-    output logic emitted_o,  // the last one that was ordered has come
-    output logic stopped_o,  // why it is not armed any more: STOP or a stop command
-    output logic alarm_o,  // the alarm
-    output logic limit_o,  // the limit of its direction
+    // status for the visits
+    output logic armed_o,  // pulses may be output
+    output logic emitted_o,  // the last ordered pulse has been output
+    output logic stopped_o,  // cause of armed_o = 0: STOP or a stop command
+    output logic alarm_o,  // cause of armed_o = 0: alarm
+    output logic limit_o,  // cause of armed_o = 0: limit of the direction
     // pins
     output logic [5:1] s_o,  // phases
-    output logic hold_o,  // at rest for the hold time
+    output logic hold_o,  // at standstill for the hold time
     output logic pout_no,  // pulse, L = active
     output logic dir_o  // 0 = CW
 );
 
   order_t order_q;
   logic [RoundBits-1:0] at_q;
-  logic given;  // a pulse is ordered
+  logic given;  // a pulse is being ordered
   logic now, limit, halt, ends, pulse, rise, set, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
@@ -51,7 +52,8 @@ module ppmc_bank_cell
   assign rise = now && order_q.rise;
   assign set = now && order_q.sets;
 
-  // One of an order's three may still wait when the next order comes: it is then carried out in that very clk.
+  // One of the three actions of an order may still be pending when the next order is loaded: it is executed
+  // in exactly that cycle.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       order_q                       <= '0;

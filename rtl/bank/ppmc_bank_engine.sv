@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine: visits one axis a clk: reads its state, decides, and writes it back.
+// ppmc_bank_engine: pipeline that serves one axis a cycle: reads its state, decides, writes it back.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_step.
-// Timing: seven clk from the address of an axis to the edge of its visit, one axis behind the other:
+// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters each cycle:
 //         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
-//         6 the order stands in the cell: the first clk whose end an edge may be ordered for
-//         The rate is read two clk earlier: it is part of the address of its threshold.
+//         6 the order is valid in the cell: first cycle at whose end an edge can be ordered
+//         The rate is read two cycles earlier, because it is part of the address of its threshold.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -13,32 +13,32 @@ module ppmc_bank_engine
   import ppmc_code_pkg::decoded_t;
   import ppmc_code_pkg::init_code_t;
 #(
-    parameter int unsigned Quantum   = 25,    // clk
-    parameter int unsigned TimeBits  = 18,    // of an interval in clk
+    parameter int unsigned Quantum   = 25,    // quantum in cycles
+    parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
     parameter bit          PhaseIdle = 1'b1,
     parameter int unsigned RoundBits = 5
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [5:0][RoundBits-1:0] axis_i,  // whose visit is in stage 0, 1 …
-    input wire logic [4:3] clear_i,  // those in stages 3 and 4 reset their axes
+    input wire logic [5:0][RoundBits-1:0] axis_i,  // axis of the visit in stage 0, 1 …
+    input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
     // from the window
     input wire mail_t mail_i,  // stage 1: input buffer
-    input wire progress_t progress_i,  // stage 1: how far its answer has been read
+    input wire progress_t progress_i,  // stage 1: bytes of the answer that were read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
-    input wire logic go_i,  // stage 2: GO acts
-    input wire logic [TimeBits-1:0] due_i,  // W less the clk since then
+    input wire logic go_i,  // stage 2: GO is active
+    input wire logic [TimeBits-1:0] due_i,  // W minus the cycles since GO
     // from cells and switches
-    input wire seen_t seen_i,  // stage 2
-    // what a visit leaves, stage 5
-    output status_t status_o,  // for the status register
+    input wire seen_t seen_i,  // stage 2: pin cell and switches
+    // results of a visit, stage 5
+    output status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic answer_we_o,  // there is an answer
-    output answer_t answer_o,  // this one
-    output order_t order_o,  // to the pin cell
-    output logic [RoundBits-1:0] at_o,  // clk of its edge
-    output logic call_o,  // an interrupt is pending from now on
-    output logic calm_o  // and no more
+    output logic answer_we_o,  // write answer_o
+    output answer_t answer_o,  // answer to a read command
+    output order_t order_o,  // order to the pin cell
+    output logic [RoundBits-1:0] at_o,  // cycle of order_o in the round
+    output logic call_o,  // set the pending interrupt of the axis
+    output logic calm_o  // clear the pending interrupt of the axis
 );
 
   localparam int unsigned Round = 1 << RoundBits;
@@ -46,8 +46,8 @@ module ppmc_bank_engine
   localparam int unsigned HoldBits = $clog2(HoldRounds);
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
-  // Small FPGAs have few block RAMs, and these are the fewest bits that fill one.
-  // Simulation does not read an attribute.
+  // Small FPGAs have few block RAMs. With few axes, the memory with the fewest bits is therefore built from
+  // logic. Simulation does not read an attribute.
   // verilator lint_off UNUSEDPARAM
   localparam string PaceStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
@@ -56,9 +56,9 @@ module ppmc_bank_engine
 
   // ---- memories ------------------------------------------------------------------------------------
 
-  // Needed for comparisons, and only later.
+  // early_t is needed for comparisons, late_t only later.
   typedef struct packed {
-    logic [TimeBits-1:0] rem;      // clk to the awaited edge
+    logic [TimeBits-1:0] rem;      // cycles to the awaited edge
     walk_t               walk;
     setting_t            setting;
     command_t            command;
@@ -73,7 +73,7 @@ module ppmc_bank_engine
   (* ram_style = "block", no_rw_check *)early_t earlies[Round];
   (* ram_style = "block", no_rw_check *)late_t  lates  [Round];
   (* ram_style = PaceStyle, no_rw_check *)pace_t  paces  [Round];
-  // Written when a byte sets them, and not by each visit: not carried through its stages.
+  // Written when a byte sets them, and not by each visit, so that they are not carried through its stages.
   (* ram_style = "block", no_rw_check *)words_t words  [Round];
   (* ram_style = "block", no_rw_check *)ramp_t  ramps  [Round];
   (* ram_style = "block", no_rw_check *)units_t chops  [Round];
@@ -108,7 +108,7 @@ module ppmc_bank_engine
     words1_q <= words[axis_i[0]];
     ramp1_q <= ramps[axis_i[0]];
     units3_q <= chops[axis_i[2]];
-    // On the way down the threshold of the next slower rate counts.
+    // During deceleration the threshold of the next slower rate is compared.
     pace0_q <= pace_r_q;
     probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
     pace1_q <= pace0_q;
@@ -323,7 +323,7 @@ module ppmc_bank_engine
     answer_o    <= clear_i[4] ? '0 : answer;
     answer_we_o <= clear_i[4] || plan4_q.read;
     order_o     <= clear_i[4] ? '0 : order;
-    // At once, or so many clk after the first one that can be ordered for.
+    // Immediately, or rem cycles after the first cycle that can be ordered.
     at_o        <= axis_i[0] + axis_t'(2) + (order.sets && !plan4_q.toggle ? '0 : axis_t'(early4_q.rem));
     call_o      <= call && !clear_i[4];
     calm_o      <= calm && !clear_i[4];

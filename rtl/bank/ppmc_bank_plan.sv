@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan: what a visit decides: which byte it takes, what that and the switches do to the motion, which edge it
-// orders, and how many clk it is to the next one. Combinational.
-// Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05, P104-FDC-01..05,
-//         P104-TIM-05, P104-LIM-01..09.
-// Times:  time_i counts clk from the visit to the awaited edge. What is added to it has a round taken off, for the next
-//         visit is a round away.
+// ppmc_bank_plan: decisions of a visit: whether the byte is accepted, the effect of byte and switches on the
+//         motion, the edge to order, and the cycles to the next edge.
+// Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
+//         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
+// Timing: combinational.
+// Times:  rem in ppmc_bank_engine is the number of cycles from the visit to the awaited edge. All values
+//         added to it are reduced by a round, because the next visit is one round later.
 `default_nettype none
 
 module ppmc_bank_plan
@@ -13,40 +14,40 @@ module ppmc_bank_plan
   import ppmc_motion_pkg::*;
   import ppmc_op_pkg::*;
 #(
-    parameter int unsigned Quantum  = 25,  // clk
-    parameter int unsigned Round    = 32,  // clk
+    parameter int unsigned Quantum  = 25,  // quantum in cycles
+    parameter int unsigned Round    = 32,  // round in cycles
     parameter int unsigned TimeBits = 20
 ) (
-    // the axis
-    input  wire walk_t                   walk_i,     // its motion
-    input  wire pace_t                   pace_i,     // pace of that
-    input  wire setting_t                setting_i,  // its initialisation
-    input  wire rest_t                   rest_i,     // what counts at rest
-    input  wire logic                    over_i,     // its hold time ends with this visit
-    input  wire seen_t                   seen_i,     // cell and switches
-    input  wire facts_t                  facts_i,    // comparisons
+    // axis
+    input  wire walk_t                   walk_i,     // state of the motion
+    input  wire pace_t                   pace_i,     // interval of the motion
+    input  wire setting_t                setting_i,  // progress of the initialisation
+    input  wire rest_t                   rest_i,     // phases, chopper, end of the last motion
+    input  wire logic                    over_i,     // the hold time ends with this visit
+    input  wire seen_t                   seen_i,     // pin cell and switches
+    input  wire facts_t                  facts_i,    // comparisons of this visit
     input  wire logic                    free_i,     // a ramp table may be built
-    // its command unit
+    // command unit
     input  wire logic                    extra_i,    // vsel = L in CONFIG
-    input  wire mail_t                   mail_i,     // byte of its host
-    input  wire logic                    new_i,      // it has not been taken
-    input  wire decoded_t                decoded_i,  // meaning of its byte
-    input  wire error_e                  value_i,    // what is wrong with an initialisation that it completes
-    input  wire asking_t                 asking_i,   // what is remembered of the bytes before
-    output asking_t                      asking_o,   // and after this one
-    output logic                         take_o,     // it is taken
-    output logic          [         7:0] code_o,     // code of what it makes happen
-    output logic          [        31:0] params_o,   // and its parameters
+    input  wire mail_t                   mail_i,     // byte of the host
+    input  wire logic                    new_i,      // mail_i has not been accepted yet
+    input  wire decoded_t                decoded_i,  // mail_i.data as a code
+    input  wire error_e                  value_i,    // error in an initialisation that mail_i completes
+    input  wire asking_t                 asking_i,   // state before this byte
+    output asking_t                      asking_o,   // state after this byte
+    output logic                         take_o,     // the byte is accepted
+    output logic          [         7:0] code_o,     // code of the actions in plan_o
+    output logic          [        31:0] params_o,   // parameters of code_o
     // decisions
-    input  wire logic     [TimeBits-1:0] due_i,      // W less the clk since GO
+    input  wire logic     [TimeBits-1:0] due_i,      // W minus the cycles since GO
     input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_times
-    output plan_t                        plan_o,     // what is decided
-    output logic                         anew_o,     // time_i does not count
-    output logic          [TimeBits-1:0] add_o       // to time_i
+    output plan_t                        plan_o,     // decisions of the visit
+    output logic                         anew_o,     // restart rem from 0
+    output logic          [TimeBits-1:0] add_o       // cycles to add to rem
 );
 
-  localparam int unsigned Width = 20 * Quantum;  // W
-  localparam int unsigned Half = 4 * Quantum;  // half a fast base clock
+  localparam int unsigned Width = 20 * Quantum;  // W in cycles
+  localparam int unsigned Half = 4 * Quantum;  // half a fast base clock in cycles
 
   typedef logic [TimeBits-1:0] clk_t;
 
@@ -57,7 +58,7 @@ module ppmc_bank_plan
 
   assign unused_bits = &{1'b0, walk_i, setting_i, rest_i, seen_i, mail_i, act};
 
-  // ---- what has happened since the last visit ------------------------------------------------------
+  // ---- events since the last visit -----------------------------------------------------------------
 
   always_comb begin
     ramp = walk_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
@@ -135,7 +136,7 @@ module ppmc_bank_plan
 
     pulse = walk_i.run && !walk_i.held && !walk_i.low && !kill && facts_i.fire && !facts_i.more;
     plan_o.pulse = pulse && !halt;
-    // A low time that may still grow does not end before it is known how far.
+    // A low time that may still become longer does not end before its length is known.
     grows = facts_i.more && fast_plain && !walk_i.last && pace_i.rate < 8'd3;
     plan_o.rise = walk_i.low && facts_i.fire && !grows && !undo;
     plan_o.probe = facts_i.more && !plan_o.rise && !undo;
@@ -157,9 +158,9 @@ module ppmc_bank_plan
     plan_o.hold = rests && over_i && !toggle;
   end
 
-  // ---- clk to the next edge ------------------------------------------------------------------------
+  // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate; rates beyond the third get W.
+  // Low time at a rate: W, except for the rates 0 to 2 with halves.
   function automatic clk_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]
@@ -171,13 +172,13 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // How much longer that of the next slower rate is.
+  // Difference to the low time of the next slower rate.
   function automatic clk_t longer(logic [7:0] rate, logic halves);
     if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -clk_t'(Round);
     return (rate[1:0] == 2'd2) ? clk_t'(Width - 3 * Half - Round) : clk_t'(Half - Round);
   endfunction
 
-  // Fixed time of a phase of the chopper.
+  // Fixed time of a chopper phase.
   function automatic clk_t phase(logic on, logic host, logic extra);
     unique case ({
       on, host, extra
@@ -191,7 +192,8 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // What the byte decides comes last: it is the slowest. After a halt nothing is timed any more.
+  // The decisions of the byte are applied last, because they are timing-critical. After a halt no edge is
+  // scheduled.
   always_comb begin
     anew_o = plan_o.start || proceed || finish || ready;
     add_o  = -clk_t'(Round);

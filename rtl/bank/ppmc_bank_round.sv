@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_round: which axis is visited, and what acts on all of them for one round: reset, GO, STOP.
+// ppmc_bank_round: selects the axis of each visit, and extends reset, GO and STOP to a round so that they act
+//         on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
-// Timing: axis 0 is in stage 0 in the first clk after reset. go_o is high for a round, stop_o one clk longer,
-//         from the clk after that of go_i and stop_i.
+// Timing: axis 0 is in stage 0 in the first cycle after reset. go_o is high for one round, from the cycle
+//         after go_i; stop_o is high for one round plus one cycle, from the cycle after stop_i.
 `default_nettype none
 
 module ppmc_bank_round #(
     parameter  int unsigned RoundBits = 5,
-    parameter  int unsigned Width     = 500,            // W in clk
+    parameter  int unsigned Width     = 500,            // W in cycles
     parameter  int unsigned TimeBits  = 20,
-    parameter  int unsigned Stages    = 6,              // of a visit, numbered from 0
+    parameter  int unsigned Stages    = 6,              // stages of a visit, numbered from 0
     localparam int unsigned Round     = 1 << RoundBits
 ) (
     input  wire logic                               clk_i,
     input  wire logic                               rst_ni,
-    input  wire logic                               go_i,     // GO is written, at the coming edge
-    input  wire logic                               stop_i,   // STOP is
-    output logic      [  Stages-1:0][RoundBits-1:0] axis_o,   // whose visit is in which stage
-    output logic      [   Round-1:0]                turn_o,   // bit i: axis i is in the last one
+    input  wire logic                               go_i,     // GO is written at the next edge
+    input  wire logic                               stop_i,   // STOP is written at the next edge
+    output logic      [  Stages-1:0][RoundBits-1:0] axis_o,   // axis of the visit in each stage
+    output logic      [   Round-1:0]                turn_o,   // bit i: axis i is in the last stage
     output logic      [    Stages:0]                clear_o,  // bit i: the visit in stage i resets its axis
-    output logic                                    go_o,     // visits find GO
-    output logic      [TimeBits-1:0]                due_o,    // W less the clk since then
-    output logic                                    stop_o    // every motion ends
+    output logic                                    go_o,     // GO is active for the visits
+    output logic      [TimeBits-1:0]                due_o,    // W minus the cycles since GO
+    output logic                                    stop_o    // end every motion
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -36,10 +37,10 @@ module ppmc_bank_round #(
     end
   end
 
-  // clk of the round that are left after this one.
+  // Remaining cycles of the round after this one.
   logic [RoundBits-1:0] go_left_q;
-  logic [RoundBits:0] stop_left_q;  // one clk more: what starts at the last visit is armed then
-  logic again_q;  // another GO waits
+  logic [RoundBits:0] stop_left_q;  // one cycle more: an operation that starts last is armed then
+  logic again_q;  // another GO is pending
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_step: carries out the plan of a visit: what its axis is like afterwards, what its pin cell is told, what its
-// host may read. Combinational.
+// ppmc_bank_step: executes the decisions of a visit: next state of the axis, order to the pin cell, answer
+//         for the host.
 // Rules:  P104-PRO-01..04, P104-OPR-01..05, P104-END-01..07, P104-RD-02..07, P104-INI-05..08, P104-AUX-03/04,
 //         P104-PHS-01..06, P104-SW-02..05; BANK-WIN-07, BANK-MOT-01..04.
+// Timing: combinational.
 `default_nettype none
 
 module ppmc_bank_step
@@ -12,40 +13,40 @@ module ppmc_bank_step
   import ppmc_op_pkg::*;
 #(
     parameter int unsigned HoldRounds = 106_250,  // rounds from the end of a motion to HOLD
-    parameter int unsigned HoldBits   = 17
+    parameter int unsigned HoldBits = 17  // bits of left_i
 ) (
-    input  wire plan_t                   plan_i,      // what the visit has decided
-    input  wire seen_t                   seen_i,      // what it has seen of cell and switches
-    input  wire logic     [         7:0] code_i,      // of what a byte makes happen
-    input  wire logic     [        31:0] params_i,    // its parameters
+    input  wire plan_t                   plan_i,      // decisions of the visit
+    input  wire seen_t                   seen_i,      // pin cell and switches
+    input  wire logic     [         7:0] code_i,      // code of the action
+    input  wire logic     [        31:0] params_i,    // parameters of code_i
     input  wire logic     [         1:0] config_ni,   // vsel and csel, inverted
-    input  wire logic     [         1:0] read_seq_i,  // answer that the host has read last
-    // before
-    input  wire walk_t                   walk_i,      // motion
-    input  wire pace_t                   pace_i,      // pace of that
-    input  wire setting_t                setting_i,   // initialisation
-    input  wire units_t                  units_i,     // chopper
-    input  wire logic                    chop_i,      // the initialisation asks for it
+    input  wire logic     [         1:0] read_seq_i,  // seq of the answer that the host has read last
+    // state before the visit
+    input  wire walk_t                   walk_i,      // state of the motion
+    input  wire pace_t                   pace_i,      // interval of the motion
+    input  wire setting_t                setting_i,   // progress of the initialisation
+    input  wire units_t                  units_i,     // units of the chopper
+    input  wire logic                    chop_i,      // chopping at standstill, from the initialisation
     input  wire logic     [         7:0] slow_i,      // start-up rate
-    input  wire rest_t                   rest_i,      // what counts at rest
-    input  wire logic     [HoldBits-1:0] left_i,      // rounds of the hold time, less 1
-    input  wire logic     [        31:0] position_i,  // pulses CW less pulses CCW
-    // after
-    output walk_t                        walk_o,      // the same
-    output pace_t                        pace_o,      // the same
-    output setting_t                     setting_o,   // the same
-    output rest_t                        rest_o,      // the same
-    output logic          [HoldBits-1:0] left_o,      // the same
-    output logic          [        31:0] position_o,  // the same
-    // to the outside
-    output order_t                       order_o,     // to the pin cell
-    output answer_t                      answer_o,    // with plan_i.read
-    output logic                         call_o,      // an interrupt is pending from now on
-    output logic                         calm_o       // and no more
+    input  wire rest_t                   rest_i,      // phases, chopper, end of the last motion
+    input  wire logic     [HoldBits-1:0] left_i,      // remaining rounds of the hold time, minus 1
+    input  wire logic     [        31:0] position_i,  // CW pulses minus CCW pulses
+    // state after the visit
+    output walk_t                        walk_o,      // state of the motion
+    output pace_t                        pace_o,      // interval of the motion
+    output setting_t                     setting_o,   // progress of the initialisation
+    output rest_t                        rest_o,      // phases, chopper, end of the last motion
+    output logic          [HoldBits-1:0] left_o,      // remaining rounds of the hold time, minus 1
+    output logic          [        31:0] position_o,  // CW pulses minus CCW pulses
+    // outputs
+    output order_t                       order_o,     // order to the pin cell
+    output answer_t                      answer_o,    // answer to a read command, with plan_i.read
+    output logic                         call_o,      // set the pending interrupt of the axis
+    output logic                         calm_o       // clear the pending interrupt of the axis
 );
 
   op_code_t   code;
-  init_code_t init;  // the same byte, read as one or as the other
+  init_code_t init;  // code_i as code of an operation or an initialisation
   logic ramped, unused_bits;
 
   assign unused_bits = &{1'b0, plan_i, seen_i, code, init};
@@ -56,9 +57,9 @@ module ppmc_bank_step
   // ---- motion --------------------------------------------------------------------------------------
 
   logic [24:0] slack_add;
-  logic [24:0] slack;  // with finish: pulses left, less 1
-  logic down;  // climb - 1
-  logic ccw, counts;  // of a pulse that comes or goes
+  logic [24:0] slack;  // with finish: remaining pulses minus 1
+  logic down;  // climb decreases by 1
+  logic ccw, counts;  // of a pulse that is added or removed
 
   assign ccw    = walk_i.ccw ^ plan_i.undo;
   assign counts = plan_i.pulse || plan_i.undo;
@@ -122,7 +123,7 @@ module ppmc_bank_step
     position_o = position_i + {{31{ccw && counts}}, counts};
   end
 
-  // ---- set-up, phases, rest ------------------------------------------------------------------------
+  // ---- set-up, phases, standstill ------------------------------------------------------------------
 
   motor_e motor;
 
@@ -172,7 +173,7 @@ module ppmc_bank_step
     if (plan_i.finish) left_o = HoldBits'(HoldRounds - 1);
   end
 
-  // ---- to the outside ------------------------------------------------------------------------------
+  // ---- outputs -------------------------------------------------------------------------------------
 
   logic [5:1] levels;
 
@@ -193,7 +194,7 @@ module ppmc_bank_step
         s: (rest_o.pattern & {5{rest_o.on}}) ^ {5{!rest_o.positive}}
     };
 
-    // An answer gets a number that differs from that of the one before and of the one read last.
+    // The seq of an answer differs from that of the previous answer and of the answer read last.
     answer_o.seq = rest_i.seq + 2'd1;
     if (answer_o.seq == read_seq_i) answer_o.seq = rest_i.seq + 2'd2;
     answer_o.bytes = (plan_i.select == SEL_REMAINING) ? 2'd3 : 2'd1;

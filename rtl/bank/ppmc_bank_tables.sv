@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_tables: the ramp tables of all axes in one RAM, and the one builder that fills them.
+// ppmc_bank_tables: ramp tables of all axes in one RAM, and one builder that fills them.
 // Rules:  P104-RMP-02, P104-INI-07, BANK-INI-01, BANK-HSK-05.
-// Timing: book_i in a clk with booked_o = 0; the table is complete when booked_o falls. threshold_o stands two clk after
-//         axis_i and rate_i.
+// Timing: book_i is accepted in a cycle with booked_o = 0; the table is complete when booked_o falls.
+//         threshold_o is valid two cycles after axis_i and rate_i.
 `default_nettype none
 
 module ppmc_bank_tables #(
@@ -12,15 +12,15 @@ module ppmc_bank_tables #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // build
-    input  wire logic                book_i,       // build a table, from these
-    input  wire logic [AxisBits-1:0] book_axis_i,  // for this axis
+    input  wire logic                book_i,       // build a table from the inputs below
+    input  wire logic [AxisBits-1:0] book_axis_i,  // axis of the table to build
     input  wire logic [         7:0] slow_i,       // start-up rate
     input  wire logic [         7:0] fast_i,       // high-speed rate
     input  wire logic [StepBits-1:0] steps_i,      // acceleration pulses PA
-    output logic                     booked_o,     // the builder is at work
-    output logic      [AxisBits-1:0] for_o,        // for this axis
+    output logic                     booked_o,     // a build is in progress
+    output logic      [AxisBits-1:0] for_o,        // axis of the running build
     // look up
-    input  wire logic [AxisBits-1:0] axis_i,       // axis
+    input  wire logic [AxisBits-1:0] axis_i,       // axis of the look-up
     input  wire logic [         7:0] rate_i,       // r
     output logic      [StepBits-1:0] threshold_o   // first index with a rate below r
 );

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_times: how long an interval lasts after its low time; one word for each pace, nothing is multiplied.
+// ppmc_bank_times: duration of an interval after its low time; a ROM with one word for each base clock, extra
+//         time and rate, so that no multiplier is needed.
 // Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (a), BANK-GEN-02.
-// Timing: rest_o stands two clk after pace_i.
+// Timing: rest_o is valid two cycles after pace_i.
 `default_nettype none
 
 module ppmc_bank_times
   import ppmc_bank_pkg::*;
 #(
-    parameter int unsigned Quantum  = 25,  // clk
-    parameter int unsigned Round    = 32,  // clk
+    parameter int unsigned Quantum  = 25,  // quantum in cycles
+    parameter int unsigned Round    = 32,  // round in cycles
     parameter int unsigned TimeBits = 20
 ) (
     input  wire logic                 clk_i,
-    input  wire pace_t                pace_i,  // down does not count
-    output logic       [TimeBits-1:0] rest_o   // clk from the end of the low time to the next pulse, - Round
+    input  wire pace_t                pace_i,  // interval; down is not used
+    output logic       [TimeBits-1:0] rest_o   // cycles from end of low time to next pulse, minus Round
 );
 
-  // i: slow, extra, rate.
+  // Word at address i = {slow, extra, rate}.
   function automatic int unsigned rest(int unsigned i);
     int unsigned rate, interval, low;
     rate     = i % 256;

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_view: a bank behind the four address lines of the UART bridge: the 16 registers of one axis, of which
-//         register 0x3 chooses the axis.
-// Rules:  register map in docs/bank/carrier.md; passes strobes on as BANK-WIN-04 wants them.
-// Timing: combinational but for the choice, which changes inside the write strobe at register 0x3, and stands from
-//         GapClk - 1 clk before the next strobe. The bank sees no strobe at 0x3, and none at axes 64 .. 255.
+// ppmc_bank_view: maps the 16 registers of one axis of a bank to the four address lines of the UART bridge;
+//         register 0x3 selects the axis.
+// Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
+// Timing: combinational except for the selection. It changes during the write strobe at register 0x3 and is
+//         stable from GapClk - 1 cycles before the next strobe on. The bank receives no strobe at 0x3 and no
+//         strobe for axes 64 .. 255.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_bank_view (
     input  wire logic       clk_i,
-    input  wire logic       rst_ni,    // the bank's: axis 0 afterwards
-    // host, in step with clk_i; rd_n, wr_n and the data it writes go to the bank as they are
-    input  wire logic       cs_ni,     // addressed
+    input  wire logic       rst_ni,    // reset of the bank; selects axis 0
+    // host, synchronous to clk_i; rd_n, wr_n and write data are connected to the bank unchanged
+    input  wire logic       cs_ni,     // chip select
     input  wire logic       wr_ni,     // write strobe
     input  wire logic [3:0] a_i,       // register
-    input  wire logic [7:0] d_i,       // what it writes
-    output logic      [7:0] d_o,       // what it reads
+    input  wire logic [7:0] d_i,       // write data
+    output logic      [7:0] d_o,       // read data
     // bank
-    output logic            cs_no,     // addressed
+    output logic            cs_no,     // chip select
     output logic      [9:0] a_o,       // axis and register
-    input  wire logic [7:0] bank_d_i,  // what it shows
-    output logic      [7:0] axis_o     // which one is chosen
+    input  wire logic [7:0] bank_d_i,  // read data of the bank
+    output logic      [7:0] axis_o     // selected axis
 );
 
   localparam logic [3:0] Choice = 4'h3;
@@ -28,7 +29,7 @@ module ppmc_bank_view (
   logic own, none;
 
   assign own   = a_i == Choice;
-  assign none  = axis_o[7:6] != '0;  // the window ends at 63
+  assign none  = axis_o[7:6] != '0;  // the window ends at axis 63
   assign cs_no = cs_ni || own || none;
   assign a_o   = {axis_o[5:0], a_i};
   assign d_o   = own ? axis_o : none ? '1 : bank_d_i;

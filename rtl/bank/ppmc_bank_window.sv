@@ -1,49 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_window: the host's side of a bank: strobes, one input buffer and one output queue an axis, registers.
+// ppmc_bank_window: host interface of a bank: strobes, registers, one input buffer and one output queue for
+//         each axis.
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
-// Timing: a write acts at the edge that ends the clk after the strobe has left the synchronisers, a read is answered
-//         two clk after. What an axis is given (mail_o, progress_o, config_no) stands one clk after axis_i.
-// How:    RAM words of the addressed axis are read in every cycle. If a visit writes a word in the cycle in which it is
-//         read, the word read before is kept. Registers of the bank (other1_q, other2_q) are never kept.
+// Timing: a write acts at the first edge after the end of its strobe has left the synchronisers. d_o is valid
+//         from the third edge after the start of a read strobe has left them. mail_o, progress_o and
+//         config_no are valid one cycle after axis_i.
+// How:    RAM words of the addressed axis are read in every cycle. If a visit writes a word in the cycle in
+//         which it is read, the word read before is kept. The registers of the
+//         bank (other1_q, other2_q) are passed on in every cycle.
 `default_nettype none
 
 module ppmc_bank_window
   import ppmc_bank_pkg::*;
 #(
     parameter int unsigned Axes      = 32,
-    parameter int unsigned RoundBits = 5    // a round is 2^RoundBits clk; at least Axes and 8
+    parameter int unsigned RoundBits = 5    // a round is 2^RoundBits cycles; at least Axes and 8
 ) (
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
     // bus
     input  wire logic    [          9:0] a_i,          // axis and register
-    input  wire logic                    cs_ni,        // the bank is addressed
+    input  wire logic                    cs_ni,        // chip select
     input  wire logic                    rd_ni,        // read strobe
     input  wire logic                    wr_ni,        // write strobe
-    input  wire logic    [          7:0] d_i,          // what the host writes
-    output logic         [          7:0] d_o,          // what it reads
-    output logic                         d_oe_o,       // it is reading
+    input  wire logic    [          7:0] d_i,          // data written by the host
+    output logic         [          7:0] d_o,          // data read by the host
+    output logic                         d_oe_o,       // the host is reading: drive d_o
     // visits
     input  wire logic                    ready_i,      // 0: the axes are being reset
-    input  wire logic    [RoundBits-1:0] axis_i,       // axis of the coming visit
-    output mail_t                        mail_o,       // its input buffer
-    output progress_t                    progress_o,   // how far its answer has been read
-    output logic         [          1:0] config_no,    // vsel and csel, inverted
+    input  wire logic    [RoundBits-1:0] axis_i,       // axis of the next visit
+    output mail_t                        mail_o,       // input buffer of axis_i
+    output progress_t                    progress_o,   // bytes of the answer of axis_i that were read
+    output logic         [          1:0] config_no,    // vsel and csel of axis_i, inverted
     input  wire logic    [RoundBits-1:0] done_axis_i,  // axis of the visit that ends
-    input  wire status_t                 status_i,     // what that leaves
-    input  wire logic    [         31:0] position_i,   // the same
-    input  wire logic                    answer_we_i,  // and this, if so
-    input  wire answer_t                 answer_i,     // the answer to a read command
+    input  wire status_t                 status_i,     // status of done_axis_i
+    input  wire logic    [         31:0] position_i,   // position of done_axis_i
+    input  wire logic                    answer_we_i,  // write answer_i
+    input  wire answer_t                 answer_i,     // answer to a read command
     // bank
-    input  wire logic    [     Axes-1:0] map_i,        // interrupts pending
+    input  wire logic    [     Axes-1:0] map_i,        // pending interrupts
     output logic         [     Axes-1:0] mask_o,       // members of the group
-    output logic                         go_o,         // GO is written, at the coming edge
-    output logic                         stop_o        // STOP is
+    output logic                         go_o,         // GO is written at the next edge
+    output logic                         stop_o        // STOP is written at the next edge
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
-  // With few axes only positions, for small FPGAs have few block RAMs; a status has few bits, the tool sees that.
-  // Simulation does not read an attribute.
+  // With few axes only positions use block RAM, because small FPGAs have few of them. A status has so few
+  // bits that the tool decides. Simulation does not read an attribute.
   // verilator lint_off UNUSEDPARAM
   localparam string AnswerStyle = (Slots > 8) ? "block" : "logic";
   localparam string StatusStyle = (Slots > 8) ? "block" : "auto";
@@ -92,7 +95,7 @@ module ppmc_bank_window
   assign read_done = read3_q && !read2;
   assign load      = read4_q && !read5_q && read2;
 
-  // ---- what the host has written -------------------------------------------------------------------
+  // ---- data written by the host --------------------------------------------------------------------
 
   mail_t mails[Slots];
   progress_t progresses[Slots];
@@ -109,7 +112,7 @@ module ppmc_bank_window
       configs_n[i]  = '0;
     end
 
-  // Until the bank is ready every word is cleared.
+  // Every word is cleared until the bank is ready.
   assign mail_we     = !ready_i || (write && wa_q[3:1] == 3'd0);
   assign config_we   = !ready_i || (write && wa_q[3:0] == REG_CONFIG);
   assign progress_we = !ready_i || (read_done && shown_q);
@@ -137,7 +140,7 @@ module ppmc_bank_window
   assign go_o   = write && wa_q[3:0] == REG_GO;
   assign stop_o = write && wa_q[3:0] == REG_STOP;
 
-  // ---- what it reads -------------------------------------------------------------------------------
+  // ---- data read by the host -----------------------------------------------------------------------
 
   (* ram_style = StatusStyle, no_rw_check *) status_t statuses[Slots];
   (* ram_style = "block", no_rw_check *) logic [31:0] positions[Slots];
@@ -193,10 +196,10 @@ module ppmc_bank_window
     endcase
     clash_q <= done_axis_i == axis2;
     if (!clash_q) view2_q <= view1_q;
-    other2_q <= other1_q;  // any visit may change the map, not only that of the addressed axis
+    other2_q <= other1_q;  // any visit may change the map, not only that of this axis
   end
 
-  // A byte gets a number that differs from that of the one before and of the one taken last.
+  // The seq of a byte differs from that of the previous byte and of the byte accepted last.
   always_comb begin
     mail_w.command = wa_q[0];
     mail_w.data    = wd_q;
@@ -209,7 +212,7 @@ module ppmc_bank_window
   logic [7:0] data, status, value;
   logic ibf, obf, exists;
   logic [23:0] kept_q;  // bytes 1..3 of a position
-  logic ready_q;  // of the moment that a read shows
+  logic ready_q;  // ready_i at the time of the read data
 
   assign exists = 32'(a2[9:4]) < Axes;
 

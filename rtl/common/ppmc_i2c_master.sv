@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_i2c_master: moves the two lines of an I2C bus: START, STOP, bytes, freeing of a stuck bus. One master.
+// ppmc_i2c_master: master of an I2C bus with one master: sends START, STOP and bytes, receives bytes, and
+//         frees a bus whose data line is stuck.
 // Rules:  P006 section 13.1, P006-BAD-13 (clock held low).
-// Timing: everything moves on tick_o, four a bit. A bit: SDA, SCL up, look, SCL down; START and STOP take six
-//         ticks. cmd_i stands until done_o or fail_o, one clk after the last tick; a new one that stands before the
-//         next tick follows without a gap. While the clock is held low the look is repeated, for 1 ms.
-//         SCL goes up RiseClk after its tick: it is low for 55 % of the period, up to the next clk.
+// Timing: the lines change at tick_o, four ticks a bit: SDA changes, SCL rises, SDA is sampled, SCL falls.
+//         START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick. If the next
+//         command is valid before the next tick, it follows without a gap. While a device holds SCL low, the
+//         sample is repeated at each tick, for up to 1 ms. SCL rises RiseClk cycles after its tick, so that
+//         it is low for 55 % of the period, rounded up to a whole cycle.
+// Assumes: cmd_i is stable until done_o or fail_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,23 +19,23 @@ module ppmc_i2c_master
 ) (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    output logic                tick_o,    // a quarter of a bit
-    input  wire i2c_cmd_e       cmd_i,     // what to do
-    input  wire logic     [7:0] byte_i,    // to send; 8'hff to receive
-    input  wire logic           ack_i,     // ninth bit to send: 1 leaves it to the other side
-    output logic                first_o,   // byte_i has been taken
-    output logic                done_o,    // it is done, one clk
-    output logic                fail_o,    // the clock or the data line is stuck; both are released
-    output logic          [7:0] byte_o,    // what was received
-    output logic                nack_o,    // the ninth bit, or the one that ended a freeing
-    input  wire logic           scl_i,     // synchronised
-    input  wire logic           sda_i,     // data of the bus
-    output logic                scl_oe_o,  // pull the clock low
-    output logic                sda_oe_o   // pull the data low
+    output logic                tick_o,    // tick of a quarter of a bit
+    input  wire i2c_cmd_e       cmd_i,     // command
+    input  wire logic     [7:0] byte_i,    // byte to send; 8'hff to receive
+    input  wire logic           ack_i,     // ninth bit to send; 1 leaves it to the other device
+    output logic                first_o,   // byte_i and ack_i are loaded at the next edge
+    output logic                done_o,    // single-cycle strobe: the command is complete
+    output logic                fail_o,    // SCL or SDA is stuck; both are released
+    output logic          [7:0] byte_o,    // byte received
+    output logic                nack_o,    // ninth bit; for CmdFree the last bit sampled
+    input  wire logic           scl_i,     // SCL of the bus, synchronised
+    input  wire logic           sda_i,     // SDA of the bus, synchronised
+    output logic                scl_oe_o,  // drive SCL low
+    output logic                sda_oe_o   // drive SDA low
 );
 
   localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;
-  // 0.55 of a bit in clk, less the two ticks of a low clock where they are shortest. 24C32: >= 1.3 us at 400 kHz.
+  // 0.55 of a bit in cycles, less the shortest two ticks with SCL low. 24C32: low for >= 1.3 us at 400 kHz.
   localparam longint unsigned Scl20 = 64'd20 * 64'(SclHz);
   localparam int unsigned LowClk = 32'((64'd11 * 64'(ClkHz) + Scl20 - 64'd1) / Scl20);
   localparam int unsigned RiseClk = LowClk - ClkHz / (2 * SclHz);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_i2c_pkg: what the I2C master can be told to do.
+// ppmc_i2c_pkg: commands of the I2C master.
 // Rules:  P006 section 13.1.
 `default_nettype none
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_lfsr_pkg: counts that nobody reads, who only has to know when they are at one of a few values: a shift
-//         register with feedback (Galois) of maximal length. Where a counter has a gate or a carry cell a bit,
-//         this has one to three XOR in all.
-// How:    the state after n steps is x**n modulo a primitive polynomial, from x**0 = 1 on; it comes back after
-//         2**bits - 1 steps. A state of 0 would stand still: it is never reached.
+// ppmc_lfsr_pkg: counters in the form of a shift register with feedback (Galois LFSR, maximal length), for
+//         blocks that only compare the count with a few values. A binary counter needs a gate or a carry cell
+//         for each bit; an LFSR needs one to three XOR gates in all.
+// How:    the state after n steps is x**n modulo a primitive polynomial, beginning with x**0 = 1; it repeats
+//         after 2**bits - 1 steps. The state 0 would never change, but no step leads to it.
 `default_nettype none
 
 package ppmc_lfsr_pkg;
@@ -11,7 +11,7 @@ package ppmc_lfsr_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // Primitive polynomials of degree 31 .. 2 without their highest power, x**0 in the low bit.
+  // Primitive polynomials of degree 31 .. 2 without their highest power; x**0 is the lowest bit.
   localparam logic [31:2][7:0] TAPS = {
     8'h09,  // 31
     8'h53,
@@ -45,22 +45,23 @@ package ppmc_lfsr_pkg;
     8'h03
   };
 
-  // Bits of a count that must tell 0 .. `top` apart; top at most 2**31 - 2.
+  // Bits of a count that must distinguish the values 0 .. `top`; top is at most 2**31 - 2.
   function automatic int unsigned width(int unsigned top);
     return (top < 2) ? 2 : 32'($clog2(64'(top) + 64'd2));
   endfunction
 
-  // One step.
+  // State after one more step.
   function automatic logic [30:0] step(logic [30:0] state, int unsigned bits);
     logic [30:0] mask;
     mask = 31'((32'd1 << bits) - 32'd1);
     return ({state[29:0], 1'b0} & mask) ^ (state[bits-1] ? 31'(TAPS[bits]) : '0);
   endfunction
 
-  // State after n steps, n below 2**bits; for elaboration alone. From the highest bit of n down: square, and step for
-  // a 1. Few statements, because tools carry such functions out slowly.
+  // State after n steps, n below 2**bits; for elaboration only. For each bit of n, from the highest down, it
+  // squares the power and, if the bit is 1, adds a step. It has few statements, because tools evaluate
+  // functions slowly.
   function automatic logic [30:0] after(int unsigned n, int unsigned bits);
-    logic [31:0] whole, power, square;  // the polynomial; x to the bits of n so far; its square
+    logic [31:0] whole, power, square;  // polynomial; x to the bits of n so far; its square
     whole = (32'd1 << bits) | 32'(TAPS[bits]);
     power = 32'd1;
     for (int i = int'(bits) - 1; i >= 0; i--) begin

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_reset: asynchronous assertion, synchronous release of a part's reset.
+// ppmc_reset: reset of a core: asserted asynchronously, released synchronously.
 // Rules:  P104-PORT-03.
-// Timing: rst_no falls with rst_ni at once; rises at the second clk edge that sees rst_ni high.
+// Timing: rst_no falls immediately with rst_ni. It rises at the second rising edge of clk_i with rst_ni high.
 `default_nettype none
 
 module ppmc_reset (
     input  wire logic clk_i,
     input  wire logic rst_ni,  // asynchronous, active low
-    output logic      rst_no   // reset for every flip-flop of the part
+    output logic      rst_no   // reset for every flip-flop of the core
 );
 
   logic meta_q;

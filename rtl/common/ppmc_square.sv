@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_square: a square wave of a whole number of crystal cycles, made by phase accumulation; no drift.
+// ppmc_square: square wave of a whole number of crystal cycles, made by phase accumulation; no drift.
 // Rules:  P2104-PORT-06.
-// Timing: counted from the first clk edge after reset, toggle t happens after ceil(t * HalfXtal * ClkHz / XtalHz)
-//         clk. Half a period lasts at least one clk.
+// Timing: toggle t occurs at rising edge number ceil(t * HalfXtal * ClkHz / XtalHz), where edge 1 is the
+//         first one after reset. Half a period lasts at least one cycle.
 `default_nettype none
 
 module ppmc_square #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter int unsigned HalfXtal = 2            // crystal cycles of half a period
+    parameter int unsigned HalfXtal = 2            // crystal cycles in half a period
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    output logic      wave_o   // a flip-flop; 0 in reset
+    output logic      wave_o   // square wave, registered; 0 in reset
 );
 
   localparam longint unsigned Period = 64'(HalfXtal) * 64'(ClkHz);

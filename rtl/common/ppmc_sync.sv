@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_sync: the family's two-stage synchroniser, one for every asynchronous pin.
+// ppmc_sync: two-stage synchroniser, used for every asynchronous pin.
 // Rules:  P104-PORT-02.
-// Timing: a level first sampled at edge t stands on q1_o after t and on q2_o after t + 1.
+// Timing: a level first sampled at edge t appears on q1_o after edge t and on q2_o after edge t + 1.
 `default_nettype none
 
 module ppmc_sync #(
@@ -11,8 +11,8 @@ module ppmc_sync #(
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     input  wire logic [Width-1:0] d_i,     // raw pins
-    output logic      [Width-1:0] q1_o,    // first stage; may be metastable, for same-depth decoding only
-    output logic      [Width-1:0] q2_o     // synchronous level
+    output logic      [Width-1:0] q1_o,    // first stage, may be metastable; for decoding at equal depth
+    output logic      [Width-1:0] q2_o     // synchronised level
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

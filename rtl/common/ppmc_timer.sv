@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_timer: whether so many ticks have come since the last restart, for one of a few numbers that are known at
-//         elaboration (ppmc_delay: one alone; ppmc_xtal_timer: any).
+// ppmc_timer: reports whether a number of ticks has passed since the last restart; for one of a few numbers
+//         that are known at elaboration (ppmc_delay: for a single number; ppmc_xtal_timer: for any number).
 // Rules:  P104-GEN-02/03.
-// Timing: past_o rises at the edge that ends the cycle of that tick and stands until the next restart_i; a tick in
-//         the cycle of restart_i does not count. No reset: nobody asks before the first restart.
+// Timing: past_o rises at the edge that ends the cycle of that tick, and is high until the next restart_i. A
+//         tick in the cycle of restart_i does not count.
+// Assumes: no block uses past_o before the first restart, because the flip-flops have no reset.
 `default_nettype none
 
 module ppmc_timer #(
     parameter int unsigned Width = 8  // ppmc_lfsr_pkg::width(longest number - 1)
 ) (
     input  wire logic             clk_i,
-    input  wire logic             restart_i,  // count from 0
-    input  wire logic             tick_i,     // counts; 1 for times in clk
-    input  wire logic [Width-1:0] last_i,     // after(number - 1, Width); steady from the next clk on
-    output logic                  past_o      // so many have come
+    input  wire logic             restart_i,  // restart the count from 0
+    input  wire logic             tick_i,     // count one tick; constant 1 for times in cycles
+    input  wire logic [Width-1:0] last_i,     // after(number - 1, Width); stable from the next cycle on
+    output logic                  past_o      // the number of ticks has passed
 );
 
   logic [Width-1:0] count_q;

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_uart_rx: UART receiver, 8 data bits, no parity, 1 stop bit; any rate up to clk / 5.
 // Rules:  UB-LIN-01, UB-LIN-03 .. 05.
-// Timing: the line is synchronised here. Each bit is sampled in its middle, to the nearest clk. valid_o or error_o is
-//         1 for one clk in the middle of the stop bit; byte_o stands for one more bit time at least.
-// Rate:   step_i = 2**Width * rate / clk; it may change at any time and acts at once. With a Modulus (even, above
-//         2**(Width-1)) bits are exact fractions: step_i = Modulus * rate / clk, wrap_i = step_i - Modulus.
+// Timing: the block synchronises the line and samples each bit in its middle, to the nearest cycle. valid_o
+//         or error_o is high for one cycle in the middle of the stop bit; byte_o is valid for at least one
+//         more bit time.
+// Rate:   step_i = 2**Width * rate / clk. It may change at any time and is effective immediately. With a
+//         Modulus (even, above 2**(Width-1)) bit times are exact fractions: step_i = Modulus * rate / clk,
+//         and wrap_i = step_i - Modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_uart_rx #(
-    parameter int unsigned     Width   = 20,  // of the phase accumulator
-    parameter longint unsigned Modulus = 0    // phases of a bit; 0: 2**Width
+    parameter int unsigned     Width   = 20,  // bits of the phase accumulator
+    parameter longint unsigned Modulus = 0    // phases in a bit; 0: 2**Width
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic [Width-1:0] step_i,   // phases a clk
-    input  wire logic [Width-1:0] wrap_i,   // only with a Modulus
+    input  wire logic [Width-1:0] step_i,   // phases in a cycle
+    input  wire logic [Width-1:0] wrap_i,   // step_i - Modulus; not used if Modulus = 0
     input  wire logic             rxd_i,    // raw pin, idle high
-    output logic      [      7:0] byte_o,   // the character, with valid_o
-    output logic                  valid_o,  // a character with a high stop bit
-    output logic                  error_o,  // one with a low stop bit
+    output logic      [      7:0] byte_o,   // character, valid with valid_o
+    output logic                  valid_o,  // a character with a high stop bit was received
+    output logic                  error_o,  // a character with a low stop bit was received
     output logic                  break_o   // with error_o: all data bits were low as well
 );
 
@@ -35,7 +37,7 @@ module ppmc_uart_rx #(
   state_e state_q;
   logic line, unused_meta, any_q, middle;
   logic [Width-1:0] phase_q, phase_d;
-  logic [3:0] left_q;  // bits left, the stop bit is the last
+  logic [3:0] left_q;  // remaining bits; the stop bit is the last
 
   ppmc_sync u_sync (
       .clk_i,
@@ -45,16 +47,17 @@ module ppmc_uart_rx #(
       .q2_o(line)
   );
 
-  // An idle phase stands at one half, so the first carry is the middle of the start bit. The edge lies half a clk
-  // before the clk that sees it: that one counts as well.
+  // The idle phase is one half, so the first carry marks the middle of the start bit. The edge of the line
+  // lies half a cycle before the cycle that samples it, so this cycle counts as well.
   if (Modulus == 0) begin : g_binary
     logic unused_wrap;
 
     assign unused_wrap = &{1'b0, wrap_i};
     assign {middle, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
   end else begin : g_modulus
-    // The phase begins so far up that a bit ends with a carry; the next step takes it there again. A character may
-    // follow on the very clk that has ended the one before.
+    // The phase starts at an offset with which one bit time ends with a carry; the step after a carry
+    // restores this offset. The end of a character sets the phase already, because the next character may
+    // begin in the very next cycle.
     logic over_q, ends;
     logic [Width-1:0] sum;
 

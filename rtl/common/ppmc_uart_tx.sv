@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_uart_tx: UART transmitter, 8 data bits, no parity, 1 stop bit; any rate up to clk / 2.
 // Rules:  UB-LIN-01, UB-LIN-03.
-// Timing: a byte is taken in a clk with valid_i and ready_o; its start bit begins on the next edge. ready_o is high
-//         again when its stop bit has ended, so characters may follow each other without a gap of more than 1 clk.
-// Rate:   step_i = 2**Width * rate / clk, constant while a character is on its way.
+// Timing: a byte is accepted in a cycle with valid_i and ready_o high; its start bit begins at the next edge.
+//         ready_o is high again at the end of the stop bit, so the gap between two characters may be as short
+//         as one cycle.
+// Rate:   step_i = 2**Width * rate / clk.
+// Assumes: step_i is constant while a character is sent.
 `default_nettype none
 
 module ppmc_uart_tx #(
-    parameter int unsigned Width = 20  // of the phase accumulator
+    parameter int unsigned Width = 20  // bits of the phase accumulator
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic [Width-1:0] step_i,   // phases a clk
-    input  wire logic [      7:0] byte_i,   // the character
-    input  wire logic             valid_i,  // send it
-    output logic                  ready_o,  // it is taken
+    input  wire logic [Width-1:0] step_i,   // phases in a cycle
+    input  wire logic [      7:0] byte_i,   // character to send
+    input  wire logic             valid_i,  // byte_i is valid
+    output logic                  ready_o,  // a byte is accepted with valid_i
     output logic                  txd_o     // the line, idle high
 );
 
   logic [Width-1:0] phase_q, phase_d;
-  logic [8:0] bits_q;  // data bits to come and the stop bit
-  logic [3:0] left_q;  // bits left, the present one not counted
+  logic [8:0] bits_q;  // remaining data bits and the stop bit
+  logic [3:0] left_q;  // remaining bits without the current one
   logic over;
 
   assign {over, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
@@ -38,7 +40,8 @@ module ppmc_uart_tx #(
     end
   end
 
-  // From phase 0 on edge n comes after ceil(n * bit time): the nearest clk of a grid that begins half a clk late.
+  // From phase 0, bit edge n occurs after ceil(n * bit time) cycles: nearest to a grid that is half a cycle
+  // late.
   always_ff @(posedge clk_i) begin
     phase_q <= ready_o ? '0 : phase_d;
     if (ready_o) begin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_cycles: how many crystal cycles end with each clk, counted from a restart; exact, without drift.
+// ppmc_xtal_cycles: number of crystal cycles that end in each clock cycle, from a restart; no drift.
 // Rules:  P104-GEN-02/03.
-// Timing: after a restart at edge e, the sum of cycles_o over the n clk that follow is floor(n * XtalHz / ClkHz).
+// Timing: after a restart at edge e, the sum of cycles_o over the next n cycles is floor(n * XtalHz / ClkHz).
 `default_nettype none
 
 module ppmc_xtal_cycles #(
@@ -10,8 +10,8 @@ module ppmc_xtal_cycles #(
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic       restart_i,  // count from the coming edge on
-    output logic      [1:0] cycles_o    // 0 .. 3
+    input  wire logic       restart_i,  // restart the count at the next edge
+    output logic      [1:0] cycles_o    // crystal cycles that end in this cycle, 0 .. 3
 );
 
   localparam longint unsigned Common = ppmc_pkg::gcd(64'(ClkHz), 64'(XtalHz));

@@ -1,58 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axil: AXI4-Lite subordinate (32 bits) in front of a part's strobe bus.
-// Rules:  register map and answers in docs/integration.md; strobes by UB-BUS-01.
-// Timing: all outputs but the data mux come from flip-flops. One write and one read may wait here; they are
-//         carried out one after the other, in turn when both wait. B comes 8 clk after AW and W are both in,
-//         R 10 clk after AR, for the bridge register 2 clk; longer behind another cycle.
+// ppmc_axil: AXI4-Lite subordinate (32 bits) for the strobe bus of a device.
+// Rules:  register map and responses in docs/integration.md; strobes by UB-BUS-01.
+// Timing: all outputs except the data multiplexer are registered. One write and one read may wait here; they
+//         are executed one after the other, alternately if both wait. The B response is valid 8 cycles after
+//         both AW and W were accepted, R 10 cycles after AR; for the bridge register, 2 cycles. It takes
+//         longer if another access is in progress.
 `default_nettype none
 `include "ppmc_assert.svh"
 
 module ppmc_axil #(
-    parameter int unsigned AddrBits = 1  // address lines of the part
+    parameter int unsigned AddrBits = 1  // address lines of the device
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // AXI4-Lite
-    input  wire logic                awvalid_i,  // write address is there
-    output logic                     awready_o,  // and taken
+    input  wire logic                awvalid_i,  // write address is valid
+    output logic                     awready_o,  // write address is accepted
     input  wire logic [AddrBits+2:0] awaddr_i,   // byte address
-    input  wire logic                wvalid_i,   // data are there
-    output logic                     wready_o,   // and taken
-    input  wire logic [        31:0] wdata_i,    // bits 7..0 count
+    input  wire logic                wvalid_i,   // write data are valid
+    output logic                     wready_o,   // write data are accepted
+    input  wire logic [        31:0] wdata_i,    // bits 7..0 are used
     input  wire logic [         3:0] wstrb_i,    // bit 0: bits 7..0 are written
-    output logic                     bvalid_o,   // the write is done
-    input  wire logic                bready_i,   // seen
-    output logic      [         1:0] bresp_o,    // how it went
-    input  wire logic                arvalid_i,  // read address is there
-    output logic                     arready_o,  // and taken
+    output logic                     bvalid_o,   // write response is valid
+    input  wire logic                bready_i,   // write response is accepted
+    output logic      [         1:0] bresp_o,    // result of the write
+    input  wire logic                arvalid_i,  // read address is valid
+    output logic                     arready_o,  // read address is accepted
     input  wire logic [AddrBits+2:0] araddr_i,   // byte address
-    output logic                     rvalid_o,   // data are there
-    input  wire logic                rready_i,   // and taken
-    output logic      [        31:0] rdata_o,    // bits 7..0 count
-    output logic      [         1:0] rresp_o,    // how it went
-    output logic                     irq_o,      // the part's int_n, high active
-    // the part's pins
-    output logic                     cs_no,      // the part is addressed
+    output logic                     rvalid_o,   // read data are valid
+    input  wire logic                rready_i,   // read data are accepted
+    output logic      [        31:0] rdata_o,    // bits 7..0 are used
+    output logic      [         1:0] rresp_o,    // result of the read
+    output logic                     irq_o,      // interrupt of the device, H = active
+    // pins of the device
+    output logic                     cs_no,      // chip select
     output logic                     rd_no,      // read strobe
     output logic                     wr_no,      // write strobe
     output logic      [AddrBits-1:0] a_o,        // register
-    output logic      [         7:0] d_o,        // to be written
-    input  wire logic [         7:0] d_i,        // what the part shows
-    input  wire logic                int_ni      // the part's interrupt, L = active
+    output logic      [         7:0] d_o,        // write data
+    input  wire logic [         7:0] d_i,        // read data
+    input  wire logic                int_ni      // interrupt, L = active
 );
 
   typedef logic [AddrBits:0] word_t;  // address of a 32-bit word
 
   word_t aw_q, ar_q;
   logic [7:0] w_q;
-  logic strobe_q;  // the low byte lane of W
-  logic busy_q, write_q;  // a strobe cycle is under way; it is a write
-  logic turn_q;  // a write goes first when both wait
-  logic own_q;  // R shows the bridge register, or nothing
+  logic strobe_q;  // byte lane 0 of W is enabled
+  logic busy_q, write_q;  // a strobe access is in progress; it is a write
+  logic turn_q;  // 1: a write goes first when both wait
+  logic own_q;  // R returns the bridge register, or 0
   logic flag_q, unused;
   assign unused = &{1'b0, awaddr_i[1:0], araddr_i[1:0], wdata_i[31:8], wstrb_i[3:1]};
 
-  // ---- what is next --------------------------------------------------------------------------------
+  // ---- next access ---------------------------------------------------------------------------------
 
   logic want_write, want_read, pick_write, strobe, take, ready, done;
   word_t word;
@@ -117,7 +118,7 @@ module ppmc_axil #(
     end
   end
 
-  // ---- answers -------------------------------------------------------------------------------------
+  // ---- responses -----------------------------------------------------------------------------------
 
   logic end_write, end_read;
   assign end_write = (take && pick_write && !strobe) || (done && write_q);
@@ -157,7 +158,7 @@ module ppmc_axil #(
   `PPMC_ASSERT(axil_b_room, !(end_write && bvalid_o))
   `PPMC_ASSERT(axil_r_room, !(end_read && rvalid_o))
   `PPMC_ASSERT(axil_answer_per_strobe, !done || busy_q)
-  // The manager's part of the contract: what it has offered stays until it is taken.
+  // The manager's side of the contract: a request stays unchanged until it is accepted.
   `PPMC_ASSERT(axil_aw_held, !$past(rst_ni && awvalid_i && !awready_o)
                || (awvalid_i && awaddr_i == $past(awaddr_i)))
   `PPMC_ASSERT(axil_w_held, !$past(rst_ni && wvalid_i && !wready_o)

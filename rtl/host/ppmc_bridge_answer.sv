@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_answer: collects the data of an answer in its buffer: single bytes, IDENT, VERSION, RECORDED, COUNT.
-// Rules:  UB ops IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (room).
-// Timing: put_i stores a byte at once. A block takes one clk a byte; COUNT begins anew when the counter has moved
-//         meanwhile. The room flags are right two clk after the last byte.
-// Needs:  each counter changes by one at a time and not twice within 4 clk; for COUNT to end not within 8.
+// ppmc_bridge_answer: collects the data of an answer in its buffer: single bytes, IDENT, VERSION, RECORDED,
+//         COUNT.
+// Rules:  UB ops IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
+// Timing: put_i stores a byte at the next edge. A block takes one cycle for each byte; COUNT is restarted if
+//         the counter has changed during this time. The full flags are valid two cycles after the last byte.
+// Assumes: each counter changes by one at a time and not twice within 4 cycles; for COUNT to end, not twice
+//         within 8 cycles.
 `default_nettype none
 
 module ppmc_bridge_answer
@@ -11,28 +13,28 @@ module ppmc_bridge_answer
 #(
     parameter int unsigned Axes = 1,
     parameter logic [127:0] Ident = '0,  // first byte in the low bits
-    parameter logic [127:0] Build = '0  // answer of VERSION
+    parameter logic [127:0] Build = '0  // data of op VERSION
 ) (
     input  wire logic                 clk_i,
     input  wire logic                 rst_ni,
-    input  wire logic                 clear_i,    // a new answer
-    input  wire logic                 put_i,      // one byte more
-    input  wire logic   [        7:0] data_i,     // with put_i
-    input  wire logic                 ident_i,    // begin a block of 16 bytes, one clk
-    input  wire block_e               block_i,    // which; stands while busy_o
-    input  wire logic   [       63:0] info_i,     // answer of RECORDED, zeros follow
-    input  wire logic                 count_i,    // begin a block of COUNT, one clk
-    input  wire logic                 second_i,   // COUNT of axis 2; stands while busy_o
+    input  wire logic                 clear_i,    // begin a new answer
+    input  wire logic                 put_i,      // store one byte
+    input  wire logic   [        7:0] data_i,     // byte to store, with put_i
+    input  wire logic                 ident_i,    // strobe: begin a block of 16 bytes
+    input  wire block_e               block_i,    // block to store; stable while busy_o
+    input  wire logic   [       63:0] info_i,     // data of RECORDED, followed by zeros
+    input  wire logic                 count_i,    // strobe: begin a block of COUNT
+    input  wire logic                 second_i,   // COUNT of axis 2; stable while busy_o
     input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters, axis 1 in the low bits
-    output logic                      busy_o,     // a block is on its way
-    output logic                      full_o,     // no room for one more byte
-    output logic                      full4_o,    // no room for 4
-    output logic                      full16_o,   // no room for 16
-    output logic        [        8:0] length_o,   // bytes so far
+    output logic                      busy_o,     // a block is being stored
+    output logic                      full_o,     // no space for one more byte
+    output logic                      full4_o,    // no space for 4 bytes
+    output logic                      full16_o,   // no space for 16 bytes
+    output logic        [        8:0] length_o,   // number of stored bytes
     // buffer
-    output logic                      we_o,       // write into the buffer
-    output logic        [        7:0] waddr_o,    // where
-    output logic        [        7:0] wdata_o     // what
+    output logic                      we_o,       // write enable of the buffer
+    output logic        [        7:0] waddr_o,    // write address
+    output logic        [        7:0] wdata_o     // write data
 );
 
   logic counting_q, parity_q, again;
@@ -74,7 +76,7 @@ module ppmc_bridge_answer
     full4_o  <= length_o > 9'd252;
     full16_o <= length_o > 9'd240;
     if (clear_i) length_o <= '0;
-    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // three back or one on
+    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // minus 3 or plus 1
     if (ident_i || count_i) begin
       counting_q <= count_i;
       left_q     <= count_i ? 4'd3 : 4'd15;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode: what an op of a script needs first, and whether it may begin at all.
+// ppmc_bridge_decode: decodes an op of a script: its first need, and whether it may begin.
 // Rules:  the op table of docs/uart_bridge.md, UB-ANS-02, -05.
 // Timing: combinational.
 `default_nettype none
@@ -8,18 +8,18 @@ module ppmc_bridge_decode
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned Axes = 1,  // pulse counters
-    parameter bit Recorder = 1'b0  // there is one
+    parameter bit Recorder = 1'b0  // 1: there is a recorder
 ) (
-    input  wire logic [7:0] op_i,      // its code
-    input  wire logic       full_i,    // no room for one more byte in the answer
-    input  wire logic       full4_i,   // no room for 4
-    input  wire logic       full16_i,  // no room for 16
-    output need_e           need_o,    // what it needs first
-    output result_e         fail_o,    // ResDone, or why it may not begin
-    output logic            second_o,  // it is about axis 2
-    output logic            ident_o,   // it begins a block of 16 bytes
-    output logic            count_o,   // it begins a block of 4 bytes
-    output block_e          block_o    // which block of 16
+    input  wire logic [7:0] op_i,      // op code
+    input  wire logic       full_i,    // no space for one more byte in the answer
+    input  wire logic       full4_i,   // no space for 4 bytes
+    input  wire logic       full16_i,  // no space for 16 bytes
+    output need_e           need_o,    // first need of the op
+    output result_e         fail_o,    // ResDone, or the reason why the op may not begin
+    output logic            second_o,  // the op refers to axis 2
+    output logic            ident_o,   // the op begins a block of 16 bytes
+    output logic            count_o,   // the op begins a block of 4 bytes
+    output block_e          block_o    // selected block of 16 bytes
 );
 
   logic [3:0] kind, low;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_exec: runs the script in the request buffer; its cycles go to the part's bus, its data to the answer.
+// ppmc_bridge_exec: executes the script in the request buffer, with accesses to the bus of the device; stores
+//         the data in the answer.
 // Rules:  the op table of docs/uart_bridge.md, UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
-// Timing: start_i begins a script of length_i bytes, again_i brings the last answer back; both only in idle.
-//         answer_o is high until answered_i. Request bytes are read two clk after their address.
+// Timing: start_i begins a script of length_i bytes, again_i sends the last answer again; both only in
+//         StIdle. answer_o is high until answered_i. Request bytes are read two cycles after their address.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,46 +12,46 @@ module ppmc_bridge_exec
 #(
     parameter int unsigned TopCode = 6,  // highest line rate code
     parameter int unsigned Axes = 1,  // pulse counters
-    parameter bit Recorder = 1'b0,  // there is one
+    parameter bit Recorder = 1'b0,  // 1: there is a recorder
     parameter logic [127:0] Ident = '0,
-    parameter logic [127:0] Build = '0  // answer of op VERSION
+    parameter logic [127:0] Build = '0  // data of op VERSION
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
-    input  wire logic               ms_i,          // one clk every millisecond
+    input  wire logic               ms_i,          // strobe every millisecond
     // request
     input  wire logic               start_i,       // begin a script
-    input  wire logic               again_i,       // bring the last answer back
-    input  wire logic [        7:0] length_i,      // of the script in bytes
-    output logic      [        7:0] raddr_o,       // place in the script
-    input  wire logic [        7:0] rdata_i,       // what stands there, two clk later
-    input  wire logic               interrupt_i,   // a byte has come since start_i
+    input  wire logic               again_i,       // send the last answer again
+    input  wire logic [        7:0] length_i,      // length of the script in bytes
+    output logic      [        7:0] raddr_o,       // address in the script
+    input  wire logic [        7:0] rdata_i,       // byte at raddr_o, two cycles later
+    input  wire logic               interrupt_i,   // a byte was received after start_i
     // answer
-    output logic                    script_o,      // running
-    output logic                    answer_o,      // done, answer on its way
-    input  wire logic               answered_i,    // it is sent
-    output outcome_t                outcome_o,     // what became of the script
-    output logic                    we_o,          // write into the answer's buffer
-    output logic      [        7:0] waddr_o,       // where
-    output logic      [        7:0] wdata_o,       // what
+    output logic                    script_o,      // a script is running
+    output logic                    answer_o,      // the script has ended, its answer is being sent
+    input  wire logic               answered_i,    // the answer has been sent
+    output outcome_t                outcome_o,     // result of the script
+    output logic                    we_o,          // write enable of the answer buffer
+    output logic      [        7:0] waddr_o,       // write address
+    output logic      [        7:0] wdata_o,       // write data
     // settings
-    output settings_t               settings_o,    // what scripts set
+    output settings_t               settings_o,    // settings made by scripts
     // recorder
-    output logic                    rec_next_o,    // its next byte
-    input  wire logic [        7:0] rec_data_i,    // a byte of its records
-    input  wire logic [       63:0] rec_info_i,    // answer of op RECORDED
+    output logic                    rec_next_o,    // request the next byte of the recorder
+    input  wire logic [        7:0] rec_data_i,    // byte of the records
+    input  wire logic [       63:0] rec_info_i,    // data of op RECORDED
     // board
-    input  wire logic [        7:0] pins_i,        // for op PINS
+    input  wire logic [        7:0] pins_i,        // pins for op PINS
     input  wire logic [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
-    output logic      [   Axes-1:0] count_zero_o,  // a counter begins anew
-    output logic                    part_rst_no,   // reset of the part, L = active
-    // the part's bus
-    output logic                    cs_no,         // the part is addressed
+    output logic      [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
+    output logic                    part_rst_no,   // reset of the device, L = active
+    // bus of the device
+    output logic                    cs_no,         // chip select
     output logic                    rd_no,         // read strobe
     output logic                    wr_no,         // write strobe
     output logic      [        3:0] a_o,           // register
-    output logic      [        7:0] d_o,           // to be written
-    input  wire logic [        7:0] d_i            // what the part shows
+    output logic      [        7:0] d_o,           // write data
+    input  wire logic [        7:0] d_i            // read data
 );
 
   typedef enum logic [3:0] {
@@ -62,27 +63,27 @@ module ppmc_bridge_exec
     StCheck,     // operands are complete
     StLoop,      // next byte of the op
     StPoll,      // a read of a wait
-    StJudge,     // and what it says
+    StJudge,     // check of this read
     StWrite,
     StWriteEnd,
     StRead,
     StReadEnd,
-    StPut,       // a byte into the answer
+    StPut,       // store a byte in the answer
     StPause,     // RESET, IDENT, COUNT
     StAnswer
   } state_e;
 
   state_e state_q;
   result_e result_q;
-  logic [8:0] length;  // of the answer
+  logic [8:0] length;  // number of data bytes in the answer
   logic [7:0] pos_q;
-  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then bytes left; left_q: of the script
-  logic [1:0] age_q;  // clk since the last byte was taken or put: all that hangs on them is right at 2
+  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then remaining bytes; left_q: of the script
+  logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2 its results are valid
   logic none_q, cut_q, zero_q, bad_q, hit_q, judge_q, over;
   logic first_q, written_q, seen_q;
   logic [3:0] kind, low;
   logic system, fetched, take;
-  logic system_q, reading_q, sends_q, pair_q, fetch_q;  // what kind of op it is; right behind StDecode
+  logic system_q, reading_q, sends_q, pair_q, fetch_q;  // kind of the op; valid after StDecode
 
   assign {kind, low} = op_q;
   assign system = kind == OpSystem;
@@ -127,7 +128,7 @@ module ppmc_bridge_exec
   // ---------------------------------------------------------------- answer
 
   logic ident, count, full, full4, full16, block, decode;
-  logic second;  // an op of axis 2
+  logic second;  // the op refers to axis 2
   block_e kept;
   need_e need;
   result_e refused;
@@ -180,7 +181,7 @@ module ppmc_bridge_exec
   // ---------------------------------------------------------------- sequence
 
   state_e  next;
-  result_e fail;  // not ResDone: the script ends with it
+  result_e fail;  // not ResDone: the script ends with this result
 
   always_comb begin
     next = state_q;
@@ -255,7 +256,7 @@ module ppmc_bridge_exec
   assign answer_o   = state_q == StAnswer;
   assign rec_next_o = Recorder && state_q == StPut && fetch_q;
 
-  logic set, sets_q;  // an op that sets something is legal
+  logic set, sets_q;  // an op with a setting is legal
   logic [7:0] straps_q;
   assign set = state_q == StCheck && fetched && system_q && !bad_q;
 
@@ -318,7 +319,7 @@ module ppmc_bridge_exec
     else if (state_q == StWriteEnd) written_q <= 1'b1;
   end
 
-  // Waits.
+  // Time limit of waits.
   ppmc_bridge_wait u_wait (
       .clk_i,
       .ms_i,

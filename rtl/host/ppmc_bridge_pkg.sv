@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_pkg: numbers of the UART bridge: op codes, results, NAK codes, line rates, CRC.
+// ppmc_bridge_pkg: constants and types of the UART bridge: op codes, results, NAK codes, line rates, CRC.
 // Rules:  docs/uart_bridge.md.
 `default_nettype none
 
@@ -10,11 +10,11 @@ package ppmc_bridge_pkg;
 
   localparam logic [7:0] Flag = 8'h7E;
   localparam logic [7:0] Escape = 8'h7D;
-  localparam int unsigned EscapeBit = 5;  // which an escaped byte has inverted
+  localparam int unsigned EscapeBit = 5;  // bit that is inverted in an escaped byte
   localparam logic [7:0] ProtocolVersion = 8'd1;
-  localparam logic [15:0] DefaultLimitMs = 16'd250;  // of a wait
-  localparam int unsigned SilenceMs = 100;  // inside a frame
-  localparam int unsigned TrialMs = 1000;  // of a new rate
+  localparam logic [15:0] DefaultLimitMs = 16'd250;  // default limit of a wait
+  localparam int unsigned SilenceMs = 100;  // limit of silence inside a frame
+  localparam int unsigned TrialMs = 1000;  // trial time of a new rate
 
   // Ops without a register number: low four bits of an op whose high four bits are OpSystem.
   typedef enum logic [3:0] {
@@ -28,7 +28,7 @@ package ppmc_bridge_pkg;
     SysStraps,
     SysCount,
     SysZero,
-    SysCount2,   // of axis 2
+    SysCount2,   // COUNT of axis 2
     SysZero2,
     SysVersion,
     SysRecord,
@@ -58,18 +58,18 @@ package ppmc_bridge_pkg;
     ResInterrupted
   } result_e;
 
-  // What became of a script; it stands from its end until the next one begins.
+  // Result of a script; valid from its end until the next script begins.
   typedef struct packed {
     result_e    result;
-    logic [7:0] pos;     // place of the op that ended it
-    logic [7:0] last;    // what that op read last
-    logic [8:0] length;  // of the answer's data in bytes
+    logic [7:0] pos;     // position of the op that ended the script
+    logic [7:0] last;    // byte most recently read in the script; 0 if no byte
+    logic [8:0] length;  // number of data bytes in the answer
   } outcome_t;
 
-  // What scripts set, from the script engine to the rest of the bridge.
+  // Settings made by scripts, from the script engine to the other blocks of the bridge.
   typedef struct packed {
-    logic       sets;    // one clk: op with arg
-    sys_e       op;      // RATE, EVENTS, RECORD or another
+    logic       sets;    // strobe: op and arg are valid
+    sys_e       op;      // RATE, EVENTS, RECORD or another op
     logic [2:0] arg;     // first operand
     logic [7:0] straps;  // strap outputs
   } settings_t;
@@ -79,16 +79,16 @@ package ppmc_bridge_pkg;
   localparam logic [1:0] RecordBegin = 2'd1;
   localparam logic [1:0] RecordRewind = 2'd2;
 
-  // What an op needs first.
+  // First need of an op.
   typedef enum logic [2:0] {
-    NeedNothing,  // it is done
+    NeedNothing,  // no need: the op is complete
     NeedOperand,
-    NeedCheck,    // of the number in its code
-    NeedByte,     // one to be given
-    NeedBlock     // bytes to be given, or a pause
+    NeedCheck,    // check of the number in its code
+    NeedByte,     // one byte to store in the answer
+    NeedBlock     // bytes to store in the answer, or a pause
   } need_e;
 
-  // Which block of 16 bytes.
+  // Block of 16 bytes.
   typedef enum logic [1:0] {
     BlockIdent,
     BlockVersion,
@@ -124,7 +124,7 @@ package ppmc_bridge_pkg;
     return code <= 6 && 64'(clk_hz) >= 64'd5 * 64'(rate_hz(code, baud));
   endfunction
 
-  // Codes are in the order of their rates: the highest available one.
+  // Highest available code; the codes are in the order of their rates.
   function automatic int unsigned top_code(int unsigned clk_hz, int unsigned baud);
     int unsigned top;
     top = 0;
@@ -132,8 +132,8 @@ package ppmc_bridge_pkg;
     return top;
   endfunction
 
-  // Bits of the phase accumulators: the rounding of the step must not move the last edge of a character by more
-  // than a quarter of a clk, 10 * (clk / rate) / (2 * step) <= 1/4, at the slowest rate.
+  // Bits of the phase accumulators. At the slowest rate, the rounding of the step must not move the last edge
+  // of a character by more than a quarter of a cycle: 10 * (clk / rate) / (2 * step) <= 1/4.
   function automatic int unsigned phase_width(int unsigned clk_hz, int unsigned baud);
     longint unsigned ratio;
     int unsigned slowest;
@@ -142,7 +142,7 @@ package ppmc_bridge_pkg;
     return 32'($clog2(64'd20 * ratio * ratio));
   endfunction
 
-  // Step of a phase accumulator, rounded to the nearest.
+  // Step of a phase accumulator, rounded to the nearest integer.
   function automatic longint unsigned phase_step(int unsigned rate, int unsigned clk_hz, int unsigned width);
     return ((64'(rate) << (width + 1)) / 64'(clk_hz) + 64'd1) >> 1;
   endfunction

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rate: the line rate in use, the change of it after an answer, the ways back to the rate of the start.
+// ppmc_bridge_rate: selects the line rate: change of the rate after an answer, and return to the initial
+//         rate.
 // Rules:  UB-LIN-02, UB-LIN-03, UB-LIN-06, UB-LIN-07.
-// Timing: step_o follows one clk after the code; 1000 .. 1001 ms until a rate that nobody uses is given up.
+// Timing: step_o follows the code by one cycle. A new rate without a valid frame is abandoned after 1000 ..
+//         1001 ms.
 `default_nettype none
 
 module ppmc_bridge_rate
@@ -9,17 +11,17 @@ module ppmc_bridge_rate
 #(
     parameter int unsigned ClkHz = 24_000_000,
     parameter int unsigned Baud  = 115_200,
-    parameter int unsigned Width = 20           // of the step
+    parameter int unsigned Width = 20           // bits of step_o
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             ms_i,        // one clk every millisecond
+    input  wire logic             ms_i,        // strobe every millisecond
     input  wire logic             set_i,       // op RATE with an available code
-    input  wire logic [      2:0] code_i,      // its code
-    input  wire logic             answered_i,  // the answer's last stop bit has ended
-    input  wire logic             good_i,      // a good frame has come
-    input  wire logic             break_i,     // a break has come
-    output logic      [Width-1:0] step_o       // phases a clk
+    input  wire logic [      2:0] code_i,      // code of the new rate
+    input  wire logic             answered_i,  // the last stop bit of the answer has ended
+    input  wire logic             good_i,      // a valid frame was received
+    input  wire logic             break_i,     // a break was received
+    output logic      [Width-1:0] step_o       // phases in a cycle
 );
 
   localparam int unsigned TrialBits = $clog2(TrialMs + 1);

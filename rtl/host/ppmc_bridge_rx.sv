@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rx: takes requests out of the received bytes: flags, escapes, CRC, length, silence.
+// ppmc_bridge_rx: extracts requests from the received bytes: flags, escapes, CRC, length, silence.
 // Rules:  UB-FRM-01 .. 08, UB-SEQ-03.
-// Timing: two clk from valid_i or error_i to what they cause. byte_i stands that long.
-// Buffer: a request's script stands from address 0 on, behind it the CRC.
+// Timing: outputs respond two cycles after valid_i or error_i.
+// Assumes: byte_i is stable for these two cycles.
+// Buffer: the script of a request is stored from address 0 on; the CRC follows it.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,35 +12,35 @@ module ppmc_bridge_rx
 (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic       ms_i,        // one clk every millisecond
+    input  wire logic       ms_i,        // strobe every millisecond
     // receiver
-    input  wire logic [7:0] byte_i,      // a character
-    input  wire logic       valid_i,     // with a stop bit
-    input  wire logic       error_i,     // without one
+    input  wire logic [7:0] byte_i,      // character
+    input  wire logic       valid_i,     // the character has a stop bit
+    input  wire logic       error_i,     // the character has no stop bit
     // request buffer
-    output logic            we_o,        // write into the buffer
-    output logic      [7:0] waddr_o,     // where
-    output logic      [7:0] wdata_o,     // what
-    // what came
-    output logic            good_o,      // a frame without fault, one clk
-    output logic            request_o,   // with it: it is a request to be executed or answered again
-    output logic      [6:0] seq_o,       // of the frame
-    output logic      [7:0] length_o,    // of its script in bytes, with request_o
+    output logic            we_o,        // write enable of the request buffer
+    output logic      [7:0] waddr_o,     // write address
+    output logic      [7:0] wdata_o,     // write data
+    // received frame
+    output logic            good_o,      // strobe: a valid frame
+    output logic            request_o,   // with good_o: a request to execute or to answer again
+    output logic      [6:0] seq_o,       // sequence number of the frame
+    output logic      [7:0] length_o,    // length of the script in bytes, with request_o
     // while a script runs or its answer is sent
-    input  wire logic       busy_i,      // no request can be taken
-    output logic            dropped_o,   // a byte has come meanwhile
+    input  wire logic       busy_i,      // no request can be accepted
+    output logic            dropped_o,   // a byte was received while busy_i = 1
     // NAK to be sent
-    output nak_e            nak_o,       // NakNone: there is none
-    input  wire logic       nak_taken_i  // it is being sent
+    output nak_e            nak_o,       // NakNone: no NAK
+    input  wire logic       nak_taken_i  // the NAK is being sent
 );
 
   localparam logic [8:0] Empty = '1;
   localparam int unsigned QuietBits = $clog2(SilenceMs + 1);
 
   logic hunt_q, escaped_q, seq_high_q;
-  logic [8:0] index_q;  // of the content byte before this one: 0 is SEQ; Empty when there is none
+  logic [8:0] index_q;  // index of the previous content byte: 0 is SEQ; Empty: no byte
   logic [15:0] crc_q;
-  logic [QuietBits-1:0] quiet_q;  // ms of silence left
+  logic [QuietBits-1:0] quiet_q;  // remaining time of silence, ms
   logic is_flag_q, is_escape_q, valid_q, error_q, busy_q, short_q, crc_bad_q, quiet_over_q, open_q;
   logic flag, begin_q, content, silent;
   nak_e fault;
@@ -53,7 +54,7 @@ module ppmc_bridge_rx
   assign content  = valid_q && !busy_q && !hunt_q && !is_flag_q && (escaped_q || !is_escape_q);
   assign silent   = ms_i && quiet_over_q && open_q && !hunt_q && !busy_q;
 
-  // Decoding one clk ahead of its use: all of it stands still between two characters.
+  // Decoded one cycle before use, because the operands are stable between two characters.
   always_ff @(posedge clk_i) begin
     is_flag_q    <= byte_i == Flag;
     is_escape_q  <= byte_i == Escape;
@@ -113,7 +114,7 @@ module ppmc_bridge_rx
     if (valid_q && !busy_q) quiet_q <= QuietBits'(SilenceMs);
     else if (ms_i) quiet_q <= quiet_q - 1'b1;
     if (valid_q && !busy_q) escaped_q <= content || is_flag_q ? 1'b0 : is_escape_q;
-    // One clk after the flag, so that length_o stands with request_o.
+    // One cycle after the flag, so that length_o is valid with request_o.
     if (begin_q) begin
       index_q <= Empty;
       crc_q   <= '1;

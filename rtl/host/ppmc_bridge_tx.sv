@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_tx: puts messages into frames: flags, escapes, CRC.
 // Rules:  UB-FRM-01 .. 03.
-// Timing: a message begins in a clk with start_i and idle_o. take_o takes byte_i; more_i tells whether there is one
-//         and is looked at a character time after the take before it. idle_o is high again when the last stop bit
-//         has ended.
+// Timing: a message begins in a cycle with start_i and idle_o. take_o consumes byte_i. more_i = 1: another
+//         byte is available; more_i is sampled one character time after the previous take_o. idle_o is high
+//         again when the last stop bit has ended.
 `default_nettype none
 
 module ppmc_bridge_tx
@@ -13,14 +13,14 @@ module ppmc_bridge_tx
     input  wire logic       rst_ni,
     // message
     input  wire logic       start_i,  // begin a frame
-    output logic            idle_o,   // nothing is being sent
+    output logic            idle_o,   // no frame is being sent
     input  wire logic [7:0] byte_i,   // next byte of the frame
-    input  wire logic       more_i,   // there is one more
-    output logic            take_o,   // byte_i is taken
+    input  wire logic       more_i,   // byte_i is valid; 0: the frame ends
+    output logic            take_o,   // byte_i is accepted
     // transmitter
-    output logic      [7:0] byte_o,   // a character
-    output logic            valid_o,  // send it
-    input  wire logic       ready_i   // it is taken
+    output logic      [7:0] byte_o,   // character
+    output logic            valid_o,  // byte_o is valid
+    input  wire logic       ready_i   // byte_o is accepted
 );
 
   typedef enum logic [2:0] {
@@ -34,12 +34,12 @@ module ppmc_bridge_tx
   state_e state_q;
   logic full_q, plain_q, escaped_q;
   logic special, accepted;
-  logic [ 7:0] char_q;  // next to be sent, before escaping
+  logic [ 7:0] char_q;  // next character, before escaping
   logic [15:0] crc_q;
-  logic [ 3:0] bit_q;  // of char_q that the CRC takes next; 8: none
+  logic [ 3:0] bit_q;  // bit of char_q that the CRC uses next; 8: no bit
   logic        feedback;
 
-  // A byte that needs it goes out in two characters.
+  // A byte that must be escaped is sent as two characters.
   assign special  = !plain_q && !escaped_q && (char_q == Flag || char_q == Escape);
   assign byte_o   = special ? Escape : char_q ^ (8'(escaped_q) << EscapeBit);
   assign valid_o  = full_q;
@@ -47,7 +47,8 @@ module ppmc_bridge_tx
   assign take_o   = state_q == StContent && !full_q && ready_i && more_i;
   assign idle_o   = state_q == StIdle && !full_q && ready_i;
 
-  // The next character is chosen when the transmitter is free again: one clk of idle line more a character.
+  // The next character is chosen when the transmitter is free again, which adds one cycle of idle line to a
+  // character.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= StIdle;
@@ -96,7 +97,7 @@ module ppmc_bridge_tx
     end
   end
 
-  // The CRC takes a bit a clk, long before the next character.
+  // The CRC uses one bit a cycle, so it is ready long before the next character.
   assign feedback = crc_q[15] ^ char_q[~bit_q[2:0]];
 
   always_ff @(posedge clk_i) begin

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_wait: how long a wait of a script has lasted, against its limit.
+// ppmc_bridge_wait: compares the duration of a wait of a script with its limit.
 // Rules:  UB-WAIT-01, op TIMEOUT.
-// Timing: the time starts anew while waiting_i is 0; over_o rises limit .. limit + 1 ms after that, one clk late; it is
-//         always high with limit 0.
+// Timing: the time is restarted while waiting_i is low. over_o rises limit .. limit + 1 ms and one cycle
+//         after waiting_i; with limit 0 it is always high.
 `default_nettype none
 
 module ppmc_bridge_wait
   import ppmc_bridge_pkg::*;
 (
     input  wire logic        clk_i,
-    input  wire logic        ms_i,       // one clk every millisecond
-    input  wire logic        start_i,    // a new script: the usual limit
-    input  wire logic        set_i,      // another limit
-    input  wire logic [15:0] limit_i,    // it, ms
-    input  wire logic        waiting_i,  // a wait goes on
-    output logic             over_o      // it has lasted long enough
+    input  wire logic        ms_i,       // strobe every millisecond
+    input  wire logic        start_i,    // a new script: set the default limit
+    input  wire logic        set_i,      // set another limit
+    input  wire logic [15:0] limit_i,    // new limit, ms
+    input  wire logic        waiting_i,  // a wait is in progress
+    output logic             over_o      // the limit has been reached
 );
 
   logic [15:0] limit_q, wait_q;
@@ -26,7 +26,7 @@ module ppmc_bridge_wait
     if (start_i) limit_q <= DefaultLimitMs;
     else if (set_i) limit_q <= limit_i;
     look_once_q <= limit_q == '0;
-    at_limit_q  <= waiting_i && wait_q == limit_q;  // of this wait, not of the one before
+    at_limit_q  <= waiting_i && wait_q == limit_q;  // of this wait, not of the previous one
     if (!waiting_i) begin
       overdue_q <= 1'b0;
       wait_q    <= '0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_host_port: bus front end and mailbox as one: what a part shows its host.
-// Rules:  P104-BUS-01..07, P104-STA-01..03, P104-HSK-01..08. Timing: see ppmc_strobe_bus and ppmc_mailbox.
+// ppmc_host_port: host interface of a core: bus front end and mailbox.
+// Rules:  P104-BUS-01..07, P104-STA-01..03, P104-HSK-01..08.
+// Timing: see ppmc_strobe_bus and ppmc_mailbox.
 `default_nettype none
 
 module ppmc_host_port #(
@@ -10,22 +11,22 @@ module ppmc_host_port #(
     input wire logic rst_ni,
     input wire logic style_i,  // 0 = read and write strobe, 1 = data strobe and direction
     // pins
-    input wire logic cs_ni,  // the part is addressed
+    input wire logic cs_ni,  // chip select
     input wire logic rd_ni,  // read strobe, or data strobe
     input wire logic wr_ni,  // write strobe, or direction
     input wire logic a0_i,  // 0 data, 1 status or command
-    input wire logic [7:0] d_i,  // what the host writes
-    output logic [7:0] d_o,  // what it reads
-    output logic d_oe_o,  // it is reading
+    input wire logic [7:0] d_i,  // data written by the host
+    output logic [7:0] d_o,  // data read by the host
+    output logic d_oe_o,  // the host is reading: drive d_o
     // command unit
-    input wire logic [5:0] state_i,  // status bits 7..2; 1 and 0 are IBF and OBF
-    output logic ready_o,  // byte_o may be taken
-    output logic command_o,  // it was written as a command
-    output logic [7:0] byte_o,  // what the host has written
-    input wire logic take_i,  // byte_o is taken
-    input wire logic load_i,  // new answer
-    input wire logic long_i,  // of QueueBytes bytes, otherwise one
-    input wire logic [8*QueueBytes-1:0] answer_i  // first byte in the low bits
+    input wire logic [5:0] state_i,  // status bits 7..2; bits 1 and 0 are IBF and OBF
+    output logic ready_o,  // byte_o is available
+    output logic command_o,  // byte_o was written as a command
+    output logic [7:0] byte_o,  // byte written by the host
+    input wire logic take_i,  // byte_o is accepted
+    input wire logic load_i,  // load new read data
+    input wire logic long_i,  // read data have QueueBytes bytes, otherwise one
+    input wire logic [8*QueueBytes-1:0] answer_i  // read data, first byte in the low bits
 );
 
   logic wr, wr_a0, wr_busy, rd_busy, rd_done, ibf, obf, fresh;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_isa: 8-bit ISA or PC/104 slave for parts with two registers each: decodes, drives the bus, merges
-// interrupts.
+// ppmc_isa: 8-bit ISA or PC/104 slave for devices with two registers each: address decoder, bus driver,
+//         common interrupt.
 // Rules:  ISA-01..07, ISA-11 (docs/ppmc2104/isa.md); J105-01..03 and J105-05 with Parts = 1.
-// Timing: address, strobes and bus release are combinational; the parts sample them (ppmc_strobe_bus). irq_o
-//         follows int_ni by one clk; a write to the source register holds it low from the first clk edge that
-//         samples the write to the first that does not.
+// Timing: address, strobes and bus release are combinational; the devices sample them (ppmc_strobe_bus).
+//         irq_o follows int_ni by one cycle. A write to the source register holds irq_o low from the first
+//         rising edge of clk_i that samples the write to the first one that does not.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_isa #(
-    parameter int unsigned Parts  = 1,     // part p: data at Base + 2p, status and command at Base + 2p + 1
-    parameter bit          Source = 1'b0,  // 1: one more register behind them, bit p = part p interrupts; a
-                                           // write to it makes a new edge of irq_o if one still does
-    parameter int unsigned Base   = 'h3B0  // a multiple of the window's length
+    parameter int unsigned Parts  = 1,     // device p: data at Base + 2p, status and command at Base + 2p + 1
+    parameter bit          Source = 1'b0,  // 1: a source register follows, bit p = interrupt of device p;
+                                           // writing it makes a new edge of irq_o if an interrupt is active
+    parameter int unsigned Base   = 'h3B0  // multiple of the length of the window
 ) (
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
@@ -21,15 +21,15 @@ module ppmc_isa #(
     input  wire logic                  aen_i,    // 1: the address belongs to a DMA transfer
     input  wire logic                  ior_ni,   // read strobe
     input  wire logic                  iow_ni,   // write strobe
-    output logic      [      7:0]      sd_o,     // what the host reads
-    output logic                       sd_oe_o,  // it is reading
-    output logic                       irq_o,    // 1: some part interrupts
-    // parts; ior_ni and iow_ni go to them as they are
-    output logic      [Parts-1:0]      cs_no,    // a part is addressed
+    output logic      [      7:0]      sd_o,     // data read by the host
+    output logic                       sd_oe_o,  // the host is reading: drive sd_o
+    output logic                       irq_o,    // 1: at least one device has an interrupt
+    // devices; ior_ni and iow_ni are connected to them unchanged
+    output logic      [Parts-1:0]      cs_no,    // chip selects
     output logic                       a0_o,     // 0 data, 1 status or command
-    input  wire logic [Parts-1:0][7:0] d_i,      // what the parts show
-    input  wire logic [Parts-1:0]      d_oe_i,   // they are being read
-    input  wire logic [Parts-1:0]      int_ni    // their interrupts, L = active
+    input  wire logic [Parts-1:0][7:0] d_i,      // read data of the devices
+    input  wire logic [Parts-1:0]      d_oe_i,   // the devices are being read
+    input  wire logic [Parts-1:0]      int_ni    // interrupts of the devices, L = active
 );
 
   localparam int unsigned Bits = $clog2(2 * Parts + (Source ? 1 : 0));  // address bits of the window
@@ -41,10 +41,10 @@ module ppmc_isa #(
     $fatal(1, "ppmc_isa: Base must be 0 .. 3FFh and a multiple of the window's length");
   end
 
-  // ---- whose cycle is it -----------------------------------------------------------------------------
+  // ---- address decoder -------------------------------------------------------------------------------
 
   logic here, hit_source, read, write;
-  logic [ Bits-1:0] pair;  // which pair of registers
+  logic [ Bits-1:0] pair;  // number of the pair of registers
   logic [Parts-1:0] hit;
 
   assign here       = !aen_i && (sa_i >> Bits) == 10'(Base >> Bits);
@@ -62,7 +62,7 @@ module ppmc_isa #(
   // ---- interrupts ------------------------------------------------------------------------------------
 
   logic source_oe;
-  logic [Parts-1:0] source;  // stands still while it is read
+  logic [Parts-1:0] source;  // stable while it is read
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) irq_o <= 1'b0;

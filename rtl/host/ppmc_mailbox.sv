@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_mailbox: one byte in, a short queue out, between a host port and a command unit.
+// ppmc_mailbox: one input byte and a short output queue, between a host port and a command unit.
 // Rules:  P104-HSK-01/02 (input), P104-HSK-05/06/08 (output).
-// Timing: a byte written in a cycle with wr_i stands on byte_o at once after the edge; ready_o follows one
-//         clk later, so that its decoding may be registered. take_i may come in the cycle of another wr_i:
-//         the old byte is taken, the new one stays. After rd_done_i the next byte of the queue is valid again
-//         one clk after the gap of one clk.
+// Timing: a byte written in a cycle with wr_i is valid on byte_o after that edge; ready_o follows one cycle
+//         later, so that the decoding may be registered. take_i may occur in the cycle of another wr_i: the
+//         old byte is accepted, the new one stays. After rd_done_i, obf_o is low for one cycle; then the next
+//         byte of the queue is valid.
 `default_nettype none
 
 module ppmc_mailbox #(
-    parameter int unsigned QueueBytes = 3  // bytes of the longest answer, at least 3
+    parameter int unsigned QueueBytes = 3  // bytes of the longest read data, at least 3
 ) (
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
     // host port
     input  wire logic                    wr_i,       // the host has written
-    input  wire logic                    wr_a0_i,    // as a command
-    input  wire logic [             7:0] wr_data_i,  // what
+    input  wire logic                    wr_a0_i,    // the write is a command
+    input  wire logic [             7:0] wr_data_i,  // byte written
     input  wire logic                    rd_done_i,  // the host has read out_o
     output logic      [             7:0] out_o,      // output buffer
-    output logic                         obf_o,      // it has not been read yet
-    output logic                         new_o,      // out_o changes at the coming edge
-    output logic                         ibf_o,      // a byte waits
+    output logic                         obf_o,      // out_o has not been read yet
+    output logic                         new_o,      // out_o changes at the next edge
+    output logic                         ibf_o,      // an input byte is pending
     // command unit
-    output logic                         ready_o,    // byte_o may be taken
-    output logic                         command_o,  // it was written as a command
-    output logic      [             7:0] byte_o,     // what the host has written
-    input  wire logic                    take_i,     // byte_o is taken
-    input  wire logic                    load_i,     // new answer, drops what was not read
-    input  wire logic [8*QueueBytes-1:0] answer_i,   // first byte in the low bits
-    input  wire logic                    long_i      // all bytes count, otherwise one
+    output logic                         ready_o,    // byte_o is available
+    output logic                         command_o,  // byte_o was written as a command
+    output logic      [             7:0] byte_o,     // byte written by the host
+    input  wire logic                    take_i,     // byte_o is accepted
+    input  wire logic                    load_i,     // load new read data; unread bytes are dropped
+    input  wire logic [8*QueueBytes-1:0] answer_i,   // read data, first byte in the low bits
+    input  wire logic                    long_i      // all bytes are valid, otherwise one
 );
 
   if (QueueBytes < 3) begin : g_check
@@ -58,8 +58,8 @@ module ppmc_mailbox #(
   end
 
   localparam int unsigned MoreBits = 8 * (QueueBytes - 1);
-  logic [MoreBits-1:0] more_q;  // bytes behind the one shown
-  logic [QueueBytes-2:0] have_q;  // which of them are there
+  logic [MoreBits-1:0] more_q;  // bytes after the current one
+  logic [QueueBytes-2:0] have_q;  // bytes of more_q that are present
   logic next;
 
   assign next  = !obf_o && have_q[0];

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder: a logic analyser: every change of some levels, with the clk since the record before it.
+// ppmc_recorder: logic analyser: records every change of the watched levels, with the cycles since the
+//         previous record.
 // Rules:  docs/uart_bridge.md, UB-REC.
-// Timing: a record has the levels as flip-flops of this clk sampled them, and the clk since the sample of the one
-//         before it, lowest bit first: {levels, time}, TimeBits of them time. Levels that rest longer than the time
-//         can count get a record of their own. Changes on successive clk are no difference; none is lost.
-//         Bytes of the records, in order, stand on data_o 4 clk after begin_i, rewind_i or next_i.
+// Timing: a record holds the levels as flip-flops sampled them, and the number of cycles since the sample of
+//         the previous record: {levels, time}, lowest bit first, with TimeBits bits of time. When the time
+//         has reached its maximum without a change of levels, a record is written, too. Changes in successive
+//         cycles are all recorded. The bytes of the records are read in order: data_o is valid 4 cycles after
+//         begin_i, rewind_i or next_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_recorder
   import ppmc_recorder_pkg::*;
 #(
-    parameter int unsigned Width = 48,  // levels
+    parameter int unsigned Width = 48,  // number of levels
     parameter int unsigned AddrBits = 10  // 2**AddrBits records, 4 .. 16; see ppmc_recorder_ram
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [Width-1:0] watch_i,  // the levels; of the clock domain
-    // one clk each
-    input wire logic begin_i,  // forget all, record from now on; the first record is the present state
-    input wire logic end_i,  // the last record, whether something changes or not
+    input wire logic [Width-1:0] watch_i,  // levels, synchronous to clk_i
+    // strobes
+    input wire logic begin_i,  // clear and start; the first record is the current state
+    input wire logic end_i,  // write the last record, with or without a change
     input wire logic rewind_i,  // read from the first record on
-    input wire logic next_i,  // the next byte
-    output logic [7:0] data_o,  // a byte of the records; 0 while recording
-    output logic [63:0] info_o  // answer of op RECORDED, first byte in the low bits
+    input wire logic next_i,  // read the next byte
+    output logic [7:0] data_o,  // byte of the records; 0 while recording
+    output logic [63:0] info_o  // data of op RECORDED, first byte in the low bits
 );
 
   localparam int unsigned Bytes = record_bytes(Width);
   localparam int unsigned TimeBits = 8 * Bytes - Width;
-  localparam int unsigned Lane = 16;  // levels that are compared in one clk
+  localparam int unsigned Lane = 16;  // levels that are compared together
   localparam int unsigned Lanes = (Width + Lane - 1) / Lane;
 
   logic running_q, first_q, full_q, rest_q, we, wanted;
@@ -68,7 +70,7 @@ module ppmc_recorder
   always_ff @(posedge clk_i) begin
     first_q <= begin_i;
     time_q  <= begin_i ? '0 : we ? TimeBits'(1) : time_q + 1'b1;
-    rest_q  <= !begin_i && !we && time_q == ~TimeBits'(1);  // time_q counts its last
+    rest_q  <= !begin_i && !we && time_q == ~TimeBits'(1);  // time_q reaches its maximum
   end
 
   // ---------------------------------------------------------------- bytes
@@ -90,7 +92,7 @@ module ppmc_recorder
       .rdata_o(record)
   );
 
-  // In two steps: a block RAM of an ECP5 needs half a clk of 100 MHz.
+  // Two multiplexer stages, because a block RAM of an ECP5 needs half a cycle at 100 MHz.
   logic [16*Pairs-1:0] padded;
   logic [ 8*Pairs-1:0] chosen_q;
   assign padded = (16 * Pairs)'(record);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_pkg: how long the records of a recorder are.
+// ppmc_recorder_pkg: length of the records of a recorder.
 // Rules:  UB-REC-02.
 `default_nettype none
 
@@ -8,9 +8,9 @@ package ppmc_recorder_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  localparam int unsigned LeastTime = 14;  // bits of a record that count time, at least
+  localparam int unsigned LeastTime = 14;  // minimum number of time bits in a record
 
-  // Bytes of a record of so many levels.
+  // Bytes of a record with `width` levels.
   function automatic int unsigned record_bytes(int unsigned width);
     return (width + LeastTime + 7) / 8;
   endfunction

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_ram: the records: RAM with one port, so that the large RAMs of an iCE40 UP5K (SPRAM) can be it.
-// Timing: rdata_o stands one clk after addr_i in a clk without we_i; undefined behind one with it.
-// Note:   contents are neither reset nor known at first.
+// ppmc_recorder_ram: RAM of the records. It has one port, so that the large RAMs of an iCE40 UP5K (SPRAM) can
+//         be used.
+// Timing: rdata_o is valid one cycle after addr_i in a cycle without we_i; it is undefined after a cycle with
+//         we_i.
+// Note:   contents are neither reset nor initialised.
 `default_nettype none
 
 module ppmc_recorder_ram #(
@@ -9,13 +11,13 @@ module ppmc_recorder_ram #(
     parameter int unsigned AddrBits = 10
 ) (
     input  wire logic                clk_i,
-    input  wire logic                we_i,     // write at the coming edge, else read
-    input  wire logic [AddrBits-1:0] addr_i,   // where
-    input  wire logic [   Width-1:0] wdata_i,  // what
-    output logic      [   Width-1:0] rdata_o   // what stands there, one clk later
+    input  wire logic                we_i,     // write at the next edge, else read
+    input  wire logic [AddrBits-1:0] addr_i,   // address
+    input  wire logic [   Width-1:0] wdata_i,  // write data
+    output logic      [   Width-1:0] rdata_o   // word at addr_i, one cycle later
 );
 
-  localparam int unsigned SingleBits = 14;  // so many address bits has an SPRAM
+  localparam int unsigned SingleBits = 14;  // number of address bits of an SPRAM
 
   if (AddrBits >= SingleBits) begin : g_single
     (* ram_style = "huge" *)

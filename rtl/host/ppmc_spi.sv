@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_spi: SPI slave, mode 0 or 3, most significant bit first, in front of a part's strobe bus.
+// ppmc_spi: SPI slave, mode 0 or 3, most significant bit first, for the strobe bus of a device.
 // Rules:  docs/bank/spi.md; strobes by UB-BUS-01.
-// Timing: sck, mosi and cs_n are sampled by clk. miso follows a fall of sck by 2 to 3 clk, so the low time of sck
-//         must be longer than 3 clk and what the pads take (clk >= 8 sck leaves 1 clk for them), the high time
-//         longer than 1. A write begins 2 to 3 clk after the last bit of its byte, a read after the first of the
-//         byte that asks. An access has ended long before the next can come, however fast sck is.
+// Timing: clk_i samples sck, mosi and cs_n. miso follows a falling edge of sck by 2 to 3 cycles. A write
+//         begins 2 to 3 cycles after the last bit of its byte, a read 2 to 3 cycles after the first bit of
+//         the byte that requests it. An access ends long before the next one can begin, at any rate of sck.
+// Assumes: the low time of sck is longer than 3 cycles plus the delay of the pads (clk >= 8 sck leaves 1
+//         cycle for them); the high time of sck is longer than 1 cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_spi #(
-    parameter int unsigned AddrBits = 10  // address lines of the part, 1 .. 10
+    parameter int unsigned AddrBits = 10  // address lines of the device, 1 .. 10
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -17,17 +18,17 @@ module ppmc_spi #(
     input  wire logic                sck_i,      // raw pin
     input  wire logic                mosi_i,     // raw pin
     input  wire logic                cs_ni,      // raw pin, L = a frame
-    output logic                     miso_o,     // status, zeros, what was read
-    output logic                     miso_oe_o,  // it is to be driven
-    output logic                     active_o,   // lamp: a frame is coming in
-    // the part's pins
-    output logic                     cs_no,      // the part is addressed
+    output logic                     miso_o,     // status, zeros, read data
+    output logic                     miso_oe_o,  // drive miso_o
+    output logic                     active_o,   // LED: a frame is being received
+    // pins of the device
+    output logic                     cs_no,      // chip select
     output logic                     rd_no,      // read strobe
     output logic                     wr_no,      // write strobe
     output logic      [AddrBits-1:0] a_o,        // register
-    output logic      [         7:0] d_o,        // to be written
-    input  wire logic [         7:0] d_i,        // what the part shows
-    input  wire logic                int_ni      // the part's interrupt, L = active
+    output logic      [         7:0] d_o,        // write data
+    input  wire logic [         7:0] d_i,        // read data
+    input  wire logic                int_ni      // interrupt, L = active
 );
 
   if (AddrBits < 1 || AddrBits > 10) begin : g_check
@@ -36,27 +37,27 @@ module ppmc_spi #(
 
   typedef enum logic [1:0] {
     StHigh,  // first byte of the header
-    StLow,   // second one
+    StLow,   // second byte of the header
     StData,
-    StWaste  // the header was refused
+    StWaste  // the header was rejected
   } state_e;
 
   typedef struct packed {
     logic fast;     // sck was low for less than 3 samples
     logic cut;      // cs_n rose inside a byte or a header
-    logic refused;  // a header had ones in its bits 12..10
+    logic refused;  // a header had ones in bits 12..10
   } flags_t;
 
   typedef struct packed {
     logic write;
-    logic axis;   // the address grows by 16 with each access
-    logic next;   // by 1
+    logic axis;   // the address increases by 16 after each access
+    logic next;   // the address increases by 1 after each access
   } mode_t;
 
   // ---- pins ------------------------------------------------------------------------------------------
 
   logic sck, mosi, cs_n;
-  logic [2:0] meta, sck_q;  // sck before, the newest in bit 0
+  logic [2:0] meta, sck_q;  // previous samples of sck, the newest in bit 0
 
   ppmc_sync #(
       .Width   (3),
@@ -70,15 +71,15 @@ module ppmc_spi #(
   );
 
   logic rise, fall, whole, ended;
-  logic [2:0] count_q;  // bits of this byte that are in
-  logic [6:0] bits_q;  // they
+  logic [2:0] count_q;  // number of received bits of this byte
+  logic [6:0] bits_q;  // received bits of this byte
   logic [7:0] byte_in;
 
   assign rise    = !cs_n && sck && !sck_q[0];
   assign fall    = !cs_n && !sck && sck_q[0];
   assign byte_in = {bits_q, mosi};
   assign whole   = rise && count_q == 3'd7;
-  assign ended   = cs_n && active_o;  // for one clk
+  assign ended   = cs_n && active_o;  // high for one cycle
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -100,12 +101,12 @@ module ppmc_spi #(
   state_e state_q;
   mode_t mode_q;
   logic [9:0] addr_q;
-  logic bad_q;  // header refused
+  logic bad_q;  // header rejected
   logic req, ready, done, unused;
 
   assign unused = ^{addr_q, meta};
 
-  // A read begins at the first bit of the byte that asks for it, so that its seven others are time enough.
+  // A read begins at the first bit of the byte that requests it, so that it ends during the seven other bits.
   assign req    = state_q == StData && (mode_q.write ? whole : rise && count_q == '0 && mosi);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -134,10 +135,10 @@ module ppmc_spi #(
     end
   end
 
-  // ---- what the host sees ----------------------------------------------------------------------------
+  // ---- data to the host ------------------------------------------------------------------------------
 
   flags_t shown_q, flags_q, now;
-  logic asked_q;  // this byte asks for one
+  logic asked_q;  // this byte requests a read
   logic [7:0] out_q, status, rdata;
 
   always_comb begin
@@ -147,7 +148,7 @@ module ppmc_spi #(
     now.refused = whole && state_q == StLow && bad_q;
   end
 
-  // A flag stands until a status byte with it has gone out whole.
+  // A flag stays set until a status byte with this flag has been sent completely.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       shown_q <= '0;
@@ -177,7 +178,7 @@ module ppmc_spi #(
 
   assign miso_o = out_q[7];
 
-  // ---- the part's bus --------------------------------------------------------------------------------
+  // ---- bus of the device -----------------------------------------------------------------------------
 
   ppmc_strobe_master #(
       .AddrBits(AddrBits)
@@ -200,7 +201,7 @@ module ppmc_spi #(
   );
 
 `ifndef SYNTHESIS
-  logic open_q;  // a read is under way
+  logic open_q;  // a read is in progress
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) open_q <= 1'b0;
     else open_q <= req ? !mode_q.write : open_q && !done;

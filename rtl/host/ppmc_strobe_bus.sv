@@ -1,39 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, into the clock of the
-// core.
+// ppmc_strobe_bus: 8-bit host port with chip select, address line and two strobes, synchronised to the core
+//         clock.
 // Rules:  P104-BUS-01..07, P104-HSK-05 (read side), P104-PORT-02; P2104-BUS-01..10.
-// Timing: a write whose end is first sampled at edge 0 gives wr_o in the cycle before edge 2. Reads are
-//         answered early: d_oe_o and d_o alone sample raw pins, at edge 0; the data is refreshed once at edge
-//         1 and then stands still until the next read.
-// Styles: 0 = read and write strobe (rd_ni, wr_ni); 1 = data strobe on wr_ni with direction on rd_ni (1 =
-//         read).
+// Timing: if the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. Reads
+//         respond early: only d_oe_o and d_o sample raw pins, at edge 0. The data are refreshed once at edge
+//         1 and are then stable until the next read.
+// Styles: 0 = read strobe and write strobe (rd_ni, wr_ni); 1 = data strobe on wr_ni with direction on rd_ni
+//         (1 = read).
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_strobe_bus (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic       style_i,       // static
+    input  wire logic       style_i,       // bus style, constant
     // pins
-    input  wire logic       cs_ni,         // the part is addressed
+    input  wire logic       cs_ni,         // chip select
     input  wire logic       rd_ni,         // read strobe, or data strobe
     input  wire logic       wr_ni,         // write strobe, or direction
     input  wire logic       a0_i,          // 1 = status or command, 0 = data
-    input  wire logic [7:0] d_i,           // what the host writes
-    output logic      [7:0] d_o,           // what it reads
-    output logic            d_oe_o,        // it is reading
+    input  wire logic [7:0] d_i,           // data written by the host
+    output logic      [7:0] d_o,           // data read by the host
+    output logic            d_oe_o,        // the host is reading: drive d_o
     // write side
     output logic            wr_o,          // a write is complete
-    output logic            wr_a0_o,       // to status or command
-    output logic      [7:0] wr_data_o,     // what was written
-    output logic            wr_busy_o,     // one is on its way: status must show a full input buffer
+    output logic            wr_a0_o,       // 1 = the write was to status or command
+    output logic      [7:0] wr_data_o,     // byte written
+    output logic            wr_busy_o,     // a write is in progress: the status must indicate IBF = 1
     // read side
-    input  wire logic [7:0] status_i,      // what the host reads as status
-    input  wire logic [7:0] data_i,        // what it reads as data
+    input  wire logic [7:0] status_i,      // status byte for the host
+    input  wire logic [7:0] data_i,        // data byte for the host
     input  wire logic       data_valid_i,  // data_i has not been read yet
-    input  wire logic       data_new_i,    // data_i changes at the coming edge
-    output logic            rd_busy_o,     // it is being read: status must not show it again
-    output logic            rd_done_o      // it has been read
+    input  wire logic       data_new_i,    // data_i changes at the next edge
+    output logic            rd_busy_o,     // data_i is being read: the status must not indicate it again
+    output logic            rd_done_o      // data_i has been read
 );
 
   typedef struct packed {
@@ -76,9 +76,10 @@ module ppmc_strobe_bus (
     wr2    = is_write(s2, style_i);
   end
 
-  // Write: the byte of the last sample that had the strobe. The second stage of address and data is where they are
-  // kept. What lets them in is the first stage of the strobe: at its end, where that may be metastable, they stand
-  // since the sample before (P104-BUS-04), so that it makes no difference whether they come in once more.
+  // Write: the byte of the last sample with the strobe counts. The second stage of address and data stores
+  // them. The first stage of the strobe enables it. At the end of the strobe this stage may be metastable.
+  // Address and data are stable since the previous sample (P104-BUS-04), so that it makes no difference if
+  // they are loaded once more.
   logic wr3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -95,8 +96,9 @@ module ppmc_strobe_bus (
   assign wr_o      = wr3_q && !wr2;
   assign wr_busy_o = wr1 || wr2 || wr3_q;
 
-  // Read: the byte counts as taken if it was valid when d_o took it for the last time, unless a new one comes.
-  // A strobe of a single sample has no refresh, so what came on its edge 0 was not shown.
+  // Read: the byte counts as read if it was valid when d_o loaded it for the last time, unless a new byte
+  // arrives. A strobe of a single sample has no refresh, so that a byte which arrived at its edge 0 was not
+  // output.
   logic taking_q, new_q, new2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

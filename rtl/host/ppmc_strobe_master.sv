@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_master: read and write cycles on a part's strobe bus, for bridges that sit on the same chip.
+// ppmc_strobe_master: read and write accesses on the strobe bus of a device, for bridges on the same chip.
 // Rules:  UB-BUS-01; keeps P104-BUS-03/04, P2104 table 2.1, STMC-BUS-11/20, P312-PAR-10/11 at every CLK_HZ.
-// Timing: req_i is taken in a clk with ready_o = 1, with we_i, addr_i and wdata_i. done_o is 1 for one clk when the
-//         strobe has ended; rdata_o stands from then to the end of the next read. One write every 8 clk, one
-//         read every 10 clk.
+// Timing: a request is accepted in a cycle with req_i and ready_o high, together with we_i, addr_i and
+//         wdata_i. done_o is high for one cycle when the strobe has ended; rdata_o is valid from then until
+//         the end of the next read. One write every 8 cycles, one read every 10 cycles.
 `default_nettype none
 
 module ppmc_strobe_master #(
     parameter int unsigned AddrBits = 1,
-    parameter int unsigned WriteClk = 4,  // length of a write strobe, at least 2
-    parameter int unsigned ReadClk  = 6,  // length of a read strobe, at least 5
-    parameter int unsigned GapClk   = 4   // clk with no strobe between two cycles, at least 3
+    parameter int unsigned WriteClk = 4,  // length of a write strobe in cycles, at least 2
+    parameter int unsigned ReadClk  = 6,  // length of a read strobe in cycles, at least 5
+    parameter int unsigned GapClk   = 4   // cycles without a strobe between accesses, at least 3
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // master
-    input  wire logic                req_i,    // a cycle is wanted
-    input  wire logic                we_i,     // a write
+    input  wire logic                req_i,    // an access is requested
+    input  wire logic                we_i,     // the access is a write
     input  wire logic [AddrBits-1:0] addr_i,   // register
-    input  wire logic [         7:0] wdata_i,  // what to write
-    output logic                     ready_o,  // a cycle begins with req_i
-    output logic                     done_o,   // it is over, one clk
-    output logic      [         7:0] rdata_o,  // what was read, with done_o
-    // the part's pins; cs_n falls and rises with the strobes
-    output logic                     cs_no,    // the part is addressed
+    input  wire logic [         7:0] wdata_i,  // write data
+    output logic                     ready_o,  // an access begins with req_i
+    output logic                     done_o,   // strobe: the access has ended
+    output logic      [         7:0] rdata_o,  // read data, valid with done_o
+    // pins of the device; cs_n falls and rises with the strobes
+    output logic                     cs_no,    // chip select
     output logic                     rd_no,    // read strobe
     output logic                     wr_no,    // write strobe
     output logic      [AddrBits-1:0] a_o,      // register
-    output logic      [         7:0] d_o,      // to be written
-    input  wire logic [         7:0] d_i       // what the part shows
+    output logic      [         7:0] d_o,      // write data
+    input  wire logic [         7:0] d_i       // read data
 );
 
   if (WriteClk < 2 || ReadClk < 5 || GapClk < 3) begin : g_check
@@ -46,7 +46,7 @@ module ppmc_strobe_master #(
   } state_e;
 
   state_e state_q;
-  logic [CntBits-1:0] left_q;  // clk left in this state, minus one
+  logic [CntBits-1:0] left_q;  // remaining cycles in this state, minus 1
   logic write_q;
 
   assign ready_o = state_q == StIdle;

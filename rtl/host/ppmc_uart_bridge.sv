@@ -1,42 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_bridge: UART host of a part: a frame carries a script of bus cycles, one frame answers it.
+// ppmc_uart_bridge: UART host interface of a device: one frame carries a script of bus accesses, one frame
+//         answers it.
 // Rules:  docs/uart_bridge.md.
-// Timing: rxd_i is synchronised here, int_ni, pins_i, watch_i and count_i are of the clock domain.
+// Timing: this block synchronises rxd_i; int_ni, pins_i, watch_i and count_i are synchronous to clk_i.
 `default_nettype none
 
 module ppmc_uart_bridge
   import ppmc_bridge_pkg::*;
 #(
     parameter int unsigned ClkHz     = 24_000_000,  // at least 5 * Baud
-    parameter int unsigned XtalHz    = 16_000_000,  // of the part; for IDENT only, as are Part and Datasheet
-    parameter int unsigned Baud      = 115_200,     // after reset
+    parameter int unsigned XtalHz    = 16_000_000,  // of the device; only for IDENT, like Part and Datasheet
+    parameter int unsigned Baud      = 115_200,     // line rate after reset
     parameter int unsigned Part      = 104,
-    parameter int unsigned Axes      = 1,           // 1, 2: pulse counters
-    parameter bit          Counter   = 1'b1,        // there are any, for IDENT only
+    parameter int unsigned Axes      = 1,           // number of pulse counters: 1 or 2
+    parameter bit          Counter   = 1'b1,        // 1: pulses are counted; only for IDENT
     parameter bit          Datasheet = 1'b0,
-    parameter int unsigned Watch     = 1,           // levels that are recorded
-    parameter int unsigned Record    = 0            // 2**Record records of them, 4 .. 16; 0: no recorder
+    parameter int unsigned Watch     = 1,           // number of recorded levels
+    parameter int unsigned Record    = 0            // 2**Record records, 4 .. 16; 0: no recorder
 ) (
     input  wire logic               clk_i,
     input  wire logic               rst_ni,
     input  wire logic               rxd_i,         // from the PC, raw pin
     output logic                    txd_o,         // to the PC
-    // the part's bus
-    output logic                    cs_no,         // the part is addressed
+    // bus of the device
+    output logic                    cs_no,         // chip select
     output logic                    rd_no,         // read strobe
     output logic                    wr_no,         // write strobe
     output logic      [        3:0] a_o,           // register
-    output logic      [        7:0] d_o,           // to be written
-    input  wire logic [        7:0] d_i,           // what the part shows
-    input  wire logic               int_ni,        // the part's interrupt, L = active
-    output logic                    part_rst_no,   // reset of the part, L = active
+    output logic      [        7:0] d_o,           // write data
+    input  wire logic [        7:0] d_i,           // read data
+    input  wire logic               int_ni,        // interrupt, L = active
+    output logic                    part_rst_no,   // reset of the device, L = active
     // board
     output logic      [        7:0] straps_o,      // strap outputs
-    input  wire logic [        7:0] pins_i,        // for op PINS
-    input  wire logic [  Watch-1:0] watch_i,       // for the recorder
-    input  wire logic [Axes*32-1:0] count_i,       // axis 1 in the low bits
-    output logic      [   Axes-1:0] count_zero_o,  // a counter begins anew
-    output logic                    active_o       // a script is running or an answer is on its way
+    input  wire logic [        7:0] pins_i,        // pins for op PINS
+    input  wire logic [  Watch-1:0] watch_i,       // levels for the recorder
+    input  wire logic [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
+    output logic      [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
+    output logic                    active_o       // a script is running or its answer is being sent
 );
 
   if (!available(0, ClkHz, Baud)) begin : g_check
@@ -53,7 +54,8 @@ module ppmc_uart_bridge
   localparam int unsigned Width = phase_width(ClkHz, Baud);
   localparam int unsigned TopCode = top_code(ClkHz, Baud);
   localparam logic [7:0] IdentFlags = {4'(TopCode), 2'(Axes - 1), Counter, Datasheet};
-  // The zeros: Verilator up to 5.032 takes a parameter that was given a plain number for one without a width.
+  // The zeros are needed because Verilator up to 5.032 treats a parameter that is set to a plain number as
+  // one without a width.
   localparam logic [127:0] Ident = {
     32'd0 | ClkHz, 32'd0 | XtalHz, IdentFlags, Part[15:0], ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
   };
@@ -153,7 +155,7 @@ module ppmc_uart_bridge
       .nak_taken_i(nak_taken)
   );
 
-  // A request that was answered is answered again from the buffer (UB-SEQ-02).
+  // A request that was already answered is answered again from the buffer (UB-SEQ-02).
   assign again    = request && seq == last_seq_q && seq != '0;
   assign start    = request && !again;
   assign active_o = script || answer;
@@ -163,7 +165,7 @@ module ppmc_uart_bridge
     else if (start) last_seq_q <= seq;
   end
 
-  // The request in the lower half, the answer in the upper one. No request is received while a script runs.
+  // The lower half holds the request, the upper half the answer. No request is received while a script runs.
   ppmc_ram #(
       .Width   (8),
       .AddrBits(9)

@@ -1,45 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) in front of a part's strobe bus.
-// Rules:  register map and answers in docs/integration.md; strobes by UB-BUS-01.
-// Timing: a part register answers 6 clk (write) or 8 clk (read) after the first clk with CYC and STB, 1 clk
-//         later right behind another cycle; the bridge register and masked accesses 1 clk after it. A master
-//         may give up: a strobe that has begun still ends, then nobody is answered.
+// ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) for the strobe bus of a device.
+// Rules:  register map and responses in docs/integration.md; strobes by UB-BUS-01.
+// Timing: a device register responds 6 cycles (write) or 8 cycles (read) after the first cycle with CYC and
+//         STB, one cycle later if it directly follows another access. The bridge register and masked accesses
+//         respond 1 cycle after it. A master may abort an access: a strobe that has begun still ends, and
+//         there is no response.
 `default_nettype none
 `include "ppmc_assert.svh"
 
 module ppmc_wishbone #(
-    parameter int unsigned AddrBits = 1  // address lines of the part
+    parameter int unsigned AddrBits = 1  // address lines of the device
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // Wishbone; adr_i bits are numbered as in a byte address
-    input  wire logic                cyc_i,   // a cycle
-    input  wire logic                stb_i,   // and a transfer of it
-    input  wire logic                we_i,    // a write
+    input  wire logic                cyc_i,   // bus cycle of the master
+    input  wire logic                stb_i,   // transfer of the bus cycle
+    input  wire logic                we_i,    // the transfer is a write
     input  wire logic [AddrBits+2:2] adr_i,   // register
-    input  wire logic [         3:0] sel_i,   // bit 0: bits 7..0 count
-    input  wire logic [        31:0] dat_i,   // what is written, bits 7..0
-    output logic      [        31:0] dat_o,   // what is read, bits 7..0
-    output logic                     ack_o,   // done
-    output logic                     err_o,   // refused
-    output logic                     irq_o,   // the part's int_n, high active
-    // the part's pins
-    output logic                     cs_no,   // the part is addressed
+    input  wire logic [         3:0] sel_i,   // bit 0: bits 7..0 are used
+    input  wire logic [        31:0] dat_i,   // write data, bits 7..0
+    output logic      [        31:0] dat_o,   // read data, bits 7..0
+    output logic                     ack_o,   // transfer complete
+    output logic                     err_o,   // transfer rejected
+    output logic                     irq_o,   // interrupt of the device, H = active
+    // pins of the device
+    output logic                     cs_no,   // chip select
     output logic                     rd_no,   // read strobe
     output logic                     wr_no,   // write strobe
     output logic      [AddrBits-1:0] a_o,     // register
-    output logic      [         7:0] d_o,     // to be written
-    input  wire logic [         7:0] d_i,     // what the part shows
-    input  wire logic                int_ni   // the part's interrupt, L = active
+    output logic      [         7:0] d_o,     // write data
+    input  wire logic [         7:0] d_i,     // read data
+    input  wire logic                int_ni   // interrupt, L = active
 );
 
   logic call, own, bad, done, ready, req, unused;
   logic [7:0] rdata;
-  logic busy_q;  // a strobe cycle of this bridge is under way
-  logic live_q;  // its master still waits
-  logic quick_q;  // answer that needs no strobe
-  logic error_q;  // it is ERR
-  logic flag_q;  // its data bit 0
+  logic busy_q;  // a strobe access of this bridge is in progress
+  logic live_q;  // the master of this access still waits
+  logic quick_q;  // response that needs no strobe
+  logic error_q;  // this response is ERR
+  logic flag_q;  // data bit 0 of this response
 
   assign unused = &{1'b0, sel_i[3:1], dat_i[31:8]};
   assign call   = cyc_i && stb_i && !busy_q && !quick_q;
@@ -86,7 +87,7 @@ module ppmc_wishbone #(
     end
   end
 
-  // Gated, so that a master that gave up in the last moment sees nothing.
+  // Gated, so that a master that aborts at the last moment gets no response.
   logic answer;
   assign answer = cyc_i && stb_i && (quick_q || (done && live_q));
   assign ack_o  = answer && !(quick_q && error_q);
@@ -100,7 +101,7 @@ module ppmc_wishbone #(
   `PPMC_ASSERT(wb_answer_single, !((ack_o || err_o) && $past(ack_o || err_o)))
   `PPMC_ASSERT(wb_ack_per_strobe, quick_q || ack_o == (done && live_q && cyc_i && stb_i))
   `PPMC_ASSERT(wb_strobe_owned, !done || busy_q)
-  // The master's part of the contract: a request that is not answered and not given up stays as it is.
+  // The master's side of the contract: a request that is neither answered nor aborted stays unchanged.
   `PPMC_ASSERT(wb_request_stable, !($past(rst_ni && cyc_i && stb_i && !ack_o && !err_o) && cyc_i && stb_i)
                || $past({we_i, adr_i, sel_i, dat_i[7:0]}) == {we_i, adr_i, sel_i, dat_i[7:0]})
   // verilog_format: on

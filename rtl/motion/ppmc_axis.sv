@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axis: one motion from its start to its end: when each pulse comes, how long it is low, why the motion
-// stops.
+// ppmc_axis: runs one motion from start to end: time and low time of each pulse, cause of the end.
 // Rules:  P104-OPR-01..12, P104-BCK-01..05, P104-INT-01..05, P104-TIM-02..05, P104-END-01..06,
-//         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08, STMC-CLK-01..05.
-// Timing: motion_o.busy rises at the edge that ends the cycle of start_i. Pulse 1 is WidthXtal crystal cycles
-//         later, or after the end of the RUN gate where run_i was low (external clock: first edge at or after). A
-//         motion leaves busy one clk after low_o has gone, or at once; event_o.done is high in the clk before.
-//         Nothing here is a pin: pins follow low_o and event_o through one register (ppmc_motor_port).
-// Edges:  with the external clock all of this happens in the clk of an effective edge, for the clk after it:
-//         - the (rate + 1)-th one after a pulse is the next pulse (u_rate: hit), or the lag after it. Not one that
-//           finds low_o standing; the next one is due then. That takes a pulse of rate 0 that was not brisk.
-//         - number floor((rate + 1) / 2) is the half (u_rate): it cuts low_o, unless the pulse is a full one, and
-//           so does the falling edge at rate 0 (u_shaper, P104-TIM-05).
-//         Both count to the rate of the running interval. u_seq gives it with the pulse; only from the second
-//         step down the ramp on it may still rise for some clk (rising), in which neither happens: the half is
-//         made up for, the pulse cannot be due yet (times in ppmc_ramp_seq).
-// Checked by assertions: no pulse at or after an immediate cause; a motion that no cause ends has completed its
-//         count; no pulse is lost to a low time that should have been cut.
+//         P104-LIM-01..10; P2104-OPR-02, P2104-TIM-02, P2104-LIM-07, P2104-DS-21; STMC-MOT-05..08,
+//         STMC-CLK-01..05.
+// Timing: motion_o.busy rises at the edge that ends the cycle of start_i. Pulse 1 occurs WidthXtal crystal
+//         cycles later; if run_i was low, this time begins at the end of the RUN gate. With the external
+//         clock, pulse 1 occurs at the first edge at or after this time. When no pulse is left, busy falls
+//         one cycle after low_o, or at the next edge if low_o is already 0; event_o.done is high in the cycle
+//         before. No output is a pin: pins follow low_o and event_o through one register (ppmc_motor_port).
+// Edges:  the comment above `edges` describes the external clock.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -30,47 +22,47 @@ module ppmc_axis
     parameter int unsigned StepBits = 14,
     parameter int unsigned ClimbBits = StepBits,  // must hold PA + 1
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
-    parameter int unsigned FastQuanta = 8,  // fast internal base clock
-    parameter int unsigned SlowQuanta = 32,  // slow internal base clock
-    parameter int unsigned ExtraQuanta = 30,  // extra time of an interval with base_i.extra; 0: there is none
-    parameter int unsigned HalfRates = 3,  // fastest rates that get half an interval as pulse width
-    parameter bit StopAtSlow = 1'b0,  // deceleration asked for at the start-up rate ends the motion at once
-    parameter bit SlowAlways = 1'b0,  // slow-down limits count off the plateau in POUT mode, too
-    parameter bit SlowOrigin = 1'b0,  // a slow-down limit ends a search for the origin at once
-    parameter bit OriginAtPulse = 1'b0,  // the origin makes a pulse the last one; else it ends at once
-    parameter bit PulsePin = 1'b1  // 0: no pulse output, low_o stays 0 and the last pulse ends the motion
+    parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock, quanta
+    parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock, quanta
+    parameter int unsigned ExtraQuanta = 30,  // extra time with base_i.extra, quanta; 0: no extra time
+    parameter int unsigned HalfRates = 3,  // number of fastest rates whose pulse width is half an interval
+    parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
+    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits are effective off the plateau in POUT mode, too
+    parameter bit SlowOrigin = 1'b0,  // 1: a slow-down limit ends an origin search immediately
+    parameter bit OriginAtPulse = 1'b0,  // 1: a pulse at the origin is the last one; 0: immediate end
+    parameter bit PulsePin = 1'b1  // 0: no pulse output; low_o stays 0, the last pulse ends the motion
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    // start; the operation and its data are taken with start_i
-    input wire logic start_i,  // an operation starts at the coming edge
-    input wire op_t op_i,  // what it is
-    input wire logic [CountBits-1:0] count_i,  // pulses - 1
-    input wire logic [RateBits-1:0] rate_i,  // constant-speed rate
-    input wire base_t base_i,  // its base clock
-    // ramp in force, steady while busy
+    // start; the operation and its data are loaded with start_i
+    input wire logic start_i,  // an operation starts at the next edge
+    input wire op_t op_i,  // operation to start
+    input wire logic [CountBits-1:0] count_i,  // number of pulses - 1
+    input wire logic [RateBits-1:0] rate_i,  // rate at constant speed
+    input wire base_t base_i,  // base clock of the operation
+    // active ramp, stable while busy
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
-    output logic [RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two clk later
+    output logic [RateBits-1:0] lut_addr_o,  // r; thr(r) is expected two cycles later
     input wire logic [StepBits-1:0] lut_data_i,  // thr(r); PA at rate_fast_i
     // stops
     input wire logic halt_i,  // immediate stop command
-    input wire logic decel_i,  // decelerating stop command
+    input wire logic decel_i,  // deceleration stop command
     input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on a slow-down limit; slow_seen_o, or later
-    output logic slow_seen_o,  // one is seen that counts
-    input wire logic run_i,  // 0 keeps a motion that has not begun in the RUN gate
-    input wire logic go_i,  // 0 keeps pulse 1 back
+    input wire logic slow_i,  // act on the slow-down limit: equal to slow_seen_o, or later
+    output logic slow_seen_o,  // an effective slow-down limit is active
+    input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
+    input wire logic go_i,  // 0: pulse 1 is held back
     input wire logic linger_i,  // 1 keeps the motion from ending
     // clocks
     input wire logic quantum_i,  // quantum tick, restarted by restart_o
     input wire logic clock_pin_i,  // external base clock, asynchronous
-    output logic restart_o,  // the quantum count begins anew: pulse 1, end of a motion
+    output logic restart_o,  // restart the quantum count: at pulse 1 and at the end of a motion
     // state
-    output motion_t motion_o,  // how the motion stands
+    output motion_t motion_o,  // state of the motion
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
     output logic low_o,  // a pulse is active
-    output event_t event_o,  // what happens at the coming edge
+    output event_t event_o,  // events at the next edge
     output cause_t cause_o,  // valid with event_o.done
     output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
@@ -83,7 +75,7 @@ module ppmc_axis
     StIdle,
     StStart,  // direction set-up, wait for the first base edge
     StRun,    // between pulses
-    StFinish  // no more pulses; the last one runs out
+    StFinish  // no further pulse; waits for the end of the last low time
   } state_e;
 
   state_e state_q;
@@ -103,7 +95,7 @@ module ppmc_axis
   assign low_o = PulsePin && low;
   assign last = last_pulse || (OriginAtPulse && op_q.origin && switches_i.origin);
 
-  // An immediate cause also takes away a pulse that is due at the same edge.
+  // An immediate cause also suppresses a pulse that is scheduled for the same edge.
   always_comb begin
     fire = 1'b0;
     if (state_q == StStart) fire = up && go_i && (op_q.single || !base_q.external || rise);
@@ -111,7 +103,8 @@ module ppmc_axis
     if (stop) fire = 1'b0;
   end
 
-  // RUN gate: limits and alarm count, the origin does not; the direction set-up begins with its end.
+  // In the RUN gate, limits and alarm are effective and the origin is not. The direction set-up begins when
+  // the gate ends.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) gated_q <= 1'b0;
     else if (start_i || run_i) gated_q <= !run_i;
@@ -215,7 +208,17 @@ module ppmc_axis
       .up_o   (up)
   );
 
-  // Interval: base clock from inside or from the pin, counted, and the extra time.
+  // Interval: internal base clock or edges of the pin, counted, and the extra time.
+  // With the external clock, pulses and cuts occur in the cycle of an effective edge and act at the end of
+  // this cycle:
+  // - Edge number rate + 1 after a pulse is the next pulse (u_rate: hit_o), or the extra time follows it. An
+  //   edge makes no pulse while low_o = 1; the next edge does. This needs a pulse of rate 0 that is not
+  //   brisk.
+  // - Edge number floor((rate + 1) / 2) is the half (u_rate: half_o). It cuts low_o, unless the pulse is a
+  //   full one. At rate 0 the falling edge cuts it, if the pulse is brisk (u_shaper, P104-TIM-05).
+  // Both count to the rate of the running interval, which u_seq outputs with the pulse. Only from the second
+  // deceleration step on, this rate may still rise for some cycles (rising). During this time neither event
+  // occurs: the half is made up for afterwards, and the pulse cannot be reached yet (times in ppmc_ramp_seq).
   assign edges = base_q.external && rise;
   assign tick  = base_q.external ? edges && ext_count : base_tick;
   assign cut   = base_q.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !rising));
@@ -295,9 +298,12 @@ module ppmc_axis
           base: base_q
       };
 
+  // The assertions check that there is no pulse at or after an immediate cause, that a motion which no cause
+  // ends has completed its count, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
-  // External clocks less than 4 clk apart are too fast (P104-BAD-14, P2104-BAD-19): their cut may come too late.
+  // External clock edges less than 4 cycles apart are too fast (P104-BAD-14, P2104-BAD-19): the cut may be
+  // too late.
   logic [2:0] ticked_q;
   logic too_fast, too_fast_q;
   assign too_fast = too_fast_q || (tick && ticked_q != '0);

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_base_clock: the internal base clock of one interval, counted in quanta from the pulse that began it.
-// Rules:  P104-BCK-01 (period), P104-INT-01/02 (an extra stretch before the first period of every interval).
+// ppmc_base_clock: internal base clock of one interval, counted in quanta from the pulse that began the
+//         interval.
+// Rules:  P104-BCK-01 (period), P104-INT-01/02 (extra time before the first period of every interval).
 // Timing: tick_o is combinational from quantum_i, in the same cycle.
 `default_nettype none
 
 module ppmc_base_clock #(
-    parameter int unsigned FastQuanta  = 8,   // quanta a period, fast base clock
-    parameter int unsigned SlowQuanta  = 32,  // quanta a period, slow base clock
-    parameter int unsigned ExtraQuanta = 30   // stretch of an interval when extra_i is set
+    parameter int unsigned FastQuanta  = 8,   // period of the fast base clock, quanta
+    parameter int unsigned SlowQuanta  = 32,  // period of the slow base clock, quanta
+    parameter int unsigned ExtraQuanta = 30   // extra time of an interval with extra_i, quanta
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic restart_i,  // a pulse: a new interval begins at the coming edge
+    input  wire logic restart_i,  // a pulse: a new interval begins at the next edge
     input  wire logic quantum_i,  // quantum tick
-    input  wire logic slow_i,     // 1 = slow base clock; steady during an operation
-    input  wire logic extra_i,    // 1 = begin each interval with the extra stretch
+    input  wire logic slow_i,     // 1 = slow base clock; stable during an operation
+    input  wire logic extra_i,    // 1 = begin each interval with the extra time
     output logic      tick_o      // a base clock period has ended
 );
 
@@ -22,9 +23,9 @@ module ppmc_base_clock #(
   localparam int unsigned Longest = (Slower > ExtraQuanta) ? Slower : ExtraQuanta;
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
-  logic [Width-1:0] left_q, whole;  // quanta left before the one that ends the period; of the next one
-  logic extra_q;  // the extra stretch is running
-  logic last_q;  // there are none left
+  logic [Width-1:0] left_q, whole;  // remaining quanta without the last one; next start value
+  logic extra_q;  // the extra time is running
+  logic last_q;  // the next quantum ends the period
   logic ends;
 
   assign ends   = quantum_i && last_q;
@@ -47,7 +48,7 @@ module ppmc_base_clock #(
     end
   end
 
-  // No reset: the first pulse of a motion restarts it.
+  // No reset, because the first pulse of a motion restarts it.
   always_ff @(posedge clk_i) begin
     if (restart_i || ends) left_q <= whole;
     else if (quantum_i) left_q <= Width'(ppmc_pkg::dec(32'(left_q)));

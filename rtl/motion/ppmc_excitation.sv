@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_excitation: the phases that are energised, for 3-, 4- and 5-phase motors in full and half step.
-// Rules:  P104-PHS-01..06 (tables of section 6.1), P104-PHS-03/05 home and off.
+// ppmc_excitation: pattern of energised phases, for 3-, 4- and 5-phase motors in full and half step.
+// Rules:  P104-PHS-01..06 (tables of section 6.1), P104-PHS-03/05 (index 0 and phases off).
 // Timing: pattern_o changes at the edge that ends the cycle of home_i, off_i or step_i.
 // How:    see ppmc_motion_pkg.
 `include "ppmc_assert.svh"
@@ -13,14 +13,14 @@ module ppmc_excitation
     input  wire logic         rst_ni,
     input  wire motor_e       motor_i,   // number of phases
     input  wire logic         half_i,    // 1 = half step
-    input  wire logic         home_i,    // to index 0: S1 and S2
-    input  wire logic         off_i,     // no phase energised, until home_i
-    input  wire logic         step_i,    // one step
+    input  wire logic         home_i,    // set the phases to index 0: S1 and S2 on
+    input  wire logic         off_i,     // switch all phases off until home_i
+    input  wire logic         step_i,    // advance by one step
     input  wire logic         ccw_i,     // direction of the step: 1 = down the table
     output logic        [5:1] pattern_o  // 1 = energised
 );
 
-  logic pair_q;  // even index of the half-step table: two neighbours are on
+  logic pair_q;  // two adjacent phases are on: even index of the half-step table
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

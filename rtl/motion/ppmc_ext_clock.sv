@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_clock: edges of an external base clock and the length of its last period.
-// Rules:  P104-BCK-04, P104-INT-03 (period against the threshold), P104-TIM-05 (c).
-// Timing: a rising pin edge first sampled at t gives rise_o in the cycle before edge t + 2, the same for
-//         falling edges. long_o and brisk_o speak, in the cycle of rise_o, of the period that this edge ends.
+// Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (c).
+// Timing: for a rising pin edge first sampled at edge t, rise_o is high in the cycle before edge t + 2; for a
+//         falling edge likewise fall_o. In the cycle of rise_o, long_o and brisk_o refer to the period that
+//         this edge ends.
 `default_nettype none
 
 module ppmc_ext_clock #(
-    parameter int unsigned LongClk  = 136,  // a period longer than this is long
-    parameter int unsigned BriskClk = 128   // a period shorter than this is brisk; at most LongClk
+    parameter int unsigned LongClk  = 136,  // a longer period is long, cycles
+    parameter int unsigned BriskClk = 128   // a shorter period is brisk, cycles; at most LongClk
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
     input  wire logic pin_i,   // external clock, asynchronous
     output logic      rise_o,  // rising edge of the pin
-    output logic      fall_o,  // falling edge
-    output logic      long_o,  // more than LongClk clk since the edge before
-    output logic      brisk_o  // less than BriskClk clk since the edge before
+    output logic      fall_o,  // falling edge of the pin
+    output logic      long_o,  // more than LongClk cycles since the previous rising edge
+    output logic      brisk_o  // less than BriskClk cycles since the previous rising edge
 );
 
   localparam int unsigned Width = ppmc_lfsr_pkg::width(LongClk);
@@ -24,11 +25,11 @@ module ppmc_ext_clock #(
 
   logic level, last_q, slow_q;
   logic unused_meta;
-  logic [Width-1:0] age_q;  // clk since the last rising edge, of no use when long
+  logic [Width-1:0] age_q;  // cycles since the last rising edge; not used with long_o
 
   ppmc_sync #(
       .Width   (1),
-      .ResetVal(1'b1)  // a pin that rests high must not look like an edge
+      .ResetVal(1'b1)  // an idle-high pin must not produce an edge
   ) u_sync (
       .clk_i,
       .rst_ni,
@@ -44,7 +45,7 @@ module ppmc_ext_clock #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       last_q <= 1'b1;
-      slow_q <= 1'b1;  // no edge before: an endless period
+      slow_q <= 1'b1;  // no previous edge: the period is infinite
       long_o <= 1'b1;
     end else begin
       last_q <= level;
@@ -58,7 +59,7 @@ module ppmc_ext_clock #(
     end
   end
 
-  // No reset: long_o is set until the first edge clears it.
+  // No reset, because long_o is set until the first edge clears it.
   always_ff @(posedge clk_i) begin
     if (rise_o) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag: the fixed extra time of an interval when the base clock comes from outside.
-// Rules:  P104-INT-03, P104-INT-04: the time from a pulse to the first base edge at or after it is put back
-//         behind the edge that ends the interval, so that (rate + 1) periods and the extra time add up
-//         without a frequency being measured.
-// Timing: fire_o is combinational: in the cycle of hit_i, or the lag later.
+// ppmc_ext_lag: fixed extra time of an interval with an external base clock.
+// Rules:  P104-INT-03, P104-INT-04. The extra time runs from a pulse to the first base edge at or after it;
+//         the rest runs after the edge that ends the count. So an interval lasts (rate + 1) periods plus the
+//         extra time, and no frequency has to be measured.
+// Timing: fire_o is combinational: it is high in the cycle of hit_i, or when the rest of the extra time has
+//         passed.
 `default_nettype none
 
 module ppmc_ext_lag #(
-    parameter int unsigned LagClk = 120  // extra time of an interval, clk; at least 2
+    parameter int unsigned LagClk = 120  // extra time of an interval in cycles; at least 2
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic en_i,       // 0: no extra time, hits pass straight through
+    input  wire logic en_i,       // 0: no extra time, hit_i passes to fire_o
     input  wire logic restart_i,  // a pulse
     input  wire logic edge_i,     // a base edge
-    input  wire logic long_i,     // the period it ends is too long for the extra time
+    input  wire logic long_i,     // edge_i ends a period that is too long for the extra time
     input  wire logic hit_i,      // this base edge ends the count
-    output logic      count_o,    // base edges count from here on
-    output logic      fire_o      // the interval is over
+    output logic      count_o,    // base edges are counted
+    output logic      fire_o      // the interval ends
 );
 
   localparam int unsigned Width = ppmc_lfsr_pkg::width(LagClk - 1);
   localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(LagClk - 2, Width));
 
-  logic [Width-1:0] spent_q;  // of the extra time
-  logic last_q, over_q;  // all but a clk of it, all of it
+  logic [Width-1:0] spent_q;  // elapsed part of the extra time
+  logic last_q, over_q;  // one cycle of the extra time is left; no cycle is left
   logic before_q;  // no base edge since the pulse
-  logic after_q;  // the count is over, the lag runs
+  logic after_q;  // the count has ended, the rest of the extra time runs
   logic spend;
 
   assign count_o = !(en_i && before_q);
@@ -51,7 +52,7 @@ module ppmc_ext_lag #(
     end
   end
 
-  // No reset: the first pulse restarts it.
+  // No reset, because the first pulse restarts it.
   always_ff @(posedge clk_i) begin
     if (restart_i) spent_q <= Width'(1);
     else if (spend) spent_q <= Width'(ppmc_lfsr_pkg::step(31'(spent_q), Width));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_motion_pkg: types that the motion blocks share; nothing of any host.
+// ppmc_motion_pkg: types that the motion blocks share; independent of the host.
 `default_nettype none
 
 package ppmc_motion_pkg;
@@ -7,7 +7,7 @@ package ppmc_motion_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // Number of motor phases, coded as in the family's initialisation byte (P104-INI-01).
+  // Number of motor phases, coded as in the initialisation byte of the PPMC family (P104-INI-01).
   typedef enum logic [1:0] {
     MotorNone = 2'b00,
     Motor3    = 2'b01,
@@ -15,28 +15,28 @@ package ppmc_motion_pkg;
     Motor5    = 2'b11
   } motor_e;
 
-  // What an operation is; latched by the axis at its start.
+  // Operation of an axis; the axis latches it at the start.
   typedef struct packed {
     logic ramp;       // accelerates and decelerates by the ramp table
     logic single;     // one pulse, no wait for a base clock
     logic origin;     // ends at the origin
-    logic pout_only;  // phases stand still; slow-down limit seen on the plateau only
+    logic pout_only;  // phases do not change; slow-down limit only on the plateau
     logic ccw;        // direction
   } op_t;
 
-  // Base clock of an operation; latched by the axis at its start.
+  // Base clock of an operation; the axis latches it at the start.
   typedef struct packed {
-    logic external;  // edges of the clock pin
+    logic external;  // edges of the clock pin, not the internal base clock
     logic slow;      // slow internal base clock
     logic extra;     // extra time in every interval
   } base_t;
 
-  // Why a motion ended before its last pulse (P104-END-04); bit order of the finish status.
+  // Causes that ended a motion before its last pulse (P104-END-04), in the bit order of the finish status.
   typedef struct packed {
     logic stop;   // stop command
     logic alarm;  // ALM
-    logic limit;  // limit of the direction
-    logic slow;   // slow-down limit of the direction
+    logic limit;  // limit in the direction of the motion
+    logic slow;   // slow-down limit in the direction of the motion
   } cause_t;
 
   // Levels of the switches after the synchroniser, 1 = active.
@@ -49,38 +49,38 @@ package ppmc_motion_pkg;
     logic alarm;
   } switches_t;
 
-  // How the motion of an axis stands.
+  // State of the motion of an axis.
   typedef struct packed {
-    logic  busy;     // from its start until the last pulse has run out
+    logic  busy;     // from the start until the low time of the last pulse has ended
     logic  moving;   // before pulse 1 or between pulses, not yet stopping
     logic  running;  // between pulses
-    logic  gated;    // in the RUN gate
+    logic  gated;    // waiting in the RUN gate
     logic  dec;      // decelerating, forced or natural
     logic  top;      // on the plateau of the ramp
     op_t   op;       // the running or last operation
-    base_t base;     // its base clock
+    base_t base;     // base clock of this operation
   } motion_t;
 
-  // What a motion does at the coming edge.
+  // Events of a motion at the next edge.
   typedef struct packed {
     logic pulse;     // a pulse begins
-    logic last;      // with pulse: the last one
-    logic complete;  // with pulse: and the count is complete
+    logic last;      // with pulse: last pulse
+    logic complete;  // with pulse: the count is complete
     logic stop;      // immediate end
-    logic done;      // the motion is over
+    logic done;      // the motion has ended
   } event_t;
 
-  // Times of the chopper: a phase lasts its base time and as many units; it is looked at when the phase begins.
+  // Times of the chopper: a phase lasts its base time plus its units. They are sampled when the phase begins.
   typedef struct packed {
-    logic [31:0] on_base;    // quanta, at least 1
-    logic [31:0] off_base;   // the same for the OFF phase
+    logic [31:0] on_base;    // base time of the ON phase, quanta, at least 1
+    logic [31:0] off_base;   // base time of the OFF phase, quanta, at least 1
     logic [7:0]  on_units;   // units set by the host
     logic [7:0]  off_units;
   } chop_t;
 
-  // Phases of a motor, 1 = energised. There is no table: full step turns the pair of phases by one place. Half step
-  // takes, in turn, the phases that the pattern and its turned self share (AND) or cover together (OR); a 5-phase
-  // motor starts with OR, the others with AND. pair: two neighbours are on, an even index of the half-step table.
+  // Phases of a motor, 1 = energised. No table is needed: a full step rotates the pattern by one phase. Half
+  // steps use in turn AND and OR of the pattern and the rotated pattern. A 5-phase motor starts with OR,
+  // other motors with AND. pair: two adjacent phases are on, which is an even index of the half-step table.
   function automatic logic [5:1] turned(logic [5:1] pattern, motor_e motor, logic ccw);
     logic [5:1] t;
     if (ccw) begin

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_motor_port: the pins of one axis: phases with polarity and chopping, POUT, DIR, HOLD.
-// Rules:  P104-TIM-04 (pulse and phase change on one edge), P104-PHS-01..07, P104-SW-01..07, P104-PORT-02,
-//         P104-END-08.
-// Timing: every pin is a flip-flop one clk behind the axis, so that all pins of one event change on one edge.
+// ppmc_motor_port: motor pins of one axis: phases with polarity and chopping, POUT, DIR, HOLD.
+// Rules:  P104-TIM-04 (pulse and phases change on the same edge), P104-PHS-01..07, P104-SW-01..07,
+//         P104-PORT-02, P104-END-08.
+// Timing: every pin is registered and follows the axis by one cycle, so that all pins of an event change on
+//         the same edge.
 `default_nettype none
 
 module ppmc_motor_port
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned HoldQuanta = 136_000,
-    parameter int unsigned HoldRest = 0,  // clk more
-    parameter int unsigned HoldBits = 0,  // of hold_units_i; 0: the hold time is fixed
+    parameter int unsigned HoldRest = 0,  // cycles added to the hold time
+    parameter int unsigned HoldBits = 0,  // bits of hold_units_i; 0: the hold time is fixed
     parameter int unsigned UnitQuanta = 12,
     parameter int unsigned BaseBits = 9,
     parameter bit PhaseIdle = 1'b1,  // level of s_o in reset; positive_i must be !PhaseIdle until home_i
@@ -19,30 +20,30 @@ module ppmc_motor_port
     input  wire logic                  clk_i,
     input  wire logic                  rst_ni,
     // axis
-    input  wire logic                  busy_i,          // a motion is under way
+    input  wire logic                  busy_i,          // a motion is in progress
     input  wire logic                  low_i,           // a pulse is active
-    input  wire logic                  step_i,          // pulse event that moves the phases
+    input  wire logic                  step_i,          // pulse event that steps the phases
     input  wire logic                  ccw_i,           // direction
     input  wire logic                  quantum_i,       // quantum tick
     // excitation
     input  wire motor_e                motor_i,         // number of phases
     input  wire logic                  half_i,          // half step
-    input  wire logic                  positive_i,      // 1 = high is on; steady while energised
-    input  wire logic                  home_i,          // phases go to index 0
-    input  wire logic                  off_i,           // phases go off, until home_i
+    input  wire logic                  positive_i,      // 1: high = energised; stable while energised
+    input  wire logic                  home_i,          // set the phases to index 0
+    input  wire logic                  off_i,           // switch the phases off until home_i
     // chopper
-    input  wire logic                  chop_i,          // chop while at rest
+    input  wire logic                  chop_i,          // chop at standstill
     input  wire logic                  chop_restart_i,  // begin a complete ON phase
-    input  wire logic   [BaseBits-1:0] on_base_i,       // ON phase: quanta
-    input  wire logic   [BaseBits-1:0] off_base_i,      // OFF phase: quanta
-    input  wire logic   [         7:0] on_units_i,      // and so many units more
-    input  wire logic   [         7:0] off_units_i,     // and so many units more
-    input  wire logic   [   HoldTop:0] hold_units_i,    // units of the hold time
-    // what the host reads
+    input  wire logic   [BaseBits-1:0] on_base_i,       // base time of the ON phase, quanta
+    input  wire logic   [BaseBits-1:0] off_base_i,      // base time of the OFF phase, quanta
+    input  wire logic   [         7:0] on_units_i,      // units added to on_base_i
+    input  wire logic   [         7:0] off_units_i,     // units added to off_base_i
+    input  wire logic   [   HoldTop:0] hold_units_i,    // hold time in units, minus 1
+    // state that the host reads
     output logic        [         5:1] levels_o,        // phases at pin polarity, not chopped
     // pins
     output logic        [         5:1] s_o,             // phases
-    output logic                       hold_o,          // at rest for the hold time
+    output logic                       hold_o,          // at standstill for the hold time
     output logic                       pout_no,         // pulse, L = active
     output logic                       dir_o            // 0 = CW
 );

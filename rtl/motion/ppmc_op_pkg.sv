@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_op_pkg: the family's operations by their number (bits 2..0 of a code), and what each is to the axis.
+// ppmc_op_pkg: operations of the PPMC family by number (bits 2..0 of a code), and their meaning for the axis.
 // Rules:  P104-OPR-01, P104-CMD-01; P2104-CMD-01.
 `default_nettype none
 
@@ -15,7 +15,7 @@ package ppmc_op_pkg;
   localparam logic [2:0] OP_CONT_HIGH = 3'b110;
   localparam logic [2:0] OP_ORIGIN = 3'b111;
 
-  // What the axis has to know.
+  // Operation in the form that the axis uses.
   function automatic ppmc_motion_pkg::op_t op_of(logic pout_only, logic ccw, logic [2:0] op);
     return
     '{
@@ -28,7 +28,7 @@ package ppmc_op_pkg;
     ;
   endfunction
 
-  // Bytes that follow the code.
+  // Number of bytes that follow the code.
   function automatic logic [2:0] op_params(logic [2:0] op);
     unique case (op)
       OP_ACC_DEC:                  return 3'd3;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_counter: where the motor is, counted from the pulse output: CW up, CCW down.
+// ppmc_pulse_counter: motor position, counted from the pulse output: CW up, CCW down.
 // Rules:  UB ops COUNT and ZERO (docs/uart_bridge.md).
-// Timing: count_o changes 1 clk after pout_n falls; clear_i wins over a pulse on the same edge.
+// Timing: count_o changes one cycle after pout_n falls; clear_i has priority over a pulse at the same edge.
 `default_nettype none
 
 module ppmc_pulse_counter #(
@@ -9,8 +9,8 @@ module ppmc_pulse_counter #(
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             clear_i,  // count from 0
-    input  wire logic             pout_ni,  // of the same clk domain
+    input  wire logic             clear_i,  // set the count to 0
+    input  wire logic             pout_ni,  // pulse output, synchronous to clk_i
     input  wire logic             dir_i,    // 0 = CW
     output logic      [Width-1:0] count_o   // two's complement, wraps
 );

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_shaper: the low time of a pulse, and the same time as direction set-up before the first one.
+// ppmc_pulse_shaper: low time of a pulse; the same time is the direction set-up before the first pulse.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
-// Timing: low_o stands from the edge of pulse_i for exactly WidthClk clk unless cut; up_o comes WidthClk clk
-//         after arm_i.
+// Timing: low_o is high for exactly WidthClk cycles from the edge of pulse_i, unless it is cut. up_o rises
+//         WidthClk cycles after arm_i.
 `default_nettype none
 
 module ppmc_pulse_shaper #(
@@ -12,18 +12,18 @@ module ppmc_pulse_shaper #(
     parameter int unsigned RateBits  = 8,
     parameter int unsigned WidthXtal = 80,          // low time, crystal cycles
     parameter int unsigned HalfXtal  = 16,          // half a fast base clock, crystal cycles
-    parameter int unsigned HalfRates = 3            // rates 0 .. HalfRates - 1 get half an interval instead
+    parameter int unsigned HalfRates = 3            // rates 0 .. HalfRates - 1 have half an interval instead
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     input  wire logic                arm_i,    // start the time without a pulse
     input  wire logic                pulse_i,  // pulse event
-    input  wire logic                full_i,   // with pulse_i: this pulse is not cut
+    input  wire logic                full_i,   // with pulse_i: full pulse, which is not cut
     input  wire logic                halve_i,  // half intervals apply (fast internal base clock)
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
     input  wire logic                cut_i,    // end the low time now, unless the pulse is a full one
     output logic                     low_o,    // 1 = pulse active
-    output logic                     up_o      // WidthClk clk have passed
+    output logic                     up_o      // WidthClk cycles have passed
 );
 
   localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
@@ -31,9 +31,9 @@ module ppmc_pulse_shaper #(
 
   localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthClk - 2, Width));
 
-  logic [Width-1:0] age_q;  // clk since the pulse; of no use after up_o
+  logic [Width-1:0] age_q;  // cycles since the pulse; not used after up_o
   logic full_q;
-  logic [HalfRates:0] halves;  // of each rate: half its interval is over; the highest is none
+  logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the highest is 0
 
   assign halves[HalfRates] = 1'b0;
 
@@ -60,7 +60,7 @@ module ppmc_pulse_shaper #(
     end
   end
 
-  // No reset: it is cleared before each use.
+  // No reset, because each use restarts it.
   always_ff @(posedge clk_i) begin
     if (arm_i || pulse_i) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder: fills the ramp table: for every rate r from fast + 1 to slow the first step with a rate
-//         below r; PA for fast itself, which a walk up the ramp comes to last.
-// Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 clk for every legal initialisation).
-// Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete.
-//         slow_i, fast_i, steps_i must stand still meanwhile, from the clk after start_i on. fast_i = slow_i: PA
-//         is all of the table, busy_o is short. addr_o = slow_i from the end of a build until the next one.
+// ppmc_ramp_builder: fills the ramp table: for every rate r from fast_i + 1 to slow_i, the first step with a
+//         rate below r; for fast_i, where the acceleration ends, PA.
+// Rules:  P104-RMP-01..05, P104-INI-07, P104-HSK-04 (at most 40 000 cycles for every legal initialisation).
+// Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table is complete. If
+//         fast_i = slow_i, the table holds only PA and busy_o is short. addr_o = slow_i from the end of a
+//         build until the next one.
+// Assumes: slow_i, fast_i and steps_i are stable from the cycle after start_i until busy_o falls.
 // How:    with s = 2r + 1, a = RL + 1, b = RH + 1, E = PA*b*b:
 //             thr(r) - 1 = floor((E*(2a)*(2a)/(s*s) - E) / ((a - b)*(a + b))).
-//         A quotient may be rounded down before the next division or an integer is subtracted: so there are
-//         four divisions by short numbers, s, s, a - b and a + b, two at a time, a subtraction between them
-//         and an increment behind them, all bit by bit (ppmc_ramp_serial). The products are made once, one
-//         multiplier bit a pass.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -22,40 +19,40 @@ module ppmc_ramp_builder
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                start_i,  // build
+    input  wire logic                start_i,  // start a build
     input  wire logic [RateBits-1:0] slow_i,   // start-up rate RL
     input  wire logic [RateBits-1:0] fast_i,   // high-speed rate RH, at most slow_i
     input  wire logic [StepBits-1:0] steps_i,  // PA, at least 1
-    output logic                     busy_o,   // it is being built
-    output logic                     we_o,     // write port of the table
-    output logic      [RateBits-1:0] addr_o,   // r
-    output logic      [StepBits-1:0] data_o    // thr(r)
+    output logic                     busy_o,   // a build is in progress
+    output logic                     we_o,     // write port of the table: enable
+    output logic      [RateBits-1:0] addr_o,   // address r
+    output logic      [StepBits-1:0] data_o    // data thr(r); PA for fast_i
 );
 
   localparam int unsigned MulBits = ppmc_pkg::cnt_width(RateBits - 1);
 
   (* fsm_encoding = "none" *)
-  pass_e pass_q;  // that runs
-  pass_e pass;  // that comes next
-  logic first_q, begin_q;  // first and second clk of a build
-  logic slower_q;  // the factor is 2a, else b
-  logic again_q;  // for the second time
-  logic [MulBits-1:0] mul_q;  // multiplier bit, the highest between two factors
+  pass_e pass_q;  // running pass
+  pass_e pass;  // next pass
+  logic first_q, begin_q;  // first and second cycle of a build
+  logic slower_q;  // 1: the factor is 2a; 0: the factor is b
+  logic again_q;  // second multiplication by this factor
+  logic [MulBits-1:0] mul_q;  // index of the multiplier bit; between two factors the highest
   logic [RateBits-1:0] rate_q;  // r
   logic found_q;  // bits_q is a threshold
-  logic [StepBits-1:0] bits_q;  // PA, then a threshold as it comes
+  logic [StepBits-1:0] bits_q;  // PA, then a threshold, received bit by bit
   logic next, last, done, use_bit, mul_bit, sum, product;
   logic [RateBits:0] first, second;
 
   assign done    = rate_q == slow_i;
   assign next    = begin_q ? !done : last && !(pass_q == PassTell && done);
   assign mul_bit = slower_q ? slow_i[mul_q] : fast_i[mul_q];
-  assign product = pass_q == PassMulEnd && slower_q && again_q;  // the last one
+  assign product = pass_q == PassMulEnd && slower_q && again_q;  // the last product
   assign we_o    = begin_q || found_q;
   assign addr_o  = rate_q;
   assign data_o  = bits_q;
 
-  // Divisors, minus 1: twice s, or a - b and a + b.
+  // Divisors minus 1: s and s, or a - b and a + b.
   always_comb begin
     first  = {rate_q, 1'b0};
     second = {rate_q, 1'b0};
@@ -84,7 +81,12 @@ module ppmc_ramp_builder
       .last_o  (last)
   );
 
-  // Which pass comes next: n is multiplied by b, b, 2a, 2a; then four passes for each r.
+  // A quotient may be rounded down before the next division, and before an integer is subtracted, without
+  // changing the result. So thr(r) takes four divisions by short numbers, two at a time: by s and s, then by
+  // a - b and a + b. A subtraction is between the pairs, an increment follows them. All are bit-serial
+  // (ppmc_ramp_serial).
+  // Next pass: n is multiplied by b, b, 2a and 2a once, with one pass for each multiplier bit; then four
+  // passes follow for each r.
   always_comb begin
     unique case (pass_q)
       PassInit:   pass = PassMulBit;
@@ -125,7 +127,7 @@ module ppmc_ramp_builder
     end
   end
 
-  // No reset: every build begins with a load.
+  // No reset, because every build begins with a load.
   always_ff @(posedge clk_i) begin
     if (first_q) rate_q <= fast_i;
     else if ((found_q && !done) || (last && product)) rate_q <= RateBits'(ppmc_pkg::inc(32'(rate_q)));

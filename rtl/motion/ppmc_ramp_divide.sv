@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_divide: divides a number that comes bit by bit, the highest first; the quotient goes out the same
-// way.
+// ppmc_ramp_divide: bit-serial divider; dividend and quotient begin with their highest bit.
 // Rules:  P104-RMP-02.
-// Timing: bit_o stands a clk after its bit_i. run_i = 0 for a clk begins a new number.
-// How:    without restoring: after a trial that went below zero the next one adds. Each sign is a quotient
-//         bit all the same.
+// Timing: bit_o follows its bit_i by one cycle. run_i = 0 for one cycle begins a new number.
+// How:    non-restoring division: after a trial with a negative remainder, the next trial adds the divisor.
+//         The sign of every trial is a quotient bit.
 `default_nettype none
 
 module ppmc_ramp_divide #(
     parameter int unsigned Width = 9  // bits of less_i
 ) (
     input  wire logic             clk_i,
-    input  wire logic             run_i,   // bit_i counts
-    input  wire logic             bit_i,   // of the number
-    input  wire logic [Width-1:0] less_i,  // divisor - 1; steady while run_i
-    output logic                  bit_o    // of the quotient
+    input  wire logic             run_i,   // bit_i is valid
+    input  wire logic             bit_i,   // bit of the dividend
+    input  wire logic [Width-1:0] less_i,  // divisor - 1; stable while run_i = 1
+    output logic                  bit_o    // bit of the quotient
 );
 
   logic [Width:0] rem_q;  // remainder, -divisor .. divisor - 1
@@ -24,7 +23,7 @@ module ppmc_ramp_divide #(
   assign below = rem_q[Width];
   assign bit_o = !below;
 
-  // Behind the sum a bit that makes the carry.
+  // An additional bit below the sum generates the carry-in.
   assign {trial, unused_carry} =
       {rem_q[Width-1:0], bit_i, below} + {{1'b0, less_i} ^ {(Width + 1) {!below}}, below};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_pkg: the passes that the ramp builder makes over its bit-serial numbers.
+// ppmc_ramp_pkg: passes of the ramp builder over its bit-serial numbers.
 `default_nettype none
 
 package ppmc_ramp_pkg;
@@ -10,12 +10,12 @@ package ppmc_ramp_pkg;
   typedef enum logic [2:0] {
     PassInit,    // n = PA, v = 0
     PassMulBit,  // v = 2v + bit * n: one multiplier bit, the highest first
-    PassMulOne,  // the same with the bit 1
+    PassMulOne,  // v = 2v + n: multiplier bit 1
     PassMulEnd,  // n = n + v, v = 0: multiplied by the multiplier + 1
     PassSquare,  // v = n / s / s, s = 2r + 1
     PassLess,    // v = v - u
     PassShare,   // v = v / (a - b) / (a + b)
-    PassTell     // v + 1 goes out; v is lost
+    PassTell     // output v + 1; v is overwritten
   } pass_e;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial: the bit-serial arithmetic of the ramp builder: three long numbers in one block RAM, a bit
-// of each a word.
+// ppmc_ramp_serial: bit-serial arithmetic of the ramp builder: three long numbers in one block RAM, with one
+//         bit of each number in a word.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
-// Timing: a pass begins in the clk after start_i and takes 2 clk more than it has words; last_o marks its last
-//         clk, in which the next one may be started. PassTell gives a bit a clk up to its last clk.
-// How:    n = numerator, u = what is subtracted between the divisions, v = product, quotient or difference.
-//         Bit i stands in word i. A quotient comes two clk behind its number and is written two words lower:
-//         its lowest bits go into the two last words of the RAM. Nothing ever writes a 1 into u there.
+// Timing: a pass begins in the cycle after start_i and lasts 2 cycles more than it has words. last_o marks
+//         its last cycle, in which the next pass may be started. PassTell outputs one bit in each cycle, up
+//         to its last cycle.
+// How:    n = numerator, u = subtrahend between the divisions, v = product, quotient or difference. Bit i is
+//         stored in word i. A quotient follows its dividend by two cycles and is written two words lower: its
+//         lowest bits are stored in the last two words of the RAM. No pass ever writes a 1 into u there.
 `default_nettype none
 
 module ppmc_ramp_serial
@@ -19,26 +20,26 @@ module ppmc_ramp_serial
     input  wire logic              clk_i,
     input  wire logic              rst_ni,
     input  wire logic              start_i,   // begin a pass
-    input  wire pass_e             next_i,    // which; with start_i
-    input  wire pass_e             pass_i,    // the same from the clk after, steady during the pass
-    input  wire logic              mul_i,     // multiplier bit of a PassMulBit; steady during the pass
-    input  wire logic              keep_i,    // a PassMulEnd sets u, too; steady during the pass
-    input  wire logic              init_i,    // bit of a PassInit, as bit_o
+    input  wire pass_e             next_i,    // pass to begin, valid with start_i
+    input  wire pass_e             pass_i,    // next_i from the cycle after start_i, stable during the pass
+    input  wire logic              mul_i,     // multiplier bit of PassMulBit; stable during the pass
+    input  wire logic              keep_i,    // PassMulEnd sets u, too; stable during the pass
+    input  wire logic              init_i,    // bit of PassInit, in the order and at the time of bit_o
     input  wire logic  [Width-1:0] first_i,   // first divisor of a division, minus 1
-    input  wire logic  [Width-1:0] second_i,  // the divisor of its quotient, minus 1
-    output logic                   bit_o,     // bit of a PassTell, the lowest first
-    output logic                   use_o,     // with each of them
-    output logic                   last_o     // the pass ends with this clk
+    input  wire logic  [Width-1:0] second_i,  // divisor of the first quotient, minus 1
+    output logic                   bit_o,     // bit of PassTell, the lowest first
+    output logic                   use_o,     // bit_o is valid, init_i is used
+    output logic                   last_o     // the pass ends with this cycle
 );
 
-  localparam int unsigned ShareBits = StepBits + 2 * RateBits;  // of v where u is subtracted
-  localparam int unsigned Bits = ShareBits + 2 * Width;  // of n
+  localparam int unsigned ShareBits = StepBits + 2 * RateBits;  // bits of v when u is subtracted
+  localparam int unsigned Bits = ShareBits + 2 * Width;  // bits of n
   localparam int unsigned AddrBits = ppmc_pkg::cnt_width(Bits + 10);
 
   typedef logic [AddrBits-1:0] addr_t;
   typedef struct packed {logic n, v, u;} word_t;
 
-  // Words of the passes. Divisions run downwards.
+  // First and last word of each pass. Divisions run towards lower words.
   function automatic addr_t first_word(pass_e pass);
     unique case (pass)
       PassSquare: return addr_t'(Bits - 1);
@@ -59,15 +60,15 @@ module ppmc_ramp_serial
   endfunction
 
   word_t rd, wr;
-  addr_t read_at_q, at;  // word that is read, that is used: what was read two clk before
+  addr_t read_at_q, at;  // word to read; word in use, which was read two cycles before
   addr_t turn, turned;
   logic down;
-  logic run_q, read_q, use_q, second_q;  // address, RAM, use, second division
+  logic run_q, read_q, use_q, second_q;  // stages: address, RAM, use, second division
 
   assign down   = pass_i inside {PassSquare, PassShare};
   assign use_o  = use_q;
   assign last_o = use_q && !read_q;
-  // Two back: a pass that runs upwards takes away, in gates.
+  // Two words back: minus 2 in a pass that runs upwards, else plus 2; built from gates.
   assign turn   = {{(AddrBits - 1) {!down}}, 1'b0};
   assign turned = read_at_q ^ turn;
   assign at     = {(AddrBits - 1)'(ppmc_pkg::inc(32'(turned[AddrBits-1:1]))), turned[0]} ^ turn;
@@ -97,14 +98,14 @@ module ppmc_ramp_serial
 
   // ---- sums: one serial adder ----------------------------------------------------------------------
 
-  logic [1:0] v_q;  // bits before this one
+  logic [1:0] v_q;  // previous two bits
   logic carry_q, addend, operand, sum;
 
   always_comb begin
     unique case (pass_i)
       PassInit:               addend = 1'b0;
       PassMulBit, PassMulOne: addend = v_q[0];  // times 2
-      PassLess:               addend = v_q[1];  // stands two words lower
+      PassLess:               addend = v_q[1];  // it is stored two words lower
       default:                addend = rd.v;
     endcase
     unique case (pass_i)
@@ -116,7 +117,7 @@ module ppmc_ramp_serial
     sum = addend ^ operand ^ carry_q;
   end
 
-  // Emptied between passes.
+  // Cleared between passes; PassLess and PassTell begin with a carry.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       v_q     <= '0;
@@ -130,7 +131,7 @@ module ppmc_ramp_serial
 
   assign bit_o = sum;
 
-  // ---- divisions: two in a row ---------------------------------------------------------------------
+  // ---- two divisions in series ---------------------------------------------------------------------
 
   logic between, quotient;
 
@@ -154,7 +155,7 @@ module ppmc_ramp_serial
       .bit_o (quotient)
   );
 
-  // ---- what each pass writes back ------------------------------------------------------------------
+  // ---- write-back of each pass ---------------------------------------------------------------------
 
   always_comb begin
     wr   = rd;

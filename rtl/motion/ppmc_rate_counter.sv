@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_rate_counter: counts the base clocks of an interval; the (rate + 1)-th one ends it.
-// Rules:  P104-INT-01, P104-TIM-05 (b), P104-BCK-05 (base clocks are passed over while the rate is still being
+// ppmc_rate_counter: counts the base clocks of an interval; base clock number rate + 1 ends it.
+// Rules:  P104-INT-01, P104-TIM-05 (b), P104-BCK-05 (base clocks are passed over while the rate is still
 //         looked up).
-// Timing: hit_o and half_o are combinational from tick_i; ticks must be at least 3 clk apart. half_o stands from
-//         its base clock on, or, if the rate rises longer than that, from 2 clk after its end: it comes late
-//         rather than never. A part whose hosts give divisors (J105 STMC) passes divisor - 1.
+// Timing: hit_o and half_o are combinational from tick_i. half_o is high from its base clock on. If rising_i
+//         is still high then, it is high from 2 cycles after the last cycle of rising_i: late, but never
+//         missed.
+// Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) uses
+//         divisor - 1 as rate_i.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -14,17 +16,17 @@ module ppmc_rate_counter #(
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire logic                restart_i,  // a pulse: count from 0
-    input  wire logic                tick_i,     // a base clock that counts
+    input  wire logic                restart_i,  // a pulse: restart the count from 0
+    input  wire logic                tick_i,     // a base clock that is counted
     input  wire logic [RateBits-1:0] rate_i,     // rate of the running interval
     input  wire logic                wait_i,     // the interval must not end yet
-    input  wire logic                rising_i,   // rate_i is not final yet
+    input  wire logic                rising_i,   // rate_i may still rise
     output logic                     hit_o,      // this base clock ends the interval
-    output logic                     half_o      // number floor((rate + 1) / 2) is this base clock or was
+    output logic                     half_o      // base clock floor((rate + 1) / 2) is this one or has passed
 );
 
   logic [RateBits-1:0] count_q;  // base clocks since the pulse
-  logic [RateBits-1:0] number;  // of the coming base clock
+  logic [RateBits-1:0] number;  // number of the next base clock
   logic equal, match_q, half_q, past_q;
 
   assign number = count_q + 1'b1;
@@ -44,7 +46,8 @@ module ppmc_rate_counter #(
     end
   end
 
-  // No reset: the first pulse of a motion restarts it. It waits where it cannot be used (P104-BCK-05).
+  // No reset, because the first pulse of a motion restarts it. The count stops where it cannot be used
+  // (P104-BCK-05).
   always_ff @(posedge clk_i) begin
     if (restart_i) count_q <= '0;
     else if (tick_i && !equal) count_q <= number;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_guard: what may end or slow down a motion, and what it leaves in the finish status.
+// ppmc_stop_guard: detects the causes that end or decelerate a motion and records them in the finish status.
 // Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09;
 //         STMC-IN-03/04, STMC-DEC-03..06, STMC-FIN-02/03.
-// Timing: stop_o and forced_o are combinational, so that a cause seen in a cycle also acts on a pulse due at
-//         its end.
+// Timing: stop_o and forced_o are combinational, so that a cause present in a cycle also acts on a pulse at
+//         the end of this cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc_stop_guard
   import ppmc_motion_pkg::*;
 #(
-    parameter bit StopAtSlow = 1'b0,  // deceleration asked for at the start-up rate ends the motion at once
-    parameter bit SlowAlways = 1'b0,  // slow-down limits count off the plateau in POUT mode, too
-    parameter bit SlowOrigin = 1'b0   // a slow-down limit ends a search for the origin at once
+    parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
+    parameter bit SlowAlways = 1'b0,  // 1: slow-down limits are effective off the plateau in POUT mode, too
+    parameter bit SlowOrigin = 1'b0   // 1: a slow-down limit ends an origin search immediately
 ) (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
-    input  wire logic      clear_i,      // a new operation starts: forget causes
-    input  wire logic      complete_i,   // the last pulse of the count is output: no cause remains
+    input  wire logic      clear_i,      // a new operation starts: clear the causes
+    input  wire logic      complete_i,   // the last pulse of the count is output: clear the causes
     input  wire logic      armed_i,      // before the first pulse or between pulses
     input  wire op_t       op_i,         // the running operation
     input  wire switches_t switches_i,   // synchronous levels
@@ -25,13 +25,13 @@ module ppmc_stop_guard
     input  wire logic      crawl_i,      // the running interval has the start-up rate
     input  wire logic      dec_i,        // natural deceleration has begun
     input  wire logic      halt_i,       // immediate stop command
-    input  wire logic      decel_i,      // decelerating stop command
-    input  wire logic      slow_i,       // act on a slow-down limit now; slow_seen_o, or later
-    output logic           slow_seen_o,  // one is seen that counts; says nothing in a clk of stop_o
+    input  wire logic      decel_i,      // deceleration stop command
+    input  wire logic      slow_i,       // act on the slow-down limit: equal to slow_seen_o, or later
+    output logic           slow_seen_o,  // an effective slow-down limit is active; not valid with stop_o
     output logic           stop_o,       // end the motion now, no further pulse
-    output logic           forced_o,     // forced deceleration is requested; says nothing in a clk of stop_o
-    output logic           flagged_o,    // the same, as a state (registered)
-    output cause_t         cause_o       // why the motion ended, until clear_i
+    output logic           forced_o,     // forced deceleration is requested; not valid with stop_o
+    output logic           flagged_o,    // forced deceleration was requested (registered)
+    output cause_t         cause_o       // causes of the end of the motion, until clear_i
 );
 
   logic limit, slow, halt, block, hard, slow_now, decel_now, free;
@@ -46,8 +46,8 @@ module ppmc_stop_guard
   assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
   assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
 
-  // Deceleration can be asked for once; an immediate end at the same edge goes first, which does not matter to
-  // who asks with a pulse: there is none then.
+  // Deceleration can be requested once. An immediate end at the same edge has priority. This does not matter
+  // to a user that evaluates the request with a pulse, because no pulse occurs then.
   assign free = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = free && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = free && slow_i;

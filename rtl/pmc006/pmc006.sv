@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006: integrated microstepping controller with a serial line, a replacement for the PMC006B4.
-// Rules:  sections 1.1, 1.2, 4 and, through its blocks, all others.
-// Timing: inputs act two clk after the pin, all outputs are registers. From the reset to the end of the boot the part
-//         neither hears nor drives the motor.
+// pmc006: integrated microstepping controller with a serial line; replacement for the PMC006B4.
+// Rules:  sections 1.1, 1.2, 4; all others through its blocks.
+// Timing: an input takes effect two cycles after the pin. All outputs are registered. From reset to the end
+//         of the boot, the device neither receives frames nor drives the motor.
 `default_nettype none
 
 module pmc006
   import pmc006_pkg::*;
 #(
-    parameter int unsigned CLK_HZ     = 16_000_000,    // frequency of clk in Hz, 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ    = 16_000_000,    // without effect
-    parameter              TIMING     = "FAST",        // or "DATASHEET", which behaves alike
-    parameter              STEP_ACK   = "MANUAL",      // what s answers: 3, or with "ECHO" its data
+    parameter int unsigned CLK_HZ     = 16_000_000,    // clock frequency in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ    = 16_000_000,    // no effect
+    parameter              TIMING     = "FAST",        // or "DATASHEET", which behaves the same
+    parameter              STEP_ACK   = "MANUAL",      // reply to s: 3; with "ECHO" its data
     parameter int unsigned BAUD       = 9600,          // serial rate, 1200 .. 115 200
     parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3
     parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 0 .. 127
@@ -59,7 +59,7 @@ module pmc006
     input  wire logic       sda_i,
     output logic            sda_o,
     output logic            sda_oe,
-    // what happens
+    // monitor
     output logic            mon_step,
     output logic            mon_dir,
     output logic            mon_busy
@@ -90,7 +90,7 @@ module pmc006
     $fatal(1, "pmc006: T_BLANK_NS must be 100 .. 10000");
   end
 
-  // ---- reset, time, inputs ---------------------------------------------------------------------------------------
+  // ---- reset, time, inputs --------------------------------------------------------------------------------
 
   logic rst, us, unused_crystal;
   logic fset_s, scl_s, sda_s;
@@ -127,7 +127,7 @@ module pmc006
       .q2_o  ({fset_s, scl_s, sda_s, ext_s, gpi_s})
   );
 
-  // ---- host ------------------------------------------------------------------------------------------------------
+  // ---- host -----------------------------------------------------------------------------------------------
 
   logic boot;
   logic [7:0] addr;
@@ -149,7 +149,7 @@ module pmc006
       .reply_i(reply)
   );
 
-  // ---- control, motion, drive ------------------------------------------------------------------------------------
+  // ---- control, motion, drive -----------------------------------------------------------------------------
 
   settings_t settings;
   launch_t   launch;

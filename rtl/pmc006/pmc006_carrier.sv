@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_carrier: everything of a board with a PMC006B4 but its clock generator and pads: the part with its reset and
-//               lamps, its line (USB or RS-485, whoever speaks) and a converter's bus.
-// Rules:  section 1.1 of the PMC006B4 rules; lamps, wiring: docs/boards.md.
-// Timing: of pmc006 and ppmc_board_reset. conv must be steady from the rise of its strobe until 4 clk later; the other
-//         inputs need no synchroniser outside.
+// pmc006_carrier: all logic of a board with a PMC006B4 except the clock generator and the pads: the device
+// with its reset and LEDs, its line (USB or RS-485, whichever transmits) and the bus of a converter.
+// Rules:  section 1.1 of the PMC006B4 rules; LEDs, wiring: docs/boards.md.
+// Timing: see pmc006 and ppmc_board_reset. The inputs need no external synchroniser.
+// Assumes: conv is stable from the rising edge of its strobe until 4 cycles later.
 `default_nettype none
 
 module pmc006_carrier #(
@@ -15,8 +15,8 @@ module pmc006_carrier #(
     parameter int unsigned T_BLANK_NS = 1_000
 ) (
     input  wire logic       clk,
-    input  wire logic       lock,         // 1: clk is good; 1 without a PLL
-    input  wire logic       req_n,        // 0: reset wanted
+    input  wire logic       lock,         // 1: clk is stable; 1 without a PLL
+    input  wire logic       req_n,        // 0: reset request
     // host: USB-UART
     input  wire logic       uart_rxd,
     output logic            uart_txd,
@@ -45,17 +45,17 @@ module pmc006_carrier #(
     output logic      [4:0] gpo,
     // converter: one bus, two strobes
     input  wire logic [9:0] conv,
-    input  wire logic       adc_stb,      // rises: conv is the voltage of GPI1
-    input  wire logic       bemf_stb,     // rises: conv is the back-EMF
+    input  wire logic       adc_stb,      // rising edge: conv is the voltage of GPI1
+    input  wire logic       bemf_stb,     // rising edge: conv is the back-EMF
     // EEPROM: 1 pulls low
     input  wire logic       scl_i,
     output logic            scl_oe,
     input  wire logic       sda_i,
     output logic            sda_oe,
-    // what happens
+    // monitor
     output logic            mon_step,
     output logic            mon_dir,
-    output logic      [3:0] lamps         // 1 = on: out of reset, EXT1 or EXT2 is low, motor moves, line
+    output logic      [3:0] lamps         // 1 = on; bits 3..0: out of reset, EXT low, motion, line
 );
 
   logic rst_n, rxd, mon_busy, unused;
@@ -63,7 +63,7 @@ module pmc006_carrier #(
   logic [7:0] a_ref, b_ref;
   logic a_sign, b_sign, scl_o, sda_o;
 
-  // Both lines rest at 1, and hosts wait for their answers.
+  // Both lines idle high, and a host waits for its answer before it sends again.
   assign rxd = uart_rxd && rs485_rxd;
   assign uart_txd = rs485_txd;
 

@@ -8,7 +8,7 @@ package pmc006_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instructions: codes of the frames, and with bit 7 those of the user program that no frame has -----------------
+  // ---- instructions: codes of the frames; with bit 7, codes that only the user program has ---------------
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -73,7 +73,7 @@ package pmc006_pkg;
   localparam logic [7:0] P_RESET_EN = 8'h93;
   localparam logic [7:0] P_PAUSE_EN = 8'h94;
 
-  // Opcode of the user program: the same instruction as one of a frame, or one of its own.
+  // Instruction for an opcode of the user program: that of a frame, or one that only the program has.
   function automatic logic [7:0] op_of(logic [7:0] opcode);
     unique case (opcode)
       8'h01:   return I_STEP;
@@ -90,25 +90,25 @@ package pmc006_pkg;
     endcase
   endfunction
 
-  // Where an instruction comes from.
+  // Origin of an instruction.
   typedef enum logic [1:0] {
     FromFrame,
     FromProgram,
-    FromTry,      // one instruction of the program, by E
-    FromBoot      // a parameter of the EEPROM
+    FromTry,      // one instruction of the program, by instruction E
+    FromBoot      // a parameter from the EEPROM
   } source_e;
 
-  // What is carried out.
+  // Instruction being executed.
   typedef struct packed {
     logic [7:0]  op;
-    logic [3:0]  option;  // of the program; 15: more than that
+    logic [3:0]  option;  // option of a program instruction; 15: above 14
     source_e     source;
     logic [31:0] data;
   } order_t;
 
-  // ---- registers that an instruction writes, by the place of their copy for replies -------------------------------
+  // ---- registers that an instruction writes; the value is the address of their copy for replies ---------
 
-  // A reset fills all places but the first two.
+  // A reset fills all addresses except the first two.
   typedef enum logic [4:0] {
     RegMstep   = 5'd2,
     RegCurrent,
@@ -133,55 +133,55 @@ package pmc006_pkg;
     RegNone
   } register_e;
 
-  // What an instruction has to do with them.
+  // Register access of an instruction.
   typedef struct packed {
-    logic      write;  // it writes the register, else it only answers it
+    logic      write;  // 1: writes the register; 0: only reads it for the reply
     register_e which;
   } access_t;
 
-  // ---- between line, control, motion and drive -------------------------------------------------------------------
+  // ---- between line, control, motion and drive ------------------------------------------------------------
 
-  // A frame of the host; it stands until the next one.
+  // Frame from the host; code and data are valid until the next one.
   typedef struct packed {
-    logic        go;    // it has come, one clk
+    logic        go;    // strobe: a frame has arrived
     logic [7:0]  code;  // instruction
     logic [31:0] data;
   } frame_t;
 
-  // A motion that begins; start and run are never high together.
+  // Start of a motion; start and run are never high in the same cycle.
   typedef struct packed {
-    logic        start;  // s, ROT: go count steps
+    logic        start;  // s, ROT: make count steps
     logic [30:0] count;  // with start: at least 1
-    logic        run;    // N = 1 at rest: go until the stop request
+    logic        run;    // N = 1 at rest: run until the stop request
     logic        speed;  // SPEED_MODE; 0: stop request for a speed run
   } launch_t;
 
-  // How the motion stands.
+  // State of the motion.
   typedef struct packed {
-    logic busy;     // a motion is under way
-    logic forward;  // direction of this one or of the last
+    logic busy;     // a motion is in progress
+    logic forward;  // direction of the current or the last motion
     logic steady;   // constant speed, not 0
   } motion_t;
 
-  // What the motion gives the drive.
+  // Values from the motion for the drive.
   typedef struct packed {
     logic [7:0]  increment;  // angle of a step
     logic [10:0] bump;       // B
     logic [6:0]  lead;       // W
   } thrust_t;
 
-  // A converter's sample.
+  // Sample of a converter.
   typedef struct packed {
-    logic       valid;  // level is new, one clk
+    logic       valid;  // strobe: level is new
     logic [9:0] level;
   } sample_t;
 
   localparam logic [6:0] LAST_LINE = 7'd99;
   localparam logic [7:0] WORDS = 8'd200;
 
-  // ---- registers -------------------------------------------------------------------------------------------------
+  // ---- registers ------------------------------------------------------------------------------------------
 
-  // What motion and drive look at.
+  // Settings used by motion and drive.
   typedef struct packed {
     logic [7:0]  mstep;     // 0, 2, 4, .. 128
     logic [11:0] cur;       // mA, 400 .. 4000
@@ -216,7 +216,7 @@ package pmc006_pkg;
       free: 1'b0
   };
 
-  // What only the control looks at.
+  // Settings used only by the control.
   typedef struct packed {
     logic [7:0] addr;     // 1 .. 120, 255
     logic [1:0] trigm;    // 1 = rising edge; bit 0 EXT1

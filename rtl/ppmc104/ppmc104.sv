@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc104: single-axis stepper controller, a replacement for the Ampere PPMC-104BFP.
-// Rules:  P104-PORT-01..04, P104-PAR-01 and, through its blocks, all others. Manual: docs/ppmc104/README.md.
-// Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
-//         one clk later.
+// Rules:  P104-PORT-01..04, P104-PAR-01; its blocks implement all others. Manual: docs/ppmc104/README.md.
+// Timing: a command takes effect 4 cycles after the rising edge that first samples the end of its write.
+//         Motor pins follow one cycle later.
 `default_nettype none
 
 module ppmc104
@@ -11,27 +11,27 @@ module ppmc104
   import ppmc_motion_pkg::*;
   import ppmc_single_pkg::*;
 #(
-    parameter int unsigned CLK_HZ     = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter              TIMING     = "FAST",      // or "DATASHEET": with the old chip's processing times
+    parameter              TIMING     = "FAST",      // or "DATASHEET": processing times of the old chip
     parameter bit          PHASE_IDLE = 1'b1         // level of s until the first initialisation
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // host bus
-    input  wire logic       a0,      // 0 data, 1 status or command
+    input  wire logic       a0,      // 0: data, 1: status or command
     input  wire logic       cs_n,
     input  wire logic       rd_n,
     input  wire logic       wr_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
     output logic            d_oe,
-    output logic            int_n,   // L: a motion has ended
+    output logic            int_n,   // low: a motion has ended
     // clock selection
-    input  wire logic       csel,    // internal base clock: H 500 kHz, L 125 kHz
-    input  wire logic       vsel,    // L: 7.5 us more in every interval
+    input  wire logic       csel,    // internal base clock, high: 500 kHz, low: 125 kHz
+    input  wire logic       vsel,    // low: every interval is 7.5 us longer
     input  wire logic       clock,   // external base clock, rising edges
-    // switches, L = active
+    // switches, active low
     input  wire logic       l1_n,    // CW limit
     input  wire logic       l2_n,    // CCW limit
     input  wire logic       l3_n,    // CW slow-down limit
@@ -46,7 +46,7 @@ module ppmc104
     output logic      [5:1] s,
     output logic            hold,
     output logic            pout_n,
-    output logic            dir      // 0 = CW
+    output logic            dir      // 0: CW, 1: CCW
 );
 
   if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
@@ -93,7 +93,7 @@ module ppmc104
           alarm: !alm
       };
 
-  // ---- meaning of the bytes, everything that the parts with one axis share -------------------------
+  // ---- decoding of the bytes, shared single-axis core ----------------------------------------------
 
   sent_t sent;
   meaning_t meaning;
@@ -162,7 +162,7 @@ module ppmc104
   assign pout_n = motor.pout_n;
   assign dir = motor.dir;
 
-  // ---- what this part alone has --------------------------------------------------------------------
+  // ---- functions of this device only ---------------------------------------------------------------
 
   ppmc104_setup u_switching (
       .clk_i   (clk),

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_carrier: everything of a PPMC-104 board but its clock generator and pads: the part, and as its host
-//         either the UART bridge or the pins of the old chip's bus.
+// ppmc104_carrier: PPMC-104 board without clock generator and pads: ppmc104, and as host interface either the
+//         UART bridge or the bus pins of the old chip.
 // Rules:  HOST = "UART": docs/uart_bridge.md; HOST = "BUS": P104-PORT-01. Wiring: docs/boards.md.
-// Timing: of ppmc104; the inputs need no synchroniser outside.
+// Timing: that of ppmc104; with RECORD != 0 inputs other than the bus act 2 cycles later. No input needs an
+//         external synchroniser.
 `default_nettype none
 
 module ppmc104_carrier #(
-    parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b1,        // level of s before the first initialisation
+    parameter bit          PHASE_IDLE = 1'b1,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -28,11 +29,11 @@ module ppmc104_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
@@ -48,8 +49,8 @@ module ppmc104_carrier #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 1 = on
-    output logic            led_link,    // a script is running or an answer is on its way
+    // LEDs, high: on
+    output logic            led_link,    // a script is running or an answer is pending
     output logic            led_moving,
     output logic            led_switch   // a limit or the alarm is active
 );
@@ -58,7 +59,7 @@ module ppmc104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
-  // What the part sees of the pins, and everything that is recorded of it, first pin in the low bits.
+  // Input pins as the device receives them, and all recorded levels; the first pin is in the low bits.
   localparam int unsigned Watch = 49;
   logic in_csel, in_vsel, in_clock, in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_alm_n;
   logic [3:0] in_auxi;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pace: processing times that only this part has (DATASHEET): of slow-down limits, and of other bytes than
-// stop commands in a fast motion. FAST has none. The others are in ppmc_pace.
-// Rules:  P104-DS-10/12, P104-LIM-01 (the guard is never blinded).
-// Timing: slow_o comes one clk after the nominal time.
+// ppmc104_pace: processing times that only PPMC-104 has (Datasheet = 1): delays slow-down limits and allows
+//         only stop commands during a fast motion. ppmc_pace implements the other processing times.
+// Rules:  P104-DS-10/12, P104-LIM-01 (the limits are monitored without gaps).
+// Timing: slow_o is asserted one cycle after the nominal time. With Datasheet = 0 slow_o = slow_seen_i.
 `default_nettype none
 
 module ppmc104_pace
@@ -17,21 +17,21 @@ module ppmc104_pace
 ) (
     input  wire logic          clk_i,
     input  wire logic          rst_ni,
-    input  wire motion_t       motion_i,     // the motion as it stands
-    input  wire logic    [7:0] rate_i,       // rate of its running interval
-    input  wire logic          slow_seen_i,  // the axis sees a slow-down limit
-    output logic               slow_o,       // act on a slow-down limit
-    output logic               stops_only_o  // the mailbox gives stop commands only
+    input  wire motion_t       motion_i,     // status of the motion
+    input  wire logic    [7:0] rate_i,       // rate of the running interval
+    input  wire logic          slow_seen_i,  // the axis samples an active slow-down limit
+    output logic               slow_o,       // 1: react to a slow-down limit in this cycle
+    output logic               stops_only_o  // 1: only stop commands are accepted
 );
 
-  // Crystal cycles; microseconds times 16.
+  // Crystal periods: microseconds times 16.
   localparam int unsigned FLAG_LIMIT = 12 * 16;
   localparam int unsigned FLAG_LIMIT_TOP = 17 * 16;
-  // Quanta; an interval shorter than this closes the mailbox.
+  // Quanta; during a shorter interval the mailbox is closed.
   localparam int unsigned BRISK_POUT = 100;
   localparam int unsigned BRISK_PHASE = 148;
 
-  // Rates r with (r + 1) * period + extra time below the limit.
+  // Number of rates r with (r + 1) * period + extra time below the limit.
   function automatic int unsigned brisk_rates(bit pout_only, bit slow, bit extra);
     int unsigned room, period;
     room   = (pout_only ? BRISK_POUT : BRISK_PHASE) - (extra ? EXTRA_QUANTA : 0);
@@ -81,7 +81,7 @@ module ppmc104_pace
 
     assign slow_o = slow_busy_q && slow_past;
 
-    // The slowest brisk rate + 1, by pout_only, slow and extra.
+    // First rate that is too slow to close the mailbox, by pout_only, slow and extra.
     function automatic logic [7:0] brisk(logic pout_only, logic slow, logic extra);
       logic [7:0] found;
       found = '0;

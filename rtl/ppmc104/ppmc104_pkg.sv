@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pkg: codes and limits of the PPMC-104BFP; what makes this part differ from its sisters.
+// ppmc104_pkg: codes, limits and functions specific to the PPMC-104BFP.
 // Rules:  P104-CMD-01..04, P104-INI-02/03, P104-SW-04.
 `default_nettype none
 
@@ -17,11 +17,11 @@ package ppmc104_pkg;
   localparam int unsigned STEPS_MIN = 32'd4;  // acceleration pulses PA
   localparam int unsigned STEPS_MAX = 32'd11_220;
 
-  localparam int unsigned QUANTUM_XTAL = 32'd4;  // crystal cycles a quantum
-  localparam int unsigned FAST_QUANTA = 32'd8;  // internal base clocks, quanta a period: 500 kHz
-  localparam int unsigned SLOW_QUANTA = 32'd32;  // 125 kHz
-  localparam int unsigned EXTRA_QUANTA = 32'd30;  // extra time of an interval: 7.5 us
-  localparam int unsigned HOLD_QUANTA = 32'd136_000;  // 34 ms
+  localparam int unsigned QUANTUM_XTAL = 32'd4;  // crystal periods in a quantum
+  localparam int unsigned FAST_QUANTA = 32'd8;  // quanta in a period of the 500 kHz base clock
+  localparam int unsigned SLOW_QUANTA = 32'd32;  // quanta in a period of the 125 kHz base clock
+  localparam int unsigned EXTRA_QUANTA = 32'd30;  // extra time of an interval, 7.5 us
+  localparam int unsigned HOLD_QUANTA = 32'd136_000;  // time from standstill to HOLD, 34 ms
 
   // Chopper times in quanta (P104-SW-04).
   localparam int unsigned CHOP_UNIT = 32'd12;
@@ -47,7 +47,7 @@ package ppmc104_pkg;
       stmc_ends: 1'b0
   };
 
-  // Low three bits of the codes 10 000 xxx that are no reads.
+  // Low three bits of the codes 10 000 xxx that are not read commands.
   localparam logic [2:0] SEL_SWITCHING = 3'b100;
   localparam logic [2:0] SEL_AUX_OUT = 3'b110;
 
@@ -82,7 +82,7 @@ package ppmc104_pkg;
     return d;
   endfunction
 
-  // What is wrong with complete parameters of an initialisation.
+  // Returns the error number of the complete parameters of an initialisation.
   function automatic error_e judge(logic [31:0] params);
     if (params[31:16] > 16'(STEPS_MAX)) return ErrStepsHigh;
     if (ppmc_pkg::less(32'(params[7:0]), 32'(params[15:8])) || params[31:16] < 16'(STEPS_MIN))

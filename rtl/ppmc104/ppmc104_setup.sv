@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_setup: what the host has set beside the initialisation: switching parameters, auxiliary outputs.
+// ppmc104_setup: registers of the host settings outside the initialisation: switching parameters, auxiliary
+//         outputs.
 // Rules:  P104-AUX-01..06, P104-SW-04.
-// Timing: everything changes at the edge that ends the cycle of its action; auxo_o and aux_no are pins.
+// Timing: all outputs change at the edge that ends the cycle of their action. auxo_o and aux_no are pins.
 `default_nettype none
 
 module ppmc104_setup
@@ -11,17 +12,17 @@ module ppmc104_setup
 (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    input  wire action_t        act_i,     // takes effect at the coming edge
-    input  wire logic    [31:0] params_i,  // with act_i.switching
-    input  wire logic    [ 3:0] aux_i,     // with act_i.aux_out
-    input  wire logic           vsel_i,    // synchronous level
-    output chop_t               chop_o,    // times of the chopper
+    input  wire action_t        act_i,     // action, takes effect at the next rising edge
+    input  wire logic    [31:0] params_i,  // parameters of act_i.switching
+    input  wire logic    [ 3:0] aux_i,     // data of act_i.aux_out
+    input  wire logic           vsel_i,    // VSEL, synchronised
+    output chop_t               chop_o,    // chopper times
     output logic         [ 3:0] auxo_o,    // auxiliary outputs
-    output logic                aux_no     // L: AUX is on
+    output logic                aux_no     // AUX output, active low
 );
 
   logic programmed_q;
-  logic [7:0] on_q, off_q;  // programmed parts of the times
+  logic [7:0] on_q, off_q;  // chopper times set by the host, units
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, params_i};
@@ -44,7 +45,7 @@ module ppmc104_setup
     end
   end
 
-  // The fixed part of the chopper's times; the chopper samples it with the beginning of each phase.
+  // Fixed part of the chopper times. The chopper samples it at the start of each phase.
   always_comb begin
     chop_o.on_units  = on_q;
     chop_o.off_units = off_q;

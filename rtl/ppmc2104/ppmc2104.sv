@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc2104: two-axis stepper controller, a replacement for the Ampere PPMC-2104AFP.
-// Rules:  P2104-PORT-01..06, P2104-PAR-01, P2104-STA-01..07, P2104-AUX-02/03 and, through its blocks, all others.
-// Timing: an instruction acts 4 clk after the clk edge that first samples the end of its write; motor pins and
-//         int_n follow one clk later.
+// Rules:  P2104-PORT-01..06, P2104-PAR-01, P2104-STA-01..07, P2104-AUX-02/03; its blocks implement the rest.
+// Timing: an instruction takes effect 4 cycles after the rising edge that first samples the end of its write.
+//         Motor pins and int_n follow one cycle later.
 `default_nettype none
 
 module ppmc2104
   import ppmc2104_pkg::*;
 #(
-    parameter int unsigned CLK_HZ  = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
+    parameter int unsigned CLK_HZ  = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
     parameter int unsigned XTAL_HZ = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter              TIMING  = "FAST"       // or "DATASHEET": with the old chip's processing times
+    parameter              TIMING  = "FAST"       // or "DATASHEET": processing times of the old chip
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // host bus
     input  wire logic       cs_n,
-    input  wire logic       a0,        // 0 data, 1 status or instruction code
-    input  wire logic       busc,      // bus style: H = DS and R/W, L = WRS and RDS
+    input  wire logic       a0,        // 0: data, 1: status or instruction code
+    input  wire logic       busc,      // bus style, high: DS and R/W, low: WRS and RDS
     input  wire logic       ds_wrs_n,
     input  wire logic       rw_rds_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
     output logic            d_oe,
     output logic            int_n,
-    input  wire logic       errint_n,  // L: an error raises int_n
+    input  wire logic       errint_n,  // low: an error asserts int_n
     // motors, index = axis
     output logic      [2:1] pout_n,
-    output logic      [2:1] dir,       // 0 = CW
+    output logic      [2:1] dir,       // 0: CW, 1: CCW
     output logic      [2:1] hold,
     output logic      [5:1] s1_n,      // phases of axis 1
     output logic      [5:1] s2_n,      // phases of axis 2
     // start gate, clock selection
     input  wire logic [2:1] run,
     input  wire logic [2:1] extck,     // external base clock, rising edges
-    input  wire logic [2:1] csel,      // internal base clock: H 500 kHz, L 125 kHz
-    // switches, L = active
+    input  wire logic [2:1] csel,      // internal base clock, high: 500 kHz, low: 125 kHz
+    // switches, active low
     input  wire logic [2:1] fl_n,      // CW limit
     input  wire logic [2:1] bl_n,      // CCW limit
     input  wire logic [2:1] fhl_n,     // CW slow-down limit
@@ -45,7 +45,7 @@ module ppmc2104
     // auxiliary
     input  wire logic [1:0] auxi,
     output logic      [1:0] auxo,
-    output logic            clk_o      // a quarter of the crystal
+    output logic            clk_o      // crystal frequency / 4
 );
 
   if (128'(TIMING) != "FAST" && 128'(TIMING) != "DATASHEET") begin : g_check_timing
@@ -78,7 +78,7 @@ module ppmc2104
       .wave_o(clk_o)
   );
 
-  // ---- inputs ----------------------------------------------------------------------------------------------------
+  // ---- inputs -------------------------------------------------------------------------------------
 
   localparam int unsigned Pins = AXES * $bits(levels_t) + 4;
 
@@ -110,7 +110,7 @@ module ppmc2104
       .q2_o  ({levels, busc_s, errint_s, auxi_s})
   );
 
-  // ---- host ------------------------------------------------------------------------------------------------------
+  // ---- host ---------------------------------------------------------------------------------------
 
   logic ready, is_command, take, open, any_error, read_axis;
   logic [7:0] in_byte, code, code_held, code_late;
@@ -118,7 +118,7 @@ module ppmc2104
   logic [AXES:1] collecting, building, window, cmnd, busy;
   logic [23:0] answer;
   logic [AXES:1][23:0] answers;
-  action_t act_taken, act;  // what a byte asks for at its C-event, and when it happens
+  action_t act_taken, act;  // requested at the C-event; taking effect in this cycle
   charge_t charge;
   error_e speed;
   error_e [AXES:1] errors;
@@ -234,7 +234,7 @@ module ppmc2104
     else if (act.aux_out) auxo <= ~code_late[5:4];
   end
 
-  // ---- ramp tables -----------------------------------------------------------------------------------------------
+  // ---- ramp tables --------------------------------------------------------------------------------
 
   logic [AXES:1] build;
   logic [AXES:1][RATE_BITS-1:0] slow, fast, lut_addr;
@@ -255,7 +255,7 @@ module ppmc2104
       .data_o (lut_data)
   );
 
-  // ---- axes ------------------------------------------------------------------------------------------------------
+  // ---- axes ---------------------------------------------------------------------------------------
 
   logic [AXES:1][5:1] s_n;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_axis: one of the two axes: settings, motion, motor pins, end status and what it answers.
-// Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05 and, through its blocks, the motion.
-// Timing: an action takes effect at the edge that ends its cycle, motor pins follow one clk later.
-// Note:   nothing of the other axis comes in here.
+// ppmc2104_axis: one of the two axes: settings, motion, motor pins, end status and answers to reads.
+// Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05; its blocks implement the motion.
+// Timing: an action takes effect at the edge that ends its cycle; motor pins follow one cycle later.
+// Note:   this module has no input from the other axis.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -18,30 +18,30 @@ module ppmc2104_axis
     input  wire logic                         clk_i,
     input  wire logic                         rst_ni,
     // instructions
-    input  wire axis_action_t                 act_i,          // what this axis does at the coming edge
-    input  wire logic         [          7:0] code_i,         // of init and start
+    input  wire axis_action_t                 act_i,          // actions, effective at the next rising edge
+    input  wire logic         [          7:0] code_i,         // code of act_i.init and act_i.start
     input  wire logic         [         31:0] params_i,       // parameters of code_i
-    input  wire logic         [          7:0] code_late_i,    // of the other actions
+    input  wire logic         [          7:0] code_late_i,    // code of the other actions
     input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
-    input  wire logic                         ready_i,        // no setting is being worked on
-    output state_t                            state_o,        // what the other blocks look at
-    output logic                              end_o,          // an operation that wants an interrupt ends
+    input  wire logic                         ready_i,        // 1: no table build and no open window
+    output state_t                            state_o,        // state for the other blocks
+    output logic                              end_o,          // an operation with I = 0 ends
     input  wire error_e                       error_i,        // error register
-    output logic              [         23:0] answer_o,       // to the read instruction code_late_i
+    output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
-    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; thr(r) is expected two clk later
-    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r)
+    output logic              [RATE_BITS-1:0] lut_addr_o,     // r; lut_data_i is expected two cycles later
+    input  wire logic         [STEP_BITS-1:0] lut_data_i,     // thr(r), two cycles after lut_addr_o
     // processing times
-    input  wire logic                         run_open_i,     // RUN is looked at
-    input  wire logic                         poll_i,         // limits and alarm are looked at
-    input  wire logic                         linger_i,       // a stopped operation does not end yet
+    input  wire logic                         run_open_i,     // 1: RUN is sampled
+    input  wire logic                         poll_i,         // 1: limits and alarm are sampled
+    input  wire logic                         linger_i,       // 1: a stopped operation does not end yet
     // pins
-    input  wire levels_t                      levels_i,       // inputs of this axis, synchronous levels
+    input  wire levels_t                      levels_i,       // inputs of this axis, synchronised
     input  wire logic                         extck_i,        // external base clock, asynchronous
     output logic              [          5:1] s_no,           // phases
-    output logic                              hold_o,         // at rest for the hold time
-    output logic                              pout_no,        // pulse, L = active
-    output logic                              dir_o           // 0 = CW
+    output logic                              hold_o,         // standstill for the hold delay
+    output logic                              pout_no,        // pulse, active low
+    output logic                              dir_o           // 0: CW, 1: CCW
 );
 
   op_code_t op_code;
@@ -102,7 +102,7 @@ module ppmc2104_axis
       .tick_o   (quantum)
   );
 
-  // What the core tells and this part does not use.
+  // Outputs of the motion core that this device does not use.
   logic unused_bits;
   logic [RATE_BITS-1:0] unused_rate;
 
@@ -181,9 +181,9 @@ module ppmc2104_axis
       .dir_o
   );
 
-  // ---- end status, answers ---------------------------------------------------------------------------------------
+  // ---- end status, answers ------------------------------------------------------------------------
 
-  logic fresh_q, silent_q;  // not read yet; no interrupt wanted
+  logic fresh_q, silent_q;  // end status not read yet; no interrupt requested
   logic [2:0] op_q;
 
   assign end_o = event_now.done && !silent_q;
@@ -203,9 +203,9 @@ module ppmc2104_axis
     end
   end
 
-  // The causes stand until the next operation, when nobody may read them.
+  // The causes are valid until the next operation; while it runs, a read of the end status is rejected.
   always_comb begin
-    answer_o = remaining;  // the bytes behind the first are shown for this answer only
+    answer_o = remaining;  // only this answer outputs the second and third byte
     unique case (code_late_i[2:0])
       SEL_END:   answer_o[7:0] = {fresh_q, cause, op_q};
       SEL_INPUTS: begin

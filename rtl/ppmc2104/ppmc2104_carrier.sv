@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_carrier: everything of a PPMC-2104 board but its clock generator and pads: the part, and as its host
-//         either the UART bridge or the pins of the old chip's bus.
-// Rules:  HOST = "UART": docs/uart_bridge.md, straps {pins of axis 1, -, -, errint_n, run, csel}; HOST = "BUS":
-//         P2104-PORT-01. Wiring: docs/boards.md.
-// Timing: of ppmc2104; the inputs need no synchroniser outside.
+// ppmc2104_carrier: PPMC-2104 board without clock generator and pads: ppmc2104, and as host interface either
+//         the UART bridge or the bus pins of the old chip.
+// Rules:  HOST = "UART": docs/uart_bridge.md, straps {axis 1 selected for PINS, -, -, errint_n, run, csel};
+//         HOST = "BUS": P2104-PORT-01. Wiring: docs/boards.md.
+// Timing: that of ppmc2104; with RECORD != 0 inputs other than the bus act 2 cycles later. No input needs an
+//         external synchroniser.
 `default_nettype none
 
 module ppmc2104_carrier #(
-    parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned CLK_HZ   = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0 as on the old chip
+    parameter bit          PHASE_ON = 1'b0,        // level of s1, s2 with a winding on; 0: as on the old chip
     parameter              HOST     = "UART",      // or "BUS"
-    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       busc,
@@ -30,12 +31,12 @@ module ppmc2104_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // with the UART host the straps can pull these to 0 as well
+    // with HOST = "UART" the straps can also set errint_n, run and csel to 0
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,
     input  wire logic [2:1] extck,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic [2:1] fl_n,
     input  wire logic [2:1] bl_n,
     input  wire logic [2:1] fhl_n,
@@ -52,8 +53,8 @@ module ppmc2104_carrier #(
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps, 1 = on
-    output logic            led_link,    // a script is running or an answer is on its way
+    // LEDs, high: on
+    output logic            led_link,    // a script is running or an answer is pending
     output logic            led_moving,
     output logic            led_switch   // a limit or an alarm is active
 );
@@ -64,7 +65,7 @@ module ppmc2104_carrier #(
   logic [7:0] part_d, straps;
   logic part_oe, unused_straps;
 
-  // What the part sees of the pins, and everything that is recorded of it, first pin in the low bits.
+  // Input pins as the device receives them, and all recorded levels; the first pin is in the low bits.
   localparam int unsigned Watch = 63;
   logic in_errint_n;
   logic [2:1] in_csel, in_run, in_extck, in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_alm_n;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_command: takes the bytes of the host, judges them, collects data bytes and says what to do.
-// Rules:  P2104-HSK-03/04/08, P2104-CMD-01..04, P2104-INI-02/03, P2104-STP-02..07, P2104-AUX-04, P2104-ERR-01..05,
-//         P2104-LIM-06, P2104-FSM-01..05.
-// Timing: take_o is the C-event: everything this block changes, act_o and charge_o belong to the edge that ends
-//         that cycle. What the byte wants, and whether its values are good, is worked out in the clk before; the
-//         states and pins of the axes are looked at in that cycle.
+// ppmc2104_command: accepts bytes from the host, checks them, collects data bytes and issues the actions.
+// Rules:  P2104-HSK-03/04/08, P2104-CMD-01..04, P2104-INI-02/03, P2104-STP-02..07, P2104-AUX-04,
+//         P2104-ERR-01..05, P2104-LIM-06, P2104-FSM-01..05.
+// Timing: take_o is the C-event: state changes of this block, act_o and charge_o take effect at the edge that
+//         ends the cycle of take_o. The request of the byte and the check of its values are computed in the
+//         cycle before; the states and pins of the axes are sampled in the cycle of take_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,25 +15,25 @@ module ppmc2104_command
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     // mailbox
-    input  wire logic             ready_i,       // a byte is there
-    input  wire logic             command_i,     // it was written as a command
-    input  wire logic    [   7:0] byte_i,        // the byte
-    input  wire logic             open_i,        // bytes may be taken
-    output logic                  take_o,        // it is taken at the coming edge
+    input  wire logic             ready_i,       // byte_i is available
+    input  wire logic             command_i,     // 1: byte_i was written as a code, 0: as data
+    input  wire logic    [   7:0] byte_i,        // byte from the host
+    input  wire logic             open_i,        // bytes may be accepted
+    output logic                  take_o,        // accept strobe, effective at the next rising edge
     // state of the axes
-    input  wire state_t  [AXES:1] state_i,       // of both axes
-    input  wire levels_t [AXES:1] levels_i,      // inputs, synchronous levels
-    input  wire logic    [AXES:1] building_i,    // ramp table: codes that need it wait
+    input  wire state_t  [AXES:1] state_i,       // states of both axes
+    input  wire levels_t [AXES:1] levels_i,      // inputs of both axes, synchronised
+    input  wire logic    [AXES:1] building_i,    // ramp table build; codes that need the table wait
     // rate limits (ppmc2104_speed)
-    input  wire error_e           speed_i,       // of the operation in code_o, params_o
+    input  wire error_e           speed_i,       // rate-limit error of code_o with params_o
     // result
     output logic         [AXES:1] collecting_o,  // data bytes are outstanding
-    output action_t               act_o,         // what the taken byte makes happen
-    output charge_t               charge_o,      // errors that it makes
-    output logic         [   7:0] code_o,        // code the action belongs to
-    output logic         [  31:0] params_o,      // its data bytes, the last one in the high bits
-    output logic         [   7:0] code_held_o,   // the same after the C-event, while no byte is taken
-    output logic         [  31:0] params_held_o  // parameters of code_held_o
+    output action_t               act_o,         // actions of the accepted byte
+    output charge_t               charge_o,      // errors of the accepted byte
+    output logic         [   7:0] code_o,        // code of the action
+    output logic         [  31:0] params_o,      // data bytes of code_o, the last one in the high bits
+    output logic         [   7:0] code_held_o,   // code_o after the C-event, valid until the next one
+    output logic         [  31:0] params_held_o  // data bytes of code_held_o
 );
 
   logic [2:0] awaited_q;  // data bytes outstanding
@@ -48,7 +48,7 @@ module ppmc2104_command
   assign code_o = command_i ? byte_i : code_q;
   assign collecting_o = {awaited && code_q[5], awaited && !code_q[5]};
 
-  // ---- values of a last data byte --------------------------------------------------------------------------------
+  // ---- values of a last data byte -----------------------------------------------------------------
 
   error_e value;
   logic external, operation;
@@ -80,23 +80,23 @@ module ppmc2104_command
     end
   end
 
-  // ---- what the byte wants, a clk before it is taken -------------------------------------------------------------
+  // ---- request of the byte, one cycle before it is accepted ---------------------------------------
 
   typedef struct packed {
-    axis_action_t act;        // to be done if the axis allows it
+    axis_action_t act;        // actions if the state of the axis allows them
     logic         aux_out;
     logic         aux_in;
-    error_e       error;      // or what is wrong with the byte, whatever the state of the axis
-    logic         stop;       // a stop
-    logic         abandons;   // which ends a wait for data
-    logic         rest;       // only while the axis is not busy
-    logic         operation;  // only while it is initialised
-    logic         table_use;  // not while its ramp table is being built
-    logic         anyone;     // an error is charged to axis 1
+    error_e       error;      // error of the byte, regardless of the axis state
+    logic         stop;       // stop instruction
+    logic         abandons;   // stop that cancels outstanding data bytes
+    logic         rest;       // error while the axis is busy
+    logic         operation;  // error while the axis is not initialised
+    logic         table_use;  // waits while the ramp table is being built
+    logic         anyone;     // errors are charged to axis 1, regardless of second
     logic         second;     // the instruction is for axis 2
     logic         ccw;
     logic         origin;
-    logic [2:0]   params;     // bytes that follow
+    logic [2:0]   params;     // data bytes that follow
   } wish_t;
 
   decoded_t dec;
@@ -149,7 +149,7 @@ module ppmc2104_command
     else wish_q <= wish;
   end
 
-  // ---- what the axes allow ---------------------------------------------------------------------------------------
+  // ---- check against the state of the axes --------------------------------------------------------
 
   logic [AXES:1] mine, refused;
   logic waits, taken;
@@ -183,9 +183,9 @@ module ppmc2104_command
   assign act_o.aux_out = take_o && wish_q.aux_out;
   assign act_o.aux_in  = take_o && wish_q.aux_in;
 
-  // ---- errors: order of the checks as in P2104-ERR-04/05 ----------------------------------------------------------
+  // ---- errors: order of the checks as in P2104-ERR-04/05 ------------------------------------------
 
-  logic busy, decel_ok, initialised, error;  // of the axis in question
+  logic busy, decel_ok, initialised, error;  // of the addressed axis
   error_e number;
 
   assign busy = wish_q.second ? state_i[2].busy : state_i[1].busy;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_pace: when a taken instruction takes effect: at once (FAST), or with the old chip's processing times
-// and its polling of limits (DATASHEET).
+// ppmc2104_pace: with Datasheet = 1, delays accepted instructions by the processing times of the old chip and
+//         schedules its polling of limits. Otherwise actions are immediate and limits are always sampled.
 // Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (c).
-// Timing: a window opens at the C-event and closes ceil(time) + 1 clk later; what waits for its end happens on
-//         that edge, the next byte may be taken one clk later. Poll ticks: every ceil(35 us) clk from the first
-//         clk edge without reset, or from the end of the last window.
+// Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its end
+//         take effect at that edge; the next byte may be accepted one cycle later. Poll ticks occur every
+//         ceil(35 us) cycles, counted from the first rising edge without reset or the end of the last window.
 `default_nettype none
 
 module ppmc2104_pace
@@ -18,24 +18,24 @@ module ppmc2104_pace
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
     // command unit, at the C-event
-    input  wire action_t          act_i,          // what the byte asks for
-    input  wire logic    [   7:0] code_i,         // its code
-    input  wire logic    [  31:0] params_i,       // its data bytes
-    input  wire logic    [   7:0] code_held_i,    // the same afterwards
-    input  wire logic    [  31:0] params_held_i,  // the same afterwards
-    input  wire state_t  [AXES:1] state_i,        // of both axes
-    output logic                  open_o,         // bytes may be taken
-    output logic         [AXES:1] window_o,       // an instruction of this axis is being processed
+    input  wire action_t          act_i,          // actions requested by the byte
+    input  wire logic    [   7:0] code_i,         // code of act_i
+    input  wire logic    [  31:0] params_i,       // data bytes of code_i
+    input  wire logic    [   7:0] code_held_i,    // code_i after the C-event
+    input  wire logic    [  31:0] params_held_i,  // data bytes of code_held_i
+    input  wire state_t  [AXES:1] state_i,        // states of both axes
+    output logic                  open_o,         // bytes may be accepted
+    output logic         [AXES:1] window_o,       // a window of this axis is open
     // when it takes effect
-    output action_t               act_o,          // takes effect at the coming edge
-    output logic         [   7:0] code_o,         // of what happens at the end of a window
+    output action_t               act_o,          // actions, effective at the next rising edge
+    output logic         [   7:0] code_o,         // code of the actions at the end of a window
     output logic         [  31:0] params_o,       // data bytes of code_o
-    output logic         [AXES:1] run_open_o,     // RUN is looked at
-    output logic         [AXES:1] linger_o,       // a stopped operation does not end yet
-    output logic                  poll_o          // limits and alarms are looked at
+    output logic         [AXES:1] run_open_o,     // 1: RUN is sampled
+    output logic         [AXES:1] linger_o,       // 1: a stopped operation does not end yet
+    output logic                  poll_o          // 1: limits and alarms are sampled in this cycle
 );
 
-  // Crystal cycles; microseconds times 16.
+  // Crystal periods: microseconds times 16.
   localparam int unsigned SETTING = 71_000 * 16;
   localparam int unsigned HALT = 400 * 16;
   localparam int unsigned DECEL = 32 * 16;
@@ -74,11 +74,11 @@ module ppmc2104_pace
     localparam int unsigned PollClk = ppmc_pkg::cyc(POLL, ClkHz, XtalHz);
     localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollClk - 1);
 
-    // The byte is gone when its time is up: its data come from behind the C-event.
+    // The byte leaves the mailbox at the C-event. Actions at the end of a window use the held code and data.
     assign code_o   = code_held_i;
     assign params_o = params_held_i;
 
-    // ---- window -------------------------------------------------------------------------------------------------
+    // ---- window -----------------------------------------------------------------------------------
 
     axis_action_t any;
     action_t now, late_q;
@@ -98,7 +98,7 @@ module ppmc2104_pace
 
     always_comb begin
       limit = Bits'(AUX);
-      // Not unique: before the first reset flip-flops may ask for several at once.
+      // Not a unique case: before the first reset, flip-flops may request several actions at a time.
       case (1'b1)
         any.init: limit = Bits'(SETTING);
         any.halt: limit = Bits'(HALT);
@@ -126,7 +126,7 @@ module ppmc2104_pace
       endcase
     end
 
-    // What happens at the C-event already.
+    // Actions that take effect at the C-event.
     always_comb begin
       now = '0;
       for (int n = 1; n <= AXES; n++) begin
@@ -183,14 +183,14 @@ module ppmc2104_pace
       for (int n = 1; n <= AXES; n++) run_open_o[n] = !act_i.axis[n].start && (past || !starting_q[n]);
     end
 
-    // ---- polling ------------------------------------------------------------------------------------------------
+    // ---- polling ----------------------------------------------------------------------------------
 
     logic [PollBits-1:0] poll_q;
 
     assign poll_o = poll_q == PollBits'(PollClk - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) poll_q <= PollBits'(1);  // reset ends one clk late
+      if (!rst_ni) poll_q <= PollBits'(1);  // not 0, because reset ends one cycle late
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;
     end

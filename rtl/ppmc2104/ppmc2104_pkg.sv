@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_pkg: codes, error numbers and limits of the PPMC-2104AFP; what makes this part differ from its
-// sisters.
+// ppmc2104_pkg: codes, error numbers, limits and types specific to the PPMC-2104AFP.
 // Rules:  P2104-CMD-01..03, P2104-INI-01/02, P2104-AUX-04..06, P2104-OPR-03, section 3.7 (error numbers).
 `default_nettype none
 
@@ -21,31 +20,31 @@ package ppmc2104_pkg;
   localparam int unsigned STEPS_MAX = 11_220;
   localparam int unsigned RATE_GAP = 2;  // RL is at least RH + 2
 
-  localparam int unsigned QUANTUM_XTAL = 4;  // crystal cycles a quantum
+  localparam int unsigned QUANTUM_XTAL = 4;  // crystal periods in a quantum
   localparam int unsigned WIDTH_XTAL = 80;  // 5 us: pulse width, direction set-up, release of INT
-  localparam int unsigned CLOCK_OUT_XTAL = 2;  // half a period of CLK
+  localparam int unsigned CLOCK_OUT_XTAL = 2;  // crystal periods in half a period of clk_o
 
-  localparam int unsigned HOLD_QUANTA = 512;  // 128 us, unit of the hold delay
+  localparam int unsigned HOLD_QUANTA = 512;  // unit of the hold delay, 128 us
   localparam logic [7:0] HOLD_DEFAULT = 8'h18;
-  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // units of 0.5 us: two quanta
+  localparam logic [7:0] CHOP_ON_DEFAULT = 8'h53;  // units of two quanta, 0.5 us
   localparam logic [7:0] CHOP_OFF_DEFAULT = 8'hA6;
 
-  // Error codes as the host reads them.
+  // Error numbers, as the host reads them.
   typedef enum logic [3:0] {
     ErrNone      = 4'd0,
     ErrUndefined = 4'd1,
-    ErrData      = 4'd2,   // data byte nobody asked for
-    ErrAbandoned = 4'd3,   // code while data are outstanding
-    ErrInitial   = 4'd4,   // needs an initialised axis
+    ErrData      = 4'd2,   // data byte without a code that needs it
+    ErrAbandoned = 4'd3,   // code while data bytes are outstanding
+    ErrInitial   = 4'd4,   // instruction needs an initialised axis
     ErrBusy      = 4'd5,
-    ErrStopped   = 4'd6,   // stop of an axis at rest
-    ErrRefused   = 4'd7,   // limit, alarm or origin forbids the start
+    ErrStopped   = 4'd6,   // stop of an axis that is not moving
+    ErrRefused   = 4'd7,   // start prevented by a limit, the alarm or the origin
     ErrDecel     = 4'd8,   // deceleration stop not possible
     ErrRates     = 4'd9,   // RL < RH + 2, PA too small, rate 0 with the internal clock
     ErrSteps     = 4'd10,  // PA too large
     ErrSwitching = 4'd11,
-    ErrRateOne   = 4'd12,  // too fast for one axis
-    ErrRateTwo   = 4'd13   // too fast beside the other axis
+    ErrRateOne   = 4'd12,  // too fast for one operating axis
+    ErrRateTwo   = 4'd13   // too fast while the other axis operates
   } error_e;
 
   typedef enum logic [3:0] {
@@ -76,8 +75,8 @@ package ppmc2104_pkg;
   typedef struct packed {
     logic [1:0] prefix;    // 00
     logic       second;    // A: axis 2
-    logic       chop;      // S: chop at rest
-    logic       external;  // C: base clock from the pin
+    logic       chop;      // S: chop at standstill
+    logic       external;  // C: base clock from the EXTCK pin
     logic       half;      // E: half step
     logic [1:0] motor;     // MM
   } init_code_t;
@@ -94,7 +93,7 @@ package ppmc2104_pkg;
 
   typedef struct packed {
     kind_e      kind;
-    logic [2:0] params;  // bytes that follow
+    logic [2:0] params;  // data bytes that follow
   } decoded_t;
 
   function automatic decoded_t decode(logic [7:0] code);
@@ -129,7 +128,7 @@ package ppmc2104_pkg;
     return d;
   endfunction
 
-  // What a taken byte makes an axis do; one bit an action.
+  // Actions of a byte for one axis.
   typedef struct packed {
     logic init;        // setting accepted
     logic start;       // operation
@@ -138,19 +137,19 @@ package ppmc2104_pkg;
     logic exc_off;
     logic switching;
     logic hold_delay;
-    logic read;        // of the axis, error code included
+    logic read;        // axis read, including the error code read
   } axis_action_t;
 
-  // The same for the part; the auxiliary instructions have no axis.
+  // Actions of a byte for the device; the auxiliary instructions belong to no axis.
   typedef struct packed {
     axis_action_t [AXES:1] axis;
     logic                  aux_out;
     logic                  aux_in;
   } action_t;
 
-  // An error that is charged to an axis.
+  // Error that is charged to an axis.
   typedef struct packed {
-    logic [AXES:1] axis;    // none: no error
+    logic [AXES:1] axis;    // axis in error; 0: no error
     error_e        number;
   } charge_t;
 
@@ -166,26 +165,26 @@ package ppmc2104_pkg;
     logic bhl;
   } levels_t;
 
-  // What the host has set for an axis (ppmc2104_setup).
+  // Settings of an axis by the host (ppmc2104_setup).
   typedef struct packed {
-    logic                 initialised;  // not INITIAL
+    logic                 initialised;  // 0: state INITIAL
     logic [RATE_BITS-1:0] slow;         // start-up rate RL
     logic [RATE_BITS-1:0] fast;         // high-speed rate RH
     logic [STEP_BITS-1:0] steps;        // acceleration pulses PA
-    logic                 chop;         // S: chop at rest
-    logic                 external;     // C: base clock from the pin
+    logic                 chop;         // S: chop at standstill
+    logic                 external;     // C: base clock from the EXTCK pin
     logic                 half;         // E: half step
     logic [1:0]           motor;        // MM, as motor_e
-    logic [7:0]           on;           // chopper, units of two quanta
+    logic [7:0]           on;           // on time of the chopper, units of two quanta
     logic [7:0]           off;
     logic [7:0]           hold_delay;   // units of HOLD_QUANTA, minus 1
   } setup_t;
 
-  // State of an axis as the command unit sees it.
+  // State of an axis for the command unit.
   typedef struct packed {
     logic   busy;
     logic   moving;    // before pulse 1 or between pulses
-    logic   decel_ok;  // a deceleration stop would be taken
+    logic   decel_ok;  // a deceleration stop would be accepted
     setup_t setup;
   } state_t;
 

@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_report: what the part reports of its own accord: error registers, interrupt causes, INT.
+// ppmc2104_report: error registers, interrupt causes and the INT output of both axes.
 // Rules:  P2104-ERR-06, P2104-RD-03/07, P2104-STA-06, P2104-INT-01..05.
-// Timing: registers and causes change at the edge that ends the cycle of their event, int_no one clk later. A
-//         cause that is cleared at edge e gives int_no = 1 from edge e + 1 to e + 1 + WidthClk at least.
+// Timing: registers and causes change at the edge that ends the cycle of their event; int_no follows one
+//         cycle later. A cause that is cleared at edge e keeps int_no = 1 from edge e + 1 to at least edge
+//         e + 1 + WidthClk.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc2104_report
   import ppmc2104_pkg::*;
 #(
-    parameter int unsigned WidthClk = 80  // release window, clk
+    parameter int unsigned WidthClk = 80  // minimum release time of int_no in cycles
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire charge_t          charge_i,      // errors to be entered
-    input  wire logic             errint_ni,     // synchronous level
-    input  wire logic    [AXES:1] end_i,         // an operation that wants an interrupt ends
+    input  wire charge_t          charge_i,      // errors to be stored
+    input  wire logic             errint_ni,     // ERRINT, synchronised
+    input  wire logic    [AXES:1] end_i,         // an operation with I = 0 ends
     input  wire logic    [AXES:1] read_end_i,    // End status read is executed
     input  wire logic    [AXES:1] read_error_i,  // Error code read is executed
     output error_e       [AXES:1] error_o,       // error registers
-    output logic                  any_error_o,   // one of them is not empty
-    output logic                  int_no         // L: there is a cause
+    output logic                  any_error_o,   // at least one error register is not empty
+    output logic                  int_no         // interrupt, low while there is a cause
 );
 
   localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
 
   logic [AXES:1] end_q, error_q;
-  logic [Width-1:0] age_q;  // of the release window
+  logic [Width-1:0] age_q;  // cycles since the start of the release window
   logic release_d, window_q;
 
   assign any_error_o = error_o != '0;
@@ -51,7 +52,7 @@ module ppmc2104_report
     end
   end
 
-  // No reset: a window clears it.
+  // No reset: the start of a release window sets age_q to 0.
   always_ff @(posedge clk_i) begin
     if (release_d) age_q <= '0;
     else age_q <= age_q + 1'b1;

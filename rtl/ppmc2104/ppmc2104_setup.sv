@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_setup: what the host has set for one axis: initial setting, switching times, hold delay.
+// ppmc2104_setup: registers that the host sets for one axis: initial setting, switching times, hold delay.
 // Rules:  P2104-INI-04..07, P2104-AUX-01/04..06, P2104-PHS-03, P2104-SW-01/02.
-// Timing: everything changes at the edge that ends the cycle of its action; chop_o follows ready_i in the same
-//         cycle.
+// Timing: registers change at the edge that ends the cycle of their action; chop_o follows ready_i in the
+//         same cycle.
 `default_nettype none
 
 module ppmc2104_setup
@@ -10,14 +10,14 @@ module ppmc2104_setup
 (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
-    input  wire axis_action_t        act_i,          // what this axis does at the coming edge
-    input  wire init_code_t          code_i,         // with act_i.init
-    input  wire logic         [31:0] params_i,       // with act_i.init
-    input  wire logic         [31:0] params_late_i,  // with act_i.switching and act_i.hold_delay
-    input  wire logic                ready_i,        // no setting is being worked on
-    output setup_t                   setup_o,        // what is set
-    output logic                     home_o,         // phases go to index 0
-    output logic                     chop_o          // chop at rest
+    input  wire axis_action_t        act_i,          // actions of this axis, effective at the next edge
+    input  wire init_code_t          code_i,         // setting code of act_i.init
+    input  wire logic         [31:0] params_i,       // data bytes of act_i.init
+    input  wire logic         [31:0] params_late_i,  // data bytes of act_i.switching, act_i.hold_delay
+    input  wire logic                ready_i,        // 1: no table build, no open window for this axis
+    output setup_t                   setup_o,        // current settings
+    output logic                     home_o,         // set the phases to index 0
+    output logic                     chop_o          // chop at standstill
 );
 
   logic first_q;  // the setting made in INITIAL is not complete
@@ -47,7 +47,7 @@ module ppmc2104_setup
         setup_o.fast  <= params_i[15:8];
         setup_o.steps <= params_i[16+:STEP_BITS];
       end
-      // What is frozen until Excitation OFF is taken from the first setting only.
+      // Only the first setting writes these fields; they are then frozen until Excitation OFF.
       if (home_o) begin
         setup_o.chop     <= code_i.chop;
         setup_o.external <= code_i.external;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_speed: the old chip's rate limits for one and for two working axes (DATASHEET); FAST has none.
+// ppmc2104_speed: checks a rate against the limits of the old chip, which are lower when both axes operate
+// (Datasheet = 1). With Datasheet = 0 there are no limits.
 // Rules:  P2104-DS-30..35.
-// Timing: the comparisons stand a clk after code_i and params_i; csel and the other axis are looked at live.
+// Timing: error_o follows code_i and params_i by one cycle; csel and the state of the other axis act on it in
+//         the same cycle.
 `default_nettype none
 
 module ppmc2104_speed
@@ -12,11 +14,11 @@ module ppmc2104_speed
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic    [   7:0] code_i,    // an operation, with
-    input  wire logic    [  31:0] params_i,  // its data bytes
-    input  wire state_t  [AXES:1] state_i,   // of both axes
-    input  wire levels_t [AXES:1] levels_i,  // inputs, synchronous levels
-    output error_e                error_o    // what is wrong with it
+    input  wire logic    [   7:0] code_i,    // code of an operation
+    input  wire logic    [  31:0] params_i,  // data bytes of code_i
+    input  wire state_t  [AXES:1] state_i,   // states of both axes
+    input  wire levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
+    output error_e                error_o    // ErrRateOne, ErrRateTwo or ErrNone
 );
 
   if (!Datasheet) begin : g_fast
@@ -26,7 +28,7 @@ module ppmc2104_speed
     assign error_o = ErrNone;
   end else begin : g_datasheet
 
-    // Smallest rates: alone and beside the other axis, with fast and slow internal clock.
+    // Lowest legal rate values: axis alone or together with the other axis, with fast or slow internal clock.
     typedef struct packed {
       logic [RATE_BITS-1:0] alone_fast;
       logic [RATE_BITS-1:0] beside_fast;
@@ -42,7 +44,7 @@ module ppmc2104_speed
     state_t mine, other;
     limits_t limits;
     logic [RATE_BITS-1:0] rate;
-    logic [3:0] below, below_q;  // the rate is below each limit
+    logic [3:0] below, below_q;  // the rate value is below each limit
     logic counts, second_q, csel, alone, beside, unused_bits;
 
     assign op_code = op_code_t'(code_i);
@@ -77,7 +79,7 @@ module ppmc2104_speed
       end
     end
 
-    // Chopping counts as operating.
+    // An axis that is chopping counts as operating.
     always_comb begin
       other = second_q ? state_i[1] : state_i[2];
       csel = second_q ? levels_i[2].csel : levels_i[1].csel;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312: intelligent stepper controller for one axis, a replacement for the PPMC-312.
-// Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF and, through its blocks, all others.
-// Timing: inputs act two clk after the pin. out_oe and the core come two clk after the release of the reset.
-// Note:   mode = 1: over its parallel bus; mode = 0: as a station on a serial line. What the pin said at the end
-//         of the last reset counts. The front end that is not in use rests.
+// ppmc312: intelligent stepper controller for one axis; replaces the PPMC-312.
+// Rules:  P312-GEN-01, P312-PRT-01..03, P312-CMD-FF; its blocks implement all others.
+// Timing: inputs act two cycles after the pin; with TIMING = "DATASHEET" the filter times are added. out_oe
+//         is asserted, and the core leaves reset, two cycles (DATASHEET: 1.6 ms) after the release of the
+//         reset.
+// Note:   mode = 1 selects the parallel bus, mode = 0 a station on a serial line. The level of mode at the
+//         end of the last reset is used. The front end that is not selected is idle.
 `default_nettype none
 
 module ppmc312
@@ -11,18 +13,18 @@ module ppmc312
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 #(
-    parameter int unsigned CLK_HZ   = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
+    parameter int unsigned CLK_HZ   = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6, >= XTAL_HZ / 2
     parameter int unsigned XTAL_HZ  = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter              TIMING   = "FAST",      // or "DATASHEET": with the old chip's times
-    parameter int unsigned VERSION  = 'h12,        // what the version instruction answers, 0 .. 255
+    parameter              TIMING   = "FAST",      // or "DATASHEET": processing times of the old chip
+    parameter int unsigned VERSION  = 'h12,        // value that the version instruction returns, 0 .. 255
     parameter              SUM_MODE = "BINARY",    // or "CHARS": checksum of the serial mode
     parameter int unsigned SND_LEAD = 1,           // bits from the rise of snd to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0            // bits that snd waits beyond half a bit, 0 .. 8
+    parameter int unsigned SND_WAIT = 0            // bits of wait before snd in addition to 0.5, 0 .. 8
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // host, parallel
-    input  wire logic       mode,     // 1 parallel, 0 serial; taken at the end of a reset
+    input  wire logic       mode,     // 1: parallel, 0: serial; sampled at the end of a reset
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
     output logic            d_oe,
@@ -63,7 +65,7 @@ module ppmc312
     input  wire logic       bhl_n,
     // pulses
     output logic            pout,
-    output logic            dir,      // 0 = CW
+    output logic            dir,      // 0: CW, 1: CCW
     input  wire logic       extck,
     input  wire logic       run,
     output logic            intlk_n,
@@ -94,9 +96,9 @@ module ppmc312
   end
 
   localparam bit Datasheet = 128'(TIMING) == "DATASHEET";
-  // 9.5 crystal cycles
+  // DATASHEET: 9.5 crystal periods
   localparam int unsigned WaitClk = Datasheet ? ppmc_pkg::cyc(19, CLK_HZ, 2 * XTAL_HZ) : 6;
-  // ---- reset -----------------------------------------------------------------------------------------------------
+  // ---- reset --------------------------------------------------------------------------------------
 
   logic rst_core, rst_host, rst_bus, boot, reset, serial, talks, open;
   logic [2:0] speed;
@@ -127,7 +129,7 @@ module ppmc312
   logic unused_hsp;
   assign unused_hsp = &{1'b0, hsp};
 
-  // ---- inputs ----------------------------------------------------------------------------------------------------
+  // ---- inputs -------------------------------------------------------------------------------------
 
   inputs_t inputs;
 
@@ -158,7 +160,7 @@ module ppmc312
       .inputs_o(inputs)
   );
 
-  // ---- host ------------------------------------------------------------------------------------------------------
+  // ---- host ---------------------------------------------------------------------------------------
 
   offer_t bus_offer, line_offer, offer;
   line_byte_t line_byte;
@@ -200,7 +202,8 @@ module ppmc312
       .rd_done_o (rd_done)
   );
 
-  // Binary speeds (bit 2 low) are not documented, and there is no speed 0.
+  // The station is silent in binary mode (bit 2 low), which is not documented, and with speed 0, which does
+  // not exist.
   assign talks = serial && speed[2] && speed[1:0] != 2'b00;
 
   ppmc312_serial #(
@@ -234,7 +237,7 @@ module ppmc312
           size: serial ? line_offer.size : bus_offer.size
       };
 
-  // ---- core ------------------------------------------------------------------------------------------------------
+  // ---- core ---------------------------------------------------------------------------------------
 
   outputs_t outputs;
 

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_carrier: everything of a board with a PPMC-312 but its clock generator and pads: the part, and as its host
-//                the UART bridge, the pins of its parallel bus, or the part's own serial line.
-// Rules:  HOST = "UART": docs/uart_bridge.md; straps bit 0 is RUN, bits 1 and 2 the event inputs 1 and 2, each ANDed
-//         with its pin. HOST = "BUS": section 1.3 of the PPMC-312 rules. HOST = "SERIAL": section 2.4; frames come from
-//         either line (one master at a time), replies go to both. Wiring: docs/boards.md.
-// Timing: of ppmc312; the inputs need no synchroniser outside.
+// ppmc312_carrier: PPMC-312 board without clock generator and pads: ppmc312, and as host interface the UART
+//         bridge, the pins of the parallel bus or the serial line of the PPMC-312.
+// Rules:  HOST = "UART": docs/uart_bridge.md; strap bits 0, 1, 2 are ANDed with run, evt0_n, evt1_n. HOST =
+//         "BUS": section 1.3 of the PPMC-312 rules. HOST = "SERIAL": section 2.4; frames are received from
+//         both lines (one master at a time), replies are sent to both. Wiring: docs/boards.md.
+// Timing: that of ppmc312; with RECORD != 0 inputs other than those of the host act 2 cycles later. No input
+//         needs an external synchroniser.
 `default_nettype none
 
 module ppmc312_carrier #(
-    parameter int unsigned CLK_HZ   = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned CLK_HZ   = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter              SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter              SUM_MODE = "BINARY",    // checksum of the serial line; or "CHARS"
     parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0,           // bits that rs485_de waits beyond half a bit, 0 .. 8
+    parameter int unsigned SND_WAIT = 0,           // bits of wait before rs485_de in addition to 0.5, 0 .. 8
     parameter              HOST     = "UART",      // or "BUS", "SERIAL"
-    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // serial line and its straps; it rests with another host
+    // serial line and its straps; idle unless HOST = "SERIAL"
     input  wire logic       rs485_rxd,
     output logic            rs485_txd,
     output logic            rs485_de,
     input  wire logic       hsp,
     input  wire logic [2:0] mod,
     input  wire logic [3:0] adr,
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; unless HOST = "BUS" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,
@@ -40,7 +41,7 @@ module ppmc312_carrier #(
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            wrq_n,
     output logic            irq_n,
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,
@@ -66,9 +67,9 @@ module ppmc312_carrier #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    output logic            hold,        // 1: at rest for 100 ms, or since the reset
-    // lamps, 1 = on
-    output logic            led_link,    // a script is running or an answer is on its way; rs485_de
+    output logic            hold,        // high: standstill for 100 ms, or no pulse since the reset
+    // LEDs, high: on
+    output logic            led_link,    // script running or answer pending; SERIAL: rs485_de
     output logic            led_moving,
     output logic            led_switch   // a limit or the alarm is active
 );
@@ -78,7 +79,7 @@ module ppmc312_carrier #(
   logic [7:0] part_d, straps;
   logic rxd, part_oe, out_oe;
 
-  // What the part sees of the pins.
+  // Input pins as the device receives them.
   logic in_fl_n, in_bl_n, in_fhl_n, in_bhl_n, in_org_n, in_index_n, in_alm_n, in_end_n, in_epin, in_epdir;
   logic in_run, in_evt0_n, in_evt1_n, in_extck, part_run, part_evt0_n, part_evt1_n;
   logic [7:0] in_auxi;
@@ -152,7 +153,8 @@ module ppmc312_carrier #(
       .out_oe
   );
 
-  // cd_n falls 100 ms after the pulses, but not before the first ones.
+  // cd_n is asserted 100 ms after the last pulse, but not before the first one; hold covers this case with
+  // moved_q.
   always_ff @(posedge clk or negedge part_rst_n) begin
     if (!part_rst_n) moved_q <= 1'b0;
     else if (pout) moved_q <= 1'b1;
@@ -168,7 +170,7 @@ module ppmc312_carrier #(
   assign led_switch  = !(fl_n && bl_n && fhl_n && bhl_n && alm_n);
 
   if (128'(HOST) == "SERIAL") begin : g_serial
-    // Both lines rest at 1.
+    // Both lines are high when idle.
     assign rxd = uart_rxd && rs485_rxd;
     assign uart_txd = rs485_txd;
     assign led_link = rs485_de;
@@ -180,7 +182,7 @@ module ppmc312_carrier #(
     logic unused_bus;
     assign unused_bus = ^{rs, cs_n, oe_n, we_n, d_i};
   end else begin : g_host
-    // Everything that is recorded, first pin in the low bits.
+    // All recorded levels; the first pin is in the low bits.
     localparam int unsigned Watch = 63;
     logic [Watch-1:0] watch;
     assign watch = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_core: the part without its host port and its pin synchronisers: instructions, motor side, monitor of the
-// generalized input, reports.
-// Rules:  through its blocks. Timing: outputs are flip-flops.
+// ppmc312_core: PPMC-312 without host front ends and pin synchronisers: instructions, motor side, monitor of
+//         the generalized input, reports.
+// Rules:  see its blocks. Timing: outputs are registered.
 `default_nettype none
 
 module ppmc312_core
@@ -13,32 +13,32 @@ module ppmc312_core
     parameter int unsigned       ClkHz     = 16_000_000,
     parameter int unsigned       XtalHz    = 16_000_000,
     parameter bit                Datasheet = 1'b0,
-    parameter logic        [7:0] Version   = 8'h12        // what the version instruction answers
+    parameter logic        [7:0] Version   = 8'h12        // value that the version instruction returns
 ) (
     input  wire logic                     clk_i,       // clock
     input  wire logic                     rst_ni,      // reset, asynchronous
-    input  wire logic                     serial_i,    // the front end is the serial station
-    input  wire logic                     boot_i,      // the reset came from an instruction: tell so
-    output logic                          reset_o,     // strobe: an instruction resets everything
+    input  wire logic                     serial_i,    // 1: the front end is the serial station
+    input  wire logic                     boot_i,      // reset caused by an instruction; report it
+    output logic                          reset_o,     // strobe: an instruction requests a reset
     // front end: blocks of the host, reports to it, in logical order
-    input  wire offer_t                   offer_i,     // one of them
+    input  wire offer_t                   offer_i,     // block from the host
     output logic         [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
-    input  wire logic    [           7:0] blk_data_i,  // that byte, two clk later
-    output logic                          blk_done_o,  // strobe: it is processed and answered
-    output logic                          rd_any_o,    // a report waits
-    input  wire logic                     rd_load_i,   // strobe: load it
-    output logic         [  BLOCK_BITS:0] rd_size_o,   // its bytes, 3 .. 32; from 2 clk after rd_load_i on
+    input  wire logic    [           7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
+    output logic                          blk_done_o,  // strobe: the block is processed and answered
+    output logic                          rd_any_o,    // a report is pending
+    input  wire logic                     rd_load_i,   // strobe: load the next report
+    output logic         [  BLOCK_BITS:0] rd_size_o,   // bytes, 3 .. 32; valid 2 cycles after rd_load_i
     input  wire logic    [BLOCK_BITS-1:0] rd_addr_i,   // byte of the report, 0 = header
-    output logic         [           7:0] rd_data_o,   // that byte, two clk later
-    input  wire logic                     rd_done_i,   // strobe: it has been read
-    // what only the serial station looks at
-    output answered_t                     answered_o,  // the host's block
-    output status_e                       status_o,    // of the part
-    output poll_t                         poll_o,      // rd_load_i takes it
+    output logic         [           7:0] rd_data_o,   // byte at rd_addr_i, two cycles later
+    input  wire logic                     rd_done_i,   // strobe: the report has been read
+    // for the serial station only
+    output answered_t                     answered_o,  // result of the block from the host
+    output status_e                       status_o,    // status of the device
+    output poll_t                         poll_o,      // result of a poll; rd_load_i consumes it
     // pins
-    input  wire inputs_t                  inputs_i,    // synchronous
-    input  wire logic                     extck_i,     // external clock, as on the pin
-    output outputs_t                      outputs_o    // flip-flops
+    input  wire inputs_t                  inputs_i,    // input pins, synchronised
+    input  wire logic                     extck_i,     // external clock, asynchronous
+    output outputs_t                      outputs_o    // output pins, registered
 );
 
   block_t block;
@@ -60,7 +60,7 @@ module ppmc312_core
 
   assign status_o = state.status;
   assign mask = act && block.code == I_MASK;
-  // A lost report counts a clk later.
+  // The multiple-occurrence alarm of a discarded report follows one cycle later.
   assign multi = '{valid: exec_multi || late_q.valid, code: exec_multi ? 2'd1 : late_q.code};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

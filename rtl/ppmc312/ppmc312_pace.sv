@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_pace: when an instruction takes effect: at once, or after the old chip's time.
+// ppmc312_pace: delays the effect of an instruction by the processing time of the old chip (Datasheet = 1).
 // Rules:  P312-TIM-02..13, P312-TIM-20.
-// Timing: open_o is high when the time of block_i, counted from the last clk of idle_i, has passed. Without
-//         Datasheet it is always high.
-// Note:   the times of starts are those of pulse 1, which comes TW after t0.
+// Timing: open_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
+//         Datasheet = 0 it is always high.
+// Note:   the time of a start ends at pulse 1, which occurs TW after t0.
 `default_nettype none
 
 module ppmc312_pace
@@ -17,15 +17,15 @@ module ppmc312_pace
     input  wire logic         clk_i,    // clock
     input  wire logic         rst_ni,   // reset, asynchronous
     input  wire logic         idle_i,   // no instruction is being processed
-    input  wire block_t       block_i,  // the instruction; its time begins as idle_i ends
-    input  wire logic   [7:0] kind_i,   // of a planned operation; 0 = trapezoid
-    output logic              open_o    // the time has passed
+    input  wire block_t       block_i,  // the instruction; its time starts when idle_i falls
+    input  wire logic   [7:0] kind_i,   // profile of a planned operation; 0: trapezoidal
+    output logic              open_o    // the processing time has passed
 );
 
   localparam int unsigned Width = 22;
 
   if (Datasheet) begin : g_pace
-    // crystal cycles; what has passed on the way here is about 1 us and does not matter
+    // Crystal periods. The latency of the instruction up to this block, about 1 us, is neglected.
     localparam int unsigned PerUs = 16;
     localparam int unsigned Lead = WIDTH_XTAL + 8;
 
@@ -62,14 +62,14 @@ module ppmc312_pace
         I_CONST, I_CONT: limit = pulse_us(400);
         I_HIGH, I_ZERO:  limit = given ? pulse_us(400) : pulse_us(60);
         I_ORIGIN, I_STEP: limit = pulse_us(500);
-        // the position stops the pulses by itself
+        // A halt at a position: the position comparison itself stops the pulses.
         I_HALT:    limit = (block_i.source == SrcOverride && !block_i.par[0][0]) ? '0 : us(350);
         I_AUX_OUT: limit = us(300);
         default:   ;
       endcase
     end
 
-    // The limit is a clk late, so it must have been the same for two.
+    // limit_q is one cycle late, so limit must be unchanged for two cycles.
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         limit_q <= '0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_pkg: instruction codes, statuses, what each status accepts, lengths, reports and errors of the
+// ppmc312_pkg: instruction codes, statuses, accept table, instruction lengths, reports and errors of the
 // PPMC-312.
 // Rules:  P312-STA-01 (accept table), section 3.1 (lengths), sections 10.1..10.3 (reports, errors, causes).
 `default_nettype none
@@ -9,13 +9,13 @@ package ppmc312_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- sizes -----------------------------------------------------------------------------------------------------
+  // ---- sizes --------------------------------------------------------------------------------------
 
   localparam int unsigned RATE_BITS = 16;
-  localparam int unsigned BLOCK_BITS = 5;  // address in a block of 32 bytes
+  localparam int unsigned BLOCK_BITS = 5;  // address within a block of 32 bytes
   localparam int unsigned WIDTH_XTAL = 80;  // TW
 
-  // ---- instruction codes -----------------------------------------------------------------------------------------
+  // ---- instruction codes --------------------------------------------------------------------------
 
   localparam logic [7:0] I_INIT = 8'h00;
   localparam logic [7:0] I_FREE = 8'h01;
@@ -55,7 +55,7 @@ package ppmc312_pkg;
   localparam logic [7:0] I_SPEED = 8'h88;
   localparam logic [7:0] I_RESET = 8'hff;
 
-  // ---- statuses: one bit each, in the order of the condition byte ------------------------------------------------
+  // ---- statuses: one bit each, in the order of the condition byte ---------------------------------
 
   typedef enum logic [5:0] {
     StatusIni = 6'b000001,
@@ -66,18 +66,18 @@ package ppmc312_pkg;
     StatusWrn = 6'b100000
   } status_e;
 
-  // ---- what the decoder knows of a code --------------------------------------------------------------------------
+  // ---- properties of an instruction code ----------------------------------------------------------
 
   typedef struct packed {
     logic       known;
-    logic       has_ov;     // bit 2 of the first parameter asks for a registration
+    logic       has_ov;     // bit 2 of the first parameter (OV) requests registration
     logic       starts;     // starts pulses
     logic       rated;      // parameters 1, 2 are a rate
-    logic       rate_zero;  // and 0 stands for RH
+    logic       rate_zero;  // a rate of 0 selects RH
     logic       counted;    // parameters 3 .. 6 are a number of pulses
-    logic [5:0] now;        // statuses that accept it, OV = 0
-    logic [5:0] later;      // statuses that accept it, OV = 1
-    logic [4:0] len_a;      // lengths of code and parameters, the longer one first
+    logic [5:0] now;        // statuses that accept the code with OV = 0
+    logic [5:0] later;      // statuses that accept the code with OV = 1
+    logic [4:0] len_a;      // legal lengths of code and parameters, len_a >= len_b
     logic [4:0] len_b;
   } info_t;
 
@@ -164,7 +164,7 @@ package ppmc312_pkg;
     return i;
   endfunction
 
-  // ---- reports, error numbers ------------------------------------------------------------------------------------
+  // ---- reports, error numbers ---------------------------------------------------------------------
 
   localparam logic [7:0] A_STOP = 8'he0;
   localparam logic [7:0] A_UNLOCK = 8'he1;
@@ -205,7 +205,7 @@ package ppmc312_pkg;
   localparam logic [7:0] E_INPOS_ZERO = 8'h26;
   localparam logic [7:0] E_ENCODE_ZERO = 8'h27;
 
-  // Why a motion ended; bit order of the byte in E0 (section 10.3). Exactly one is set.
+  // Causes of the end of a motion, in the bit order of the byte in E0 (section 10.3). Exactly one bit is set.
   typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} cause_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_reset: resets of the pin and of the instruction; what the pins say at their end: mode, speed, number.
+// ppmc312_reset: generates the resets from the pin and from the reset instruction; latches mode, line speed
+//         and station number when a reset ends.
 // Rules:  P312-GEN-01, P312-PRT-02/03, P312-CMD-FF, P312-TIM-01.
-// Timing: ready_o and the core come two clk after the release of the reset, in DATASHEET 1.6 ms. The host's side
-//         comes one clk after it; the levels that count are those of the pins two clk before.
+// Timing: ready_o is asserted, and the core leaves reset, two cycles after the release of the reset
+//         (Datasheet = 1: 1.6 ms). The host side leaves reset one cycle after the release; the latched levels
+//         are those of the pins two cycles before.
 `default_nettype none
 
 module ppmc312_reset #(
@@ -11,25 +13,25 @@ module ppmc312_reset #(
     parameter bit          Datasheet = 1'b0
 ) (
     input wire logic clk_i,  // clock
-    input wire logic rst_ni,  // pin
-    input wire logic reset_i,  // instruction
-    input wire logic mode_i,  // pin: 1 parallel, 0 serial
-    input wire logic [2:0] mod_i,  // pins: speed of the line
-    input wire logic [3:0] adr_i,  // pins: number of the station
-    output logic rst_core_no,  // reset of the core, 0 = active
-    output logic rst_host_no,  // registers of the host's side
-    output logic rst_bus_no,  // its strobes, which an instruction does not interrupt
-    output logic boot_o,  // the core comes back from an instruction
-    output logic ready_o,  // the reset is over
-    output logic open_o,  // the bus may bring instructions: 3 clk after a reset by one
-    output logic serial_o,  // 1 serial, 0 parallel
-    output logic [2:0] mod_o,  // speed of the line, as taken
-    output logic [3:0] adr_o  // number of the station, as taken
+    input wire logic rst_ni,  // reset pin, asynchronous
+    input wire logic reset_i,  // strobe: reset by an instruction
+    input wire logic mode_i,  // pin, 1: parallel, 0: serial
+    input wire logic [2:0] mod_i,  // pins: line speed
+    input wire logic [3:0] adr_i,  // pins: station number
+    output logic rst_core_no,  // reset of the core, active low
+    output logic rst_host_no,  // reset of the host-side registers, active low
+    output logic rst_bus_no,  // reset of the bus strobes, active low; by the pin only
+    output logic boot_o,  // the core is leaving a reset by an instruction
+    output logic ready_o,  // 1: the reset has ended
+    output logic open_o,  // 1: the bus accepts instructions; 3 cycles after a reset by an instruction
+    output logic serial_o,  // 1: serial, 0: parallel
+    output logic [2:0] mod_o,  // latched line speed
+    output logic [3:0] adr_o  // latched station number
 );
 
   localparam int unsigned StartXtal = 25_600;
 
-  // It resets flip-flops and is data of the restart of the delay.
+  // rst_pin resets flip-flops and is also a data signal, which restarts the delay.
   // verilator lint_off SYNCASYNCNET
   logic rst_pin;
   // verilator lint_on SYNCASYNCNET
@@ -63,7 +65,7 @@ module ppmc312_reset #(
     end
   end
 
-  // The levels before the end of the reset count, so this one runs during it.
+  // Levels from before the end of the reset are latched, so this synchroniser has no reset.
   ppmc_sync #(
       .Width(8)
   ) u_pins (
@@ -81,7 +83,7 @@ module ppmc312_reset #(
       boot_o                   <= 1'b0;
       boot_q                   <= '0;
       ready_o                  <= 1'b0;
-      {serial_o, mod_o, adr_o} <= {1'b1, 7'd0};  // nobody may talk
+      {serial_o, mod_o, adr_o} <= {1'b1, 7'd0};  // serial at speed 0: no front end is active
     end else begin
       ready_o    <= started;
       rst_q      <= started && !reset_i;
@@ -92,7 +94,7 @@ module ppmc312_reset #(
     end
   end
 
-  // The pin resets all at once, whatever the registers of the resets hold.
+  // The pin resets all blocks immediately, regardless of the registers of the resets.
   assign rst_core_no = rst_q && rst_pin;
   assign rst_host_no = rst_host_q && rst_pin;
   assign rst_bus_no  = rst_pin;

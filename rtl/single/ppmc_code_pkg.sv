@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_code_pkg: what the single-axis parts (PPMC-104BFP, J105 STMC) have in common of their command set: bits of
-// the codes, error numbers, and what a byte makes such a part do.
+// ppmc_code_pkg: common command set of the single-axis devices (PPMC-104BFP, J105 STMC): bits of the codes,
+//         error numbers, and actions of a byte.
 // Rules:  P104-CMD-01..04, P104-ERR-00, P104-INI-01; STMC section 2.4 (error numbers), 3.0, 3.1.
 `default_nettype none
 
@@ -9,14 +9,14 @@ package ppmc_code_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // Error numbers as shown in status bits 6..4 (P104-ERR-00).
+  // Error numbers in status bits 6..4 (P104-ERR-00).
   typedef enum logic [2:0] {
-    ErrUndefined  = 3'd0,  // also: a stop with no motion
+    ErrUndefined  = 3'd0,  // also: a stop command without a motion
     ErrBusy       = 3'd1,
     ErrNotReady   = 3'd2,  // operation before initialisation
-    ErrData       = 3'd3,  // data byte nobody asked for
+    ErrData       = 3'd3,  // data byte that was not requested
     ErrStepsHigh  = 3'd4,
-    ErrRates      = 3'd5,  // a rate is not legal, or PA too small
+    ErrRates      = 3'd5,  // illegal rate, or PA too small
     ErrDataBusy   = 3'd6,  // as ErrData, during a motion
     ErrDecelAgain = 3'd7
   } error_e;
@@ -35,7 +35,7 @@ package ppmc_code_pkg;
     KindAuxOff
   } kind_e;
 
-  // What a read command shows: low three bits of the codes 10 000 xxx.
+  // Data that a read command selects: low three bits of the codes 10 000 xxx.
   localparam logic [2:0] SEL_FINISH = 3'b000;
   localparam logic [2:0] SEL_INPUTS = 3'b001;
   localparam logic [2:0] SEL_OUTPUTS = 3'b010;
@@ -45,16 +45,16 @@ package ppmc_code_pkg;
   // Bits of the initialisation code.
   typedef struct packed {
     logic [1:0] prefix;    // 00
-    logic       chop;      // S: chop at rest
+    logic       chop;      // S: chop at standstill
     logic       external;  // C: base clock from the pin
-    logic       positive;  // L: high is on
+    logic       positive;  // L: high = energised
     logic       half;      // E: half step
     logic [1:0] motor;     // MM
   } init_code_t;
 
   // Bits of an operation code.
   typedef struct packed {
-    logic       pout_only;  // the J105 STMC has no such operations
+    logic       pout_only;  // not in the J105 STMC
     logic       prefix;
     logic       ignored;
     logic       silent;     // I: no interrupt at the end
@@ -67,7 +67,7 @@ package ppmc_code_pkg;
     logic [2:0] params;  // bytes that follow
   } decoded_t;
 
-  // What a taken byte makes the part do; all at the C-event, one bit an action.
+  // Actions of an accepted byte, one bit each; they take place at the C-event.
   typedef struct packed {
     logic init;     // initialisation accepted
     logic start;    // operation
@@ -81,19 +81,19 @@ package ppmc_code_pkg;
     logic read;
   } action_t;
 
-  // What a command unit remembers between two bytes.
+  // State that a command unit keeps between two bytes.
   typedef struct packed {
     logic        error;   // the last byte was faulty
-    logic [2:0]  number;  // then the error number, else parameters still to come
-    logic [7:0]  code;    // code that they are for
-    logic [31:0] params;  // those that came, the last one in the high bits
+    logic [2:0]  number;  // error number if error = 1, else number of remaining parameters
+    logic [7:0]  code;    // code of the parameters
+    logic [31:0] params;  // parameters received so far, the last one in the high bits
   } asking_t;
 
-  // What the initialisation sets beside the ramp (ppmc_setup).
+  // Settings of the initialisation, except the ramp (ppmc_setup).
   typedef struct packed {
     logic       external;  // base clock from the pin
-    logic       chop;      // chop at rest; 0 until an initialisation is complete
-    logic       positive;  // phases: high is on
+    logic       chop;      // chop at standstill; 0 until an initialisation is complete
+    logic       positive;  // phases: high = energised
     logic       half;      // half step
     logic [1:0] motor;     // phases of the motor, as motor_e
   } setup_t;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command: takes the bytes of the host, judges them, collects parameters and says what to do; for the parts
-// with one axis.
+// ppmc_command: accepts the bytes of the host, checks them, collects parameters and outputs the actions; for
+//         the single-axis devices.
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
-// Timing: take_o is the C-event: everything this block changes, and act_o, belongs to the edge that ends that
-//         cycle. decoded_i, data_i and value_i are combinational; they are used a clk later.
+// Timing: take_o marks the C-event: act_o and all state changes of this block belong to the edge that ends
+//         this cycle. decoded_i and value_i are combinational from the byte and are registered here, so that
+//         they are used one cycle later. data_i and judged_i are used in the same cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,33 +15,33 @@ module ppmc_command
     input wire logic clk_i,
     input wire logic rst_ni,
     // mailbox
-    input wire logic ready_i,  // a byte is there
-    input wire logic command_i,  // it was written as a command
-    input wire logic [7:0] byte_i,  // the byte
-    input wire logic open_i,  // bytes may be taken
-    input wire logic stops_only_i,  // of those, stop commands only
-    output logic take_o,  // it is taken at the coming edge
-    // what the bytes mean in this part
+    input wire logic ready_i,  // a byte is available
+    input wire logic command_i,  // byte_i was written as a command
+    input wire logic [7:0] byte_i,  // byte from the host
+    input wire logic open_i,  // bytes may be accepted
+    input wire logic stops_only_i,  // only stop commands may be accepted
+    output logic take_o,  // the byte is accepted at the next edge
+    // meaning of the byte in this device
     input wire decoded_t decoded_i,  // byte_i as a code
-    input wire logic [7:0] data_i,  // byte_i as a parameter is kept
-    input wire error_e value_i,  // what is wrong with params_o; ErrUndefined: nothing
-    input wire logic judged_i,  // value_i counts for the code at hand; used at once
-    // state of the part
-    input wire logic busy_i,  // a motion is under way
+    input wire logic [7:0] data_i,  // byte_i in the form in which parameters are stored
+    input wire error_e value_i,  // error in params_o; ErrUndefined: no error
+    input wire logic judged_i,  // value_i applies to the current code; used in the same cycle
+    // state of the core
+    input wire logic busy_i,  // a motion is in progress
     input wire logic ramp_i,  // running operation has a ramp
-    input wire logic decelerating_i,  // DEC, or pulses over
+    input wire logic decelerating_i,  // DEC, or no pulse left to output
     input wire logic initialised_i,  // operations may start
     // result
     output logic [3:0] status_o,  // ERR, NUM
-    output action_t act_o,  // what the taken byte makes happen
-    output logic [7:0] code_o,  // code the action belongs to
-    output logic [31:0] params_o,  // its parameter bytes, the last one in the high bits
-    output logic [7:0] code_held_o,  // the same after the C-event, while no byte is taken
+    output action_t act_o,  // actions of the accepted byte
+    output logic [7:0] code_o,  // code of the action
+    output logic [31:0] params_o,  // parameter bytes of code_o, the last one in the high bits
+    output logic [7:0] code_held_o,  // code_o after the C-event, while no byte is accepted
     output logic [31:0] params_held_o  // parameters of code_held_o
 );
 
-  decoded_t dec_q;  // of byte_i, a clk behind it
-  error_e   value_q;  // as dec_q: the byte stands still for a clk before it is taken
+  decoded_t dec_q;  // decoded_i, one cycle later
+  error_e   value_q;  // value_i, one cycle later; the byte is stable before it is accepted
   asking_t asking_q, asking;
   logic stop;
 

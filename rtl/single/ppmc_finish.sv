@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish: what remains of a motion in a part with one axis: finish status and interrupt; and the answers to
-// the read commands.
+// ppmc_finish: finish status and interrupt of a motion, and the data of the read commands, in a
+//         single-axis device.
 // Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
 //         STMC-OUT-01, STMC-REM-01.
 // Timing: finish status and int_no change at the edge that ends the cycle of done_i; answer_o is
@@ -15,20 +15,20 @@ module ppmc_finish
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
     input  wire logic            start_i,      // an operation starts
-    input  wire op_code_t        op_code_i,    // with start_i
-    input  wire logic            done_i,       // it ends
-    input  wire logic     [ 3:0] cause_i,      // steady at rest: stop, alarm, limit, slow-down limit
+    input  wire op_code_t        op_code_i,    // code of the operation, with start_i
+    input  wire logic            done_i,       // the operation ends
+    input  wire logic     [ 3:0] cause_i,      // stop, alarm, limit, slow-down limit; stable at standstill
     input  wire logic            read_i,       // a read command is executed
-    input  wire logic     [ 2:0] select_i,     // which
-    input  wire logic     [23:0] remaining_i,  // pulses left, as SEL_REMAINING shows them
-    input  wire logic     [ 7:0] inputs_i,     // pin levels as SEL_INPUTS shows them
-    input  wire logic     [ 7:0] outputs_i,    // as SEL_OUTPUTS shows them
-    input  wire logic     [ 3:0] auxi_i,       // as SEL_AUX_IN shows them
-    output logic          [23:0] answer_o,     // what the read command shows, first byte in the low bits
+    input  wire logic     [ 2:0] select_i,     // data selected by the read command
+    input  wire logic     [23:0] remaining_i,  // remaining pulses, in the format of SEL_REMAINING
+    input  wire logic     [ 7:0] inputs_i,     // pin levels, in the format of SEL_INPUTS
+    input  wire logic     [ 7:0] outputs_i,    // pin levels, in the format of SEL_OUTPUTS
+    input  wire logic     [ 3:0] auxi_i,       // pin levels, in the format of SEL_AUX_IN
+    output logic          [23:0] answer_o,     // data of the read command, first byte in the low bits
     output logic                 int_no        // L: a motion has ended
 );
 
-  logic fresh_q, silent_q;  // not read yet; no interrupt wanted
+  logic fresh_q, silent_q;  // not read yet; no interrupt requested
   logic [2:0] op_q;
   logic unused_bits;
 
@@ -56,9 +56,9 @@ module ppmc_finish
     end
   end
 
-  // The causes stand until the next operation, when nobody may read them.
+  // The causes are valid until the next operation starts; while it runs, read commands are rejected.
   always_comb begin
-    answer_o = remaining_i;  // the bytes behind the first are shown for this answer only
+    answer_o = remaining_i;  // bytes after the first one are read only with SEL_REMAINING
     unique case (select_i)
       SEL_FINISH:  answer_o[7:0] = {fresh_q || !Fresh, cause_i, op_q};
       SEL_INPUTS:  answer_o[7:0] = inputs_i;

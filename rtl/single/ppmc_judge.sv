@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_judge: what a byte of the host means to a part with one axis: right or faulty, what it makes happen, what is
-// remembered of it. Combinational; who keeps asking_o is the user's business.
+// ppmc_judge: checks a byte of the host for a single-axis device: error number, actions, and the next state
+//         of the command unit.
 // Rules:  P104-STA-04..06, P104-ERR-00..03, P104-HSK-07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08,
 //         P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
+// Timing: combinational; the user of the block stores asking_o.
 `default_nettype none
 
 module ppmc_judge
   import ppmc_code_pkg::*;
 #(
-    parameter bit Aux = 1'b1  // Excitation OFF is AUX ON while a motion is under way; 0: it is refused then
+    parameter bit Aux = 1'b1  // 1: Excitation OFF during a motion is AUX ON; 0: it is rejected
 ) (
-    input  wire logic           take_i,          // a byte is taken
-    input  wire logic           command_i,       // it was written as a command
-    input  wire logic     [7:0] byte_i,          // the byte
-    input  wire logic     [7:0] data_i,          // the byte as a parameter is kept
-    input  wire decoded_t       decoded_i,       // the byte as a code
-    input  wire error_e         value_i,         // wrong with complete parameters; ErrUndefined: nothing
-    input  wire logic           judged_i,        // value_i counts for the code at hand
-    input  wire logic           busy_i,          // a motion is under way
+    input  wire logic           take_i,          // a byte is accepted
+    input  wire logic           command_i,       // byte_i was written as a command
+    input  wire logic     [7:0] byte_i,          // byte from the host
+    input  wire logic     [7:0] data_i,          // byte_i in the form in which parameters are stored
+    input  wire decoded_t       decoded_i,       // byte_i as a code
+    input  wire error_e         value_i,         // error in the complete parameters; ErrUndefined: no error
+    input  wire logic           judged_i,        // value_i applies to the current code
+    input  wire logic           busy_i,          // a motion is in progress
     input  wire logic           ramp_i,          // running operation has a ramp
-    input  wire logic           decelerating_i,  // DEC, or pulses over
+    input  wire logic           decelerating_i,  // DEC, or no pulse left to output
     input  wire logic           initialised_i,   // operations may start
-    input  wire asking_t        asking_i,        // what is remembered of the bytes before
-    output asking_t             asking_o,        // and of this one
-    output action_t             act_o,           // what it makes happen
-    output logic                stop_o           // byte_i is a stop command; whatever take_i says
+    input  wire asking_t        asking_i,        // state before this byte
+    output asking_t             asking_o,        // state after this byte
+    output action_t             act_o,           // actions of this byte
+    output logic                stop_o           // byte_i is a stop command, regardless of take_i
 );
 
   logic harmless, last, error;
@@ -65,7 +66,7 @@ module ppmc_judge
     end
   end
 
-  // At once for codes without parameters, else with the last parameter.
+  // A code without parameters acts immediately, any other code with its last parameter.
   always_comb begin
     act_o = '0;
     if (take_i && !error) begin

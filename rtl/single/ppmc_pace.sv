@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace: when a taken byte takes effect in a part with one axis: at once (FAST), or after the old chip's
-// processing times (DATASHEET).
+// ppmc_pace: determines when an accepted byte takes effect in a single-axis device: immediately (FAST) or
+//         after the processing times of the old chip (DATASHEET).
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
-// Timing: DATASHEET times run from the C-event (2 clk after the write event) or from the pulse or decision
-//         they belong to; what they release happens one clk after the nominal time.
-// How:    two timers: one for the command at hand (mailbox closed), one for the motion (pulse 1, end).
+// Timing: DATASHEET times start at the C-event (2 cycles after the write event) or at the pulse or decision
+//         that they belong to. The event that a time releases occurs one cycle after the nominal time.
+// How:    two timers: one for the current command (mailbox closed), one for the motion (pulse 1, end).
 `default_nettype none
 
 module ppmc_pace
@@ -14,44 +14,44 @@ module ppmc_pace
     parameter bit Datasheet = 1'b0,
     parameter int unsigned ClkHz = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000,
-    parameter int unsigned StepBits = 14,  // of PA
-    parameter int unsigned StepsMin = 4,  // smallest PA; its table takes 16.5 ms
-    parameter int unsigned StepsMax = 11_220,
-    parameter bit RampTimes = 1'b1  // a stop in a ramp and the start of one without a plateau take longer
+    parameter int unsigned StepBits = 14,  // bits of PA
+    parameter int unsigned StepsMin = 4,  // smallest PA; its initialisation takes 16.5 ms
+    parameter int unsigned StepsMax = 11_220,  // largest PA
+    parameter bit RampTimes = 1'b1  // 1: a stop in a ramp and the start of a triangular profile take longer
 ) (
     input  wire logic                   clk_i,
     input  wire logic                   rst_ni,
     // command unit, at the C-event
-    input  wire action_t                act_i,          // what the byte asks for
-    input  wire logic    [         7:0] code_i,         // its code
-    input  wire logic    [        31:0] params_i,       // its parameters; a clk later a byte lower
-    input  wire logic    [         7:0] code_held_i,    // the same afterwards
-    input  wire logic    [        31:0] params_held_i,  // the same afterwards
-    input  wire logic    [         2:0] base_i,         // base clock as it is selected now
-    output logic                        open_o,         // bytes may be taken
-    // when it takes effect
-    output action_t                     act_o,          // takes effect at the coming edge
-    output logic         [         7:0] code_o,         // code that act_o belongs to
-    output logic         [        31:0] params_o,       // its parameters
+    input  wire action_t                act_i,          // actions requested by the byte
+    input  wire logic    [         7:0] code_i,         // code of act_i
+    input  wire logic    [        31:0] params_i,       // parameters of act_i; one cycle later a byte lower
+    input  wire logic    [         7:0] code_held_i,    // code_i after the C-event
+    input  wire logic    [        31:0] params_held_i,  // params_i after the C-event
+    input  wire logic    [         2:0] base_i,         // base clock that is selected now
+    output logic                        open_o,         // bytes may be accepted
+    // actions when they take effect
+    output action_t                     act_o,          // actions that take effect at the next edge
+    output logic         [         7:0] code_o,         // code of act_o
+    output logic         [        31:0] params_o,       // parameters of act_o
     output logic         [         2:0] base_o,         // base clock of the operation that starts
     // initialisation
     input  wire logic                   initialised_i,  // an initialisation has been completed
-    input  wire logic                   building_i,     // ramp table
-    input  wire logic    [StepBits-1:0] steps_i,        // PA in force
-    output logic                        home_o,         // phases to index 0, first initialisation
-    output logic                        ready_o,        // initialisation complete
+    input  wire logic                   building_i,     // the ramp table is being built
+    input  wire logic    [StepBits-1:0] steps_i,        // active PA
+    output logic                        home_o,         // set the phases to index 0: first initialisation
+    output logic                        ready_o,        // the initialisation is complete
     // motion
     input  wire logic                   ramp_i,         // the running operation has a ramp
-    input  wire logic                   single_i,       // is a single step
-    input  wire logic                   stop_i,         // immediate end decided at the coming edge
-    input  wire logic                   pulse_i,        // pulse event at the coming edge
-    input  wire logic                   last_i,         // with pulse_i: the last one
-    input  wire logic                   final_i,        // with pulse_i: and the count is complete
-    output logic                        go_o,           // pulse 1 may come
+    input  wire logic                   single_i,       // the running operation is a single step
+    input  wire logic                   stop_i,         // immediate end decided at the next edge
+    input  wire logic                   pulse_i,        // pulse event at the next edge
+    input  wire logic                   last_i,         // with pulse_i: last pulse
+    input  wire logic                   final_i,        // with pulse_i: the count is complete
+    output logic                        go_o,           // pulse 1 may occur
     output logic                        linger_o        // the motion must not end yet
 );
 
-  // Crystal cycles; microseconds times 16.
+  // In crystal cycles: microseconds times 16.
   localparam int unsigned INIT_PHASES = 44 * 16;
   localparam int unsigned BUSY_CONSTANT = 27 * 16;
   localparam int unsigned BUSY_RAMP = 112 * 16;
@@ -61,13 +61,13 @@ module ppmc_pace
 
   localparam int unsigned CmdBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BUSY_RAMP, ClkHz, XtalHz) - 1);
 
-  // State of the count before the tick that ends such a time.
+  // State of the counter before the tick that ends a time of xtal_cycles.
   function automatic logic [CmdBits-1:0] last(int unsigned xtal_cycles);
     return CmdBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CmdBits));
   endfunction
 
   if (!Datasheet) begin : g_fast
-    logic built_q;  // the table is complete one clk after building_i
+    logic built_q;  // building_i, one cycle later; the table is complete then
     logic unused_bits;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -88,9 +88,10 @@ module ppmc_pace
                            last_i, final_i};
   end else begin : g_datasheet
 
-    // The byte is gone when its time is up: its data come from behind the C-event.
+    // When its time has passed, the byte is no longer in the mailbox. So its data are those held after the
+    // C-event.
     op_code_t op_code, op_held;
-    logic ramp;  // of the operation that the byte asks for
+    logic ramp;  // the requested operation has a ramp
     logic unused_bits;
 
     assign op_code     = op_code_t'(code_i);
@@ -105,14 +106,14 @@ module ppmc_pace
       else if (act_i.start) base_o <= base_i;
     end
 
-    // ---- command at hand -----------------------------------------------------------------------------
+    // ---- current command -----------------------------------------------------------------------------
 
     action_t now, late, held_q;
     logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start, past;
     logic init_past, closed;
     logic [CmdBits-1:0] cmd_last;
 
-    // A decelerating stop that acts as an immediate one has no time of its own (P104-DS-14).
+    // A deceleration stop that acts as an immediate stop has no separate processing time (P104-DS-14).
     always_comb begin
       now = '{
           init: act_i.init,
@@ -134,7 +135,7 @@ module ppmc_pace
     localparam logic [CmdBits-1:0] LastConstant = last(BUSY_CONSTANT);
     localparam logic [CmdBits-1:0] LastPhases = last(INIT_PHASES);
 
-    // The mailbox is closed meanwhile: the code stands still.
+    // The mailbox is closed during this time, so the code does not change.
     always_comb begin
       cmd_last = LastAux;
       if (held_q.exc_off) cmd_last = LastExcOff;
@@ -183,7 +184,7 @@ module ppmc_pace
 
     logic triangle;
 
-    // D < 2 * PA
+    // The number of pulses is below 2 * PA.
     assign triangle = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_motion: the long processing times of the old chip (DATASHEET): of an initialisation, before pulse 1,
-// at the end of a motion. There is one at a time, so one count serves all.
+// ppmc_pace_motion: long processing times of the old chip (DATASHEET): of an initialisation, before pulse 1,
+//         and at the end of a motion. Only one of them runs at a time, so they share a counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
-// Timing: times run from the edge of init_i, start_i or stop_i, or one clk after that of pulse_i with last_i; what
-//         they release happens one clk after the nominal time.
-// How:    PA comes a clk late, on the wires of the pulses: no portion can be taken off so early.
-//         The parts that grow with a number, 209 crystal cycles a step of PA or 123/16 a pulse of a triangle, are
-//         taken off the count as soon as it can spare them, one portion a clk: that never lags behind the count.
+// Timing: times start at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i with
+//         last_i. The event that a time releases occurs one cycle after the nominal time.
+// How:    the parts of a time that grow with a number are 209 crystal cycles for each step of PA, or 123/16
+//         for each pulse of a triangular profile. They are subtracted from the count in portions, one portion
+//         a cycle, as soon as the count is large enough. This always keeps up with the count. PA arrives one
+//         cycle late, on the wires of the pulses, which is early enough for the first portion.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,33 +15,33 @@ module ppmc_pace_motion #(
     parameter int unsigned ClkHz = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000,
     parameter int unsigned StepsMin = 4,  // smallest PA
-    parameter int unsigned StepsMax = 11_220,
-    parameter bit RampTimes = 1'b1  // a stop in a ramp and the start of one without a plateau take longer
+    parameter int unsigned StepsMax = 11_220,  // largest PA
+    parameter bit RampTimes = 1'b1  // 1: a stop in a ramp and the start of a triangular profile take longer
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        init_i,      // an initialisation is taken
-    input  wire logic        start_i,     // an operation is taken
-    input  wire logic        triangle_i,  // with start_i: its ramp has no plateau
-    input  wire logic [15:0] number_i,    // with start_i: its pulses, minus 1; a clk after init_i: its PA
+    input  wire logic        init_i,      // an initialisation is accepted
+    input  wire logic        start_i,     // an operation is accepted
+    input  wire logic        triangle_i,  // with start_i: the profile is triangular (no plateau)
+    input  wire logic [15:0] number_i,    // with start_i: pulses minus 1; one cycle after init_i: PA
     input  wire logic        ramp_i,      // the running operation has a ramp
-    input  wire logic        single_i,    // is a single step
-    input  wire logic        stop_i,      // immediate end decided at the coming edge
-    input  wire logic        pulse_i,     // pulse event at the coming edge
-    input  wire logic        last_i,      // with pulse_i: the last one
-    input  wire logic        final_i,     // with pulse_i: and the count is complete
+    input  wire logic        single_i,    // the running operation is a single step
+    input  wire logic        stop_i,      // immediate end decided at the next edge
+    input  wire logic        pulse_i,     // pulse event at the next edge
+    input  wire logic        last_i,      // with pulse_i: last pulse
+    input  wire logic        final_i,     // with pulse_i: the count is complete
     output logic             ready_o,     // initialisation complete
-    output logic             go_o,        // pulse 1 may come; not before the operation runs
+    output logic             go_o,        // pulse 1 may occur; only valid while the operation runs
     output logic             linger_o,    // the motion must not end yet
-    output logic             closed_o     // because of its end no byte may be taken
+    output logic             closed_o     // no byte may be accepted, because the motion ends
 );
 
-  // Crystal cycles.
+  // In crystal cycles.
   localparam int unsigned INIT_BASE = 264_000;
   localparam int unsigned INIT_STEP = 209;
-  localparam int unsigned PULSE = 7;  // whole crystal cycles a pulse of a triangle
-  localparam int unsigned PULSE_PART = 11;  // sixteenths of one
-  // 16 crystal cycles, microseconds at 16 MHz.
+  localparam int unsigned PULSE = 7;  // for each pulse of a triangular profile, whole crystal cycles
+  localparam int unsigned PULSE_PART = 11;  // for each pulse of a triangular profile, 1/16 crystal cycles
+  // In units of 16 crystal cycles, which are microseconds at 16 MHz.
   localparam logic [7:0] FIRST_CONSTANT = 8'd194;
   localparam logic [7:0] FIRST_RAMP = 8'd200;
   localparam logic [7:0] FIRST_SINGLE = 8'd86;
@@ -63,16 +64,16 @@ module ppmc_pace_motion #(
 
   (* fsm_encoding = "none" *)
   state_e state_q;
-  logic slow_q, brief_q;  // of an end: END_RAMP; no StClosed
-  logic last_q;  // the count starts in this clk: with the change of the pins
-  logic init_q;  // a clk after init_i
+  logic slow_q, brief_q;  // the end uses END_RAMP; the end has no StClosed
+  logic last_q;  // the count starts in this cycle, with the change of the pins
+  logic init_q;  // init_i, one cycle later
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
   logic [CountBits-1:0] count_q, amount;
   logic [7:0] limit;
   logic unused_bits;
-  logic [StoreBits:0] store_q;  // portions to take off, minus 1; negative: none
-  logic [3:0] part_q;  // sixteenths
+  logic [StoreBits:0] store_q;  // portions left to subtract, minus 1; negative: no portion
+  logic [3:0] part_q;  // sixteenths of a crystal cycle
 
   assign unused_bits = &{1'b0, number_i};
 
@@ -137,11 +138,12 @@ module ppmc_pace_motion #(
     if (more) past = 1'b0;
   end
 
-  // Beyond all times but that of an initialisation: pulse 1 may have to wait for a clock without end.
+  // All times except that of an initialisation have passed: pulse 1 may have to wait for a clock
+  // indefinitely.
   assign full = count_q[12] && state_q != StInit;
 
   assign more    = !store_q[StoreBits];
-  assign portion = more && count_q[8];  // the count does not get to 512 as long as there are more
+  assign portion = more && count_q[8];  // the count stays below 512 as long as portions are left
 
   logic [4:0] part;
 

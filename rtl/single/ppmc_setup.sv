@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_setup: what the initialisation sets in a part with one axis, but for the ramp (ppmc_ramp_table).
+// ppmc_setup: settings of the initialisation in a single-axis device, except the ramp (ppmc_ramp_table).
 // Rules:  P104-INI-01/05/06/08, P104-PHS-02/05; STMC-INI-04/06, STMC-CHP-02.
-// Timing: everything changes at the edge that ends the cycle of its action.
+// Timing: all outputs change at the edge that ends the cycle of the input that causes the change.
 `default_nettype none
 
 module ppmc_setup
@@ -12,12 +12,12 @@ module ppmc_setup
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
     input  wire logic       init_i,        // initialisation accepted
-    input  wire init_code_t code_i,        // with init_i
-    input  wire logic       home_i,        // phases go to index 0 for the first time
-    input  wire logic       positive_i,    // with home_i
+    input  wire init_code_t code_i,        // initialisation code, with init_i
+    input  wire logic       home_i,        // the phases are set to index 0 for the first time
+    input  wire logic       positive_i,    // 1: high = energised, with home_i
     input  wire logic       ready_i,       // the initialisation is complete
-    input  wire logic       off_i,         // back to not initialised
-    output setup_t          setup_o,       // what is set
+    input  wire logic       off_i,         // return to the state before an initialisation
+    output setup_t          setup_o,       // active settings
     output logic            initialised_o  // operations may start
 );
 
@@ -27,7 +27,7 @@ module ppmc_setup
   assign unused_bits = &{1'b0, code_i};
   assign first = init_i && !initialised_o;
 
-  // What is frozen until Excitation OFF is taken from the first initialisation only.
+  // Settings that are frozen until Excitation OFF are loaded only by the first initialisation.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       setup_o.external <= 1'b0;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_single: all that the parts with one axis (PPMC-104BFP, J105 STMC) have in common, from host port to motor
-// pins. What differs comes in by parameters and by the meaning of the bytes, which the part works out itself.
+// ppmc_single: common core of the single-axis devices (PPMC-104BFP, J105 STMC), from host port to motor pins.
+//         The devices differ in their parameters and in the meaning of the bytes, which they decode
+//         outside this block.
 // Rules:  those of its blocks.
-// Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
-//         one clk later. meaning_i and verdict_i are combinational from sent_o and asked_o.
+// Timing: a command acts 4 cycles after the rising edge of clk_i that first samples the end of its write;
+//         motor pins follow one cycle later.
+// Assumes: meaning_i and verdict_i are combinational functions of sent_o and asked_o.
 `default_nettype none
 
 module ppmc_single
@@ -14,45 +16,45 @@ module ppmc_single
 #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
-    parameter bit          Datasheet = 1'b0,        // with the old chip's processing times
+    parameter bit          Datasheet = 1'b0,        // 1: with the processing times of the old chip
     parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
-    parameter traits_t     Traits                   // of the part
+    parameter traits_t     Traits                   // configuration of the device
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    // host bus: pins of the part
-    input  wire logic             cs_ni,          // the part is addressed
+    // host bus: pins of the device
+    input  wire logic             cs_ni,          // chip select
     input  wire logic             rd_ni,          // read strobe
     input  wire logic             wr_ni,          // write strobe
     input  wire logic             a0_i,           // 0 data, 1 status or command
-    input  wire logic      [ 7:0] d_i,            // what the host writes
-    output logic           [ 7:0] d_o,            // what it reads
-    output logic                  d_oe_o,         // it is reading
+    input  wire logic      [ 7:0] d_i,            // data written by the host
+    output logic           [ 7:0] d_o,            // data read by the host
+    output logic                  d_oe_o,         // the host is reading: drive d_o
     output logic                  int_no,         // L: a motion has ended
-    // meaning of the bytes, worked out by the part
-    output sent_t                 sent_o,         // the byte at hand
-    input  wire meaning_t         meaning_i,      // what it means
-    output asked_t                asked_o,        // what the host asks for with it
-    input  wire verdict_t         verdict_i,      // whether that is right
-    input  wire logic             stops_only_i,   // stop commands alone may be taken
-    // what happens
-    output action_t               act_o,          // takes effect at the coming edge
-    output logic           [31:0] params_late_o,  // parameters that act_o belongs to
+    // meaning of the bytes, decoded by the device
+    output sent_t                 sent_o,         // current byte of the host
+    input  wire meaning_t         meaning_i,      // meaning of the current byte
+    output asked_t                asked_o,        // command requested with the current byte
+    input  wire verdict_t         verdict_i,      // result of the check of asked_o
+    input  wire logic             stops_only_i,   // only stop commands may be accepted
+    // actions
+    output action_t               act_o,          // actions that take effect at the next edge
+    output logic           [31:0] params_late_o,  // parameters of act_o
     input  wire base_t            base_i,         // base clock of the next operation
-    output setup_t                setup_o,        // what the initialisation has set
+    output setup_t                setup_o,        // settings of the initialisation
     // motion
     input  wire logic             clock_pin_i,    // external base clock, asynchronous
     input  wire switches_t        switches_i,     // synchronous levels
-    input  wire logic             slow_i,         // act on a slow-down limit; slow_seen_o, or later
-    output logic                  slow_seen_o,    // a slow-down limit is seen that counts
-    output motion_t               motion_o,       // how the motion stands
-    output logic           [ 7:0] rate_o,         // rate of its running interval
-    // answers
+    input  wire logic             slow_i,         // act on a slow-down limit: slow_seen_o, or later
+    output logic                  slow_seen_o,    // an effective slow-down limit is active
+    output motion_t               motion_o,       // state of the motion
+    output logic           [ 7:0] rate_o,         // rate of the running interval
+    // read data
     input  wire logic      [ 7:0] inputs_i,       // levels of the inputs as the host reads them
     input  wire logic      [ 3:0] auxi_i,         // auxiliary inputs
     // motor
-    input  wire chop_t            chop_i,         // times of the chopper at rest
-    output motor_t                motor_o         // its pins
+    input  wire chop_t            chop_i,         // times of the chopper at standstill
+    output motor_t                motor_o         // motor pins
 );
 
   // ---- host ----------------------------------------------------------------------------------------
@@ -61,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] judgement;
   logic [23:0] answer, remaining;
-  action_t act_taken;  // what a byte asks for at its C-event; act_o: when it happens
+  action_t act_taken;  // actions requested at the C-event; act_o: when they take effect
 
   assign sent_o.left = judgement[2:0];
 
@@ -119,7 +121,7 @@ module ppmc_single
   logic [Traits.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
-  assign op_code     = op_code_t'(code_late);  // a code, read as one or as the other
+  assign op_code     = op_code_t'(code_late);  // code_late as code of an operation or an initialisation
   assign init_late   = init_code_t'(code_late);
   assign unused_bits = &{1'b0, op_code, init_late, chop_i, verdict_i};
 
@@ -260,7 +262,7 @@ module ppmc_single
       .linger_o     (linger)
   );
 
-  // ---- end of a motion, answers, pins --------------------------------------------------------------
+  // ---- end of a motion, read data, pins ------------------------------------------------------------
 
   ppmc_finish #(
       .Fresh(!Traits.stmc_ends)

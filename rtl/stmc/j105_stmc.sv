@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// j105_stmc: the PC/104 board J105 STMC: a stmc on an 8-bit ISA bus, with its second step clock and the outputs to
-// the driver on the board.
-// Rules:  J105-01..08; of the controller all STMC rules. Manual: docs/stmc/README.md.
-// Timing: that of stmc at its pins; irq follows int_n by one clk, drv is s.
+// j105_stmc: PC/104 board J105 STMC: one stmc on an 8-bit ISA bus, the step clock of the board (the external
+// step clock of stmc) and the outputs to the driver on the board.
+// Rules:  J105-01..08; all STMC rules apply to the controller. Manual: docs/stmc/README.md.
+// Timing: that of stmc at its pins. irq follows int_n by one cycle; drv has no delay from s.
 `default_nettype none
 
 module j105_stmc #(
-    parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
-    parameter              TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
+    parameter int unsigned CLK_HZ      = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old device in Hz, 1e6 .. 20e6
+    parameter              TIMING      = "FAST",      // or "DATASHEET": processing times of the PPMC-104
     parameter              READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
-    parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
-    parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper, crystal periods
-    parameter int unsigned CHOP_OFF_XT = 1_740,       // off time of the chopper, crystal periods
+    parameter int unsigned HOLD_XT     = 544_000,     // hold delay in crystal periods
+    parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper in crystal periods
+    parameter int unsigned CHOP_OFF_XT = 1_740,       // off time of the chopper in crystal periods
     parameter int unsigned BASE_ADDR   = 'h3B0,       // address of the data register, even
-    parameter int unsigned EXT_HZ      = 48_675       // "external" step clock, 1 .. CLK_HZ / 4
+    parameter int unsigned EXT_HZ      = 48_675       // external step clock in Hz, 1 .. CLK_HZ / 4
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -26,8 +26,8 @@ module j105_stmc #(
     input  wire logic [7:0] sd_i,
     output logic      [7:0] sd_o,
     output logic            sd_oe,
-    output logic            irq,    // 1 = a motion has ended
-    // switches, L = active
+    output logic            irq,    // high: a motion has ended
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
@@ -36,7 +36,7 @@ module j105_stmc #(
     input  wire logic       mon,
     // motor
     output logic      [5:1] s,
-    output logic      [4:1] drv,    // 1 = winding on
+    output logic      [4:1] drv,    // high: winding on
     output logic            hold
 );
 
@@ -53,7 +53,7 @@ module j105_stmc #(
       .rst_no(rst)
   );
 
-  // Half a period of the wave counts as one "crystal" cycle.
+  // ppmc_square counts half a period of the wave as one cycle of a virtual crystal.
   ppmc_square #(
       .ClkHz   (CLK_HZ),
       .XtalHz  (2 * EXT_HZ),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc: single-axis stepper controller without pulse output, a replacement for the controller of the J105 STMC.
-// Rules:  STMC section 1 and, through its blocks, all other STMC rules. Manual: docs/stmc/README.md.
-// Timing: a command acts 4 clk after the clk edge that first samples the end of its write; motor pins follow
-//         one clk later.
+// stmc: single-axis stepper controller without pulse output; replaces the controller of the J105 STMC.
+// Rules:  STMC section 1; its blocks implement all other STMC rules. Manual: docs/stmc/README.md.
+// Timing: a command takes effect 4 cycles after the rising edge that first samples the end of its write.
+//         Motor pins follow one cycle later.
 `default_nettype none
 
 module stmc
@@ -11,34 +11,34 @@ module stmc
   import ppmc_motion_pkg::*;
   import ppmc_single_pkg::*;
 #(
-    parameter int unsigned CLK_HZ      = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
-    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old part in Hz, 1e6 .. 20e6
-    parameter              TIMING      = "FAST",      // or "DATASHEET": with borrowed processing times
+    parameter int unsigned CLK_HZ      = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6
+    parameter int unsigned XTAL_HZ     = 16_000_000,  // crystal of the old device in Hz, 1e6 .. 20e6
+    parameter              TIMING      = "FAST",      // or "DATASHEET": processing times of the PPMC-104
     parameter              READ_MAP    = "FAMILY",    // read codes 80 .. 83; "SHEET": 80, 82, 83, 84
     parameter bit          PHASE_IDLE  = 1'b0,        // level of s until the first initialisation
-    parameter int unsigned HOLD_XT     = 544_000,     // hold delay, crystal periods
-    parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper, crystal periods
-    parameter int unsigned CHOP_OFF_XT = 1_740        // off time of the chopper, crystal periods
+    parameter int unsigned HOLD_XT     = 544_000,     // hold delay in crystal periods
+    parameter int unsigned CHOP_ON_XT  = 1_040,       // on time of the chopper in crystal periods
+    parameter int unsigned CHOP_OFF_XT = 1_740        // off time of the chopper in crystal periods
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     input  wire logic       ext_clk,  // external step clock, rising edges
     // host bus
     input  wire logic       cs_n,
-    input  wire logic       a0,       // 0 data, 1 status or command
+    input  wire logic       a0,       // 0: data, 1: status or command
     input  wire logic       rd_n,
     input  wire logic       wr_n,
     input  wire logic [7:0] d_i,
     output logic      [7:0] d_o,
     output logic            d_oe,
-    output logic            int_n,    // L: a motion has ended
-    // switches, L = active
+    output logic            int_n,    // low: a motion has ended
+    // switches, active low
     input  wire logic       l1_n,     // cw limit
     input  wire logic       l2_n,     // ccw limit
     input  wire logic       l3_n,     // cw deceleration limit
     input  wire logic       l4_n,     // ccw deceleration limit
     input  wire logic       cnp_n,    // reference point
-    input  wire logic       mon,      // L: the motor must not run
+    input  wire logic       mon,      // low: the motor must not run
     // motor
     output logic      [5:1] s,
     output logic            hold
@@ -61,7 +61,7 @@ module stmc
   end
 
   localparam bit Sheet = 128'(READ_MAP) == "SHEET";
-  // A quantum lasts at least two clk. Times of the chopper that are no multiple of it are rounded up.
+  // A quantum lasts at least two cycles. Chopper times that are not a multiple of it are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
   localparam int unsigned HoldRest = ppmc_pkg::cyc(
@@ -107,7 +107,7 @@ module stmc
     switches.alarm     = !mon_s;
   end
 
-  // ---- meaning of the bytes, everything else -------------------------------------------------------
+  // ---- decoding of the bytes, shared single-axis core ----------------------------------------------
 
   localparam traits_t Traits = '{
       step_bits: STEP_BITS,

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc_carrier: everything of a board with the controller of the J105 STMC but its clock generator and pads: the part,
-//         its second step clock, and as its host either the UART bridge or the pins of its bus.
-// Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": section 1.3 of the STMC rules;
-//         step clock: J105-06. Wiring: docs/boards.md.
-// Timing: of stmc; the inputs need no synchroniser outside.
+// stmc_carrier: board with the controller of the J105 STMC, without clock generator and pads: stmc, its
+//         external step clock, and as host interface either the UART bridge or the bus pins of stmc.
+// Rules:  HOST = "UART": docs/uart_bridge.md, no straps, alarm = MON; HOST = "BUS": section 1.3 of the STMC
+//         rules; step clock: J105-06. Wiring: docs/boards.md.
+// Timing: that of stmc; with RECORD != 0 switches act 2 cycles later. Inputs need no external synchroniser.
 `default_nettype none
 
 module stmc_carrier #(
-    parameter int unsigned CLK_HZ     = 24_000_000,  // 8e6 .. 200e6
+    parameter int unsigned CLK_HZ     = 24_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
     parameter              READ_MAP   = "FAMILY",    // or "SHEET"
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned EXT_HZ     = 48_675,      // "external" step clock
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
+    parameter int unsigned EXT_HZ     = 48_675,      // external step clock in Hz
     parameter              HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       rd_n,
@@ -31,18 +31,18 @@ module stmc_carrier #(
     output logic      [7:0] d_o,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
     input  wire logic       l4_n,
     input  wire logic       cnp_n,
-    input  wire logic       mon,         // 1 = the motor may run
+    input  wire logic       mon,         // high: the motor may run
     // motor
     output logic      [5:1] s,
     output logic            hold,
-    // lamps, 1 = on
-    output logic            led_link,    // a script is running or an answer is on its way
+    // LEDs, high: on
+    output logic            led_link,    // a script is running or an answer is pending
     output logic            led_moving,
     output logic            led_switch   // a limit is active, or MON is low
 );
@@ -52,7 +52,7 @@ module stmc_carrier #(
   logic part_oe;
   logic [7:0] part_d, straps;
 
-  // What the part sees of the pins, and everything that is recorded of it, first pin in the low bits.
+  // Input pins as the device receives them, and all recorded levels; the first pin is in the low bits.
   localparam int unsigned Watch = 36;
   logic in_l1_n, in_l2_n, in_l3_n, in_l4_n, in_cnp_n, in_mon;
   logic [Watch-1:0] watch;
@@ -73,14 +73,14 @@ module stmc_carrier #(
     {part_d, part_wr_n, part_rd_n, part_a0, part_cs_n, ext_clk, part_rst_n}
   };
 
-  // The step clock goes on when only the part is reset.
+  // The step clock keeps running when only the device is reset.
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
       .rst_no(ext_rst_n)
   );
 
-  // Half a period of the wave counts as one "crystal" cycle.
+  // ppmc_square counts half a period of the wave as one cycle of a virtual crystal.
   ppmc_square #(
       .ClkHz   (CLK_HZ),
       .XtalHz  (2 * EXT_HZ),
@@ -91,7 +91,7 @@ module stmc_carrier #(
       .wave_o(ext_wave)
   );
 
-  // With a recorder strap 0 can stop it: its edges would fill the memory.
+  // With a recorder, strap 0 can stop the step clock, because its edges would fill the memory.
   assign ext_clk = ext_wave && (straps[0] || RECORD == 0);
 
   stmc #(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// stmc_pkg: codes and limits of the J105 STMC; what makes this part differ from its sisters.
+// stmc_pkg: codes, limits and functions specific to the J105 STMC.
 // Rules:  STMC section 3.0, STMC-INI-02, STMC-MOT-03, STMC-MOV-04, STMC-BAD-05/07.
-// Rates:  the core counts rate + 1 base clocks where this part's hosts send a divisor, so a divisor is kept less
-//         one: 0 .. 254, and a divisor of 0 as 255.
+// Rates:  hosts of this device send a divisor; the core counts rate + 1 base clocks. Therefore a divisor is
+//         stored minus 1: 0 .. 254; a divisor of 0 is stored as 255.
 `default_nettype none
 
 package stmc_pkg;
@@ -17,11 +17,12 @@ package stmc_pkg;
   localparam int unsigned STEP_BITS = 32'd16;
 
   localparam int unsigned STEPS_MAX = 32'd65_535;  // acceleration steps PA
-  localparam logic [RATE_BITS-1:0] RATE_NONE = '1;  // divisor 0
+  localparam logic [RATE_BITS-1:0] RATE_NONE = '1;  // stored form of divisor 0
 
-  localparam int unsigned STEP_XTAL = 1_280;  // crystal cycles a period of the internal step clock
+  localparam int unsigned STEP_XTAL = 1_280;  // crystal periods in a period of the internal step clock
 
-  // What a read command shows. The sheet's headings count 0, 2, 3, 4; the sister parts 0, 1, 2, 3.
+  // Data that a read command selects. The headings of the data sheet count 0, 2, 3, 4, related devices
+  // 0, 1, 2, 3.
   function automatic logic [2:0] selected(logic sheet, logic [2:0] number);
     return (sheet && number != 3'd0) ? number - 3'd1 : number;
   endfunction
@@ -43,14 +44,14 @@ package stmc_pkg;
     return d;
   endfunction
 
-  // Whether a data byte is a divisor. operation: data of operation number op, else of an initialisation; left: data
-  // bytes to come, this one included.
+  // Returns 1 if a data byte is a divisor. operation: the data belong to operation number op, otherwise to an
+  // initialisation; left: outstanding data bytes, this one included.
   function automatic logic is_divisor(logic operation, logic [2:0] op, logic [2:0] left);
     if (operation) return op inside {OP_CONT_CONSTANT, OP_ORIGIN} || (op == OP_CONSTANT && left == 3'd4);
     return left inside {3'd3, 3'd4};
   endfunction
 
-  // What is wrong with complete data, of which the first, second and last byte may be divisors.
+  // Returns the error number of complete data. The first, second and last byte may be divisors.
   function automatic error_e judge(logic operation, logic [2:0] op, logic [7:0] first, logic [7:0] second,
                                    logic [7:0] final_one);
     logic bad;
@@ -63,7 +64,7 @@ package stmc_pkg;
     return bad ? ErrRates : ErrUndefined;
   endfunction
 
-  // Data of an initialisation for the core: without a ramp there is one rate and no acceleration step.
+  // Data of an initialisation for the core: without a ramp there are one rate and no acceleration steps.
   function automatic logic [31:0] levelled(logic [31:0] data);
     logic [31:0] out;
     out = data;

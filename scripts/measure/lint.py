@@ -25,7 +25,7 @@ from rich.markup import escape
 from cocotb_tests.harness import header, project
 from cocotb_tests.harness.project import ProjectError, console, relative
 from openppmc.parts import Row, tops
-from openppmc.sim.common import verilator as start
+from openppmc.sim.common.build import verilator_command, verilator_environment
 from openppmc.sources import needed, walls
 from scripts.fpga.flow.boards import HOSTS_OF, parameters
 from scripts.fpga.flow.boards import sources as board_sources
@@ -126,7 +126,7 @@ def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
     for name, value in params.items():
         words.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
     words += ["lint/verilator.vlt", "lint/verilator_newer.vlt", *(relative(path) for path in files)]
-    text = tool(*start.command(words, project.ROOT), env=start.environment(project.ROOT))
+    text = tool(*verilator_command(words, project.ROOT), env=verilator_environment(project.ROOT))
     # What begins with a dash is statistics.
     return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
 

@@ -17,7 +17,7 @@ from cocotb_tests.harness.part import BusStyle
 from cocotb_tests.harness.project import ProjectError, run
 from openppmc.capture.common.words import Words
 from openppmc.parts import PARTS
-from openppmc.sim.common.verilator import SimError
+from openppmc.sim.common.build import SimError
 from scripts.site import wasm
 from scripts.site.progress import say
 from scripts.site.sessions import sessions

@@ -21,7 +21,13 @@ from pathlib import Path
 from cocotb_tests.harness.build import locked, part_design
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative, run
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import (
+    SimError,
+    package,
+    verilator_command,
+    verilator_environment,
+    verilator_version,
+)
 from scripts.fpga.flow.plain_sim import assigned_cpp, word_cpp, words
 from scripts.site.webparts import WEB_PARTS, WebPart
 
@@ -88,7 +94,7 @@ def pins_h(part: WebPart) -> str:
 
 def _run(command: list[str], folder: Path, log: Path) -> None:
     """ProjectError names the log when a tool fails."""
-    env = {**verilator.environment(folder), "ZIG_GLOBAL_CACHE_DIR": str(OUT / "zig")}
+    env = {**verilator_environment(folder), "ZIG_GLOBAL_CACHE_DIR": str(OUT / "zig")}
     with log.open("a", encoding="utf-8") as sink:
         done = subprocess.run(
             command, cwd=folder, env=env, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink, check=False
@@ -106,10 +112,10 @@ def _digest(*what: object) -> str:
 
 def _includes() -> Path:
     """A copy of Verilator's headers and sources for a system without /proc."""
-    home = verilator.package()
+    home = package()
     if home is None:
         raise ProjectError("the Python package 'verilator' is not installed: run `make setup`")
-    folder = OUT / "objects" / f"include-{verilator.version()}"
+    folder = OUT / "objects" / f"include-{verilator_version()}"
     if not folder.is_dir():
         work = folder.with_suffix(".part")
         shutil.rmtree(work, ignore_errors=True)
@@ -163,7 +169,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     board = [BOARD / file for file in ("plant.h", "plant.cpp", "steps.h")]
     headers = [path for folder in design.includes for path in sorted((ROOT / folder).glob("*.svh"))]
     sources = [*(ROOT / source for source in design.sources), *bound]
-    version = verilator.version()
+    version = verilator_version()
     what = [
         *sources,
         *headers,
@@ -199,7 +205,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     arguments = [*VERILATE.split(), "--top-module", design.top, "--Mdir", ".", *given]
     arguments += [f"-I{ROOT / folder}" for folder in design.includes]
     log = work / "build.log"
-    _run(verilator.command([*arguments, *map(str, sources)], work), work, log)
+    _run(verilator_command([*arguments, *map(str, sources)], work), work, log)
     made = [*work.glob("Vpart*.cpp"), *CORE.glob("*.cpp"), BOARD / "plant.cpp"]
     own = [(path, work / path.with_suffix(".o").name) for path in made]
     _compile(own, [work, CORE, BOARD, *vltstd], work, native)
@@ -231,7 +237,7 @@ def main(arguments: list[str]) -> int:
             print(f"{name}: {size / 1024:.0f} KB, {small / 1024:.0f} KB packed")
             if small > MOST:
                 raise ProjectError(f"{name}: more than {MOST // 1024} KB packed")
-    except (ProjectError, verilator.SimError, KeyError) as error:
+    except (ProjectError, SimError, KeyError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     return 0

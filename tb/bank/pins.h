@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pins of ppmc_bank_carrier for the virtual board; BOARD_AXES is its parameter AXES.
+// Pins of ppmc_bank_carrier for the virtual board; BOARD_AXES is its parameter AXES.
 #pragma once
 
 #include <type_traits>
@@ -32,7 +32,7 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
     bits(top.alm_n, &Plant::alm);
 }
 
-// Five bits an axis; Verilator has a number for up to 64 bits, and 32-bit words for more.
+// Five bits per axis. Verilator uses one number for up to 64 bits, and 32-bit words for more.
 template <class Port>
 unsigned five_bits(const Port& port, unsigned from) {
     if constexpr (std::is_integral_v<Port>) {

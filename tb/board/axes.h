@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pins.h of several parts share. A pins.h (tb/<part>/) tells the virtual board the ports of its carrier by
-// axis; ports of two axes are one number, bit 0 = axis 1. It has kAxes and kAllAxes, motion_pins, Motors, idle_inputs,
-// set_switches, phases, encoder_low, encoder_pulse and interrupt.
+// Definitions for the pins.h of several parts. A pins.h (tb/<part>/) connects the virtual board to the ports
+// of its carrier, by axis; ports of two axes are one number, bit 0 = axis 1. It defines kAxes and kAllAxes,
+// motion_pins, Motors, idle_inputs, set_switches, phases, encoder_low, encoder_pulse and interrupt.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 #include "Vboard.h"
 #include "plant.h"
 
-using AxisBits = uint64_t;  // a bit an axis, bit 0 = axis 1
+using AxisBits = uint64_t;  // one bit per axis, bit 0 = axis 1
 
-// Motors that step with the falling edges of POUT*, one an axis.
+// Motors that step with the falling edges of POUT*, one per axis.
 class PulseMotors {
    public:
-    // Between two motion_pins(): the axes whose motors step; ccw() tells which way.
+    // Return the axes whose motors step between two motion_pins(); ccw() returns the direction.
     AxisBits steps(AxisBits before, AxisBits now) { return before & ~now; }
     template <class Top>
     bool ccw(const Top& top, unsigned axis) const {
@@ -22,7 +22,7 @@ class PulseMotors {
     }
 };
 
-// The five switches of the parts with one axis on a byte bus; the alarm is the part's.
+// The five switches of the parts with one axis on a byte bus; the part sets the alarm.
 template <class Top>
 void set_limits(Top& top, const Plant& plant) {
     top.l1_n = !plant.l1;

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 namespace {
-constexpr size_t kQueue = 256;      // bytes taken from the host ahead of the line, as a USB adapter would
-constexpr uint64_t kSlices = 8000;  // a second
-constexpr uint64_t kRestSeconds = 2;  // longer than any timer of part and bridge that runs while both rest
+constexpr size_t kQueue = 256;      // bytes accepted from the host ahead of the line, as in a USB adapter
+constexpr uint64_t kSlices = 8000;  // per second
+constexpr uint64_t kRestSeconds = 2;  // longer than any timer that runs while part and bridge are idle
 }  // namespace
 
 Board::Board(const Options& options, uint64_t clk_hz)
@@ -74,7 +74,7 @@ void Board::simulate(uint64_t end) {
     now_ = now;
 }
 
-// The only work between two clk edges that is not the DUT's: something has changed at the UART or at the pins that the
+// The only work between two clock edges apart from the DUT: a change at the UART or at the pins that the
 // motors follow.
 void Board::change() {
     Vboard& top = dut_.top;
@@ -100,7 +100,7 @@ void Board::change() {
     set_switches(top, plants_);
 }
 
-// Between two slices: bytes from and to the host, and whether anything is going on at all.
+// Between two slices: transfer bytes from and to the host, and check whether there is any activity.
 void Board::serve() {
     const Vboard& top = dut_.top;
     bytes_.clear();
@@ -122,19 +122,21 @@ void Board::serve() {
     }
 }
 
-// The part rests, its timers have ended, the link is silent: simulating more clk would change no output that counts.
+// The part is idle, its timers have ended and the link is silent: simulating more cycles would change no
+// relevant output.
 void Board::doze(int wake_fd) {
     if (!dozing_ && log_) std::fflush(log_);
     dozing_ = true;
     const int64_t begin = Pace::wall();
-    // A closed pseudo-terminal would end poll() at once; look again soon instead.
+    // With a closed pseudo-terminal, poll() would return immediately; therefore poll again after a short
+    // time.
     pollfd fds[2] = {{pty_.open() ? pty_.fd() : -1, POLLIN, 0}, {wake_fd, POLLIN, 0}};
     poll(fds, 2, pty_.open() ? 250 : 20);
     now_ += pace_.clk_in(Pace::wall() - begin);
     busy_until_ = now_;
 }
 
-// Opens and closes the waveform file at the ends of its window.
+// Open and close the waveform file at the ends of its window.
 void Board::trace_window() {
 #if VM_TRACE
     const bool wanted = now_ >= trace_from_ && now_ < trace_end_;
@@ -156,7 +158,7 @@ std::string Board::status() const {
     for (unsigned n = 0; n < kAxes; ++n) {
         const Plant& plant = plants_[n];
         const unsigned s = phases(top, n);
-        // Words of axis 2 end in 2, as those of the options.
+        // Names of axis 2 end in 2, as in the options.
         const std::string suffix = n ? std::to_string(n + 1) : "";
         const char* of = suffix.c_str();
         std::snprintf(line, sizeof line,

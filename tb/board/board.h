@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board: DUT, UART, plant and pace put together.
+// The virtual board: connects DUT, UART, plant and pace.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,12 @@ class Board {
 
     const std::string& port() const { return pty_.path(); }
 
-    // Simulates a slice of board time (1/8 ms) and serves the host; sleeps as the pace asks. While nothing can
-    // happen before the host speaks, it waits instead: for it, for `wake_fd` (-1: none), or for 1/4 s.
+    // Simulate a slice of board time (1/8 ms) and serve the host; sleep to keep the pace. While nothing can
+    // happen without a character from the host, wait for the host, for `wake_fd` (-1: not used), or for 1/4
+    // s.
     void run(int wake_fd);
 
-    // "name=value name=value …": see docs/virtual_board.md.
+    // Return "name=value name=value …": see docs/virtual_board.md.
     std::string status() const;
 
    private:
@@ -44,11 +45,11 @@ class Board {
     Uart uart_;
     Pace pace_;
 
-    uint64_t now_ = 0;       // number of the next clk edge
+    uint64_t now_ = 0;       // number of the next clock edge
     uint64_t wake_ = 0;      // next() of the UART
-    uint64_t busy_until_ = 0;  // no doze before this clk
+    uint64_t busy_until_ = 0;  // no doze before this cycle
     bool txd_ = true;
-    AxisBits motion_ = 0;  // motion_pins() as of the last change
+    AxisBits motion_ = 0;  // motion_pins() at the last change
     Motors motors_;
     bool dozing_ = false;
     uint64_t trace_from_ = 0, trace_end_ = 0;

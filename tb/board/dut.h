@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Verilated board, one clk at a time, and its waveforms in the build that can record them.
+// The Verilated board, simulated one cycle at a time, and its waveforms in the build that can record them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 class Dut {
    public:
-    // idle: sets the inputs before the first reset.
+    // idle: function that sets the inputs before the first reset.
     template <class Idle>
     explicit Dut(Idle idle) {
 #if VM_TRACE
@@ -25,7 +25,7 @@ class Dut {
         top.clk = 0;
         top.uart_rxd = 1;
         idle(top);
-        // Reset asserts with an edge: flip-flops that miss it would keep their first values.
+        // Reset needs a falling edge of rst_n: without one, flip-flops would keep their initial values.
         top.rst_n = 1;
         top.eval();
         top.rst_n = 0;
@@ -33,7 +33,7 @@ class Dut {
         top.rst_n = 1;
     }
 
-    // One rising edge of clk; outputs are those after it.
+    // Simulate one rising edge of the clock; outputs are those after the edge.
     void tick() {
         top.clk = 1;
         top.eval();
@@ -41,14 +41,14 @@ class Dut {
     }
 
 #if VM_TRACE
-    // From now on tick_traced() records into `path`.
+    // Record into `path` with each following tick_traced().
     void open_trace(const std::string& path) {
         trace_ = std::make_unique<VerilatedVcdC>();
         top.trace(trace_.get(), 99);
         trace_->open(path.c_str());
         if (!trace_->isOpen()) throw std::runtime_error("cannot write " + path);
     }
-    // tick() with both edges recorded; times in ps.
+    // Like tick(), with both edges recorded; times in ps.
     void tick_traced(uint64_t at, uint64_t fall) {
         top.clk = 1;
         top.eval();
@@ -74,9 +74,9 @@ class Dut {
     std::unique_ptr<VerilatedVcdC> trace_;
 #endif
 
-    // All flip-flops work on the rising edge, so a falling one has nothing to do but to remember that clk was low.
-    // Writing that down ourselves saves the evaluation (a sixth of the run time). Where a Verilator calls the
-    // variable something else, the falling edge is evaluated.
+    // All flip-flops use the rising edge, so that a falling edge only has to store that the clock was low. Writing
+    // this variable directly saves the evaluation (a sixth of the run time). If a Verilator version uses
+    // another name for the variable, the falling edge is evaluated.
     template <class Root>
     auto rearm(Root& root, int) -> decltype(root.__Vtrigprevexpr___TOP__clk__0, void()) {
         root.__Vtrigprevexpr___TOP__clk__0 = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual board as a program. Says on standard output "port PATH" first, or "error TEXT" and ends; then answers
-// each line "status" on standard input. It ends with its standard input, so it never outlives the one who started it.
+// The virtual board as a program. It first prints "port PATH" on standard output, or "error TEXT" and ends.
+// Then it answers each line "status" on standard input. It ends with its standard input, so it never outlives
+// its parent process.
 #include <csignal>
 #include <exception>
 #include <memory>
@@ -21,7 +22,7 @@ volatile std::sig_atomic_t stop = 0;
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Ctrl-C in a terminal is meant for the host program, which may have to stop a motor through this board.
+    // Ctrl-C in a terminal is for the host program, which may have to stop a motor through this board.
     const bool by_hand = isatty(STDIN_FILENO);
     const auto end = [](int) { stop = 1; };
     std::signal(SIGINT, by_hand ? end : SIG_IGN);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments name=value of the virtual board. openppmc.sim checks them for the user; here mistakes only end the program.
+// Arguments name=value of the virtual board. openppmc.sim checks them for the user; here an error only ends
+// the program.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +10,12 @@
 
 struct Options {
     PlantText plants[kAxes];
-    double speed = 1.0;     // times real time; 0: as fast as the machine can
-    std::string vcd;        // file name; empty: none
+    double speed = 1.0;     // factor of real time; 0: as fast as possible
+    std::string vcd;        // file name; empty: no waveforms
     double vcd_from = 0;    // ms of board time
     double vcd_for = 20;    // ms
-    std::string log;        // file of pulses; empty: none
+    std::string log;        // file of pulses; empty: no log
 };
 
-// Throws std::runtime_error with one line.
+// Throws std::runtime_error with a message of one line.
 Options parse_options(int argc, char** argv);

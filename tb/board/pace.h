@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ties board time to wall time: never faster than `speed` times real time, and no hurry to make up for lost time.
+// Couples board time to wall time: never faster than `speed` times real time, without catching up lost time.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 class Pace {
    public:
-    // speed: board seconds a second; 0: as fast as the machine can.
+    // speed: board seconds per second; 0: as fast as possible.
     Pace(uint64_t clk_hz, double speed) : per_clk_(1e9 / static_cast<double>(clk_hz)), speed_(speed) { rebase(0); }
 
     // Nanoseconds of wall time, from any origin.
@@ -17,7 +17,7 @@ class Pace {
         return int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
     }
 
-    // Sleeps if clk `now` is reached too early.
+    // Sleep if cycle `now` is reached too early.
     void keep(uint64_t now) {
         const int64_t wall_now = wall();
         if (speed_ > 0) {
@@ -36,24 +36,24 @@ class Pace {
         }
     }
 
-    // Starts anew at clk `now`, after time that was not simulated.
+    // Restart at cycle `now`, after time that was not simulated.
     void rebase(uint64_t now) {
         base_clk_ = now;
         base_wall_ = wall();
         mark(now, base_wall_);
     }
 
-    // Clk that pass in `ns` of wall time; none when there is no pace to keep.
+    // Return the cycles that pass in `ns` of wall time; 0 without a pace.
     uint64_t clk_in(int64_t ns) const {
         return static_cast<uint64_t>(static_cast<double>(ns) * speed_ / per_clk_);
     }
 
-    // Board time / wall time over the last half second or so.
+    // Return board time / wall time, measured over about half a second.
     double factor() const { return factor_; }
 
    private:
-    static constexpr int64_t kGrain = 100'000;      // shorter naps are not worth a system call
-    static constexpr int64_t kLag = 2'000'000;      // lost time beyond this is not made up for
+    static constexpr int64_t kGrain = 100'000;      // shorter sleeps are not worth a system call
+    static constexpr int64_t kLag = 2'000'000;      // lost time above this is not caught up
     static constexpr int64_t kWindow = 500'000'000;
 
     void mark(uint64_t now, int64_t wall_now) {

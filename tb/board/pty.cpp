@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pty.h"
 
-// The kernel's own termios2 has line rates as plain numbers. It excludes <termios.h>.
+// The termios2 of the kernel has line rates as plain numbers. Its header excludes <termios.h>.
 #include <asm/termbits.h>
 #include <cerrno>
 #include <cstdlib>
@@ -18,7 +18,8 @@ Pty::Pty() {
         throw std::runtime_error(std::string("no pseudo-terminal to be had: ") + std::strerror(errno));
     path_ = ptsname(fd_);
     fcntl(fd_, F_SETFL, fcntl(fd_, F_GETFL) | O_NONBLOCK);
-    // Raw from the start: before the host has set its own mode, nothing may be echoed back to the board.
+    // Raw mode from the beginning: no character may be echoed to the board before the host has set its own
+    // mode.
     termios2 mode;
     ioctl(fd_, TCGETS2, &mode);
     mode.c_iflag = 0;
@@ -38,7 +39,8 @@ void Pty::read(std::vector<uint8_t>& to, size_t room) {
     while (room) {
         const ssize_t n = ::read(fd_, bytes, room < sizeof bytes ? room : sizeof bytes);
         if (n <= 0) {
-            // EIO: nobody has the port open. That is no end; the next open() makes it work again.
+            // EIO: no process has the port open. This is no error; the port works again after the next
+            // open().
             open_ = !(n < 0 && errno == EIO);
             return;
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PC side of the serial line: a pseudo-terminal. Its slave may be opened, closed and opened again at any time.
+// PC side of the serial line: a pseudo-terminal. Its slave may be opened, closed and opened again at any
+// time.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 class Pty {
    public:
-    // Throws std::runtime_error with one line when the system has no pseudo-terminal left.
+    // Throws std::runtime_error with a message of one line if the system has no free pseudo-terminal.
     Pty();
     ~Pty();
     Pty(const Pty&) = delete;
@@ -18,21 +19,21 @@ class Pty {
     const std::string& path() const { return path_; }
     int fd() const { return fd_; }
 
-    // Takes what the host has written, at most `room` bytes, and notices whether it has the port open.
-    // Never blocks.
+    // Read the bytes that the host has written, at most `room`, and detect whether the host has the port
+    // open. Never blocks.
     void read(std::vector<uint8_t>& to, size_t room);
 
-    // Gives bytes to the host. What does not fit is lost, as with a receive buffer that is full; and so is
-    // everything while the port is closed.
+    // Send bytes to the host. Bytes that do not fit are discarded, as with a full receive buffer. All bytes
+    // are discarded while the port is closed.
     void write(const std::vector<uint8_t>& bytes);
 
-    // True while some process has the port open (as of the last read()).
+    // Return true if a process had the port open at the last read().
     bool open() const { return open_; }
 
-    // The line rate in bit/s that the host has set; 0 when it has hung up.
+    // Return the line rate in bit/s that the host has set; 0 after a hang-up.
     unsigned rate() const;
 
-    // Bytes lost because the host did not fetch them.
+    // Return the number of bytes discarded because the host did not read them.
     uint64_t lost() const { return lost_; }
 
    private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps of a motor from the levels of its phases S5..S1: 3, 4 or 5 phases, full or half steps, either logic. The rings
-// of all motors are written down here once more, apart from the board's own counter.
+// Steps of a motor from the levels of its phases S5..S1: 3, 4 or 5 phases, full or half steps, either
+// polarity. The sequences of all motors are defined here independently of the board's step counter.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ class PhaseSteps {
         }
     }
 
-    // The phases have these levels now: 1 a step CW, -1 CCW, 0 none. All alike: the chopper, or nothing is switched on
-    // yet; the motor stays where it is.
+    // Update the phase levels: return 1 for a step CW, -1 CCW, 0 for no step. If all levels are equal
+    // (chopper, or no excitation yet), the motor does not move.
     int step(unsigned levels) {
         levels &= kAll;
         if (levels == 0 || levels == kAll) return 0;

@@ -25,7 +25,7 @@ void Uart::step(uint64_t now, bool txd) {
 void Uart::send_step(uint64_t now) {
     if (tx_bit_ == 10) {
         tx_bit_ = 0;
-        // Characters in a row keep their fractions; the base moves on so that the numbers stay small.
+        // Consecutive characters keep their fractions; the base is advanced so that the numbers stay small.
         const uint64_t whole = tx_time_ >> kFraction;
         tx_base_ += whole;
         tx_time_ -= whole << kFraction;
@@ -72,7 +72,8 @@ void Uart::receive_step(uint64_t now, bool txd) {
     }
     if (rx_bit_ >= 1 && rx_bit_ <= 8) rx_byte_ |= unsigned{txd} << (rx_bit_ - 1);
     if (rx_bit_ == 9) {
-        // As a PC's driver without parity marking: a character with a low stop bit is passed on like any other.
+        // Like the driver of a PC without parity marking: a character with a low stop bit is passed on like
+        // any other.
         received_.push_back(static_cast<uint8_t>(rx_byte_));
         rx_wait_high_ = !txd;
         rx_bit_ = -1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PC's UART, bit by bit: 8 data bits, no parity, 1 stop bit. All times are clk numbers of the board; fractions of
-// a clk are kept, so that any rate is exact on average.
+// UART of the PC, bit by bit: 8 data bits, no parity, 1 stop bit. All times are cycle numbers of the board.
+// Fractions of a cycle are kept, so that any rate is exact on average.
 #pragma once
 
 #include <cstddef>
@@ -14,26 +14,27 @@ class Uart {
 
     explicit Uart(uint64_t clk_hz) : clk_hz_(clk_hz) { set_rate(115200); }
 
-    // Rate in bit/s for characters that begin from now on; 0: hung up, the line stays high and nobody listens.
+    // Rate in bit/s of the characters that begin from now on; 0: hung up, the line is high and no character
+    // is received.
     void set_rate(unsigned baud);
 
-    // Queues bytes for the board; `now` is the present clk.
+    // Queue bytes for the board; `now` is the current cycle.
     void send(const std::vector<uint8_t>& bytes, uint64_t now);
     size_t queued() const { return queue_.size(); }
 
-    // The board has reset or the host is gone: what is queued is not sent.
+    // Discard the queued bytes: the board was reset or the host has closed the port.
     void drop() { queue_.clear(); }
 
     bool idle() const { return tx_at_ == kNever && rx_bit_ < 0; }
 
-    // Level towards uart_rxd, to be applied before edge next().
+    // Level of uart_rxd, to be applied before edge next().
     bool level() const { return level_; }
     uint64_t next() const { return tx_at_ < rx_at_ ? tx_at_ : rx_at_; }
 
-    // To be called before clk edge `now` when now == next() or when uart_txd has changed to `txd`.
+    // Must be called before clock edge `now` if now == next() or if uart_txd has changed to `txd`.
     void step(uint64_t now, bool txd);
 
-    // Bytes that have come from the board.
+    // Bytes received from the board.
     std::vector<uint8_t>& received() { return received_; }
 
    private:
@@ -41,14 +42,14 @@ class Uart {
     void receive_step(uint64_t now, bool txd);
 
     uint64_t clk_hz_;
-    uint64_t bit_ = 0;  // length of a bit in 2^-24 clk; 0: hung up
+    uint64_t bit_ = 0;  // length of a bit in 2^-24 cycles; 0: hung up
 
     std::deque<uint8_t> queue_;
     bool level_ = true;
     unsigned tx_shift_ = 0;   // bits still to be sent, least significant first
-    int tx_bit_ = 0;          // bits of the character that have begun; 0: between two characters
+    int tx_bit_ = 0;          // bits of the character already begun; 0: between two characters
     uint64_t tx_bit_len_ = 0;
-    uint64_t tx_time_ = 0;    // end of the present bit, in 2^-24 clk after tx_base_
+    uint64_t tx_time_ = 0;    // end of the current bit, in 2^-24 cycles after tx_base_
     uint64_t tx_base_ = 0;
     uint64_t tx_at_ = kNever;
 

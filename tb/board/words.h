@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The talk of a virtual board or line with whoever started it: a line of words on standard output, and lines on
-// standard input, which are answered as they come.
+// Protocol of a virtual board or line with its parent process: lines of words on standard output, and lines
+// on standard input, which are answered in order.
 #pragma once
 
 #include <cstdio>
@@ -13,7 +13,8 @@ inline void say(const std::string& line) {
     std::fflush(stdout);
 }
 
-// Gives each whole line of standard input to `answer`; `rest` keeps what has no end yet. False at the end of it.
+// Pass each complete line of standard input to `answer`; `rest` stores an incomplete line. Return false at
+// end of file.
 template <typename Answer>
 bool obey(std::string& rest, Answer answer) {
     pollfd in{STDIN_FILENO, POLLIN, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bus cycles for the test of the PPMC-2104's C driver: drives ppmc2104 cycle by cycle, records the pulses.
+// Bus for the test of the PPMC-2104's C driver: drives ppmc2104 cycle by cycle, records the pulses.
 #include "axes_bus.h"
 
 #include <array>

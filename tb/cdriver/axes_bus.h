@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The simulated bus that the C driver of the PPMC-2104 is tested on. Axes are 1 and 2. */
+/* Simulated bus for the test of the PPMC-2104's C driver. Axes are 1 and 2. */
 #ifndef AXES_BUS_H
 #define AXES_BUS_H
 

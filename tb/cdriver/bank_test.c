@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the C driver of the bank on the simulated window and prints what happened, a line each; pytest judges the
- * lines. */
+/* Runs the C driver of the bank on the simulated window and prints the results, one per line; pytest
+ * checks the lines. */
 #include <stdio.h>
 
 #include "../../drivers/c/ppmc_bank.h"
@@ -17,7 +17,7 @@ static void show(const char *name, ppmc104_result_t result)
     printf("%s result=%d text=%s\n", name, (int)result, ppmc104_strerror(result));
 }
 
-/* The end of a motion, then its pulses. */
+/* Print the end of a motion, then its pulses. */
 static void ending(const char *name, unsigned n)
 {
     ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
@@ -113,7 +113,7 @@ static void stops(void)
     ending("stopped", 4);
 }
 
-/* A reset of the bank in a motion. */
+/* A reset of the bank during a motion. */
 static void reset(void)
 {
     uint32_t left = 0;

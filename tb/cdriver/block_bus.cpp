@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bus cycles and characters for the test of the PPMC-312's C driver: drives ppmc312 cycle by cycle.
+// Bus and line for the test of the PPMC-312's C driver: drives ppmc312 cycle by cycle.
 #include "block_bus.h"
 
 #include <vector>

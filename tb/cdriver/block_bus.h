@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The simulated PPMC-312 that its C driver is tested on: parallel bus, or station 5 of a line at 83 333 baud. */
+/* Simulated PPMC-312 for the test of its C driver: parallel bus, or station 5 of a line at 83 333 baud. */
 #ifndef BLOCK_BUS_H
 #define BLOCK_BUS_H
 
@@ -21,7 +21,7 @@ void block_reset(bool held, bool line);          /* with the mode of the pins */
 void block_run(unsigned cycles);
 void block_run_pulses(unsigned count);           /* ends the program after 1 s */
 void block_pin(block_pin_t which, bool high);
-void block_damage(unsigned at, uint8_t flip);    /* of a byte that is received on the line */
+void block_damage(unsigned at, uint8_t flip);    /* of a byte received on the line */
 unsigned block_outputs(void);                    /* auxo_n */
 void block_print_pulses(const char *name);
 

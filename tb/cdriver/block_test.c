@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the C driver of the PPMC-312 on the simulated part, first on its bus ("bus ..."), then on a line ("line ..."),
- * and prints what happened, a line each; pytest checks the lines. */
+/* Runs the C driver of the PPMC-312 on the simulated part, first on its bus ("bus ..."), then on a line
+ * ("line ..."), and prints the results, one per line; pytest checks the lines. */
 #include <stdio.h>
 #include <string.h>
 
@@ -53,7 +53,7 @@ static void report(const char *name)
     }
 }
 
-/* A falling edge, low until its report is there: DATASHEET needs 25 ms. */
+/* A falling edge; the pin stays low until the report has arrived, because DATASHEET needs 25 ms. */
 static void edge(const char *name, block_pin_t pin)
 {
     unsigned n;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The simulated PMC006B4 that its C driver is tested on: 8 MHz, 115 200 baud, with an EEPROM. */
+/* Simulated PMC006B4 for the test of its C driver: 8 MHz, 115 200 baud, with an EEPROM. */
 #ifndef FRAME_BUS_H
 #define FRAME_BUS_H
 
@@ -16,9 +16,9 @@ bool frame_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
 void frame_reset(void);
 void frame_run_steps(unsigned count);          /* ends the program after 2 s */
 void frame_ext(unsigned number, bool high);
-void frame_switch(unsigned after, bool high);  /* EXT1 gets this level with the step of that number from now on */
+void frame_switch(unsigned after, bool high);  /* sets EXT1 with step number `after` from now */
 void frame_eeprom(bool on);
-void frame_damage(unsigned at, uint8_t flip);  /* of a byte that is received */
+void frame_damage(unsigned at, uint8_t flip);  /* of a received byte */
 unsigned frame_outputs(void);
 void frame_print_steps(const char *name);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Feeds the C drivers broken replies: fuzz SEED COUNT. Built with sanitizers; a call that does not return, a value from
- * a damaged frame or an access out of bounds ends it with an error. Prints how often each result occurred. */
+/* Feeds the C drivers with broken replies: fuzz SEED COUNT. Built with sanitizers. A call that does not
+ * return, a value from a damaged frame or an access out of bounds ends the program with an error. Prints
+ * how often each result occurred. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@
 #include "../../drivers/c/ppmc312.h"
 
 #define STREAM_MAX 200u
-#define READS_MAX 4000000ul /* of one call */
+#define READS_MAX 4000000ul /* per call */
 
 static uint32_t state;
 static unsigned long reads, results[128];
@@ -41,18 +42,18 @@ static void count(ppmc104_result_t result)
     reads = 0;
 }
 
-/* ---- a line that says what it likes ---- */
+/* ---- a line with arbitrary characters ---- */
 
 static uint8_t stream[STREAM_MAX];
 static unsigned length, at;
-static bool talks; /* replies follow a request; else the line is silent */
+static bool talks; /* 1: a request is followed by a reply; 0: the line is silent */
 
 static void put(uint8_t byte)
 {
     if (length < STREAM_MAX) stream[length++] = byte;
 }
 
-/* Cut, flip, insert, repeat; 0: leave it as it is. */
+/* Cut, flip, insert or repeat bytes; 0: no change. */
 static void damage(unsigned kind)
 {
     if (length == 0u) return;
@@ -206,7 +207,7 @@ static void use_312(ppmc312_t *dev)
     if (got > PPMC312_DATA_MAX) fail("answer");
 }
 
-/* ---- buses that say what they like ---- */
+/* ---- buses with arbitrary data ---- */
 
 static uint8_t noise(void *ctx, unsigned reg)
 {
@@ -223,7 +224,7 @@ static uint8_t noise(void *ctx, unsigned reg)
     return reg == 0u ? (uint8_t)below(16) : (uint8_t)(below(4) | below(2) << 7);
 }
 
-/* Well-formed blocks with any content, one after the other. */
+/* Well-formed blocks with any content, in sequence. */
 static struct {
     uint8_t bytes[32];
     unsigned left;

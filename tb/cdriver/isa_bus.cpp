@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// I/O cycles for the STMC driver's test: drives j105_stmc clk by clk, records the steps of its phases.
+// I/O accesses for the test of the STMC driver: drives j105_stmc cycle by cycle, records the steps of its
+// phases.
 #include "isa_bus.h"
 
 #include <vector>
@@ -11,7 +12,7 @@
 
 namespace {
 
-constexpr unsigned kStrobe = 9;          // clk: 560 ns at 16 MHz, as an 8-bit cycle lasts
+constexpr unsigned kStrobe = 9;          // cycles: 560 ns at 16 MHz, the length of an 8-bit access
 constexpr unsigned kPause = 4;
 
 class Bus : public Clocked<Bus, Vj105_stmc> {

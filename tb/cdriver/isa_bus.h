@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The simulated ISA bus that the STMC driver is tested on: a J105 board, 8-bit I/O cycles, the steps of its motor. */
+/* Simulated ISA bus for the test of the STMC driver: a J105 board, 8-bit I/O accesses, the steps of its
+ * motor. */
 #ifndef ISA_BUS_H
 #define ISA_BUS_H
 
@@ -12,7 +13,7 @@ extern "C" {
 
 typedef enum { ISA_L1, ISA_L2, ISA_L3, ISA_L4, ISA_CNP, ISA_MON } isa_input_t;
 
-/* What the driver's port functions become; a port that nobody drives reads FFh. */
+/* Port functions of the driver in this test; a read of an unused port returns FFh. */
 uint8_t isa_in(unsigned port);
 void isa_out(unsigned port, uint8_t value);
 #define STMC_INB(port) isa_in(port)
@@ -20,11 +21,11 @@ void isa_out(unsigned port, uint8_t value);
 
 void isa_reset(bool held);                   /* pulse the reset, or leave it active */
 void isa_run(unsigned clk);                  /* let time pass */
-void isa_run_steps(unsigned count);          /* until so many steps are recorded; ends the program after 1 s */
+void isa_run_steps(unsigned count);          /* until `count` steps; ends the program after 1 s */
 void isa_level(isa_input_t which, bool high);
 bool isa_irq(void);                          /* IRQ line */
 unsigned isa_steps(void);                    /* steps since isa_print_steps() */
-void isa_print_steps(const char *name);      /* "name cw=… ccw=… at t t t …", times in clk */
+void isa_print_steps(const char *name);      /* "name cw=… ccw=… at t t t …", times in cycles */
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The master of a line at the pins of a simulated station. Included by one C++ file, with the UART.
+// Master of a line at the pins of a simulated station. Included by one C++ file, with the UART.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ class LinePort {
   public:
     LinePort(uint64_t clk_hz, unsigned baud) : uart_(clk_hz) { uart_.set_rate(baud); }
 
-    // After each cycle: txd of the station in, level of its rxd out.
+    // After each cycle: accept txd of the station, return the level of its rxd.
     bool seen(uint64_t now, bool txd) {
         if (uart_.next() <= now || txd != txd_) uart_.step(now, txd);
         txd_ = txd;
         return uart_.level();
     }
 
-    // Damage: byte number `at` of what is received from now on is changed by `flip`.
+    // Damage received byte number `at`, counted from now: invert the bits of `flip`.
     void damage(unsigned at, uint8_t flip) {
         at_ = at;
         flip_ = flip;

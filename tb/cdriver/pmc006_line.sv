@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_line: a PMC006B4 with its EEPROM, for the test of the C driver.
-// Rules:  none of its own.
-// Timing: of pmc006.
+// Timing: see pmc006.
 `default_nettype none
 
 module pmc006_line #(
@@ -11,7 +10,7 @@ module pmc006_line #(
     input  wire logic       clk,
     input  wire logic       rst_n,
     input  wire logic       rxd,
-    output logic            line,  // level of the pair, 1 while the driver is off
+    output logic            line,  // level of the line, 1 while the driver is off
     input  wire logic       ext1,
     input  wire logic       ext2,
     input  wire logic       eeprom_on,

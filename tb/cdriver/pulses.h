@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pulses (or steps) of a simulated motor: waiting for them, printing them.
+// Pulses (or steps) of a simulated motor: wait for them, print them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct Pulse {
     bool ccw;
 };
 
-// Lets the bus run, clk by clk, until so many pulses are recorded; ends the program after 1 s of 16 MHz.
+// Run the bus cycle by cycle until `count` pulses are recorded; ends the program after 1 s at 16 MHz.
 template <class Bus>
 void run_pulses(Bus& bus, unsigned count) {
     constexpr uint64_t kLimit = 16'000'000;
@@ -25,7 +25,7 @@ void run_pulses(Bus& bus, unsigned count) {
     }
 }
 
-// "name cw=… ccw=… at t t t …", and forgets them.
+// Print "name cw=… ccw=… at t t t …", and discard the pulses.
 inline void print_pulses(const char* name, std::vector<Pulse>& pulses) {
     unsigned ccw = 0;
     for (const Pulse& pulse : pulses) ccw += pulse.ccw;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bus cycles for the C driver's test: drives ppmc104_example_wishbone clk by clk, records the pulses.
+// Bus for the test of the C driver: drives ppmc104_example_wishbone cycle by cycle, records the pulses.
 #include "sim_bus.h"
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr unsigned kPatience = 64;        // clk without an answer
+constexpr unsigned kPatience = 64;        // cycles without a response
 
 class Bus : public Clocked<Bus, Vppmc104_example_wishbone> {
   public:

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Runs the STMC driver and its port accessors on the simulated ISA bus and prints what happened, a line each; pytest
- * judges the lines. The board's external clock is 1 MHz here: 16 clk a tick. */
+/* Runs the STMC driver and its port accessors on the simulated ISA bus and prints the results, one per
+ * line; pytest checks the lines. The external clock of the board is 1 MHz here: 16 cycles per tick. */
 #include <stdio.h>
 
 #include "isa_bus.h" /* before the driver: STMC_INB, STMC_OUTB */
@@ -54,7 +54,7 @@ static void moves(stmc_t *dev)
     show("init", stmc_init(dev, &CONFIG));
 }
 
-/* What an interrupt routine does: the finish status, which lifts the request. */
+/* Work of an interrupt routine: read the finish status, which clears the request. */
 static void interrupt(stmc_t *dev)
 {
     ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
@@ -71,7 +71,8 @@ static void interrupt(stmc_t *dev)
     show("service", stmc_finish(dev, &f));
     printf("irq running=%u steps=%u raw=%02x lifted=%d\n", before, after, f.raw, !isa_irq());
     isa_print_steps("loud");
-    /* A routine that comes when the next motion runs already: refused, and served at the end of that. */
+    /* A routine that runs after the next motion has begun: its calls are rejected, and the request is
+     * served at the end of that motion. */
     show("late", stmc_move(dev, PPMC104_CW, 6));
     while (!isa_irq()) isa_run(1);
     show("late again", stmc_move(dev, PPMC104_CCW, 4));
@@ -159,7 +160,7 @@ static void errors(stmc_t *dev)
     isa_print_steps("A");
 }
 
-/* A reset in a motion: the finish status of a fresh part has its bit 7 set (STMC-FIN-01). */
+/* A reset during a motion: the finish status after a reset has bit 7 set (STMC-FIN-01). */
 static void unconfirmed(stmc_t *dev)
 {
     ppmc104_finish_t f = {false, false, false, false, false, 0, 0};
@@ -174,7 +175,7 @@ static void unconfirmed(stmc_t *dev)
     isa_print_steps("U");
 }
 
-/* Nobody at these ports; a motion longer than the wait. */
+/* No device at these ports; a motion longer than the wait. */
 static void dead(stmc_t *dev)
 {
     stmc_t other;
@@ -194,7 +195,7 @@ static void dead(stmc_t *dev)
     isa_print_steps("again");
 }
 
-/* The registers of a part with the read codes of its sisters: an answer is the low half of its code. */
+/* Registers of a part with the read codes of the related devices: an answer is the low half of its code. */
 typedef struct {
     uint8_t status, answer;
     unsigned left;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cycles of a bank's window for the C driver's test: drives ppmc_bank clk by clk, records the pulses of each axis.
+// Window accesses for the test of the bank's C driver: drives ppmc_bank cycle by cycle, records the pulses of
+// each axis.
 #include "window_bus.h"
 
 #include <array>
@@ -12,7 +13,7 @@
 namespace {
 
 constexpr unsigned kAxes = 8;
-constexpr unsigned kWrite = 2, kRead = 6, kPause = 3;  // clk
+constexpr unsigned kWrite = 2, kRead = 6, kPause = 3;  // cycles
 
 class Bus : public Clocked<Bus, Vppmc_bank> {
   public:
@@ -74,7 +75,7 @@ Bus& bus() {
     return one;
 }
 
-// One axis of it, as run_pulses() wants a bus.
+// One axis of the bank, in the form that run_pulses() uses.
 struct Axis {
     std::vector<Pulse>& pulses;
     void clk() { bus().clk(); }

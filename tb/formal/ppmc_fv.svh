@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macros of the proofs (docs/proofs.md): Boolean properties, $past at most. A wrapper has the clock clk_i; FV_RESET
-// makes rst_ni, low in the first clk only. A cover is a trace that must exist from reset on: FV_COVERS makes of it an
-// assertion that has to fail, and hides the others.
+// Macros of the proofs (docs/proofs.md): Boolean properties that use at most $past.
+// A wrapper has the clock clk_i. FV_RESET defines rst_ni, which is low in the first cycle only.
+// A cover property requires a witness trace from reset on. With FV_COVERS defined, FV_COVER becomes an
+// assertion that has to fail, and FV_ASSERT is empty.
 `ifndef PPMC_FV_SVH
 `define PPMC_FV_SVH
 

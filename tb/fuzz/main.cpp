@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds a deframer with what came over a line and tells what it made of it, for scripts/fuzz.
+// Feeds a deframer with the characters of a line and prints the events that it reports, for scripts/measure/fuzz.
 //
-// Standard input: words of 16 bits, lowest byte first: a character in bits 7:0; bit 8: without a stop bit; bit 9: none
-// at all but a silence. Standard output: for each event the number of the word (32 bits) and what it was (64 bits).
+// Standard input: words of 16 bits, lowest byte first. Bits 7:0: a character; bit 8: the character has no
+// stop bit; bit 9: a silence instead of a character.
+// Standard output: for each event the number of the word (32 bits) and the event (64 bits).
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -11,7 +12,7 @@
 #include "Vfuzz.h"
 
 namespace {
-constexpr unsigned kBetween = 12, kSilence = 160;  // clk from one character to the next, of a silence
+constexpr unsigned kBetween = 12, kSilence = 160;  // cycles from one character to the next, of a silence
 
 class Bench {
   public:
@@ -35,7 +36,7 @@ class Bench {
     }
 
   private:
-    // Outputs are those before the edge, of inputs as they stand.
+    // The outputs are those before the edge, for the inputs as they are set.
     void clk() {
         dut_.clk_i = 0;
         dut_.eval();

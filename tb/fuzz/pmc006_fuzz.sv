@@ -7,11 +7,11 @@ module pmc006_fuzz (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic  [7:0] byte_i,     // a character
-    input  wire logic        valid_i,    // it has come, one clk
-    input  wire logic        error_i,    // one without a stop bit, one clk
-    input  wire logic        silence_i,  // as long as a silence lasts
-    output logic             event_o,    // one clk
-    output logic      [63:0] what_o      // what it was
+    input  wire logic        valid_i,    // strobe: byte_i was received
+    input  wire logic        error_i,    // strobe: byte_i has no stop bit
+    input  wire logic        silence_i,  // 1 during a silence
+    output logic             event_o,    // strobe
+    output logic      [63:0] what_o      // event
 );
 
   pmc006_pkg::frame_t frame;

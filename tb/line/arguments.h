@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments name=value of the virtual line; those of a station end in its place on the line, from 0 on.
-// openppmc.sim checks them for the user; here mistakes only end the program.
+// Arguments name=value of the virtual line; those of a station end in its number on the line, from 0.
+// openppmc.sim checks them for the user; here an error only ends the program.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class Arguments {
     std::map<std::string, std::string> values_;
 };
 
-// What one station was asked for.
+// Arguments of one station.
 class StationArguments {
    public:
     StationArguments(const Arguments& all, unsigned place) : all_(all), place_(std::to_string(place)) {}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual line: stations, each of them the RTL of its board, and a master behind a pseudo-terminal. The
-// stations hear the master, the master hears the drivers, which pull the line low together (four wires);
-// stations do not hear each other. So each runs alone through a slice of time for which the master's levels
-// are known.
+// The virtual line: stations, each of them the RTL of its board, and a master at a pseudo-terminal. The
+// stations receive the master. The master receives the drivers, which are wired together and pull the line
+// low (four wires). Stations do not receive each other. Therefore each station is simulated separately for a
+// slice of time in which the levels of the master are known.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,14 @@ class Line {
 
     const std::string& port() const { return pty_.path(); }
 
-    // A slice of time (1/8 ms), or sleep until the host speaks while no station has anything to do. False
-    // when the time has come to pull the plug.
+    // Simulate a slice of time (1/8 ms), or sleep until the host sends while all stations are idle. Return
+    // false when the line has to be disconnected.
     bool run(int wake_fd);
 
-    // "name=value …": see LineStatus in openppmc/sim.
+    // Return "name=value …": see LineStatus in openppmc/sim.
     std::string status() const;
 
-    // Levels of the general inputs of a station.
+    // Set the levels of the general inputs of a station.
     void inputs(unsigned number, unsigned levels);
 
    private:

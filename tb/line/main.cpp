@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual line as a program. Says on standard output "port PATH" first, or "error TEXT" and ends; then
-// answers the lines "status" and "inputs NUMBER LEVELS" on standard input. It ends with its standard input,
-// so it never outlives the one who started it.
+// The virtual line as a program. It first prints "port PATH" on standard output, or "error TEXT" and ends.
+// Then it answers the lines "status" and "inputs NUMBER LEVELS" on standard input. It ends with its standard
+// input, so it never outlives its parent process.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -32,7 +32,7 @@ void answer(Line& line, const std::string& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Ctrl-C in a terminal is meant for the host program, which may have to stop a motor through this line.
+    // Ctrl-C in a terminal is for the host program, which may have to stop a motor through this line.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, [](int) { stop = 1; });
     std::signal(SIGPIPE, SIG_IGN);

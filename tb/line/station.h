@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A station of the virtual line: the Verilated node, its time, and whether it has to be computed at all. What
-// hangs on its pins is the part's own node.h, a class Node with Node(arguments, clk_hz), set_up(top),
-// look(top) (what to watch), follow(top) (it has changed), named(byte), inputs(top, levels), booted(top),
-// words(top), linger(clk_hz): how long it may still do something by itself after a character.
+// A station of the virtual line: the Verilated node, its time, and whether it has to be simulated at all. The
+// plant at its pins is defined in node.h of the part, as a class Node with Node(arguments, clk_hz),
+// set_up(top), look(top) (pins to observe), follow(top) (called after a change), named(byte), inputs(top,
+// levels), booted(top), words(top), and linger(clk_hz): the time for which the node may still act after a
+// character.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 #include "dut.h"
 #include "node.h"
 
-// A level that a wire takes before edge `at` of clk.
+// A level that a wire has from clock edge `at` on.
 struct Change {
     uint64_t at;
     bool level;
@@ -27,27 +28,27 @@ class Station {
           linger_(node_.linger(clk_hz)),
           after_reply_(clk_hz / 1000) {
         seen_ = node_.look(dut_.top);
-        // A factory-fresh EEPROM takes 60 ms, a reset 2 ms; what never boots has waited long enough, too.
+        // A blank EEPROM takes 60 ms, a reset 2 ms. The limit also ends the wait for a node that never boots.
         for (uint64_t clk = 0; clk < clk_hz && !node_.booted(dut_.top); clk += kSlice) {
             std::vector<Change> nothing;
             run(0, kSlice, {}, nothing);
         }
     }
 
-    // The master sends a byte; true if it may concern this station, which then hears it.
+    // The master sends a byte; return true if it may concern this station, which then receives it.
     bool hear(uint8_t byte, uint64_t now) {
         addressed_ = node_.named(byte, addressed_);
         wait(now);
         return addressed_;
     }
 
-    // What it was sent is still on its way.
+    // A byte sent to this station is still being received.
     void wait(uint64_t now) {
         if (addressed_) until_ = now + linger_;
     }
 
-    // Whether it need not be computed from edge `now` on: at rest, and it has not been spoken to for a while.
-    // It does not fall asleep in the middle of a character (quiet: the master is silent).
+    // Return whether the station need not be simulated from edge `now` on: it is idle and was not addressed
+    // for some time. It does not fall asleep in a character (quiet: the master is silent).
     bool asleep(uint64_t now, bool quiet) {
         if (now < until_ || dut_.top.busy || !dut_.top.line)
             asleep_ = false;
@@ -56,7 +57,7 @@ class Station {
         return asleep_;
     }
 
-    // Edges from … to - 1: hears `sent`, appends what its driver does.
+    // Simulate edges from … to - 1: receive `sent`, append the changes of its driver.
     void run(uint64_t from, uint64_t to, const std::vector<Change>& sent, std::vector<Change>& driven) {
         Vboard& top = dut_.top;
         auto next = sent.begin();
@@ -66,7 +67,7 @@ class Station {
             if (top.line != line_) {
                 line_ = top.line;
                 driven.push_back({now + 1, line_});
-                // A reply is on its way; behind it there is nothing to be done.
+                // A reply is being sent; after it there is no activity.
                 until_ = now + after_reply_;
             }
             if (const auto pins = node_.look(top); pins != seen_) {
@@ -79,7 +80,7 @@ class Station {
 
     void inputs(unsigned levels, uint64_t now) {
         node_.inputs(dut_.top, levels);
-        // Long enough for the keys of a PMC006B4.
+        // Long enough for the key filters of a PMC006B4.
         until_ = now + 100 * linger_;
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clock of the LiteX SoC, its UART on the terminal, a counter at each motor, a limit switch.
+// Test bench of the LiteX SoC: clock, UART on the terminal, a pulse counter for each motor, a limit switch.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -10,10 +10,10 @@
 
 namespace {
 
-constexpr uint64_t kClks = 8'000'000;  // 0.5 s of 16 MHz
-constexpr unsigned kToSwitch = 50;      // pulses from the line "switch" on
+constexpr uint64_t kClks = 8'000'000;  // 0.5 s at 16 MHz
+constexpr unsigned kToSwitch = 50;      // pulses after the line "switch"
 
-// Falling edges of pout_n by the level of dir.
+// Falling edges of pout_n, counted by the level of dir.
 struct Motor {
     unsigned cw = 0, ccw = 0;
     bool last = true;
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     for (uint64_t now = 0; now < kClks && !done; ++now) {
         soc.sys_clk = 0;
         soc.eval();
-        // Taken at the coming edge.
+        // Sampled at the next rising edge.
         const bool sent = soc.serial_source_valid;
         const char letter = static_cast<char>(soc.serial_source_data);
         soc.sys_clk = 1;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Program of a LiteX SoC with a PPMC-104 ("stepper") and, perhaps, a bank ("bank"): moves with the project's C drivers,
- * tells on the UART what these say, a line each. pytest judges the lines and the pulses that the bench has counted. */
+/* Program of a LiteX SoC with a PPMC-104 ("stepper") and, optionally, a bank ("bank"): makes moves with
+ * the C drivers of the project and prints their results on the UART, one per line. pytest checks the lines
+ * and the pulses counted by the test bench. */
 #include <generated/csr.h>
 #include <generated/mem.h>
 #include <generated/soc.h>
@@ -16,7 +17,7 @@ static const ppmc104_speed_t speed = {CONFIG_CLOCK_FREQUENCY, PPMC104_BASE_500K,
 static ppmc104_t stepper;
 static volatile unsigned interrupts;
 
-/* Structures are copied with these, and there is no C library. */
+/* The compiler copies structures with these functions, and there is no C library. */
 void *memcpy(void *to, const void *from, unsigned long size)
 {
     char *d = to;
@@ -32,7 +33,8 @@ void *memset(void *to, int value, unsigned long size)
     return to;
 }
 
-/* crt0.S calls it. The interrupt is a level, which reading the finish status lifts; until then it is masked. */
+/* Called by crt0.S. The interrupt is a level that is cleared by reading the finish status; until then it
+ * is masked. */
 void isr(void)
 {
     if (irq_pending() & irq_getmask() & (1u << STEPPER_INTERRUPT)) {
@@ -72,7 +74,7 @@ static ppmc104_config_t config(void)
     return c;
 }
 
-/* A move whose end comes as an interrupt. */
+/* A move whose end is reported by an interrupt. */
 static void move(const char *name, uint8_t flags, uint32_t pulses)
 {
     ppmc104_finish_t finish = {false, false, false, false, false, 0, 0};
@@ -136,7 +138,7 @@ int main(void)
     put("\n");
     move("cw", PPMC104_CW, 300);
     move("ccw", PPMC104_CCW, 120);
-    put("switch\n"); /* the bench closes L1 after 50 pulses more */
+    put("switch\n"); /* the bench closes L1 after 50 more pulses */
     move("limited", PPMC104_CW, 200);
 #ifdef BANK_BASE
     axes();

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// eeprom_24c32: serial EEPROM of the 24C32 class for benches: 4096 bytes, pages of 32, write time, acknowledge polling.
-// Rules:  the same device as openppmc/model/carrier/eeprom.py; a test compares both.
-// Timing: both lines are looked at on every clk edge; what the device pulls changes on the same edge.
-// Tests:  load and read `memory` by its name, set the options behind it, and read the log of page writes. Without
-//         power (on_i) the device pulls nothing; the memory is blank when the power goes.
+// eeprom_24c32: model of a serial EEPROM of the 24C32 class: 4096 bytes, pages of 32, write time, acknowledge
+// polling.
+// Rules:  same device as openppmc/model/carrier/eeprom.py; a test compares both.
+// Timing: both lines are sampled on every rising edge of clk_i; the outputs change on the same edge.
+// How:    a test loads and reads `memory` by its name, sets the options after it, and reads the log of page
+//         writes. Without power (on_i = 0) the device drives no line. The memory becomes blank when the power
+//         is removed.
 `default_nettype none
 
 module eeprom_24c32 #(
     parameter bit [6:0] Device = 7'h50,
-    parameter int unsigned WriteClk = 80_000,  // clk of a write cycle
-    parameter int unsigned StretchClk = 0,  // clk for which SCL is held low behind each acknowledge
+    parameter int unsigned WriteClk = 80_000,  // cycles of a write
+    parameter int unsigned StretchClk = 0,  // cycles with SCL held low after each acknowledge
     parameter bit Missing = 1'b0
 ) (
     input  wire logic clk_i,
     input  wire logic on_i,      // power
-    input  wire logic scl_i,     // levels of the lines, whoever pulls them
+    input  wire logic scl_i,     // level of the line, regardless of the driver
     input  wire logic sda_i,
     output logic      scl_oe_o,  // 1: the device pulls the line low
     output logic      sda_oe_o
@@ -39,24 +41,24 @@ module eeprom_24c32 #(
   int unsigned write_clk  /* verilator public_flat_rw */ = WriteClk;
   int unsigned stretch_clk  /* verilator public_flat_rw */ = StretchClk;
   logic missing  /* verilator public_flat_rw */ = Missing;
-  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // a line that is held low
+  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the line is held low
   logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;
-  int unsigned writing  /* verilator public_flat_rw */ = 0;  // clk left of a write cycle
+  int unsigned writing  /* verilator public_flat_rw */ = 0;  // cycles left of a write
 
-  // Page writes since the power came: first address, number of bytes, bytes; 32 places each.
+  // Page writes since power-on: first address, number of bytes, bytes; 32 entries each.
   int unsigned writes  /* verilator public_flat_rw */ = 0;
   logic [11:0] log_address[Log]  /* verilator public_flat_rw */;
   logic [5:0] log_count[Log]  /* verilator public_flat_rw */;
   logic [7:0] log_data[32*Log]  /* verilator public_flat_rw */;
 
   logic [7:0] page[32];
-  logic [31:0] filled;  // bytes of the page that have come
+  logic [31:0] filled;  // bytes of the page that were received
   state_e state;
   logic scl_was, sda_was;
   logic [3:0] bits;
   logic [7:0] shift, sent;
   logic [11:0] address;
-  int unsigned count;  // bytes of this write
+  int unsigned count;  // bytes received in this write
   int unsigned holding;
   logic scl_pull, sda_pull, was_on;
 
@@ -84,7 +86,8 @@ module eeprom_24c32 #(
     filled = '0;
   endfunction
 
-  // STOP: a write begins if whole bytes have come. The rise of SCL before it has looked like a bit.
+  // STOP: a write begins if only complete bytes were received. The rise of SCL before it was counted as a
+  // bit.
   function automatic void stop();
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];
@@ -98,7 +101,7 @@ module eeprom_24c32 #(
     rest();
   endfunction
 
-  // The eighth bit has gone: acknowledge until the next fall.
+  // After the eighth bit: acknowledge until the next falling edge.
   function automatic void take();
     unique case (state)
       StDevice: begin
@@ -149,7 +152,7 @@ module eeprom_24c32 #(
     end
   endfunction
 
-  // Blocking assignments: the order of the steps is that of the model, and nothing else looks inside.
+  // Blocking assignments: the order of the steps is that of the model, and no block reads the internal state.
   /* verilator lint_off BLKSEQ */
   always @(posedge clk_i) begin
     if (was_on && !on_i) power_off();
@@ -160,7 +163,7 @@ module eeprom_24c32 #(
   end
   /* verilator lint_on BLKSEQ */
 
-  // One clk.
+  // Executes one cycle.
   function automatic void step();
     if (holding != 0) begin
       holding--;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_smoke: shortest proof that an imported PPMC-104 works: initialise, 14 pulses CW, finish status.
-// Timing: prints "ppmc104_smoke: PASS" or "ppmc104_smoke: FAIL …" and ends; only that line counts.
+// ppmc104_smoke: minimal test of an imported PPMC-104: initialise, 14 pulses CW, read the finish status.
+// Timing: prints "ppmc104_smoke: PASS" or "ppmc104_smoke: FAIL …" and ends; only this line is checked.
 `default_nettype none
 
 module ppmc104_smoke;
@@ -85,7 +85,7 @@ module ppmc104_smoke;
     rst_n = 1'b1;
     repeat (4) @(negedge clk);
     count = 0;
-    // 4-phase, full step, H = on; RL 9, RH 4, ramp of 4 pulses.
+    // 4 phases, full step, positive logic (high = on); RL 9, RH 4, ramp of 4 pulses.
     put(1'b1, 8'h0A);
     put(1'b0, 8'd9);
     put(1'b0, 8'd4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pins of ppmc2104_carrier for the virtual board.
+// Pins of ppmc2104_carrier for the virtual board.
 #pragma once
 
 #include "axes.h"

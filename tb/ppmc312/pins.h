@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pins of ppmc312_carrier for the virtual board. Its drive has an encoder.
+// Pins of ppmc312_carrier for the virtual board. Its drive has an encoder.
 #pragma once
 
 #include "axes.h"
@@ -20,7 +20,7 @@ inline void idle_inputs(Vboard& top) {
     top.cs_n = top.oe_n = top.we_n = 1;
     top.run = top.evt0_n = top.evt1_n = 1;
     top.auxi = 0xFF;
-    top.end_n = 0;  // the drive says at once that it is where it shall be
+    top.end_n = 0;  // the drive reports "in position" immediately
 }
 
 inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
@@ -36,7 +36,7 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
 
 inline unsigned phases(const Vboard&, unsigned) { return 0; }
 
-// A pulse of the encoder is as long as that of the motor, one for each that the axle follows.
+// Pulses of the encoder are as long as those of the motor; one occurs for each pulse that the axle follows.
 inline void encoder_low(Vboard& top) { top.epin = 0; }
 inline void encoder_pulse(Vboard& top, bool ccw) {
     top.epdir = ccw;

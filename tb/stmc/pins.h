@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pins of stmc_carrier for the virtual board.
+// Pins of stmc_carrier for the virtual board.
 #pragma once
 
 #include "axes.h"
@@ -13,7 +13,7 @@ inline unsigned motion_pins(const Vboard& top) { return top.s; }
 
 class Motors {
    public:
-    // Between two motion_pins(): whether the motor steps; ccw() tells which way.
+    // Return whether the motor steps between two motion_pins(); ccw() returns the direction.
     unsigned steps(unsigned, unsigned now) {
         step_ = phases_.step(now);
         return step_ != 0;

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from openppmc.capture.common.pinmap import read_map
-from openppmc.cli.common.program import read_file, read_program
-from openppmc.cli.pmc006.program import _read
+from openppmc.cli.common.script import read_file, read_program
+from openppmc.cli.pmc006.script import _read
 from openppmc.host.ppmc312.profile import read_stages
 from openppmc.textfile import NotTextError, chunks, decode_text, read_text
 

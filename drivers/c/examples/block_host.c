@@ -28,12 +28,12 @@ int main(void)
     ppmc104_result_t result;
 
     ppmc312_setup(&part, bus_read, bus_write, (void *)(uintptr_t)PPMC312_BASE);
-    part.bus.limit = 100000000ul; /* polls; motions take a while */
+    part.bus.limit = 100000000ul; /* polls; motions take some time */
     result = ppmc312_open(&part, 0);
     if (result == PPMC104_OK) result = ppmc312_table(&part, &table);
     if (result == PPMC104_OK) result = ppmc312_start(&part, &home);
     if (result == PPMC104_OK) result = ppmc312_wait(&part, &end);
-    if (result == PPMC104_OK && end.cause != PPMC312_CAUSE_ORIGIN) return 100; /* a switch was first */
+    if (result == PPMC104_OK && end.cause != PPMC312_CAUSE_ORIGIN) return 100; /* ended by a switch */
     if (result == PPMC104_OK) result = ppmc312_set_position(&part, false, 0);
     if (result == PPMC104_OK) result = ppmc312_move_to(&part, 5000);
     if (result == PPMC104_OK) result = ppmc312_wait(&part, &end);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A PPMC-104 on the pins of a microcontroller, strobes by software. A sketch: put your pin functions in.
- *
- * The part needs (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): a read strobe of 250 ns before its data are
- * good, a write strobe of 73 ns, 73 ns between strobes. A function call per pin is slow enough on most
- * controllers; put bus_delay() to use if yours is faster. The port must be 5 V tolerant, or the part on 3.3 V.
+/* A PPMC-104 on the pins of a microcontroller, strobes by software. A sketch: insert your pin functions.
+ * The part requires (docs/ppmc104/README.md, chapter 4, at CLK_HZ = 16 MHz): a read strobe of 250 ns
+ * before its data are valid, a write strobe of 73 ns, 73 ns between strobes. A function call per pin is
+ * slow enough on most controllers; call bus_delay() if yours is faster. The port must be 5 V tolerant, or
+ * the part must run at 3.3 V.
  */
 #include "../ppmc104.h"
 
@@ -16,7 +16,7 @@ static void pin_rd_n(bool level) { (void)level; }
 static void pin_wr_n(bool level) { (void)level; }
 static void port_drive(bool on) { (void)on; } /* direction of D7..D0; off after reset */
 static void port_put(uint8_t value) { (void)value; }
-static uint8_t port_get(void) { return 0xFFu; } /* nothing connected yet */
+static uint8_t port_get(void) { return 0xFFu; } /* not connected yet */
 static void bus_delay(void) {} /* 250 ns */
 
 static uint8_t bus_read(void *ctx, unsigned reg)

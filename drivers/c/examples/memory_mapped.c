@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A soft CPU with a PPMC-104 behind ppmc_wishbone or ppmc_axil: initialise, find the origin, move. */
+/* A soft CPU with a PPMC-104 accessed through ppmc_wishbone or ppmc_axil: initialise, find the origin,
+ * move. */
 #include <stdint.h>
 
 #include "../ppmc104.h"
 
-/* Where your address decoder puts the bridge: data at +0, status and command at +4, interrupt at +8. */
+/* Address of the bridge in your address decoder: data at +0, status and command at +4, interrupt at +8. */
 #ifndef PPMC104_BASE
 #define PPMC104_BASE 0x40000000u
 #endif
@@ -38,7 +39,7 @@ int main(void)
     if (result == PPMC104_OK) result = ppmc104_init(&axis, &config);
     if (result == PPMC104_OK) result = ppmc104_home(&axis, PPMC104_CCW, search);
     if (result == PPMC104_OK) result = ppmc104_wait(&axis, &finish);
-    if (result == PPMC104_OK && finish.limit) return 100; /* the limit came before the origin */
+    if (result == PPMC104_OK && finish.limit) return 100; /* the limit was reached before the origin */
     if (result == PPMC104_OK) result = ppmc104_move(&axis, PPMC104_CW, 1000u);
     if (result == PPMC104_OK) result = ppmc104_wait(&axis, &finish);
     return (int)result; /* ppmc104_strerror(result) if there is a console */

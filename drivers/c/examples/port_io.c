@@ -22,13 +22,13 @@ int main(void)
     }
 #endif
     stmc_setup_ports(&axis, STMC_BASE);
-    axis.bus.limit = 100000000ul; /* polls; about a microsecond each on a real bus, and motions take a while */
+    axis.bus.limit = 100000000ul; /* polls, about 1 us each on a real bus; motions take some time */
     result = stmc_divisor(STMC_CLOCK_BOARD, SEARCH_SPEED, &config.divisor_start);
     if (result == PPMC104_OK) result = stmc_divisor(STMC_CLOCK_BOARD, TOP_SPEED, &config.divisor_high);
     search = config.divisor_start;
     if (result == PPMC104_OK) result = stmc_probe(&axis);
     if (result == PPMC104_OK) result = stmc_init(&axis, &config);
-    /* As the sheet starts up: to the end of the travel, then back to the reference point. */
+    /* Start-up sequence of the data sheet: to the end of the travel, then back to the reference point. */
     if (result == PPMC104_OK) result = stmc_jog(&axis, PPMC104_CCW, search);
     if (result == PPMC104_OK) result = stmc_wait(&axis, NULL);
     if (result == PPMC104_OK) result = stmc_home(&axis, PPMC104_CW, search);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A PPMC-312 (station 1, 83 333 baud) and a PMC006B4 (address 7, 9600 baud), each on a UART of a microcontroller. A
- * sketch: put your UART functions in. */
+/* A PPMC-312 (station 1, 83 333 baud) and a PMC006B4 (address 7, 9600 baud), each on a UART of a
+ * microcontroller. A sketch: insert your UART functions. */
 #include "../pmc006.h"
 #include "../ppmc312.h"
 
@@ -9,7 +9,7 @@
 /* ---- to be written for your controller; ctx is the number of the UART ---- */
 static void uart_driver(const void *ctx, bool on) { (void)ctx; (void)on; } /* driver enable of the RS-485 transceiver */
 static void uart_put(const void *ctx, uint8_t byte) { (void)ctx; (void)byte; }
-static void uart_flush(const void *ctx) { (void)ctx; } /* until the last stop bit has left */
+static void uart_flush(const void *ctx) { (void)ctx; } /* until the last stop bit was sent */
 static bool uart_get(const void *ctx, uint8_t *byte) { (void)ctx; (void)byte; return false; }
 static void delay_ms(void) {}
 

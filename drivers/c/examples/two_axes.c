@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A soft CPU with a PPMC-2104 in its address space: both axes start on one clock edge.
- * A sketch: put your RUN pins in. */
+/* A soft CPU with a PPMC-2104 in its address space: both axes start on one clock edge. A sketch: insert
+ * your RUN pins. */
 #include <stdint.h>
 
 #include "../ppmc2104.h"

@@ -10,8 +10,7 @@ from ...host import serial_ports
 from . import output, show
 from .board import BOARD
 from .options import MOST_AXES, Json, with_setup
-from .session import initialise, opened, setup_values
-from .state import lasting, remember
+from .session import initialise, lasting, opened, remember, setup_values
 
 AxisNumber = Annotated[
     int, typer.Option("--axis", min=1, max=MOST_AXES, metavar="N", help="axis, 1 is the first")

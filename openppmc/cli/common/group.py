@@ -1,10 +1,15 @@
-"""The command that a name means: rows of a table, of which only the one that is called is imported."""
+"""The command group: rows of a table, of which only the called command is imported; help.
+
+On a narrow terminal help is plain text, because the cells of tables would lose words.
+"""
 
 from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
+from shutil import get_terminal_size
 from types import ModuleType
 from typing import Any, ClassVar
 
@@ -12,6 +17,35 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ...streams import is_narrow
+
+
+def fitted(command: Any) -> Any:
+    """The same command; its help has no tables."""
+    command.format_help = partial(write, command)
+    for one in getattr(command, "commands", {}).values():
+        fitted(one)
+    return command
+
+
+def write(command: Any, ctx: Any, formatter: Any) -> None:
+    """Write the help as text: explanations are indented below what they explain."""
+
+    def write_rows(rows: Any, *_: Any) -> None:
+        for name, text in rows:
+            formatter.write_text(name)
+            with formatter.indentation(), formatter.indentation():
+                formatter.write_text(text)
+
+    formatter.width, formatter.write_dl = get_terminal_size().columns, write_rows
+    command.rich_markup_mode = None
+    for one in getattr(command, "commands", {}).values():
+        one.short_help = one.help  # whole sentences in the list of commands
+    mode = TyperGroup if isinstance(command, TyperGroup) else TyperCommand
+    mode.format_help(command, ctx, formatter)
+    # click would write UTF-8 to an ASCII stdout.
+    print(formatter.getvalue().rstrip("\n"), flush=True)
+    formatter.buffer.clear()
+
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
@@ -48,7 +82,7 @@ class Command:
         command = typer.main.get_group(group).commands[self.name]
         if not is_narrow():
             return command
-        from .plain_help import fitted
+        pass
 
         return fitted(command)
 
@@ -88,7 +122,7 @@ class PartGroup(TyperGroup):
         """Write the help of the whole."""
         _import_formatter()
         if is_narrow():
-            from .plain_help import write
+            pass
 
             write(self, ctx, formatter)
         else:

@@ -12,7 +12,7 @@ import typer
 from ...host.line import LineBus
 from ...host.motion import Progress
 from ...host.part import Turning
-from .guard import Guard
+from .session import Guard
 
 Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 

@@ -12,7 +12,7 @@ from . import output
 from .moves import AxisOrAll
 from .options import Json, with_setup
 from .session import Session, opened, ready
-from .watching import Count, Every, watch
+from .show import Count, Every, watch
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -1,17 +1,273 @@
-"""The command that carries script files out."""
+"""Script files: one command a line. `Program` reads a file; `Player` executes it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Protocol
 
 import typer
 
+from ...host import PpmcError
+from ...host.kind import COILS_OFF, Kind
+from ...host.part import AnyAxis
+from ...textfile import NotTextError, read_text
 from . import output
-from .options import with_setup
-from .player import Player, check_speeds, check_steps, positions
-from .program import read_file, read_program
-from .session import initialise, opened, setup_values
+from .options import SetupValues, with_setup
+from .reading import AXES, READERS, Numbered, Reader, none_left, own_words, read_axis, read_repeat
+from .session import Guard, initialise, opened, setup_values, stop_all
+
+
+def positions(axes: Iterable[AnyAxis]) -> str:
+    """Where they stand, in words."""
+    at = [str(axis.position) for axis in axes]
+    return f"position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
+
+
+class Played(Protocol):
+    """An open board or line, as far as a script needs it."""
+
+    guard: Guard
+
+    @property
+    def part(self) -> Any: ...
+    @property
+    def kind(self) -> Kind: ...
+    @property
+    def view(self) -> Any: ...
+    @property
+    def xtal_hz(self) -> int: ...
+    def axis(self, number: int = 1) -> AnyAxis: ...
+    def chosen(self, number: int | None) -> Sequence[AnyAxis]: ...
+
+
+def number_of(step: Step) -> int:
+    """The axis that a line is about."""
+    return 1 if step.axis is None else step.axis
+
+
+def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
+    """All steps by `do`, repeated ones as often as they say; a progress bar ends with its step. ScriptError
+    with file:line for what the part refuses."""
+    for step in steps:
+        guard.check()
+        if step.word == "repeat":
+            for _ in range(step.values["turns"]):
+                carry_out(step.body, name, guard, do)
+            continue
+        try:
+            do(step)
+        except ScriptError:
+            raise
+        except PpmcError as error:
+            raise ScriptError(f"{name}:{step.line}: {error}") from error
+        finally:
+            guard.bar_off()
+
+
+class Player:
+    """Carries a program out. values: set-ups of the axes in use. say: gets the lines that the user sees."""
+
+    def __init__(
+        self, session: Played, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
+    ) -> None:
+        self._session, self._guard, self._part = session, session.guard, session.part
+        self._values, self._name, self._say = values, name, say
+
+    def run(self, steps: Iterable[Step]) -> None:
+        """All steps. ScriptError with file:line for what the board refuses."""
+        carry_out(steps, self._name, self._guard, self._do_and_report)
+
+    def _do_and_report(self, step: Step) -> None:
+        self._do(step)
+        self._session.view.reports(self._part, self._say)
+
+    def _do(self, step: Step) -> None:
+        values, progress = step.values, self._guard.progress
+        number = number_of(step)
+        axis = self._session.axis(number)
+        if step.word == "init":
+            self._values[number] = self._values[number].merged(values)
+            axis.apply(self._values[number].plan(self._session.xtal_hz, self._session.kind, number))
+        elif step.word in ("move", "goto"):
+            self._move(step, axis)
+        elif step.word == "step":
+            axis.step(values["side"])
+        elif step.word == "jog":
+            motion = axis.jog(values["side"], values["speed"], values["ramped"])
+            self._guard.pause(self._part, values["seconds"])
+            motion.wait() if motion.over else axis.stop()
+        elif step.word == "home":
+            fast, limit = values["approach"] == "fast", values["approach"] == "to-limit"
+            axis.home(values["side"], values["speed"], fast, limit, progress=progress)
+        elif step.word == "wait":
+            self._guard.pause(self._part, values["seconds"])
+        elif step.word == "stop":
+            stop_all(self._session.view.busy(self._part, self._session.chosen(step.axis)))
+        elif step.word == "zero":
+            axis.zero()
+        elif own := own_words().get(step.word):
+            own.do(self._part, values)
+        elif step.word == "off":
+            for motor in self._chosen(step):
+                motor.excitation_off()
+        else:
+            self._say(f"{self._name}:{step.line}: {positions(self._chosen(step))}")
+
+    def _chosen(self, step: Step) -> tuple[AnyAxis, ...]:
+        """The axis that a line names, or all that the program uses."""
+        numbers = sorted(self._values) if step.axis is None else [step.axis]
+        return tuple(self._session.axis(number) for number in numbers)
+
+    def _move(self, step: Step, axis: AnyAxis) -> None:
+        """move and goto, one axis or both."""
+        values, progress = step.values, self._guard.progress
+        absolute, speed = step.word == "goto", values.get("speed")
+        first, second = values["position" if absolute else "pulses"], values["second"]
+        if second is not None:
+            x, y = (motor.position if absolute else 0 for motor in self._part.axes[:2])
+            self._session.view.together(self._part, {1: first - x, 2: second - y}, speed, progress)
+            return
+        pulses = first - (axis.position if absolute else 0)
+        if speed is None or pulses == 0:
+            axis.move(pulses, progress)
+        else:
+            axis.move_constant(pulses, speed, progress)
+
+
+def check_steps(steps: Iterable[Step], name: str, kind: Kind) -> list[int]:
+    """The axes that a program uses, 1 if it names none. ScriptError for what the part does not have."""
+    return sorted(_axes_of(steps, name, kind)) or [1]
+
+
+def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
+    used: set[int] = set()
+    for step in steps:
+        try:
+            if step.word in OF_AXES and (step.axis is not None or step.word not in OF_ALL_AXES):
+                used.add(kind.check_axis(number_of(step)))
+            if step.values.get("second") is not None:
+                used.add(kind.check_axis(2))
+        except PpmcError as error:
+            raise ScriptError(f"{name}:{step.line}: {error}") from error
+        if lacks := _lacks(step, kind):
+            raise ScriptError(f"{name}:{step.line}: {lacks}")
+        used |= _axes_of(step.body, name, kind)
+    return used
+
+
+def _lacks(step: Step, kind: Kind) -> str:
+    """What a part does not have for this step, empty if it has all."""
+    if own := own_words().get(step.word):
+        return own.lacks(kind, step.values)
+    if step.word == "off" and COILS_OFF not in kind.has:
+        return f"a {kind} cannot switch its coils off"
+    return ""
+
+
+def check_speeds(
+    steps: Iterable[Step], values: dict[int, SetupValues], xtal_hz: int, name: str, kind: Kind
+) -> None:
+    """Refuse speeds and ramps that the part cannot do before anything moves. ScriptError."""
+    for step in steps:
+        axis = number_of(step)
+        try:
+            if step.word == "init":
+                values[axis] = values[axis].merged(step.values)
+                values[axis].plan(xtal_hz, kind, axis)
+            elif step.values.get("speed") is not None:
+                clock = values[axis].plan(xtal_hz, kind, axis).clock
+                kind.constant_clock(xtal_hz, clock, step.values["speed"])
+        except PpmcError as error:
+            raise ScriptError(f"{name}:{step.line}: {error}") from error
+        check_speeds(step.body, values, xtal_hz, name, kind)
+
+
+DEEPEST = 20
+
+
+class ScriptError(PpmcError):
+    """A line that cannot be understood or carried out; the message begins with file:line."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One line. `body` belongs to repeat. axis: as written, None if it names none."""
+
+    line: int
+    word: str
+    values: dict[str, Any]
+    body: tuple[Step, ...] = ()
+    axis: int | None = None
+
+
+OF_AXES = ("init", "move", "goto", "step", "jog", "home", "stop", "zero", "off", "position")
+"""Commands that may end with axis=N; without it they are about axis 1."""
+OF_ALL_AXES = ("stop", "off", "position")
+"""Those that are about all axes without it."""
+
+
+def read_file(file: Path) -> tuple[str, str]:
+    """Name and text of a script file; - is standard input. PpmcError."""
+    name = "stdin" if str(file) == "-" else str(file)
+    try:
+        text = typer.get_text_stream("stdin").read() if name == "stdin" else read_text(file)
+    except OSError as error:
+        raise PpmcError(f"{file}: cannot be read ({error.strerror})") from error
+    except NotTextError as error:
+        raise PpmcError(f"{file}: not a text file in UTF-8 or UTF-16: {error}") from error
+    except UnicodeDecodeError as error:
+        raise PpmcError(f"{file}: not a text file in UTF-8") from error
+    return name, text.removeprefix("\ufeff")
+
+
+def read_program(
+    text: str,
+    name: str,
+    readers: Mapping[str, Reader] | None = None,
+    of_axes: Collection[str] = OF_AXES,
+    numbered: Numbered = AXES,
+) -> tuple[Step, ...]:
+    """All steps of a script file. readers: its words, those of parts behind the bridge if there are none;
+    of_axes: those that may end with axis=N, or as that is `numbered`. ScriptError for the first bad line."""
+    if readers is None:
+        readers = READERS | {word: own.read for word, own in own_words().items()}
+    stack: list[tuple[int, dict[str, Any], list[Step]]] = [(0, {}, [])]
+    for number, line in enumerate(text.splitlines(), 1):
+        words = line.split("#", 1)[0].split()
+        if not words:
+            continue
+        word, rest = words[0].lower(), words[1:]
+        try:
+            if word == "end":
+                none_left(rest)
+                if len(stack) == 1:
+                    raise ValueError("end without repeat")
+                start, values, body = stack.pop()
+                if not body:
+                    raise ValueError("nothing to repeat")
+                stack[-1][2].append(Step(start, "repeat", values, tuple(body)))
+            elif word == "repeat":
+                if len(stack) > DEEPEST:
+                    raise ValueError(f"repeat deeper than {DEEPEST}")
+                stack.append((number, read_repeat(rest), []))
+            elif word in readers:
+                axis = read_axis(rest, numbered) if word in of_axes else None
+                step = Step(number, word, readers[word](rest), axis=axis)
+                if axis is not None and step.values.get("second") is not None:
+                    raise ValueError("two numbers are for both axes: leave axis= out")
+                stack[-1][2].append(step)
+            else:
+                known = ", ".join(sorted([*readers, "repeat", "end"]))
+                raise ValueError(f"unknown command {words[0]!r} (there are {known})")
+        except (ValueError, PpmcError) as error:
+            raise ScriptError(f"{name}:{number}: {error}") from error
+    if len(stack) > 1:
+        raise ScriptError(f"{name}:{stack[-1][0]}: repeat without end")
+    if not stack[0][2]:
+        raise ScriptError(f"{name}:1: there is no command in this file")
+    return tuple(stack[0][2])
 
 
 @with_setup

@@ -18,7 +18,7 @@ from ...host.selftest.run import SelfTest
 from . import output
 from .board import BOARD
 from .options import Json
-from .version import misfit
+from .session import misfit
 
 RECORDS = 13
 """Of a virtual board for which nobody asked for another number."""

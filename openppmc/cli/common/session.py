@@ -1,24 +1,240 @@
-"""Which board a command talks to, and the board while it does."""
+"""The board that a command uses: its versions, what `init` has stored, signals and progress bars.
+
+`init` stores the values of the set-up options of each port in a small JSON file. The first signal decelerates
+the motor, the second one stops it immediately, the third one ends the program.
+"""
 
 from __future__ import annotations
 
+import json
+import os
+import re
+import signal
+import sys
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from types import FrameType, TracebackType
+from typing import TYPE_CHECKING, Any
 
-from ... import parts
-from ...host import End, NothingToStop, PpmcError, open_part
+import typer
+
+from ... import __version__, parts
+from ...errors import PpmcError
+from ...host import End, NothingToStop, open_part
 from ...host.kind import Kind
 from ...host.link import DEFAULT_BAUD
-from ...host.part import AnyAxis, Part
+from ...host.motion import Progress
+from ...host.part import AnyAxis, Device, Part
+from ...host.port import MODEL, SIM
+from ...host.script import Build
+from ...host.stopping import NO_MOTION, arrived, bring_to_rest, handled, name_of, say
+from ...streams import StdoutLost
 from . import output
 from .board import BOARD
-from .guard import Guard
 from .options import SetupValues
-from .state import recall
-from .version import misfit
 from .view import AnyView, view_of
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bars
+
+
+def state_folder() -> Path:
+    """Where the files are: $OPENPPMC_STATE, or `openppmc` in the user's folder for program state."""
+    own = os.environ.get("OPENPPMC_STATE")
+    if own:
+        return Path(own)
+    if os.name == "nt":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home())) / "openppmc"
+    return Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "openppmc"
+
+
+def lasting(port: str) -> bool:
+    """Virtual boards are new each time, so nothing is remembered for them."""
+    return bool(port) and not f"{port}:".startswith((MODEL, SIM))
+
+
+def _file(port: str, axis: int) -> Path:
+    name = re.sub(r"[^A-Za-z0-9._-]", "_", port.strip("/"))
+    return state_folder() / (name + ("" if axis == 1 else f".axis{axis}") + ".json")
+
+
+def recall(port: str, axis: int = 1) -> dict[str, Any]:
+    """Remembered options of an axis, empty if there are none. PpmcError if the file is not readable."""
+    path = _file(port, axis)
+    if not lasting(port) or not path.is_file():
+        return {}
+    try:
+        values = json.loads(path.read_text(encoding="utf-8"))["setup"]
+        if not isinstance(values, dict):
+            raise ValueError("no table")
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise PpmcError(
+            f"{path}: the remembered set-up cannot be read: delete the file, then run init"
+        ) from error
+    return values
+
+
+def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
+    """Keep the options for later commands. PpmcError if the file cannot be written."""
+    if not lasting(port):
+        return
+    path = _file(port, axis)
+    text = json.dumps({"port": port, "setup": values}, indent=1) + "\n"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        fresh = path.with_suffix(f".{os.getpid()}")
+        fresh.write_text(text, encoding="utf-8")
+        fresh.replace(path)
+    except OSError as error:
+        raise PpmcError(f"{path}: the set-up cannot be remembered ({error.strerror})") from error
+
+
+BAR_AFTER = 0.6
+"""Seconds that a motion runs before it gets a bar."""
+
+
+class Interrupted(Exception):  # noqa: N818 - the user did it
+    """A signal has arrived; raised where the program looks for it, never in the middle of a frame."""
+
+
+class Guard:
+    """Context manager: counts signals instead of letting them break the dialogue with the board. number: of
+    the first signal."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.number = int(signal.SIGINT)
+        self._bars: Bars | None = None
+        self._handled = handled(self._note)
+
+    def __enter__(self) -> Guard:
+        self._handled.__enter__()
+        if arrived:
+            self.count, self.number = 1, arrived[0]
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.bar_off()
+        self._handled.__exit__(None, None, None)
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        if not self.count:
+            self.number = number
+        self.count += 1
+        if self.count > 2:
+            os._exit(128 + number)
+
+    def check(self) -> None:
+        """Raise Interrupted if a signal has arrived, StdoutLost if stdout rejects what was printed."""
+        if self.count:
+            raise Interrupted
+        sys.stdout.flush()
+
+    def progress(self, now: Progress) -> None:
+        """Progress callback of motions."""
+        self.check()
+        self.bar(now)
+
+    def pause(self, part: Device, seconds: float) -> None:
+        """Let time pass on the board's clock."""
+        link = part.link
+        end = link.clock() + seconds
+        while (left := end - link.clock()) > 0:
+            self.check()
+            part.attend(min(left, 0.1))
+        self.check()
+
+    # ------------------------------------------------------------------ bar
+
+    def bar(self, now: Progress) -> None:
+        """Show or move the bar of the running motion; only on a terminal."""
+        if not sys.stderr.isatty() or now.seconds < BAR_AFTER:
+            return
+        self._draw("moving", "position {task.fields[at]}", now.asked, now.made, at=now.position)
+
+    def count_bar(self, what: str, done: int, of: int) -> None:
+        """Show or move a bar that counts; only on a terminal."""
+        if sys.stderr.isatty():
+            self._draw(what, "{task.completed}/{task.total}", of, done)
+
+    def _draw(self, what: str, text: str, total: int | None, done: int, **fields: Any) -> None:
+        if self._bars is None:
+            from rich.console import Console
+            from rich.progress import BarColumn, Progress, TextColumn
+
+            columns = TextColumn("{task.description}"), BarColumn(), TextColumn(text)
+            self._bars = Progress(*columns, console=Console(stderr=True), transient=True)
+            self._task = self._bars.add_task(what, total=total, **fields)
+            self._bars.start()
+        self._bars.update(self._task, total=total, completed=done, **fields)
+
+    def bar_off(self) -> None:
+        """The motion is over."""
+        if self._bars is not None:
+            with suppress(OSError):  # the terminal was closed
+                self._bars.stop()
+            self._bars = None
+
+    # ------------------------------------------------------------------ what a signal or a lost stdout does
+
+    @contextmanager
+    def resting(self, part: Device) -> Iterator[None]:
+        """Bring the motors to rest if the block ends by a signal or because stdout is lost."""
+        try:
+            self.check()
+            yield
+            sys.stdout.flush()
+        except Interrupted:
+            say(self.bring_to_rest(part))
+            raise typer.Exit(self.status) from None
+        except StdoutLost as lost:
+            self.bar_off()
+            motors = bring_to_rest([part], hurry=lambda: self.count > 0)
+            lost.motors = "" if motors.startswith(NO_MOTION) else motors
+            raise
+
+    @property
+    def status(self) -> int:
+        """Exit status after a signal."""
+        return 128 + self.number
+
+    def bring_to_rest(self, part: Device) -> str:
+        """Decelerate all axes, wait; at once on the next signal. Returns one line for the user."""
+        self.bar_off()
+        return f"{name_of(self.number)}: {bring_to_rest([part], hurry=lambda: self.count > 1)}"
+
+
+def misfit(build: Build | None, number: int) -> str:
+    """One line that says what to do, "" if they fit or nobody can tell. number: of the part."""
+    if build is None:
+        return ""
+    if build.version != __version__:
+        older = "the package" if _order(build.version) > _order(__version__) else "the bitstream"
+        return f"the bitstream is of version {build.version}, this package {__version__}: renew {older}"
+    row = parts.by_number(number)
+    if not build.source or row is None:
+        return ""
+    from ... import sources
+    from ...sim.common.build import find_root
+
+    try:
+        own = sources.digest(find_root(), f"{row.rtl}_carrier").hex()
+    except (PpmcError, RuntimeError, OSError):
+        return ""  # no checkout here
+    if own and build.source != own:
+        return (
+            f"the bitstream was built from other sources ({build.source}) than those of this checkout "
+            f"({own}): build and load it anew to test these"
+        )
+    return ""
+
+
+def _order(version: str) -> list[int]:
+    return [int(word) for word in version.split(".") if word.isdigit()]
 
 
 @dataclass

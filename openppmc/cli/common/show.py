@@ -1,13 +1,20 @@
-"""What the shared commands print: rows for people, values for programs (JSON)."""
+"""What the shared commands print: rows for people, JSON for programs; `monitor` repeats it until Ctrl-C."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
 
 from ...host import End, speeds
 from ...host.kind import name_of
 from ...host.link import Link
 from ...host.script import RATES
+from . import output
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 
 def identity_values(link: Link) -> dict[str, Any]:
@@ -75,3 +82,30 @@ def setup_values(setup: speeds.Setup) -> dict[str, Any]:
         "base_clock_hz": float(setup.clock.hertz),
         "bytes": [setup.code, *setup.data],
     }
+
+
+Count = Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")]
+Every = Annotated[float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")]
+
+
+def watch(
+    count: int | None,
+    pause: Callable[[], None],
+    lines: Callable[[], Iterable[str]],
+    table: Callable[[], Table],
+) -> None:
+    """A table that changes on a terminal, else `lines` of each look; `pause` comes between two looks."""
+    turns = count or 10**9
+    if not output.console.is_terminal:
+        for turn in range(turns):
+            if turn:
+                pause()
+            for line in lines():
+                output.say(line)
+        return
+    from rich.live import Live
+
+    with Live(table(), console=output.console, auto_refresh=False) as live:
+        for _ in range(turns - 1):
+            pause()
+            live.update(table(), refresh=True)

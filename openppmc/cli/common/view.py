@@ -1,22 +1,131 @@
-"""What a part shows on the command line, and what the shared commands ask of it that not all parts have.
+"""What a device shows on the command line, and requests of shared commands that only some devices support.
 
-The table names the view of a part (column `view`); a part without one has `RampView`, that of the PPMC-104.
+The table of parts names the view of a part (column `view`); a part without one has `RampView`, that of the
+PPMC-104. A forecast is computed from the golden model's ramp before the move. `--at POSITION:WHAT` sets an
+override, an action of the device when it passes a position.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import accumulate
+from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
-from ...host import End, OutOfRange, speeds
+from ...errors import needs
+from ...host import End, speeds
+from ...host import speeds as units
 from ...host.axis import OnProgress
+from ...host.errors import OutOfRange
 from ...host.kind import Kind
 from ...host.link import Link
 from ...host.part import AnyAxis
-from . import forecast, show
-from .forecast import Course
-from .override import Override
+from ...model.motion.codes import ENDLESS
+from ...model.motion.ramp import profile_index
+from . import show
+
+FARTHEST = 1 << 31
+
+
+@dataclass(frozen=True)
+class Override:
+    """At a position: another speed in pps (with a ramp), or a stop, `now` at once."""
+
+    at: int
+    speed: float | None = None
+    now: bool = False
+
+
+def parse_override(text: str) -> Override:
+    """`2000:stop`, `2000:halt` or `2000:3500`. Raises ValueError."""
+    place, colon, what = (piece.strip() for piece in text.partition(":"))
+    try:
+        at = int(place)
+        if not (colon and -FARTHEST <= at < FARTHEST):
+            raise ValueError
+        if what in ("stop", "halt"):
+            return Override(at, now=what == "halt")
+        speed = float(what)
+        if not 0 < speed < float("inf"):
+            raise ValueError
+    except ValueError:
+        raise ValueError(f"{text!r} is not POSITION:stop, POSITION:halt or POSITION:PPS") from None
+    return Override(at, speed)
+
+
+LONGEST_PLOT = 1_000_000
+
+
+def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
+    """Figures of an undisturbed move; times in s from the first to the last pulse, speeds in pps.
+
+    Computed interval by interval along the ramp, in closed form on the plateau. OutOfRange for a number of
+    pulses that the part cannot do.
+    """
+    n = abs(pulses)
+    if not 1 <= n <= ENDLESS:
+        raise OutOfRange(f"{pulses} pulses: a move has 1 to {ENDLESS} pulses either way")
+    if speed is not None:
+        return {
+            "pulses": pulses,
+            "profile": "constant speed",
+            "top_pps": float(speed.reached),
+            "seconds": float((n - 1) / speed.reached),
+        }
+    ramp, clock = setup.ramp(), setup.clock
+    pa = ramp.pa
+    plateau = max(0, n - 1 - 2 * pa)
+    sloped = range(1, n) if not plateau else (*range(1, pa + 1), *range(n - pa, n))
+    periods = [1 / clock.speed_of(ramp.rate(profile_index(n, pa, j)) + 1) for j in sloped]
+    slopes = sum(periods, Fraction(0))
+    top = setup.high.reached if plateau else 1 / min(periods, default=1 / clock.speed_of(ramp.rl + 1))
+    return {
+        "pulses": pulses,
+        "profile": "trapezoid" if plateau else "triangle",
+        "top_pps": float(top),
+        "ramp_pulses": pa if plateau else (n - 1) // 2,
+        "plateau_intervals": plateau,
+        "ramp_seconds": float(sum(periods[: len(periods) // 2], Fraction(0))),
+        "seconds": float(slopes + plateau / setup.high.reached),
+    }
+
+
+@dataclass(frozen=True)
+class Course:
+    """A move to draw: times of its pulses in s, speed of each interval in pps."""
+
+    seconds: list[float]
+    speeds: list[float]
+
+    @classmethod
+    def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
+        """With the ramp of the set-up or at a constant speed, pulses from 1 on."""
+        if speed is None:
+            ramp, clock = setup.ramp(), setup.clock
+            counts = [ramp.rate(profile_index(pulses, ramp.pa, j)) + 1 for j in range(1, pulses)]
+        else:
+            clock = speed.clock
+            counts = [speed.rate + clock.beyond] * (pulses - 1)
+        period, extra = float(clock.period), float(clock.extra)
+        seconds = [n * extra + total * period for n, total in enumerate(accumulate(counts, initial=0))]
+        speeds = {count: float(clock.speed_of(count)) for count in set(counts)}
+        return cls(seconds, [speeds[count] for count in counts])
+
+
+def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
+    """Speed over time as PNG, SVG or PDF. course: makes that of so many pulses. OutOfRange for moves too long
+    to draw and for file names that the plotter does not know."""
+    needs("plot", "a plot", "matplotlib")
+    from ...plot.profile import FORMATS, draw_profile
+
+    if abs(pulses) > LONGEST_PLOT:
+        raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses: choose a shorter move")
+    if path.suffix.lower() not in FORMATS:
+        raise OutOfRange(f"{path}: the name of a plot ends in {', '.join(FORMATS)}")
+    draw_profile(course(abs(pulses)), f"{pulses} pulses", path)
 
 
 class Status(Protocol):
@@ -165,7 +274,7 @@ class RampView(View[PartT, speeds.Setup]):
         return show.setup_values(setup)
 
     def figures(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-        return forecast.key_figures(setup, pulses, speed)
+        return key_figures(setup, pulses, speed)
 
     def course(self, setup: speeds.Setup, pulses: int, speed: speeds.Speed | None) -> Course:
         return Course.of(setup, pulses, speed)

@@ -1,20 +1,24 @@
-"""A line of PMC006B4 while a command talks to it."""
+"""A line of PMC006B4 during a command, and the output of commands about it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import Annotated
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ...host import Pmc006, Pmc006Bus
+from ...host import End, Pmc006, Pmc006Bus
 from ...host.pmc006.part import Found, find
-from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST
+from ...host.pmc006.settings import SETTINGS, Setting, drive_current, mean_acceleration
+from ...host.pmc006.wire import ADDRESSES, FACTORY, LAST, Flags, Modes
 from ..common.board import BOARD
-from ..common.guard import Guard
 from ..common.line_session import guarded, line_options, parse_numbers
+from ..common.session import Guard
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 LINE_WORDS = "rs485, rts=high, rts=low, patience=SECONDS"
 Address = Annotated[
@@ -85,3 +89,130 @@ def opened() -> Iterator[Session]:
         options["baud"] = BOARD.baud
     with guarded(lambda: Pmc006Bus.open(BOARD.port, **options)) as (bus, guard):
         yield Session(bus, guard)
+
+
+_HEADS = ("address", "version", "state", "position", "line faults")
+
+
+def state(flags: Flags | None, modes: Modes | None) -> str:
+    """One phrase: what the motor does, and what keeps it from starting."""
+    if flags is None or modes is None:
+        return "-"
+    words = ["running" if modes.running else "moving"] if flags.busy else []
+    words += [f"stopped by EXT{number}" for number in flags.stops]
+    words += ["off-line"] if modes.free else []
+    words += ["stalled"] if flags.stall else []
+    return ", ".join(words) or "at rest"
+
+
+def found_table(found: Iterable[Found]) -> Table:
+    """A line a controller."""
+    from rich.table import Table
+
+    grid = Table(box=None, pad_edge=False)
+    for head in _HEADS:
+        grid.add_column(head, justify="left" if head == "state" else "right")
+    for one in found:
+        grid.add_row(
+            str(one.address),
+            one.version or "-",
+            state(one.flags, one.modes),
+            "-" if one.position is None else str(one.position),
+            str(one.counters.faults),
+        )
+    return grid
+
+
+def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
+    """For JSON."""
+    return [
+        {
+            "address": one.address,
+            "version": one.version,
+            "state": state(one.flags, one.modes),
+            "position": one.position,
+            "line": asdict(one.counters),
+            "trouble": one.trouble,
+        }
+        for one in found
+    ]
+
+
+def end_line(end: End) -> str:
+    """Where the motor stands, and why."""
+    steps = ""
+    if end.pulses is not None:
+        steps = f", {abs(end.pulses)} steps {'backward' if end.pulses < 0 else 'forward'}"
+    return f"{end.who}position {end.position}{steps}: {end.why}"
+
+
+# ---------------------------------------------------------------------- one controller
+
+
+def status_values(part: Pmc006) -> dict[str, Any]:
+    """All that changes by itself."""
+    flags, modes, ports = part.flags(), part.modes(), part.ports()
+    return {
+        "address": part.address,
+        "position": part.position,
+        "state": state(flags, modes),
+        "flags": {"ext1": flags.ext1, "ext2": flags.ext2, "stall": flags.stall},
+        "enabled": {"ext1": modes.ext1_enabled, "ext2": modes.ext2_enabled},
+        "levels": {"ext1": ports.ext1, "ext2": ports.ext2},
+        "inputs": ports.inputs,
+        "outputs": ports.outputs,
+        "line": asdict(part.counters),
+    }
+
+
+def status_rows(values: dict[str, Any]) -> dict[str, str]:
+    """The same for people."""
+    stops = [
+        f"{name.upper()} {'on' if on else 'off'}, level {int(values['levels'][name])}"
+        for name, on in values["enabled"].items()
+    ]
+    return {
+        "address": str(values["address"]),
+        "position": str(values["position"]),
+        "motor": values["state"],
+        "stops": "; ".join(stops),
+        "GPI5…GPI1": f"{values['inputs']:05b}",
+        "GPO5…GPO1": f"{values['outputs']:05b}",
+    }
+
+
+def io_values(part: Pmc006) -> dict[str, Any]:
+    """Port word, bit by bit."""
+    ports = part.ports()
+    return {
+        **{f"gpi{n + 1}": ports.inputs >> n & 1 for n in range(5)},
+        **{f"gpo{n + 1}": ports.outputs >> n & 1 for n in range(5)},
+        "ext1": int(ports.ext1),
+        "ext2": int(ports.ext2),
+    }
+
+
+def settings_values(part: Pmc006, names: Iterable[str] = tuple(SETTINGS)) -> dict[str, int]:
+    """Settings in force."""
+    return {name: getattr(part, name) for name in names}
+
+
+def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
+    """Values with units, ranges and what they mean; those with a star are kept by `save`. Headings first."""
+    rows: list[tuple[str, ...]] = [("setting", "value", "unit", "", "range", "meaning")]
+    for name, value in values.items():
+        one: Setting = SETTINGS[name]
+        star = "*" if one.saved else ""
+        rows.append((name, str(value), one.unit, star, one.span, _meaning(name, value, one.text)))
+    return rows
+
+
+def _meaning(name: str, value: int, text: str) -> str:
+    """What a value comes to."""
+    if name == "current":
+        return f"{text}: drives {drive_current(value)} mA"
+    if name in ("acceleration", "deceleration"):
+        return f"{mean_acceleration(value)} steps/s² in the mean"
+    if name == "attenuation":
+        return f"current at rest {100 / 2**value:g} % of the peak"
+    return text

@@ -1,32 +1,312 @@
-"""What a PPMC-312 shows on the command line, and what only it can do."""
+"""What a PPMC-312 shows on the command line: forecasts, overrides, output, and words of script files.
+
+A forecast is computed from the golden model's tables. Only a PPMC-312 has the script words at, event, pulse
+and watch.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import accumulate
 from typing import Any
 
 from ...host import Ppmc312, speeds
 from ...host.axis import OnProgress
+from ...host.errors import OutOfRange
+from ...host.kind import Kind
 from ...host.part import AnyAxis
-from ...host.ppmc312.answers import Alarm, Failed
-from ...host.ppmc312.profile import Setup
-from ..common.forecast import Course
-from ..common.override import Override
-from ..common.view import View
-from . import forecast, show
-from .overrides import register
+from ...host.ppmc312 import blocks
+from ...host.ppmc312.answers import (
+    Alarm,
+    EncoderChange,
+    Executed,
+    Failed,
+    InPositionChange,
+    InputChange,
+    InterlockEnded,
+    Report,
+    Stopped,
+)
+from ...host.ppmc312.core import TableRead
+from ...host.ppmc312.motion import SHAPES
+from ...host.ppmc312.part import Axis
+from ...host.ppmc312.profile import KIND, Setup
+from ...model.ppmc312.codes import Code, Source
+from ...model.ppmc312.stages import Plan, constant, ramped
+from ..common import show
+from ..common.options import Side
+from ..common.reading import OwnWord, Values
+from ..common.view import Course, Override, View, parse_override
+
+LONGEST_MOVE = (1 << 32) - 1
+
+
+def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
+    if not 1 <= pulses <= LONGEST_MOVE:
+        raise OutOfRange(f"{pulses} pulses: a move has 1 to {LONGEST_MOVE} pulses either way")
+    if speed is None:
+        return ramped(setup.table, setup.table.high, pulses)
+    return constant(setup.table, setup.rate_of(speed.asked), pulses)
+
+
+def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
+    """As `forecast.key_figures`: interval by interval on the ramps, in closed form between them."""
+    n = abs(pulses)
+    plan = _plan(setup, n, speed)
+    sloped = [*range(1, plan.up + 1), *range(n - plan.down + 1, n + 1)]
+    rates = {number: plan.step(number).rate for number in sloped}
+    plateau = n - len(sloped)
+    ticks = sum(rates.values()) + plateau * plan.rate
+    ticks -= rates.get(n, plan.rate)  # nothing follows the last pulse
+    fastest = min([*rates.values(), *([plan.rate] if plateau else [])])
+    period = setup.clock.period
+    values: dict[str, Any] = {
+        "pulses": pulses,
+        "profile": "constant speed" if speed is not None else SHAPES[plan.kind],
+        "top_pps": float(setup.clock.speed(fastest)),
+        "seconds": float(ticks * period),
+    }
+    if speed is None:
+        rise = sum(rates[number] for number in range(1, plan.up + 1))
+        values |= {
+            "ramp_pulses": plan.up,
+            "plateau_intervals": plateau,
+            "down_pulses": plan.down,
+            "ramp_seconds": float(rise * period),
+        }
+    return values
+
+
+def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
+    """With the table's ramps or at a constant speed, pulses from 1 on."""
+    rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
+    period = float(setup.clock.period)
+    seconds = [ticks * period for ticks in accumulate(rates, initial=0)]
+    return Course(seconds, [1 / (rate * period) for rate in rates])
+
+
+MOST = 8
+
+
+def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
+    """Tell the part, in this order. OutOfRange for what it cannot do."""
+    if len(overrides) > MOST:
+        raise OutOfRange(f"{len(overrides)} overrides: a {part.kind} keeps {MOST}")
+    for one in overrides:
+        if one.speed is None:
+            part.override_stop(at=one.at, slow=not one.now)
+        else:
+            part.override_speed(one.speed, at=one.at)
+
+
+_DONE = {
+    Code.STOP: "stopped at once",
+    Code.SLOW_STOP: "stopped with a ramp",
+    Code.RAMP_CHANGE: "speed changed with a ramp",
+    Code.CHANGE: "speed changed at once",
+}
+
+
+def axis_values(part: Axis[Any]) -> dict[str, Any]:
+    """Everything that may be read at any time."""
+    status = part.status()
+    return {
+        "position": part.position,
+        "encoder": part.encoder,
+        "moving": status.busy,
+        "state": status.state.name,
+        "error": "alarm" if status.in_alarm else None,
+        "status": status.raw,
+        "overrides": status.overrides,
+        "inputs": {name: bool(on) for name, on in vars(part.inputs()).items()},
+    }
+
+
+def state_rows(values: dict[str, Any]) -> dict[str, str]:
+    """Rows that other parts do not have."""
+    return {
+        "encoder": str(values["encoder"]),
+        "state": values["state"],
+        "overrides": str(values["overrides"] or "none"),
+    }
+
+
+def setup_rows(setup: Setup) -> dict[str, str]:
+    """Asked and reached speeds, ramps, bytes."""
+    table = setup.table
+    rows = {"start speed": show.speed(setup.start), "high speed": show.speed(setup.high)}
+    rows["ramp"] = f"{setup.shape}, {table.na} pulses, {setup.seconds(table.pa):.4g} s"
+    if table.separate:
+        rows["stop speed"] = show.speed(setup.stop)
+        rows["ramp down"] = f"{table.nd} pulses, {setup.seconds(table.pd):.4g} s"
+    kind = "external" if setup.clock.external else "internal"
+    rows["base clock"] = f"{speeds.nearby(setup.clock.hertz)} Hz ({kind})"
+    first = setup.blocks[0].hex(" ").upper()
+    rows["bytes"] = first + (f" and {len(setup.blocks) - 1} blocks of data" if setup.blocks[1:] else "")
+    return rows
+
+
+def setup_values(setup: Setup) -> dict[str, Any]:
+    """For JSON."""
+    return {
+        "shape": setup.shape,
+        "start_pps": float(setup.start.reached),
+        "stop_pps": float(setup.stop.reached),
+        "high_pps": float(setup.high.reached),
+        "ramp_pulses": setup.table.na,
+        "down_pulses": setup.table.nd,
+        "base_clock_hz": float(setup.clock.hertz),
+        "blocks": [list(block) for block in setup.blocks],
+    }
+
+
+def table_lines(read: TableRead, setup: Setup) -> list[str]:
+    """The table as a CSV that `--curve` takes: slowest stage first."""
+    lines = ["pps,up,down" if read.down else "pps,up"]
+    for place in range(len(read.rates) - 1, -1, -1):
+        sides = [read.up, *([read.down] if read.down else [])]
+        cells = [str(side[place]) if place < len(side) else "" for side in sides]
+        lines.append(",".join([f"{float(setup.clock.speed(read.rates[place])):.10g}", *cells]))
+    return lines
+
+
+def report_text(report: Report) -> str:
+    """One line for a report."""
+    if isinstance(report, Executed):
+        by = "override" if report.by is Source.OVERRIDE else "event"
+        if report.code is None:
+            return f"{by}: an instruction carried out"
+        return f"{by}: {_DONE.get(Code(report.code), f'instruction {report.code:02X} carried out')}"
+    if isinstance(report, (Failed, Alarm)):
+        return str(report.error)
+    if isinstance(report, EncoderChange):
+        return f"encoder: {'outside' if report.outside else 'inside'} its range"
+    if isinstance(report, InPositionChange):
+        return f"position: {'not ' if report.outside else ''}reached by the encoder"
+    if isinstance(report, InputChange):
+        return f"inputs changed: {report.changed:08b}"
+    if isinstance(report, Stopped):
+        return f"stopped at position {report.position}: {report.cause.name.lower().replace('_', ' ')}"
+    return "interlock position reached" if isinstance(report, InterlockEnded) else "RUN: the start went off"
+
+
+_DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
+
+
+def read_at(words: list[str]) -> Values:
+    """`at POSITION stop|halt|PPS`."""
+    if len(words) != 2:
+        raise ValueError("at needs: at POSITION stop|halt|PPS")
+    override = parse_override(":".join(words))
+    return {"override": override, "speed": override.speed}
+
+
+def read_event(words: list[str]) -> Values:
+    """`event 1|2 WHAT`."""
+    if len(words) < 2:
+        raise ValueError(f"event needs: event 1|2 {_DOES}")
+    event, what, operands = _event(words[0]), words[1].lower(), words[2:]
+    if what in ("stop", "halt", "delete"):
+        _count(operands, 0)
+    elif what == "step":
+        _count(operands, 1)
+        if operands[0].lower() not in ("cw", "ccw"):
+            raise ValueError(f"{operands[0]!r} is neither cw nor ccw")
+        return {"event": event, "what": what, "value": Side(operands[0].lower()).code}
+    elif what in ("move", "outputs"):
+        _count(operands, 1)
+        return {"event": event, "what": what, "value": _whole(operands[0])}
+    else:
+        raise ValueError(f"{words[1]!r}: an event does {_DOES}")
+    return {"event": event, "what": what}
+
+
+def read_pulse(words: list[str]) -> Values:
+    """`pulse 1|2`."""
+    _count(words, 1)
+    return {"event": _event(words[0])}
+
+
+def read_watch(words: list[str]) -> Values:
+    """`watch DISTANCE|off`."""
+    _count(words, 1)
+    distance = None if words[0].lower() == "off" else _whole(words[0])
+    if distance is not None and not 1 <= distance <= 0xFFFF:
+        raise ValueError(f"distance {distance} is outside 1 to 65535")
+    return {"distance": distance}
+
+
+def _event(text: str) -> int:
+    if text not in ("1", "2"):
+        raise ValueError(f"event {text!r}: there are events 1 and 2")
+    return int(text)
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"{text!r} is not a whole number") from None
+
+
+def _count(words: list[str], wanted: int) -> None:
+    if len(words) != wanted:
+        raise ValueError(f"{wanted} word{'s' if wanted != 1 else ''} expected here, not {len(words)}")
+
+
+def _lacks(kind: Kind, values: Values) -> str:
+    """Why another part cannot do it; empty for a PPMC-312."""
+    return "" if kind is KIND else f"a {kind} has neither overrides nor events"
+
+
+def _do_at(part: Ppmc312, values: Values) -> None:
+    register(part, [values["override"]])
+
+
+def _do_event(part: Ppmc312, values: Values) -> None:
+    if values["what"] == "delete":
+        while part.event_delete(values["event"]):
+            pass
+    else:
+        part.event_add(values["event"], _block(part, values["what"], values.get("value", 0)))
+
+
+def _do_pulse(part: Ppmc312, values: Values) -> None:
+    part.pulse_event(values["event"])
+
+
+def _do_watch(part: Ppmc312, values: Values) -> None:
+    part.watch_encoder(values["distance"])
+
+
+def _block(part: Ppmc312, what: str, value: int) -> bytes:
+    if what == "move":
+        return part.move_block(value)
+    if what == "step":
+        return blocks.single_step(value)
+    if what == "outputs":
+        return blocks.outputs(value)
+    return blocks.immediate_stop() if what == "halt" else blocks.slow_stop()
+
+
+WORDS = {
+    "at": OwnWord(read_at, _lacks, _do_at),
+    "event": OwnWord(read_event, _lacks, _do_event),
+    "pulse": OwnWord(read_pulse, _lacks, _do_pulse),
+    "watch": OwnWord(read_watch, _lacks, _do_watch),
+}
 
 
 class PartView(View[Ppmc312, Setup]):
     """Tables of ramps, an encoder, overrides, and reports that the part sends by itself."""
 
     def status_values(self, part: Ppmc312, axis: AnyAxis) -> dict[str, Any]:
-        return show.status_values(part)
+        return axis_values(part)
 
     def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
         rows = super().status_rows(values)
         del rows["last byte"]
-        return rows | show.state_rows(values)
+        return rows | state_rows(values)
 
     def reports(self, part: Ppmc312, tell: Callable[[str], None]) -> None:
         trouble = None
@@ -34,21 +314,21 @@ class PartView(View[Ppmc312, Setup]):
             if isinstance(report, (Failed, Alarm)):
                 trouble = trouble or report.error
             else:
-                tell(show.report_line(report))
+                tell(report_text(report))
         if trouble is not None:
             raise trouble
 
     def setup_rows(self, setup: Setup) -> dict[str, str]:
-        return show.setup_rows(setup)
+        return setup_rows(setup)
 
     def setup_values(self, setup: Setup) -> dict[str, Any]:
-        return show.setup_values(setup)
+        return setup_values(setup)
 
     def figures(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-        return forecast.figures(setup, pulses, speed)
+        return figures(setup, pulses, speed)
 
     def course(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
-        return forecast.course(setup, pulses, speed)
+        return course(setup, pulses, speed)
 
     def prepare(self, part: Ppmc312, overrides: Sequence[Override], encoder: int | None) -> None:
         if encoder is not None:
@@ -69,7 +349,7 @@ class PartView(View[Ppmc312, Setup]):
         part.home(direction, pps, fast, to_limit, progress=progress, index=index)
 
     def table_lines(self, part: Ppmc312) -> list[str]:
-        return show.table_lines(part.read_table(), part.known_setup())
+        return table_lines(part.read_table(), part.known_setup())
 
 
 VIEW = PartView()

@@ -12,9 +12,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from .build import board_program, build
+from .build import SimError, board_program, build
 from .spec import Spec, parse_spec, suffixes
-from .verilator import SimError
 
 Self = TypeVar("Self", bound="Child")
 _KINDS: dict[str, Callable[[str], object]] = {

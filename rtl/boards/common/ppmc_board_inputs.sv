@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_inputs: pins on their way to the part. Beside a recorder they are synchronised here, so that recorder and
-//         part see the same levels on the same clk; otherwise they go on as they are.
+// ppmc_board_inputs: input pins of the part. With a recorder they are synchronised here, so that recorder and
+// part sample the same levels in the same cycle. Without one they pass unchanged.
 // Rules:  UB-REC-05.
-// Timing: 2 clk with Sync, else combinational.
+// Timing: latency 2 cycles with Sync = 1, else combinational.
 `default_nettype none
 
 module ppmc_board_inputs #(

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_lamp: makes a short event long enough to be seen on a lamp.
-// Rules:  docs/boards.md, lamps.
-// Timing: lamp_o rises one clk after on_i and falls 2^n clk after the last clk with on_i = 1, 1/32 .. 1/16 s.
+// ppmc_board_lamp: stretches a short event so that it is visible on an LED.
+// Rules:  docs/boards.md, LEDs.
+// Timing: lamp_o rises one cycle after on_i. It falls 2^n cycles (1/32 .. 1/16 s) after the last cycle with
+//         on_i = 1.
 `default_nettype none
 
 module ppmc_board_lamp #(

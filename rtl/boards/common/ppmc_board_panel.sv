@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_panel: reset and lamps of a board.
-// Rules:  docs/boards.md, lamps.
-// Timing: of ppmc_board_reset and ppmc_board_lamp.
+// ppmc_board_panel: reset and LEDs of a board.
+// Rules:  docs/boards.md, LEDs.
+// Timing: see ppmc_board_reset and ppmc_board_lamp.
 `default_nettype none
 
 module ppmc_board_panel #(
     parameter int unsigned ClkHz = 24_000_000
 ) (
     input  wire logic       clk_i,
-    input  wire logic       lock_i,    // 1: clk_i is good; 1 without a PLL
-    input  wire logic       req_ni,    // 0: reset wanted
+    input  wire logic       lock_i,    // 1: clk_i is stable; 1 without a PLL
+    input  wire logic       req_ni,    // 0: reset request
     output logic            rst_no,
     input  wire logic       link_i,
     input  wire logic       moving_i,
-    input  wire logic       switch_i,  // one is active
-    output logic      [3:0] lamps_o    // 1 = on: out of reset, a switch is active, motor moves, link
+    input  wire logic       switch_i,  // 1: at least one switch is active
+    output logic      [3:0] lamps_o    // 1 = on; bits 3..0: out of reset, switch, motor moves, link
 );
 
   logic lamp_link;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_reset: the reset of a board: power-on, PLL lock, button and the reset line of a host.
-// Rules:  feeds rst_n of P104-PORT-03. Without a PLL lock_i is 1 and the start values make the power-on reset.
-// Timing: rst_no falls with lock_i at once and at the third clk edge that sees req_ni low; it rises when both have
-//         been high without a break for HoldUs at least (twice that at most), so a button may bounce.
+// ppmc_board_reset: reset generator of a board, from power-on, PLL lock, button and the reset line of a host.
+// Rules:  drives rst_n of P104-PORT-03. Without a PLL, lock_i is 1 and the initial register values provide
+//         the power-on reset.
+// Timing: rst_no falls with lock_i immediately, and at the third rising edge of clk_i that samples req_ni
+//         low. It rises when both have been high without interruption for HoldUs to 2 * HoldUs, so the button
+//         may bounce.
 `default_nettype none
 
 module ppmc_board_reset #(
@@ -10,8 +12,8 @@ module ppmc_board_reset #(
     parameter int unsigned HoldUs = 1000         // 1 .. 1000
 ) (
     input  wire logic clk_i,
-    input  wire logic lock_i,  // asynchronous; 1: clk_i is good
-    input  wire logic req_ni,  // asynchronous; 0: reset wanted
+    input  wire logic lock_i,  // asynchronous; 1: clk_i is stable
+    input  wire logic req_ni,  // asynchronous; 0: reset request
     output logic      rst_no
 );
 
@@ -21,7 +23,7 @@ module ppmc_board_reset #(
 
   localparam int unsigned Bits = $clog2(ClkHz / 1_000_000 * HoldUs);
 
-  // The start values matter where no PLL holds lock_i low after configuration.
+  // The initial value is needed where no PLL holds lock_i low after configuration.
   logic [Bits:0] count_q = '0;
   logic unused_meta, req_n;
 

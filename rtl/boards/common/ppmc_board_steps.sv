@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_steps: pulse and direction from the phase pins of a part that has no such outputs, for its pulse counter.
-// Rules:  section 6 of the STMC rules: 3, 4 or 5 phases, full or half steps, both polarities, without being told
-//         which. Patterns with all phases at one level (chopper, before the first initialisation) are passed over.
-// Timing: pout_no is low in the second clk after a step, dir_o changes with it. All bits of s_i change on one edge.
+// ppmc_board_steps: derives pulse and direction from the phase pins of a part without such outputs, for the
+// pulse counter.
+// Rules:  docs/stmc/README.md, 11.1: 3, 4 or 5 phases, full or half steps and both polarities are recognised
+//         without a setting. Patterns with all phases at one level (chopper, before the first initialisation)
+//         are ignored.
+// Timing: pout_no is low for one cycle, two cycles after a step; dir_o changes in the same cycle.
+// Assumes: all bits of s_i change on one edge.
 `default_nettype none
 
 module ppmc_board_steps (
     input  wire logic       clk_i,
-    input  wire logic       rst_ni,   // of the part: the next pattern is the first one
+    input  wire logic       rst_ni,   // reset of the part: the next pattern is the first one
     input  wire logic [5:1] s_i,
     output logic            pout_no,
     output logic            dir_o     // 0 = CW
@@ -22,8 +25,9 @@ module ppmc_board_steps (
     return count <= 3'd2;
   endfunction
 
-  // Two neighbours of a ring of 3, 4 or 5 phases share exactly one energised phase; what is energised is the smaller
-  // half of the pins. Only rings of 5 have half steps between 2 and 3 phases, and there either half will do.
+  // Adjacent patterns of a ring of 3, 4 or 5 phases share exactly one energised phase, and the smaller half
+  // of the pins is energised. Only rings of 5 have half steps between 2 and 3 phases; there either half
+  // works.
   function automatic logic clockwise(logic [5:1] was, logic [5:1] is);
     logic [5:1] a, b, from, to, changed;
     changed = was ^ is;
@@ -39,7 +43,7 @@ module ppmc_board_steps (
       to   = a & b;
       from = a & ~b;
     end
-    // One place up, or from the last phase to the first, whichever that is.
+    // One position up, or from the last phase to the first, regardless of the number of phases.
     return to == {from[4:1], 1'b0} || (to < from && to != {1'b0, from[5:2]});
   endfunction
 

@@ -2,17 +2,17 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc_bank_carrier.sv; change those, not this.
 // board_icebreaker_bank: PPMC bank with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/bank/pins.pcf. 24 pins are three for each of 8
-//         axes: pulse, direction, and the limit CCW, which is where an axis without an origin switch begins to count.
-//         The break-off section must be off.
-// Timing: of ppmc_bank_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/bank/pins.pcf. 24 pins: pulse, direction and CCW
+//         limit of 8 axes. An axis without an origin switch uses the CCW limit as its origin. The break-off section
+//         must be off.
+// Timing: see ppmc_bank_carrier.
 `default_nettype none
 
 module board_icebreaker_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // line rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
@@ -24,7 +24,7 @@ module board_icebreaker_bank #(
     // motors
     output logic      [7:0] pout_n,
     output logic      [7:0] dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

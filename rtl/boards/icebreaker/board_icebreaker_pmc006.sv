@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by `make boards` from constraints/icebreaker/board.yml and pmc006_carrier.sv; change those, not this.
 // board_icebreaker_pmc006: PMC006B4 on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/pmc006/pins.pcf. The pins have room for three
-//         of the five inputs and outputs each, and for no converter: no analog speed, no stall.
-// Timing: of pmc006_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/pmc006/pins.pcf. There are pins for three of the
+//         five inputs and three of the five outputs, and for no converter: no analog speed, no stall detection.
+// Timing: see pmc006_carrier.
 `default_nettype none
 
 module board_icebreaker_pmc006 #(
@@ -42,7 +42,7 @@ module board_icebreaker_pmc006 #(
     // EEPROM: 1 pulls low
     inout  wire logic       scl,
     inout  wire logic       sda,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

@@ -2,26 +2,26 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc104: PPMC-104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc104/pins.pcf. CSEL and VSEL are straps of
 //         the bridge.
-// Timing: of ppmc104_carrier.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
     input  wire logic       clock,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
@@ -37,7 +37,7 @@ module board_icebreaker_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

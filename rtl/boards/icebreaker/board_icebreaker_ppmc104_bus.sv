@@ -2,21 +2,21 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc104_bus: PPMC-104 with bus host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc104-bus/pins.pcf. The three PMODs have 24
-//         pins: S5, HOLD, L3*, L4*, ALM*, CLOCK, AUX* are given up, and so are AUXI, AUXO, CSEL, VSEL. The break-off
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc104-bus/pins.pcf. The three PMODs have 24
+//         pins, so S5, HOLD, L3*, L4*, ALM*, CLOCK, AUX*, AUXI, AUXO, CSEL and VSEL have no pins. The break-off
 //         section must not be connected to PMOD 2: its buttons would act as limit switches.
-// Timing: of ppmc104_carrier.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc104_bus #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0         // level of s before the first initialisation
+    parameter bit          PHASE_IDLE = 1'b0         // level of s until the first initialisation
 ) (
     input  wire logic       clk_12m,     // 12 MHz
     input  wire logic       btn_n,       // 0: reset
     input  wire logic       host_rst_n,  // 0: reset, from the host
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -24,7 +24,7 @@ module board_icebreaker_ppmc104_bus #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       cnp_n,
@@ -32,7 +32,7 @@ module board_icebreaker_ppmc104_bus #(
     output logic      [4:1] s,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

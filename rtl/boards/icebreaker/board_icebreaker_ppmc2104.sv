@@ -2,25 +2,25 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and ppmc2104_carrier.sv; change those, not this.
 // board_icebreaker_ppmc2104: PPMC-2104 with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/ppmc2104/pins.pcf. CSEL, RUN and ERRINT are
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/ppmc2104/pins.pcf. CSEL, RUN and ERRINT are
 //         straps of the bridge; S5 of axis 1, the phases of axis 2, the external base clocks and AUXI have no pins.
 //         The break-off section must be off.
-// Timing: of ppmc2104_carrier.
+// Timing: see ppmc2104_carrier.
 `default_nettype none
 
 module board_icebreaker_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
-    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0: as on the old chip
+    parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // switches, 0 = active
+    // switches, active low
     input  wire logic [2:1] fl_n,
     input  wire logic [2:1] bl_n,
     input  wire logic [2:1] fhl_n,
@@ -34,7 +34,7 @@ module board_icebreaker_ppmc2104 #(
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

@@ -2,34 +2,34 @@
 // Written by `make boards` from constraints/icebreaker/board.yml and stmc_carrier.sv; change those, not this.
 // board_icebreaker_stmc: J105 STMC with UART host on iCEBreaker (iCE40UP5K-SG48), clk 24 MHz from the 12 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/icebreaker/stmc/pins.pcf.
-// Timing: of stmc_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/icebreaker/stmc/pins.pcf.
+// Timing: see stmc_carrier.
 `default_nettype none
 
 module board_icebreaker_stmc #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
     parameter              READ_MAP   = "FAMILY",    // or "SHEET"
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_12m,   // 12 MHz
     input  wire logic       btn_n,     // 0: reset
     // UART host
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
     input  wire logic       l4_n,
     input  wire logic       cnp_n,
-    input  wire logic       mon,       // 1 = the motor may run
+    input  wire logic       mon,       // high: the motor may run
     // motor
     output logic      [5:1] s,
     output logic            hold,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic            ledg_n,
     output logic            ledr_n
 );

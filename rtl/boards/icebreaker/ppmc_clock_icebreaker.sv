@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_clock_icebreaker: 24 MHz or less from the 12 MHz oscillator of an iCEBreaker, by the PLL at its clock pad.
-// Rules:  settings of the PLL as icepll has them for 12 MHz in; the VCO (32 times clk_o) runs at 533 .. 1066 MHz.
+// ppmc_clock_icebreaker: PLL of an iCEBreaker at its clock pad: 24 MHz or less from the 12 MHz oscillator.
+// Rules:  PLL settings from icepll for 12 MHz in; the VCO (32 times clk_o) runs at 533 .. 1066 MHz.
 // Timing: lock_o is asynchronous.
 `default_nettype none
 
 module ppmc_clock_icebreaker #(
     parameter bit [6:0] Divf = 7'd63  // clk_o = 12 MHz * (Divf + 1) / 32; 44 .. 87
 ) (
-    input  wire logic clk_12m_i,  // the package pin itself
+    input  wire logic clk_12m_i,  // package pin of the oscillator
     output logic      clk_o,      // on a global net
     output logic      lock_o
 );

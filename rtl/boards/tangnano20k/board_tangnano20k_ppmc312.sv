@@ -2,23 +2,23 @@
 // Written by `make boards` from constraints/tangnano20k/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_tangnano20k_ppmc312: PPMC-312 with UART host on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from the 27
 //         MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k/ppmc312/pins.cst. Two general inputs and two
-//         general outputs only, and no bus; the header has no more pins.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano20k/ppmc312/pins.cst. Only two general inputs and
+//         two general outputs, and no bus, because the header has no more pins.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_tangnano20k_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter              TIMING  = "FAST",
-    parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_27m,   // 27 MHz
     input  wire logic       btn,       // 1: reset
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,  // from the PC
     output logic            uart_txd,  // to the PC
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,
@@ -44,7 +44,7 @@ module board_tangnano20k_ppmc312 #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [1:0] auxo_n,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic      [3:0] led_n
 );
 

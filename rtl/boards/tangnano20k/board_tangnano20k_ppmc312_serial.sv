@@ -2,32 +2,32 @@
 // Written by `make boards` from constraints/tangnano20k/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_tangnano20k_ppmc312_serial: PPMC-312 in serial mode on Tang Nano 20K (GW2AR-LV18QN88C8/I7), clk 54 MHz from
 //         the 27 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano20k/ppmc312-serial/pins.cst. Frames are taken from
-//         the USB-UART and from the RS-485 line, replies go to both. The header has no pins left for general inputs
-//         and outputs, the external base clock, hsp (no function) and mod[2] (1 at all speeds); adr lies on the
-//         lamps.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano20k/ppmc312-serial/pins.cst. Frames are accepted
+//         from the USB-UART and from the RS-485 line; replies are sent to both. The header has no pins left for
+//         general inputs and outputs, the external base clock, hsp (no function) and mod[2] (1 at all speeds). adr
+//         uses the LED pins.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_tangnano20k_ppmc312_serial #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter              SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter              SUM_MODE = "BINARY",    // checksum of the serial line; or "CHARS"
     parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0            // bits that rs485_de waits beyond half a bit, 0 .. 8
+    parameter int unsigned SND_WAIT = 0            // bits of wait before rs485_de in addition to 0.5, 0 .. 8
 ) (
     input  wire logic       clk_27m,    // 27 MHz
     input  wire logic       btn,        // 1: reset
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,   // from the PC
     output logic            uart_txd,   // to the PC
-    // serial line and its straps; it rests with another host
+    // serial line and its straps; idle unless HOST = "SERIAL"
     input  wire logic       rs485_rxd,
     output logic            rs485_txd,
     output logic            rs485_de,
     input  wire logic [1:0] mod,
     input  wire logic [3:0] adr,
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,

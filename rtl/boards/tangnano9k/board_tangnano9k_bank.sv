@@ -2,17 +2,17 @@
 // Written by `make boards` from constraints/tangnano9k/board.yml and ppmc_bank_carrier.sv; change those, not this.
 // board_tangnano9k_bank: PPMC bank with UART or SPI host on Tang Nano 9K (GW1NR-LV9QN88PC6/I5), clk 54 MHz from the
 //         27 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/tangnano9k/bank/pins.cst. Pulse and direction for 16 axes
-//         take 32 of the 37 pins with 3.3 V, SPI the rest: no switches, no phases. The crystal is one of 13.5 MHz, so
-//         that times are exact: base clock 421.875 kHz.
-// Timing: of ppmc_bank_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/tangnano9k/bank/pins.cst. Pulse and direction of 16 axes
+//         use 32 of the 37 pins with 3.3 V, SPI the rest: no switches, no phases. The crystal frequency is 13.5 MHz,
+//         so that times are exact: base clock 421.875 kHz.
+// Timing: see ppmc_bank_carrier.
 `default_nettype none
 
 module board_tangnano9k_bank #(
     parameter bit          PHASE_IDLE = 1'b0,     // level of s before the first initialisation
     parameter              HOST       = "UART",   // or "SPI"
-    parameter int unsigned BAUD       = 115_200,  // of the bridge after reset
-    parameter int unsigned RECORD     = 0         // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,  // line rate of the bridge after reset
+    parameter int unsigned RECORD     = 0         // 2**RECORD records of pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic        clk_27m,   // 27 MHz
     input  wire logic        btn_n,     // 0: reset
@@ -24,11 +24,11 @@ module board_tangnano9k_bank #(
     input  wire logic        sck,
     input  wire logic        mosi,
     output logic             miso,
-    output logic             int_n,     // some axis has an interrupt pending
+    output logic             int_n,     // at least one axis has a pending interrupt
     // motors
     output logic      [15:0] pout_n,
     output logic      [15:0] dir,
-    // lamps, 0 = on
+    // LEDs, 0 = on
     output logic      [ 3:0] led_n
 );
 

@@ -2,18 +2,18 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc_bank_carrier.sv; change those, not this.
 // board_ulx3s_bank: PPMC bank with UART or SPI host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/bank/pins.lpf. 25 of the 32 axes have pins, pulse
-//         and direction each, no switches and no phases. As an SPI host serves what is wired to the pins of J1, or
-//         the ESP32 of the board, which has them as GPIO26, 25, 33, 35, 34.
-// Timing: of ppmc_bank_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/bank/pins.lpf. 25 of the 32 axes have pins: pulse and
+//         direction, no switches, no phases. The SPI host is wired to the pins of J1, or it is the ESP32 of the
+//         board, which has these pins as GPIO26, 25, 33, 35, 34.
+// Timing: see ppmc_bank_carrier.
 `default_nettype none
 
 module board_ulx3s_bank #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
     parameter              HOST       = "UART",      // or "SPI"
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // line rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic        clk_25m,    // 25 MHz
     input  wire logic        btn_f1,     // 1: reset
@@ -25,11 +25,11 @@ module board_ulx3s_bank #(
     input  wire logic        sck,
     input  wire logic        mosi,
     output logic             miso,
-    output logic             int_n,      // some axis has an interrupt pending
+    output logic             int_n,      // at least one axis has a pending interrupt
     // motors
     output logic      [24:0] pout_n,
     output logic      [24:0] dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [ 3:0] led,
     // constant
     output logic             wifi_gpio0  // boot pin of the ESP32

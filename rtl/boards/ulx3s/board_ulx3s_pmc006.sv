@@ -2,8 +2,8 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and pmc006_carrier.sv; change those, not this.
 // board_ulx3s_pmc006: PMC006B4 on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz from the 25 MHz
 //         oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/pmc006/pins.lpf.
-// Timing: of pmc006_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/pmc006/pins.lpf.
+// Timing: see pmc006_carrier.
 `default_nettype none
 
 module board_ulx3s_pmc006 #(
@@ -43,15 +43,15 @@ module board_ulx3s_pmc006 #(
     output logic      [4:0] gpo,
     // converter: one bus, two strobes
     input  wire logic [9:0] conv,
-    input  wire logic       adc_stb,      // rises: conv is the voltage of GPI1
-    input  wire logic       bemf_stb,     // rises: conv is the back-EMF
+    input  wire logic       adc_stb,      // rising edge: conv is the voltage of GPI1
+    input  wire logic       bemf_stb,     // rising edge: conv is the back-EMF
     // EEPROM: 1 pulls low
     inout  wire logic       scl,
     inout  wire logic       sda,
-    // what happens
+    // monitor
     output logic            mon_step,
     output logic            mon_dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0    // boot pin of the ESP32

@@ -2,17 +2,17 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc2104_carrier.sv; change those, not this.
 // board_ulx3s_ppmc2104: PPMC-2104 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc2104/pins.lpf.
-// Timing: of ppmc2104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/ppmc2104/pins.lpf.
+// Timing: see ppmc2104_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc2104 #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0 as on the old chip
+    parameter bit          PHASE_ON = 1'b1,        // level of s1, s2 with a winding on; 0: as on the old chip
     parameter              HOST     = "UART",      // or "BUS"
-    parameter int unsigned BAUD     = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD     = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD   = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -20,7 +20,7 @@ module board_ulx3s_ppmc2104 #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       busc,
@@ -29,12 +29,12 @@ module board_ulx3s_ppmc2104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // with the UART host the straps can pull these to 0 as well
+    // with HOST = "UART" the straps can also set errint_n, run and csel to 0
     input  wire logic       errint_n,
     input  wire logic [2:1] run,
     input  wire logic [2:1] csel,
     input  wire logic [2:1] extck,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic [2:1] fl_n,
     input  wire logic [2:1] bl_n,
     input  wire logic [2:1] fhl_n,
@@ -51,7 +51,7 @@ module board_ulx3s_ppmc2104 #(
     output logic      [2:1] hold,
     output logic      [2:1] pout_n,
     output logic      [2:1] dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32

@@ -2,24 +2,24 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_ulx3s_ppmc312: PPMC-312 with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc312/pins.lpf.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/ppmc312/pins.lpf.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc312 #(
     parameter int unsigned XTAL_HZ = 16_000_000,
     parameter              TIMING  = "FAST",
     parameter              HOST    = "UART",      // or "BUS", "SERIAL"
-    parameter int unsigned BAUD    = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD    = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD  = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
     input  wire logic       host_rst_n,  // 0: reset, from the host
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; unless HOST = "BUS" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic [2:0] rs,
     input  wire logic       cs_n,
     input  wire logic       oe_n,
@@ -28,7 +28,7 @@ module board_ulx3s_ppmc312 #(
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            wrq_n,
     output logic            irq_n,
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,
@@ -54,7 +54,7 @@ module board_ulx3s_ppmc312 #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32

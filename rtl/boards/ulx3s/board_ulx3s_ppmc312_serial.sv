@@ -2,31 +2,31 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and ppmc312_carrier.sv; change those, not this.
 // board_ulx3s_ppmc312_serial: PPMC-312 in serial mode on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 50 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/ppmc312-serial/pins.lpf. Frames are taken from the
-//         USB-UART and from the RS-485 line, replies go to both.
-// Timing: of ppmc312_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/ppmc312-serial/pins.lpf. Frames are accepted from the
+//         USB-UART and from the RS-485 line; replies are sent to both.
+// Timing: see ppmc312_carrier.
 `default_nettype none
 
 module board_ulx3s_ppmc312_serial #(
     parameter int unsigned XTAL_HZ  = 16_000_000,
     parameter              TIMING   = "FAST",
-    parameter              SUM_MODE = "BINARY",    // of the part's own line; or "CHARS"
+    parameter              SUM_MODE = "BINARY",    // checksum of the serial line; or "CHARS"
     parameter int unsigned SND_LEAD = 1,           // bits from rs485_de to the start bit, 1 .. 16
-    parameter int unsigned SND_WAIT = 0            // bits that rs485_de waits beyond half a bit, 0 .. 8
+    parameter int unsigned SND_WAIT = 0            // bits of wait before rs485_de in addition to 0.5, 0 .. 8
 ) (
     input  wire logic       clk_25m,    // 25 MHz
     input  wire logic       btn_f1,     // 1: reset
-    // UART host, or a master of the part itself
+    // UART host, or a master of the serial line
     input  wire logic       uart_rxd,   // from the PC
     output logic            uart_txd,   // to the PC
-    // serial line and its straps; it rests with another host
+    // serial line and its straps; idle unless HOST = "SERIAL"
     input  wire logic       rs485_rxd,
     output logic            rs485_txd,
     output logic            rs485_de,
     input  wire logic       hsp,
     input  wire logic [2:0] mod,
     input  wire logic [3:0] adr,
-    // switches, drive and encoder, 0 = active but for epin, epdir and run
+    // switches, drive, encoder, start gate, events; pins that end in _n are active low
     input  wire logic       fl_n,
     input  wire logic       bl_n,
     input  wire logic       fhl_n,
@@ -52,7 +52,7 @@ module board_ulx3s_ppmc312_serial #(
     output logic            zclmp_n,
     output logic            intlk_n,
     output logic      [5:0] auxo_n,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0  // boot pin of the ESP32

@@ -2,18 +2,18 @@
 // Written by `make boards` from constraints/ulx3s/board.yml and stmc_carrier.sv; change those, not this.
 // board_ulx3s_stmc: J105 STMC with UART or bus host on ULX3S v2.0 … v3.0 (LFE5U-25F, -85F, CABGA381), clk 100 MHz
 //         from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s/stmc/pins.lpf.
-// Timing: of stmc_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s/stmc/pins.lpf.
+// Timing: see stmc_carrier.
 `default_nettype none
 
 module board_ulx3s_stmc #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
     parameter              READ_MAP   = "FAMILY",    // or "SHEET"
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -21,7 +21,7 @@ module board_ulx3s_stmc #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       cs_n,
     input  wire logic       a0,
     input  wire logic       rd_n,
@@ -29,17 +29,17 @@ module board_ulx3s_stmc #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
     input  wire logic       l4_n,
     input  wire logic       cnp_n,
-    input  wire logic       mon,         // 1 = the motor may run
+    input  wire logic       mon,         // high: the motor may run
     // motor
     output logic      [5:1] s,
     output logic            hold,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32

@@ -2,17 +2,17 @@
 // Written by `make boards` from constraints/ulx3s_v31/board.yml and ppmc104_carrier.sv; change those, not this.
 // board_ulx3s_v31_ppmc104: PPMC-104 with UART or bus host on ULX3S v3.1.6 … v3.1.8 (LFE5U-25F, -85F, CABGA381), clk
 //         100 MHz from the 25 MHz oscillator.
-// Rules:  pins, lamps, wiring: docs/boards.md; constraints/ulx3s_v31/ppmc104/pins.lpf.
-// Timing: of ppmc104_carrier.
+// Rules:  pins, LEDs, wiring: docs/boards.md; constraints/ulx3s_v31/ppmc104/pins.lpf.
+// Timing: see ppmc104_carrier.
 `default_nettype none
 
 module board_ulx3s_v31_ppmc104 #(
     parameter int unsigned XTAL_HZ    = 16_000_000,
     parameter              TIMING     = "FAST",
-    parameter bit          PHASE_IDLE = 1'b0,        // level of s before the first initialisation
+    parameter bit          PHASE_IDLE = 1'b0,        // level of s until the first initialisation
     parameter              HOST       = "UART",      // or "BUS"
-    parameter int unsigned BAUD       = 115_200,     // of the bridge after reset
-    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: none
+    parameter int unsigned BAUD       = 115_200,     // baud rate of the bridge after reset
+    parameter int unsigned RECORD     = 0            // 2**RECORD records of the pins, 4 .. 16; 0: no recorder
 ) (
     input  wire logic       clk_25m,     // 25 MHz
     input  wire logic       btn_f1,      // 1: reset
@@ -20,7 +20,7 @@ module board_ulx3s_v31_ppmc104 #(
     // UART host
     input  wire logic       uart_rxd,    // from the PC
     output logic            uart_txd,    // to the PC
-    // bus host; with another one d_oe stays 0: the part's reads stay inside
+    // bus host; with HOST = "UART" d_oe stays 0, because reads of the device stay inside the FPGA
     input  wire logic       a0,
     input  wire logic       cs_n,
     input  wire logic       rd_n,
@@ -28,11 +28,11 @@ module board_ulx3s_v31_ppmc104 #(
     inout  wire logic [7:0] d,
     output logic            d_oe,        // direction of a bus transceiver, 1: FPGA to host
     output logic            int_n,
-    // clock selection; with the UART host the straps can pull csel and vsel to 0 as well
+    // clock selection; with HOST = "UART" the straps can also set csel and vsel to 0
     input  wire logic       csel,
     input  wire logic       vsel,
     input  wire logic       clock,
-    // switches, 0 = active
+    // switches, active low
     input  wire logic       l1_n,
     input  wire logic       l2_n,
     input  wire logic       l3_n,
@@ -48,7 +48,7 @@ module board_ulx3s_v31_ppmc104 #(
     output logic            hold,
     output logic            pout_n,
     output logic            dir,
-    // lamps, 1 = on
+    // LEDs, 1 = on
     output logic      [3:0] led,
     // constant
     output logic            wifi_gpio0   // boot pin of the ESP32

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_base_rom: base code RB of a current setting: (416 + 153 * k) / 16 with k = (current - 325 mA) / 150 mA.
 // Rules:  P006-EXC-20.
-// Timing: base_o stands one clk after current_i.
+// Timing: base_o follows current_i by one cycle.
 `default_nettype none
 
 module pmc006_base_rom (
@@ -26,7 +26,7 @@ module pmc006_base_rom (
   (* rom_style = "block" *)
   logic [7:0] rom[4096];
 
-  // Tools unroll no more than 4000 turns in a block.
+  // Some tools unroll at most 4000 iterations in a block.
   for (genvar half = 0; half < 2; half++) begin : g_half
     initial for (int unsigned i = 0; i < 2048; i++) rom[2048*half+i] = Words[12'(2048*half+i)];
   end

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_bridge: one motor phase: reference bit stream and chopper with fixed off time, slow and fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
-// Timing: en_o and the half bridges change at the edge after on_i; a change of the sign puts the bridge into OFF at the
-//         next edge; a comparator level sampled at edge t decides at t + 2. With a reference of 0 OFF follows OFF.
+// Timing: en_o and the half bridges change at the rising edge after on_i. A change of the sign puts the
+//         bridge into OFF at the next edge. A comparator level sampled at edge t takes effect at edge t + 2.
+//         With a reference of 0, OFF is repeated.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module pmc006_bridge #(
-    parameter int unsigned OffClk   = 320,  // TOFF
-    parameter int unsigned BlankClk = 16,   // BL
-    parameter int unsigned FastClk  = 160   // TF, at least BL
+    parameter int unsigned OffClk   = 320,  // TOFF, cycles
+    parameter int unsigned BlankClk = 16,   // BL, cycles
+    parameter int unsigned FastClk  = 160   // TF, cycles; at least BL
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
@@ -18,9 +19,9 @@ module pmc006_bridge #(
     input  wire logic       sign_i,   // direction of the current
     input  wire logic       cmp_i,    // raw pin
     output logic            pwm_o,    // bit stream of the reference
-    output logic            en_o,     // the bridge is enabled
-    output logic            high0_o,  // m10, m20
-    output logic            high1_o   // m11, m21
+    output logic            en_o,     // 1: the bridge is enabled
+    output logic            high0_o,  // high side of m10, m20
+    output logic            high1_o   // high side of m11, m21
 );
 
   localparam int unsigned Longest = (OffClk > FastClk) ? OffClk : FastClk;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_drive: electrical angle, idle timer, current references and both bridges.
-// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; the rest in pmc006_refs and pmc006_bridge.
-// Timing: the angle changes at the edge of step_i. The references follow at 25 to 56 clk (pmc006_refs), the bridges'
-//         enables one clk after BOOT or FREE.
+// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; others in pmc006_refs and pmc006_bridge.
+// Timing: the angle changes at the edge of step_i. The references follow 25 to 56 cycles later (pmc006_refs),
+//         the bridge enables one cycle after BOOT or FREE.
 `default_nettype none
 
 module pmc006_drive
@@ -14,32 +14,32 @@ module pmc006_drive
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             us_i,            // one clk every microsecond
-    input  wire logic             boot_i,          // the part is not ready yet: no current
+    input  wire logic             us_i,            // strobe every microsecond
+    input  wire logic             boot_i,          // the device is booting: no current
     input  wire settings_t        settings_i,      // parameter registers
-    input  wire logic      [ 7:0] base_i,          // base code of their current, one clk behind
+    input  wire logic      [ 7:0] base_i,          // base code of the current, one cycle after settings_i
     // motion
-    input  wire logic             busy_i,          // a motion is under way
-    input  wire logic             step_i,          // a step is made at the coming edge
-    input  wire logic             forward_i,       // its direction
+    input  wire logic             busy_i,          // a motion is in progress
+    input  wire logic             step_i,          // a step is made at the next rising edge
+    input  wire logic             forward_i,       // direction of the step
     input  wire logic      [ 7:0] increment_i,     // angle of a step
     input  wire logic      [10:0] bump_i,          // B
     input  wire logic      [ 6:0] lead_i,          // W
     // pins
     input  wire logic             cmp_a_i,         // comparator of phase A, raw pin
-    input  wire logic             cmp_b_i,         // of phase B
+    input  wire logic             cmp_b_i,         // comparator of phase B, raw pin
     output logic           [ 7:0] phase_a_ref_o,   // current reference of phase A
-    output logic                  phase_a_sign_o,  // its sign
-    output logic           [ 7:0] phase_b_ref_o,   // of phase B
-    output logic                  phase_b_sign_o,  // its sign
-    output logic                  pwm_a_ref_o,     // bit stream of the reference
-    output logic                  pwm_b_ref_o,     // of phase B
+    output logic                  phase_a_sign_o,  // sign of phase_a_ref_o
+    output logic           [ 7:0] phase_b_ref_o,   // current reference of phase B
+    output logic                  phase_b_sign_o,  // sign of phase_b_ref_o
+    output logic                  pwm_a_ref_o,     // bit stream of phase_a_ref_o
+    output logic                  pwm_b_ref_o,     // bit stream of phase_b_ref_o
     output logic                  bridge_a_en_o,   // the bridge of phase A is enabled
-    output logic                  bridge_b_en_o,   // of phase B
+    output logic                  bridge_b_en_o,   // the bridge of phase B is enabled
     output logic                  m10_o,           // phase A, one half bridge: 1 = high side
-    output logic                  m11_o,           // phase A, the other one
+    output logic                  m11_o,           // phase A, other half bridge
     output logic                  m20_o,           // phase B, one half bridge
-    output logic                  m21_o            // phase B, the other one
+    output logic                  m21_o            // phase B, other half bridge
 );
 
   localparam int unsigned IdleUs = 100_000;

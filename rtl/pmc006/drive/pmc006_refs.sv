@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_refs: current references of both phases from angle, current setting, compensation and decay.
 // Rules:  P006-EXC-10..13, P006-EXC-20, P006-EXC-30, P006-STA-12.
-// Timing: every 32nd clk, the first one after the reset included, takes what it needs at one edge; the four
-//         outputs change together 24 clk later.
-// How:    peak code, less by the decay; then two products of 8 steps of one bit with the rounding put in first.
+// Timing: every 32 cycles, beginning with the first one after reset, all inputs are sampled at one edge. The
+//         four outputs change together 24 cycles later.
+// How:    peak code, reduced by the decay; then two products in 8 steps of one bit, with the rounding added
+//         first.
 `default_nettype none
 
 module pmc006_refs (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        off_i,      // BOOT or FREE
-    input  wire logic        decay_i,    // the idle time is over: less current
+    input  wire logic        decay_i,    // 1: the idle time is over, reduce the current
     input  wire logic [ 2:0] att_i,      // 1 .. 4
-    input  wire logic [ 7:0] base_i,     // RB, one clk behind the rest
+    input  wire logic [ 7:0] base_i,     // RB, one cycle after the other inputs
     input  wire logic [10:0] bump_i,     // B
     input  wire logic [ 6:0] lead_i,     // W
     input  wire logic        forward_i,  // direction of the motion
     input  wire logic [ 8:0] angle_i,    // TH
     output logic      [ 7:0] a_ref_o,    // current reference of phase A
-    output logic             a_sign_o,   // its sign
+    output logic             a_sign_o,   // sign of a_ref_o
     output logic      [ 7:0] b_ref_o,    // current reference of phase B
-    output logic             b_sign_o    // its sign
+    output logic             b_sign_o    // sign of b_ref_o
 );
 
   logic [4:0] at_q, at_d;
@@ -35,13 +36,13 @@ module pmc006_refs (
 
   assign at_d    = at_q + 1'b1;
 
-  // ---- peak code -------------------------------------------------------------------------------------------------
+  // ---- peak code ------------------------------------------------------------------------------------------
 
   assign whole   = 12'(bump_q) + 12'(base_i);
 
-  // ---- sine and product ------------------------------------------------------------------------------------------
+  // ---- sine and product -----------------------------------------------------------------------------------
 
-  // Phase A leads by a quarter; its product is made in clk 8 to 15, that of phase B in clk 16 to 23.
+  // Phase A leads by a quarter. Its product is made in cycles 8 to 15, that of phase B in cycles 16 to 23.
   assign angle_a = {angle_q[8:7] + 2'd1, angle_q[6:0]};
   assign angle   = at_d[4] ? angle_q[7:0] : angle_a[7:0];
   assign index   = angle[7] ? 8'd128 - 8'(angle[6:0]) : 8'(angle[6:0]);
@@ -58,7 +59,7 @@ module pmc006_refs (
     else at_q <= at_d;
   end
 
-  // No reset: clk 0 sets what follows.
+  // No reset: cycle 0 sets the following registers.
   always_ff @(posedge clk_i) begin
     if (at_q == '0) begin
       off_q   <= off_i;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_sine_rom: quarter wave, floor(256 * sin(pi * i / 256) + 0.5).
 // Rules:  P006-EXC-10 (the values are binding).
-// Timing: sine_o stands one clk after index_i.
+// Timing: sine_o follows index_i by one cycle.
 `default_nettype none
 
 module pmc006_sine_rom (
     input  wire logic       clk_i,
     input  wire logic [7:0] index_i,  // 0 .. 128
-    output logic      [8:0] sine_o    // 256 at most
+    output logic      [8:0] sine_o    // 0 .. 256
 );
 
-  localparam logic [128:0][8:0] Wave = {  // the last one first
+  localparam logic [128:0][8:0] Wave = {  // index 128 first
     9'd256,
     9'd256,
     9'd256,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_stall: says when the back EMF has been too low for too many samples at constant speed.
+// pmc006_stall: detects a stall: the back EMF was too low for a number of samples at constant speed.
 // Rules:  section 7.2, P006-STA-03/14, P006-STL-01..06.
-// Timing: a sample is compared on its edge and counted in the clk after; STALL stands from the end of that on. stop_o
-//         already comes in that clk, so that no step follows the position of the stall.
+// Timing: a sample is compared at its edge and counted in the next cycle; STALL is valid after that cycle.
+//         stop_o is already asserted in that cycle, so that no step follows the position of the stall.
 `default_nettype none
 
 module pmc006_stall
@@ -10,16 +10,16 @@ module pmc006_stall
 (
     input  wire logic          clk_i,
     input  wire logic          rst_ni,
-    input  wire sample_t       sample_i,  // of the back EMF
+    input  wire sample_t       sample_i,  // sample of the back EMF
     input  wire logic    [2:0] config_i,  // STCFG
     input  wire logic    [6:0] length_i,  // STLEN
     input  wire logic    [8:0] limit_i,   // STLVL
-    input  wire logic          busy_i,    // a motion is under way
+    input  wire logic          busy_i,    // a motion is in progress
     input  wire logic          steady_i,  // constant speed above 0
-    input  wire logic          start_i,   // of a motion
-    input  wire logic          clear_i,   // STALL := 0
-    output logic               stop_o,    // of the motion
-    output logic               mark_o,    // note the position
+    input  wire logic          start_i,   // a motion starts
+    input  wire logic          clear_i,   // clear STALL
+    output logic               stop_o,    // stop the motion
+    output logic               mark_o,    // store the position of the stall
     output logic               stall_o    // register STALL
 );
 

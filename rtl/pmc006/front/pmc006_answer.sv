@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_answer: the data of a reply: what is in force after the instruction.
+// pmc006_answer: data of a reply: the value that is active after the instruction.
 // Rules:  section 3.1 (reply data), sections 3.2, 3.3, 7.4 (words), P006-CMD-50/52/55/56, P006-FRM-09.
-// Timing: registered at take_i, one clk after the instruction has acted.
+// Timing: registered at take_i, one cycle after the instruction has taken effect.
 `default_nettype none
 
 module pmc006_answer
   import pmc006_pkg::*;
 #(
-    parameter bit          Echo    = 1'b0,          // s answers its data
+    parameter bit          Echo    = 1'b0,          // 1: s returns its data
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
     input wire logic clk_i,
-    input wire logic take_i,  // the reply is due
+    input wire logic take_i,  // sample the reply
     input wire order_t order_i,  // the instruction
-    input wire logic took_i,  // s, t, B, E, W, G, z have been accepted
-    input wire logic [13:0] value_i,  // of the instruction's register, else 0, when reply_o has to stand
+    input wire logic took_i,  // s, t, B, E, W, G or z was accepted
+    input wire logic [13:0] value_i,  // register of the instruction, else 0; valid with reply_o
     input wire settings_t settings_i,  // parameter registers
     input wire control_t control_i,  // registers of the control
     input wire logic speed_i,  // SPEED_MODE
-    input wire logic busy_i,  // a motion is under way
+    input wire logic busy_i,  // a motion is in progress
     input wire logic stall_i,  // register STALL
     input wire logic [1:0] flags_i,  // EXT1, EXT2
     input wire logic [1:0] ext_i,  // pins
     input wire logic [4:0] gpi_i,  // general inputs, synchronised
     input wire logic [4:0] gpo_i,  // pins of the general outputs
     input wire logic [4:0] out_i,  // register GPO
-    input wire logic [7:0] pp_i,  // where the user program stands
+    input wire logic [7:0] pp_i,  // pointer of the user program
     input wire logic [31:0] pos_i,  // position
     input wire logic [31:0] stpos_i,  // position of the last stall
-    input wire logic [31:0] word_i,  // of the program
-    input wire logic free_i,  // EEPROM: nothing is under way
-    input wire logic failed_i,  // its last work
+    input wire logic [31:0] word_i,  // word of the program
+    input wire logic free_i,  // EEPROM: idle
+    input wire logic failed_i,  // EEPROM: the last operation failed
     output logic [31:0] reply_o  // data of the reply
 );
 
@@ -40,7 +40,7 @@ module pmc006_answer
 
   assign unused_bits = &{1'b0, order_i, settings_i, control_i};
 
-  // Few have more than 14 bits.
+  // Few replies have more than 14 bits.
   always_comb begin
     unique case (order_i.op)
       I_ABORT, I_POS_SET: whole = order_i.data;
@@ -70,7 +70,7 @@ module pmc006_answer
 
   always_ff @(posedge clk_i) if (take_i) reply_q <= whole | 32'(part);
 
-  // What belongs to a register is 0 in one of them.
+  // A reply uses reply_q or value_i; the other one is 0.
   assign reply_o = reply_q | 32'(value_i);
 
 endmodule

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_frame: puts the bytes of the host together to frames of eight and judges them.
+// pmc006_frame: assembles the bytes from the host to frames of eight and checks them.
 // Rules:  P006-FRM-01/02/04/06/08, P006-UART-03, P006-BAD-01..05.
-// Timing: frame_o.go comes in the clk of the last byte; code and data stand from then until the next frame.
+// Timing: frame_o.go is high in the cycle of the last byte; code and data are valid from then until the next
+//         frame.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -10,12 +11,12 @@ module pmc006_frame
 (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic [7:0] addr_i,   // address of the part
-    input  wire logic [7:0] byte_i,   // a byte of the line
-    input  wire logic       valid_i,  // it has come, one clk
-    input  wire logic       error_i,  // a byte without a stop bit
-    input  wire logic       late_i,   // too long after the byte before
-    output frame_t          frame_o   // for this part, without fault
+    input  wire logic [7:0] addr_i,   // address of the device
+    input  wire logic [7:0] byte_i,   // byte from the line
+    input  wire logic       valid_i,  // strobe: byte_i is a received byte
+    input  wire logic       error_i,  // strobe: a byte without a stop bit
+    input  wire logic       late_i,   // the previous byte was too long ago
+    output frame_t          frame_o   // valid frame for this device
 );
 
   localparam logic [7:0] Head = 8'ha5;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_serial: the line to the host: frames in, one reply out for each that is executed.
+// pmc006_serial: serial line to the host: receives frames, sends one reply for each frame that is executed.
 // Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
-// Timing: with e = the edge of the last stop-bit sample: frame_o.go in the clk after e, de_o rises ceil(1 bit) after e, bit
-//         edge n comes ceil((2 + n) bits) after e, de_o falls ceil(82 bits) after e. Deaf from e + 1 until
-//         ceil(81.5 bits) after e, the middle of the last stop bit: there a host has the whole reply.
-// Rate:   bits last whole phases of an accumulator with an exact modulus.
+// Timing: e = the edge of the last stop-bit sample. frame_o.go is high in the cycle after e; de_o rises
+//         ceil(1 bit) after e; bit edge n occurs ceil((2 + n) bits) after e; de_o falls ceil(82 bits) after
+//         e. The receiver is off from e + 1 until ceil(81.5 bits) after e, the middle of the last stop bit:
+//         there a host has received the complete reply.
+// How:    each bit lasts one full turn of an accumulator with an exact modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,13 +17,13 @@ module pmc006_serial
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        ready_i,  // 0: hears nothing yet
-    input  wire logic [ 7:0] addr_i,   // address of the part
+    input  wire logic        ready_i,  // 0: the receiver is off
+    input  wire logic [ 7:0] addr_i,   // address of the device
     input  wire logic        rxd_i,    // raw pin
     output logic             txd_o,    // to the host, idle high
     output logic             de_o,     // the line driver is on
-    output frame_t           frame_o,  // to be executed
-    input  wire logic [31:0] reply_i   // steady from half a bit after frame_o.go on
+    output frame_t           frame_o,  // frame to be executed
+    input  wire logic [31:0] reply_i   // stable from half a bit after frame_o.go
 );
 
   localparam longint unsigned Common = ppmc_pkg::gcd(64'(ClkHz), 64'(Baud));
@@ -35,10 +36,10 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(Unit);
   localparam logic [Width-1:0] Wrap = Width'(Unit + Rest);
   localparam logic [Width-1:0] WrapHalf = Width'(Unit + Rest + Modulus / 64'd2);
-  // Bits are counted from the sample on, which is two clk old when its result stands in the registers.
+  // Bits are counted from the sample on. The sample is two cycles old when its result is in the registers.
   localparam logic [Width-1:0] Zero = Width'(Rest + 64'd2 * Unit);
   localparam logic [Width-1:0] Half = Width'(Rest + 64'd2 * Unit + Modulus / 64'd2);
-  localparam int unsigned Silence = 202;  // 192 bits until the next start, 9.5 from there to its end
+  localparam int unsigned Silence = 202;  // 192 bits to the next start bit, 9.5 from there to its end
 
   logic [7:0] char, next, sum_q, bits_q;
   logic valid, error, unused_break, line, unused_meta;
@@ -46,9 +47,10 @@ module pmc006_serial
   logic [Width-1:0] phase_q;
   logic [3:0] left_q, at_q;
 
-  // ---- receiver --------------------------------------------------------------------------------------------------
+  // ---- receiver -------------------------------------------------------------------------------------------
 
-  // After deafness the line has to be high once, or the rest of a byte would look like the start of one.
+  // After the receiver was off, the line has to be high once; otherwise the rest of a byte could be taken for
+  // a start bit.
   ppmc_sync u_line (
       .clk_i,
       .rst_ni,
@@ -90,7 +92,7 @@ module pmc006_serial
       .frame_o
   );
 
-  // ---- bits since the last byte ----------------------------------------------------------------------------------
+  // ---- bits since the last byte ---------------------------------------------------------------------------
 
   always_ff @(posedge clk_i) begin
     if (valid) {over_q, phase_q} <= {1'b0, frame_o.go ? Zero : Half};
@@ -106,9 +108,9 @@ module pmc006_serial
       .past_o   (late)
   );
 
-  // ---- reply -----------------------------------------------------------------------------------------------------
+  // ---- reply ----------------------------------------------------------------------------------------------
 
-  // The last stop bit is two halves: the receiver opens between them.
+  // The last stop bit consists of two halves; the receiver is switched on between them.
   assign stop = de_o && at_q[3] && left_q <= 4'd1;
 
   always_comb begin

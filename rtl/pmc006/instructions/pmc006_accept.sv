@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_accept: which motion is started, taken up again or stopped, by instructions and by everything else.
+// pmc006_accept: decides which motion is started, resumed or stopped, by instructions and by other causes.
 // Rules:  sections 4.1..4.3, P006-STA-01..04/10/11/13/14/16/18/19, P006-CMD-55, P006-EXT-11.
-// Timing: start_o, run_o and halt_o are combinational, in the clk before the edge on which BUSY changes; never two at
-//         once. speed_o already holds the N = 1 of its clk: it takes a motion up again that would end on that edge.
+// Timing: start_o, run_o and halt_o are combinational, in the cycle before the edge on which BUSY changes. At
+//         most one is high in a cycle. speed_o already includes N = 1 of its cycle: this resumes a motion
+//         that would end on that edge.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,25 +12,25 @@ module pmc006_accept
 (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
-    input  wire order_t    order_i,     // what is carried out
+    input  wire order_t    order_i,     // instruction
     input  wire logic      legal_i,     // its data are in range
-    input  wire logic      act_i,       // it is carried out in this clk
+    input  wire logic      act_i,       // order_i is executed in this cycle
     input  wire settings_t settings_i,  // parameter registers
-    input  wire logic      busy_i,      // a motion is under way
-    input  wire logic      locked_i,    // a flag of EXT is set
-    input  wire logic      ext_i,       // one is being set
-    input  wire logic      stall_i,     // stop for a stall
+    input  wire logic      busy_i,      // a motion is in progress
+    input  wire logic      locked_i,    // an EXT flag is set
+    input  wire logic      ext_i,       // an EXT flag is being set
+    input  wire logic      stall_i,     // stop caused by a stall
     input  wire logic      key_i,       // RESET key
     output logic           start_o,     // a motion of counted steps begins
     output logic           run_o,       // a run at constant speed begins
-    output logic           halt_o,      // the motion stops at once
+    output logic           halt_o,      // the motion stops immediately
     output logic           speed_o,     // 0: stop request for a speed run
     output logic           mode_o       // register SPEED_MODE
 );
 
   logic limits_q, endless_q, good, free, begins;
 
-  // A stall stops what runs, so it is in nobody's way who starts.
+  // A stall only stops a running motion, so it does not prevent a start.
   assign good = act_i && legal_i && !ext_i && !key_i;
   assign free = !busy_i && !settings_i.free && !locked_i;
 
@@ -47,7 +48,7 @@ module pmc006_accept
     else mode_o <= run_o || speed_o;
   end
 
-  // Both speeds against the maximum; no instruction can change them in between.
+  // VSTART and VSTOP compared with the maximum; no instruction can change them in between.
   always_ff @(posedge clk_i) begin
     limits_q <= {2'b00, settings_i.vstart} <= settings_i.vmax && {2'b00, settings_i.vstop} <= settings_i.vmax;
     if (start_o || run_o) endless_q <= run_o;

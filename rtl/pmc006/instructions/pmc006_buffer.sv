@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_buffer: image of the first kilobyte of the EEPROM: parameters (bytes 0..31), program (200 words from 32 on).
 // Rules:  P006-PRG-01/02, section 13.1.
-// Timing: word_o stands two clk after the address. The address is the executor's while claim_i, else that of byte_at_i;
-//         byte_o and pair_o are picked from word_o by the lowest bits of byte_at_i.
+// Timing: word_o follows the address by two cycles. The address is word_at_i while claim_i is high, else that
+//         of byte_at_i. byte_o and pair_o are selected from word_o by the lowest bits of byte_at_i.
 `default_nettype none
 
 module pmc006_buffer (
     input  wire logic        clk_i,
     // executor: words of the program
-    input  wire logic        claim_i,    // the address is word_at_i
-    input  wire logic [ 7:0] word_at_i,  // 0 .. 199, 200 is harmless
-    input  wire logic        put_i,      // word_at_i := data_i
-    input  wire logic [31:0] data_i,     // of put_i
+    input  wire logic        claim_i,    // 1: the address is word_at_i
+    input  wire logic [ 7:0] word_at_i,  // 0 .. 199; 200 has no effect
+    input  wire logic        put_i,      // write data_i to word_at_i
+    input  wire logic [31:0] data_i,     // data of put_i
     output logic      [31:0] word_o,     // word of the program
     // EEPROM: bytes
-    input  wire logic [ 9:0] byte_at_i,  // byte of the image
-    input  wire logic        we_i,       // byte_at_i := byte_i
-    input  wire logic [ 7:0] byte_i,     // of we_i
-    output logic      [ 7:0] byte_o,     // at byte_at_i
-    output logic      [15:0] pair_o      // from an even address
+    input  wire logic [ 9:0] byte_at_i,  // byte address in the image
+    input  wire logic        we_i,       // write byte_i to byte_at_i
+    input  wire logic [ 7:0] byte_i,     // data of we_i
+    output logic      [ 7:0] byte_o,     // byte at byte_at_i
+    output logic      [15:0] pair_o      // pair at an even byte_at_i
 );
 
   logic [7:0] word_at, read_at, write_at;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_control: everything between the line to the host and the motor: executor, registers, user program, EEPROM,
-//         guards.
+// pmc006_control: all logic between the line to the host and the motor: executor, registers, user program,
+// EEPROM, stop conditions.
 // Rules:  sections 3, 4, 7, 12 and 13, through its blocks.
-// Timing: launch_o and halt_o are combinational, in the clk before the edge on which BUSY changes.
+// Timing: launch_o and halt_o are combinational, in the cycle before the edge on which BUSY changes.
 `default_nettype none
 
 module pmc006_control
@@ -16,29 +16,29 @@ module pmc006_control
 ) (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    input  wire logic           us_i,        // one clk every microsecond
-    output logic                boot_o,      // the part is not ready yet
+    input  wire logic           us_i,        // strobe every microsecond
+    output logic                boot_o,      // the device is booting
     // host
-    input  wire frame_t         frame_i,     // to be executed
-    output logic         [31:0] reply_o,     // data of its reply
-    output logic         [ 7:0] addr_o,      // address of the part
+    input  wire frame_t         frame_i,     // frame to be executed
+    output logic         [31:0] reply_o,     // data of the reply
+    output logic         [ 7:0] addr_o,      // address of the device
     // pins, inputs synchronised
     input  wire logic           fset_ni,     // factory settings
     input  wire logic    [ 1:0] ext_i,       // EXT1, EXT2
     input  wire logic    [ 4:0] gpi_i,       // general inputs
-    output logic         [ 1:0] pull_up_o,   // of EXT1, EXT2
+    output logic         [ 1:0] pull_up_o,   // pull-ups of EXT1, EXT2
     output logic         [ 4:0] gpo_o,       // general outputs
     input  wire sample_t        bemf_i,      // back EMF
-    input  wire logic           scl_i,       // bus of the EEPROM
-    input  wire logic           sda_i,       // its data
-    output logic                scl_oe_o,    // pull it low
-    output logic                sda_oe_o,    // pull the data low
+    input  wire logic           scl_i,       // clock of the EEPROM bus
+    input  wire logic           sda_i,       // data of the EEPROM bus
+    output logic                scl_oe_o,    // 1: pull the clock low
+    output logic                sda_oe_o,    // 1: pull the data low
     // motion
-    output settings_t           settings_o,  // registers that motion and drive look at
-    output launch_t             launch_o,    // a motion to begin
-    output logic                halt_o,      // stop at once
-    input  wire motion_t        motion_i,    // how it stands
-    input  wire logic           step_i       // a step is made at the coming edge
+    output settings_t           settings_o,  // settings used by motion and drive
+    output launch_t             launch_o,    // start of a motion
+    output logic                halt_o,      // stop immediately
+    input  wire motion_t        motion_i,    // state of the motion
+    input  wire logic           step_i       // a step is made at the next rising edge
 );
 
   order_t order;
@@ -57,7 +57,7 @@ module pmc006_control
   logic [15:0] pair;
   logic [31:0] word, position, stall_position;
 
-  // ---- executor, registers ---------------------------------------------------------------------------------------
+  // ---- executor, registers --------------------------------------------------------------------------------
 
   pmc006_exec u_exec (
       .clk_i,
@@ -98,7 +98,7 @@ module pmc006_control
       .value_o  (value)
   );
 
-  // ---- user program ----------------------------------------------------------------------------------------------
+  // ---- user program ---------------------------------------------------------------------------------------
 
   pmc006_program u_program (
       .clk_i,
@@ -140,7 +140,7 @@ module pmc006_control
       .pair_o   (pair)
   );
 
-  // ---- EEPROM ----------------------------------------------------------------------------------------------------
+  // ---- EEPROM ---------------------------------------------------------------------------------------------
 
   assign save = act && order.op == I_SAVE && free;
   assign burn = act && order.op == I_BURN && free;
@@ -193,7 +193,7 @@ module pmc006_control
       .sda_oe_o
   );
 
-  // ---- motion -------------------------------------------------------------------------------------------------------
+  // ---- motion ---------------------------------------------------------------------------------------------
 
   pmc006_accept u_accept (
       .clk_i,
@@ -226,7 +226,7 @@ module pmc006_control
       .stall_o(stall_position)
   );
 
-  // ---- guards, ports, answer -------------------------------------------------------------------------------------
+  // ---- guards, ports, answer ------------------------------------------------------------------------------
 
   pmc006_guard u_guard (
       .clk_i,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_exec: carries instructions out, one at a time: of a frame, of the user program, of the EEPROM at boot.
+// pmc006_exec: executes instructions, one at a time: from a frame, from the user program, from the EEPROM at
+// boot.
 // Rules:  P006-FRM-03, P006-CMD-52/53, P006-PRG-15/16, P006-STA-15.
-// Timing: a frame takes effect 4 clk after its last sample if nothing is under way, an instruction of the program
-//         5 clk after its start; both act on the edge that ends the clk of act_o. reply_o comes one clk later.
+// Timing: a frame takes effect 4 cycles after its last sample if no instruction is in progress, a program
+//         instruction 5 cycles after its start. Both take effect on the edge that ends the cycle of act_o.
+//         reply_o follows one cycle later.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,34 +16,34 @@ module pmc006_exec
     // frames
     input  wire frame_t        frame_i,      // instruction of the host
     // user program
-    input  wire logic          next_i,       // its next instruction is due
-    input  wire logic          cancel_i,     // forget the one under way
-    output logic               begin_o,      // it is under way
-    output logic               claim_o,      // the buffer's address is the executor's
+    input  wire logic          next_i,       // the next program instruction is scheduled
+    input  wire logic          cancel_i,     // discard the program instruction in progress
+    output logic               begin_o,      // the program instruction begins
+    output logic               claim_o,      // the executor owns the address of the buffer
     output logic               second_o,     // word W1 instead of W0
-    output logic               trial_o,      // of the instruction at PP
-    input  wire logic   [31:0] word_i,       // two clk after the address
+    output logic               trial_o,      // the address is that of the instruction at PP
+    input  wire logic   [31:0] word_i,       // two cycles after the address
     // EEPROM
-    input  wire logic          load_i,       // a parameter is there, while the boot lasts
-    input  wire logic   [ 7:0] load_op_i,    // instruction that loads it
-    input  wire logic   [15:0] load_data_i,  // its data
-    input  wire logic          store_i,      // carry out; else only look whether it is legal
-    // what is carried out
-    output order_t             order_o,      // what is carried out
-    output access_t            access_o,     // the register that it means
+    input  wire logic          load_i,       // a parameter is available, during the boot
+    input  wire logic   [ 7:0] load_op_i,    // instruction that loads the parameter
+    input  wire logic   [15:0] load_data_i,  // data of the parameter
+    input  wire logic          store_i,      // 1: execute; 0: only check the data
+    // instruction in progress
+    output order_t             order_o,      // instruction
+    output access_t            access_o,     // register of the instruction
     output logic               legal_o,      // its data are in range
-    output logic               act_o,        // order_o is carried out in this clk
-    output logic               place_o,      // the same for the position
-    input  wire logic          step_i,       // a step is counted in this clk
-    input  wire logic          try_i,        // E has been accepted
-    output logic               reply_o       // take the reply
+    output logic               act_o,        // order_o is executed in this cycle
+    output logic               place_o,      // the position is set in this cycle
+    input  wire logic          step_i,       // a step is counted in this cycle
+    input  wire logic          try_i,        // E was accepted
+    output logic               reply_o       // sample the reply
 );
 
   typedef enum logic [2:0] {
     StIdle,
     StFirst,   // address of W0
     StSecond,  // address of W1
-    StDecode,  // W0 is there
+    StDecode,  // W0 is valid
     StLook,
     StAct,
     StReply
@@ -54,8 +56,8 @@ module pmc006_exec
   logic [3:0] option_q;
 
   assign program_q = source_q == FromProgram || source_q == FromTry;
-  // A position is set in a clk in which no step is counted. It is none of the acts: they can stop the motor, and so
-  // suppress the step.
+  // The position is set in a cycle in which no step is counted. act_o stays low, because an act can stop the
+  // motor and so suppress the step.
   assign place = state_q == StAct && op_q == I_POS_SET;
   assign place_o = place && !step_i;
 

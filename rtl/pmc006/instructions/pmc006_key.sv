@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_key: time filter of one input: an event when it has been low long enough, armed anew when high.
+// pmc006_key: debounce filter of one input: asserts hit_o when the input has been low for LowTicks, and
+// re-arms when it has been high for HighTicks (0: immediately).
 // Rules:  P006-PRG-30, P006-EEP-20.
-// Timing: hit_o and armed_o are combinational, in the clk of the µs tick that decides: number Ticks without
-//         interruption.
+// Timing: hit_o and armed_o are combinational, in the cycle of the µs tick that completes the number of ticks
+//         without interruption.
 `default_nettype none
 
 module pmc006_key #(
     parameter int unsigned LowTicks  = 1001,
-    parameter int unsigned HighTicks = 1001,  // to arm it again: as many, or 0: at once
-    parameter bit          Armed     = 1'b0   // after reset
+    parameter int unsigned HighTicks = 1001,  // to re-arm: equal to LowTicks, or 0: immediately
+    parameter bit          Armed     = 1'b0   // armed after reset
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic us_i,    // one clk every microsecond
+    input  wire logic us_i,    // strobe every microsecond
     input  wire logic pin_i,   // synchronised
-    output logic      hit_o,   // low long enough: the event
-    output logic      armed_o  // being armed
+    output logic      hit_o,   // the input was low for LowTicks
+    output logic      armed_o  // the input is being armed
 );
 
   if (HighTicks != 0 && HighTicks != LowTicks) begin : g_check
@@ -24,7 +25,7 @@ module pmc006_key #(
 
   logic armed_q, begun_q, nearly, done;
 
-  // All ticks but the last one.
+  // All ticks except the last one.
   ppmc_delay #(
       .Ticks(LowTicks - 1)
   ) u_nearly (

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_ports: the general outputs.
 // Rules:  section 7.4, P006-CMD-46, P006-IO-02/03, P006-STL-03, section 12.3 (OUT).
-// Timing: gpo_o one clk after the register.
+// Timing: gpo_o follows the register by one cycle.
 `default_nettype none
 
 module pmc006_ports
@@ -9,11 +9,11 @@ module pmc006_ports
 (
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
-    input  wire order_t       order_i,  // what is carried out
-    input  wire logic         write_i,  // order_i is carried out, its data are legal
-    input  wire logic         pull_i,   // of the stall on GPO5
+    input  wire order_t       order_i,  // instruction
+    input  wire logic         write_i,  // order_i is executed, its data are in range
+    input  wire logic         pull_i,   // a stall drives GPO5
     output logic        [4:0] out_o,    // register GPO
-    output logic        [4:0] gpo_o     // the pins
+    output logic        [4:0] gpo_o     // pins
 );
 
   logic unused_bits;

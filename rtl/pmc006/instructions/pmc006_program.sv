@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_program: the processor of the user program: where it stands, its counter and flag, WAIT, the two keys.
+// pmc006_program: processor of the user program: its current line, counter and flag, WAIT, the two keys.
 // Rules:  sections 12.3..12.7, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
-// Timing: instructions start 48 clk apart at least. WAIT ends on the edge after the clk in which its source is right.
+// Timing: instructions start at least 48 cycles apart. WAIT ends on the edge after the cycle in which its
+//         source has the requested level.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -10,29 +11,29 @@ module pmc006_program
 (
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
-    input  wire logic         autostart_i,  // the program begins by itself, one clk
+    input  wire logic         autostart_i,  // strobe: the program starts without a command
     // executor
-    input  wire order_t       order_i,      // what is carried out
+    input  wire order_t       order_i,      // instruction
     input  wire logic         legal_i,      // its data are in range
-    input  wire logic         act_i,        // it is carried out in this clk
-    input  wire logic         begin_i,      // next_o has been taken
-    output logic              next_o,       // its next instruction is due
-    output logic              cancel_o,     // the one under way is to be forgotten
+    input  wire logic         act_i,        // order_i is executed in this cycle
+    input  wire logic         begin_i,      // next_o was accepted
+    output logic              next_o,       // the next program instruction is scheduled
+    output logic              cancel_o,     // discard the program instruction in progress
     input  wire logic         second_i,     // address of W1
-    input  wire logic         trial_i,      // of the instruction at PP
+    input  wire logic         trial_i,      // the address is that of the instruction at PP
     output logic        [7:0] word_at_o,    // address of a word in the buffer
     output logic              try_o,        // E is accepted
     output logic              put_o,        // a word is written
-    output logic              took_o,       // A word instruction, z or E is accepted
-    input  wire logic         burning_i,    // the EEPROM takes the program: no word may change
-    output logic        [7:0] pp_o,         // where the program stands, a line
-    // what it looks at
-    input  wire logic         us_i,         // one clk every microsecond
+    output logic              took_o,       // a word instruction, z or E is accepted
+    input  wire logic         burning_i,    // the program is written to the EEPROM: no word may change
+    output logic        [7:0] pp_o,         // word address of the pointer PP
+    // sources
+    input  wire logic         us_i,         // strobe every microsecond
     input  wire logic   [4:0] gpi_i,        // general inputs, synchronised
-    input  wire logic   [1:0] flags_i,      // of EXT1, EXT2
-    input  wire logic         busy_i,       // a motion is under way
+    input  wire logic   [1:0] flags_i,      // flags of EXT1, EXT2
+    input  wire logic         busy_i,       // a motion is in progress
     input  wire logic         stall_i,      // register STALL
-    output logic              stop_o        // of the motion, by the RESET key
+    output logic              stop_o        // the RESET key stops the motion
 );
 
   localparam int unsigned PaceClk = 48;
@@ -58,9 +59,9 @@ module pmc006_program
 
   assign unused_bits = &{1'b0, order_i};
 
-  // ---- sources ---------------------------------------------------------------------------------------------------
+  // ---- sources --------------------------------------------------------------------------------------------
 
-  // While it waits the option of WAIT counts, the executor may be at something else.
+  // During WAIT its own option is used, because the executor may process another instruction.
   assign option = (state_q == StWait) ? option_q : order_i.option;
   assign bits = {stall_i, busy_i, flags_i, gpi_i};
 
@@ -75,7 +76,7 @@ module pmc006_program
     equal = (order_i.option == 4'd8) ? order_i.data == count_q : order_i.data == 32'(value);
   end
 
-  // ---- keys ------------------------------------------------------------------------------------------------------
+  // ---- keys -----------------------------------------------------------------------------------------------
 
   pmc006_key u_key_reset (
       .clk_i,
@@ -98,7 +99,7 @@ module pmc006_program
   assign stop_o = rsten_q && reset_hit;
   assign cancel_o = stop_o && state_q != StHalt;
 
-  // ---- words -----------------------------------------------------------------------------------------------------
+  // ---- words ----------------------------------------------------------------------------------------------
 
   assign inside_pp = pp_o < WORDS;
   assign put_o = act_i && order_i.op == I_PUT && inside_pp && state_q == StHalt && !burning_i;
@@ -114,7 +115,7 @@ module pmc006_program
     else if (put_o || (act_i && order_i.op == I_GET && inside_pp)) pp_o <= pp_o + 1'b1;
   end
 
-  // ---- processor -------------------------------------------------------------------------------------------------
+  // ---- processor ------------------------------------------------------------------------------------------
 
   assign next_o = state_q == StRun && !paused_q && pace_q == '0 && !cancel_o;
   assign mine = act_i && order_i.source == FromProgram;

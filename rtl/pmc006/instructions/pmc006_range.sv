@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_range: which data each instruction accepts, whatever the state of the motor, and which register it means.
-// Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57, P006-BAD-08/09.
-// Timing: ok_o is for order_i of the clk before; the limits come out of a table in a block RAM, one clk after take_i.
+// pmc006_range: checks which data each instruction accepts, regardless of the state of the motor, and selects
+// its register.
+// Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57,
+//         P006-BAD-08/09.
+// Timing: ok_o belongs to order_i of the cycle before. The limits are read from a block RAM, one cycle after
+//         take_i.
 `default_nettype none
 
 module pmc006_range
   import pmc006_pkg::*;
 (
     input  wire logic         clk_i,
-    input  wire logic         take_i,     // an instruction is taken: limits of op_i
-    input  wire logic         program_i,  // with take_i: out of the user program
-    input  wire logic   [7:0] op_i,       // with take_i
-    input  wire order_t       order_i,    // the same instruction, from the next clk on
-    output access_t           access_o,   // its register
-    output logic              ok_o        // its data are accepted
+    input  wire logic         take_i,     // read the limits of op_i
+    input  wire logic         program_i,  // with take_i: instruction of the user program
+    input  wire logic   [7:0] op_i,       // with take_i: instruction code
+    input  wire order_t       order_i,    // the same instruction, from the next cycle on
+    output access_t           access_o,   // register of the instruction
+    output logic              ok_o        // the data are accepted
 );
 
   typedef struct packed {
-    logic            listed;  // there are limits
+    logic            listed;  // the instruction has limits
     logic [8:0]      low;
     logic [13:0]     high;
     access_t access;
@@ -107,7 +110,7 @@ module pmc006_range
     return l;
   endfunction
 
-  // A constant of all words: synthesis runs the branches of limits_of wrongly in an initial block.
+  // One constant with all words: synthesis evaluates the branches of limits_of wrongly in an initial block.
   function automatic limits_t [511:0] every_limits();
     limits_t [511:0] words;
     for (int unsigned i = 0; i < 512; i++) words[9'(i)] = limits_of(i >= 256, 8'(i));
@@ -121,11 +124,7 @@ module pmc006_range
   limits_t limits_q;
   logic [31:0] data;
   logic may, own;
-  logic
-      above_q,
-      below_q,
-      may_q,
-      own_q;  // not below the lowest, not above the highest, else right; right anyway
+  logic above_q, below_q, may_q, own_q;  // at least low, at most high, legal otherwise; legal anyway
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = Words[9'(i)];
 
@@ -134,13 +133,13 @@ module pmc006_range
   assign access_o = limits_q.access;
   assign data = order_i.data;
 
-  // Of what is not listed the lowest 14 bits are within limits.
+  // For an instruction without limits, any value of the lowest 14 bits passes.
   always_comb begin
     may = !limits_q.listed || data[31:14] == '0;
     own = 1'b0;
     unique case (order_i.op)
       I_STEP: may = !data[31] && data[30:0] != '0;
-      // One bit of the byte, or none.
+      // At most one bit of the byte is set, and not bit 0.
       I_MSTEP: if (data[0] || (data[7:0] & (data[7:0] - 1'b1)) != '0) may = 1'b0;
       I_ADDR: own = order_i.source == FromBoot && data[15:0] == 16'h00ff;
       I_VMAX, P_RESET_EN, P_PAUSE_EN: if (order_i.option > 4'd1) may = 1'b0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_eeprom: boot, save, burn and factory restore: what goes over the bus of the EEPROM, and into the registers.
+// pmc006_eeprom: boot, save, burn and factory restore: transfers over the EEPROM bus and into the registers.
 // Rules:  section 13, P006-CMD-02/41, P006-BAD-12..15/22/24.
-// Timing: bus on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte is taken on the tick that begins its first bit. At
-//         boot the page is looked through, then carried out, eight clk a byte; a bad one makes way for its copy.
+// Timing: the bus runs on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte is sampled on the tick that begins
+//         its first bit. At boot the page is checked, then executed, eight cycles per byte. If the page is
+//         invalid, its copy is used.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,35 +18,35 @@ module pmc006_eeprom
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
     input  wire logic            fset_ni,      // synchronised
-    input  wire logic            restore_i,    // it has been low long enough
+    input  wire logic            restore_i,    // fset_ni was low for its filter time
     // requests
     input  wire logic            save_i,       // write the parameters
     input  wire logic            burn_i,       // write the program
-    output logic                 free_o,       // one can be taken
-    output logic                 failed_o,     // the last one has, or a restore; while free_o
+    output logic                 free_o,       // a request can be accepted
+    output logic                 failed_o,     // last request or restore failed; valid while free_o
     output logic                 burning_o,    // the program is being written
-    output logic                 boot_o,       // registers and program are not there yet
-    output logic                 autostart_o,  // the program begins by itself, one clk
-    output logic                 rst_set_no,   // reset of the parameter registers: a restore during the boot
+    output logic                 boot_o,       // registers and program are not loaded yet
+    output logic                 autostart_o,  // strobe: the program starts without a command
+    output logic                 rst_set_no,   // reset of the parameter registers: a restore at boot
     // registers
     input  wire settings_t       settings_i,   // parameter registers
     input  wire control_t        control_i,    // registers of the control
-    output logic                 load_o,       // carry out load_op_o with the pair or byte of the buffer
+    output logic                 load_o,       // execute load_op_o with the byte or pair of the buffer
     output logic           [7:0] load_op_o,    // instruction that loads a parameter
-    output logic                 load_wide_o,  // it takes a pair
-    output logic                 store_o,      // else only look whether it is legal
-    input  wire logic            legal_i,      // its data are in range
+    output logic                 load_wide_o,  // load_op_o uses a pair
+    output logic                 store_o,      // 1: execute; 0: only check the data
+    input  wire logic            legal_i,      // the data are in range
     // buffer
-    input  wire logic            claim_i,      // the executor reads it
-    output logic           [9:0] byte_at_o,    // place of the byte
-    output logic                 we_o,         // byte_o goes into the buffer
-    output logic           [7:0] byte_o,       // a byte of the EEPROM
+    input  wire logic            claim_i,      // the executor reads the buffer
+    output logic           [9:0] byte_at_o,    // address of the byte
+    output logic                 we_o,         // write byte_o to the buffer
+    output logic           [7:0] byte_o,       // byte from the EEPROM
     input  wire logic      [7:0] byte_i,       // byte of the buffer at byte_at_o
     // bus, synchronised
     input  wire logic            scl_i,        // clock of the bus
-    input  wire logic            sda_i,        // data of the bus
-    output logic                 scl_oe_o,     // pull the clock low
-    output logic                 sda_oe_o      // pull the data low
+    input  wire logic            sda_i,        // clock of the bus
+    output logic                 scl_oe_o,     // 1: pull the clock low
+    output logic                 sda_oe_o      // 1: pull the data low
 );
 
   localparam int unsigned PollTicks = 4 * I2cHz / 100;
@@ -55,18 +56,18 @@ module pmc006_eeprom
   localparam logic [4:0] LastField = 5'h15;
 
   typedef enum logic [3:0] {
-    StReset,   // FSET, then the state of the bus
+    StReset,   // wait for FSET, then check the bus
     StFree,
     StStart,
     StDevice,
     StHigh,    // address
     StLow,
     StAgain,   // START of a read
-    StSource,  // device, to read from
+    StSource,  // device address for the read
     StData,
     StStop,
-    StWipe,    // no program
-    StLoad,    // registers from the page
+    StWipe,    // clear the program
+    StLoad,    // load the registers from the page
     StSettle,
     StIdle
   } state_e;
@@ -83,7 +84,7 @@ module pmc006_eeprom
   logic [7:0] received, data, ahead_q, out;
   i2c_cmd_e cmd;
 
-  // ---- bus -------------------------------------------------------------------------------------------------------
+  // ---- bus ------------------------------------------------------------------------------------------------
 
   always_comb begin
     cmd = CmdByte;
@@ -122,7 +123,7 @@ module pmc006_eeprom
       .sda_oe_o
   );
 
-  // ---- bytes -----------------------------------------------------------------------------------------------------
+  // ---- bytes ----------------------------------------------------------------------------------------------
 
   assign sent = first && state_q == StData && !read_q;
   assign got  = done && state_q == StData && read_q;
@@ -155,24 +156,25 @@ module pmc006_eeprom
   assign we_o = got || (state_q == StWipe && program_bad_q);
   assign byte_o = (state_q == StWipe) ? 8'd0 : received;
 
-  // The executor has the buffer first; between two bytes there is time enough.
+  // The executor has priority for the buffer; between two bytes there is enough time.
   always_ff @(posedge clk_i) begin
     fresh_q <= {fresh_q[0], !claim_i};
     if (fresh_q[1]) ahead_q <= byte_i;
     if (first) last_q <= last;
   end
 
-  // ---- factory restore -------------------------------------------------------------------------------------------
+  // ---- factory restore ------------------------------------------------------------------------------------
 
-  // The reset values are the factory's: all of them return at once, and stay until the boot is over.
+  // The reset values are the factory values: the registers get them immediately and keep them until the boot
+  // is over.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) rst_set_no <= 1'b0;
     else rst_set_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));
   end
 
-  // ---- sequence --------------------------------------------------------------------------------------------------
+  // ---- sequence -------------------------------------------------------------------------------------------
 
-  // A boot that finds no good page tries the copy, once.
+  // A boot that finds an invalid page tries the copy, once.
   assign second = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
   assign free_o = state_q == StIdle && !restore_q;
   assign failed_o = fail_q;

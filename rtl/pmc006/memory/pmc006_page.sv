@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_page: what stands where in the EEPROM: bytes as they are sent, or expected where they are checked; their sum;
-//         which instruction loads a parameter.
+// pmc006_page: memory map of the EEPROM: bytes to be sent, or expected where they are checked; their sum; the
+// instruction that loads a parameter.
 // Rules:  section 13.1 (map, factory page), P006-EEP-10/11/22, P006-BAD-14/15.
-// Timing: byte_o and wrong_o are combinational. The high byte of a pair is kept when the low one is sent, so that
-//         registers go whole.
+// Timing: byte_o and wrong_o are combinational. The high byte of a pair is stored when the low byte is sent,
+//         so that both bytes are of the same register value.
 `default_nettype none
 
 module pmc006_page
@@ -12,28 +12,28 @@ module pmc006_page
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [9:0] at_i,  // address in the EEPROM
-    input wire logic sent_i,  // byte_o is taken
-    input wire logic got_i,  // received_i has come
-    input wire logic [7:0] received_i,  // the byte that has come
-    input wire logic clear_i,  // the sum
-    input wire logic burn_i,  // the program is written, not the parameters
-    input wire logic mark_i,  // the program is going to change
+    input wire logic sent_i,  // byte_o is sent
+    input wire logic got_i,  // received_i is valid
+    input wire logic [7:0] received_i,  // received byte
+    input wire logic clear_i,  // clear the sum
+    input wire logic burn_i,  // 1: the program is written; 0: the parameters
+    input wire logic mark_i,  // the program is about to be written
     input wire logic [7:0] ahead_i,  // byte of the program
     input wire logic factory_i,  // factory values instead of the registers
     input wire settings_t settings_i,  // parameter registers
     input wire control_t control_i,  // registers of the control
     output logic [7:0] byte_o,  // byte to be sent, or expected
-    output logic wrong_o,  // what has come is not what it must be
-    output logic [7:0] op_o,  // instruction that loads the byte or pair, I_NONE if there is none
-    output logic wide_o  // a pair
+    output logic wrong_o,  // the received byte differs from the expected one
+    output logic [7:0] op_o,  // instruction that loads the byte or pair, or I_NONE
+    output logic wide_o  // op_o uses a pair
 );
 
   typedef struct packed {
-    logic [15:0] pair;    // of which the byte is one
-    logic [7:0]  single;  // the byte, if it is none of a pair
+    logic [15:0] pair;    // pair that contains the byte
+    logic [7:0]  single;  // the byte, if it is not part of a pair
   } field_t;
 
-  // What stands in the page at this address.
+  // Content of the page at this address.
   function automatic field_t field_at(settings_t set, control_t ctl, logic [4:0] at);
     field_t f;
     logic   unused_bits;
@@ -67,7 +67,7 @@ module pmc006_page
   logic tail, check;
 
   assign at = at_i[4:0];
-  assign tail = at_i[9:8] == 2'b11 && at_i[6];  // behind the program
+  assign tail = at_i[9:8] == 2'b11 && at_i[6];  // after the program
   assign field = factory_i ? field_at(
       SETTINGS_RESET, CONTROL_RESET, at
   ) : field_at(

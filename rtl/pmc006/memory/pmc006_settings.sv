@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_settings: the parameter registers.
 // Rules:  section 3.0, P006-CMD-04..50, P006-MOT-52, P006-PRG section 12.3 (EXTEN, VSET, ACC).
-// Timing: registers; they change on the edge that ends the clk of write_i.
+// Timing: the registers change on the edge that ends the cycle of write_i.
 `default_nettype none
 
 module pmc006_settings
@@ -9,13 +9,13 @@ module pmc006_settings
 (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    input  wire order_t         order_i,     // what is carried out
-    input  wire access_t        access_i,    // its register
-    input  wire logic           write_i,     // order_i is carried out, its data are legal
-    input  wire logic           take_i,      // its reply is due
-    output settings_t           settings_o,  // what motion and drive look at
-    output control_t            control_o,   // what only the control looks at
-    output logic         [13:0] value_o      // its register's value from the end of take_i on, 0 without one
+    input  wire order_t         order_i,     // instruction
+    input  wire access_t        access_i,    // register of the instruction
+    input  wire logic           write_i,     // order_i is executed, its data are in range
+    input  wire logic           take_i,      // sample the value for the reply
+    output settings_t           settings_o,  // settings used by motion and drive
+    output control_t            control_o,   // settings used only by the control
+    output logic         [13:0] value_o      // register value at take_i, or 0; valid after take_i
 );
 
   logic [13:0] data;
@@ -26,9 +26,9 @@ module pmc006_settings
 
   always_comb begin
     data = order_i.data[13:0];
-    // 6 acts as 5.
+    // 6 is equivalent to 5.
     if (order_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
-    // The program enables both.
+    // The program enables both inputs.
     if (order_i.op == I_EXTEN && order_i.source != FromFrame) data[1] = data[0];
   end
 

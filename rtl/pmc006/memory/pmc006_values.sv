@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_values: the parameter registers once more, in a block RAM, for the replies.
+// pmc006_values: copy of the parameter registers in a block RAM, for the replies.
 // Rules:  section 3.1 (reply data), section 3.0 (factory values).
-// Timing: a value that is written can be asked for in the next clk; value_o stands from the end of take_i until the
-//         next one. Within 32 clk of a reset, in which nobody writes or asks, the factory values are put in.
+// Timing: a written value can be read in the next cycle. value_o is valid from the end of take_i until the
+//         next take_i. The 32 cycles after a reset fill the RAM with the factory values.
+// Assumes: write_i and take_i are low during these cycles.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,11 +12,11 @@ module pmc006_values
 (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             write_i,  // which_i := data_i
+    input  wire logic             write_i,  // write data_i to which_i
     input  wire register_e        which_i,  // a register
-    input  wire logic      [13:0] data_i,   // of write_i
-    input  wire logic             take_i,   // value_o := which_i
-    output logic           [13:0] value_o   // value of which_i at take_i, 0 of RegNone
+    input  wire logic      [13:0] data_i,   // data of write_i
+    input  wire logic             take_i,   // read which_i into value_o
+    output logic           [13:0] value_o   // value of which_i at take_i; 0 for RegNone
 );
 
   function automatic logic [13:0] factory(logic [4:0] which);
@@ -44,8 +45,8 @@ module pmc006_values
     endcase
   endfunction
 
-  // The upper half is never written; the factory value of a register stands one before its place there, because it is
-  // written a clk after it has been read.
+  // The upper half is never written. The factory value of a register is stored one address before its place
+  // there, because it is written one cycle after it was read.
   function automatic logic [63:0][13:0] every_word();
     logic [63:0][13:0] words_of_all;
     words_of_all = '0;
@@ -64,7 +65,7 @@ module pmc006_values
 
   assign filling = !count_q[5];
 
-  // Whatever the places held, 2 and up are right after a reset; nobody asks for 0 and 1.
+  // A reset fills entries 2 and up, regardless of the previous RAM contents. Entries 0 and 1 are never read.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) count_q <= 6'd1;
     else if (filling) count_q <= count_q + 1'b1;

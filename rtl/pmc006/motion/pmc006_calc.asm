@@ -1,29 +1,31 @@
 ; SPDX-License-Identifier: Apache-2.0
-; The planner's program of the PMC006B4: planning of a motion, the update tick, compensation.
+; Program of the planner of the PMC006B4: planning of a motion, update tick, compensation.
 ; Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
-; `make rom` writes pmc006_calc_rom.sv and the entries in pmc006_calc_pkg.sv from it; `make lint` compares them.
+; `make rom` writes pmc006_calc_rom.sv and the entry points in pmc006_calc_pkg.sv from this file; `make lint`
+; compares them.
 ;
-; hi and lo are the accumulator pair of pmc006_calc, 32 bits each. Names of words (M…), constants (K…), registers (R…),
-; conditions, outputs and phases are those of pmc006_calc_pkg, there with their meaning.
+; hi and lo are the accumulator pair of pmc006_calc, 32 bits each. pmc006_calc_pkg defines the names of words
+; (M…), constants (K…), registers (R…), conditions, outputs and phases.
 ;
 ;   load X           hi = X
-;   add X            hi = hi + X; Carry: it did not fit
+;   add X            hi = hi + X; Carry: overflow
 ;   sub X            hi = hi - X; Carry: X was not greater
-;   load.lo, add.lo, sub.lo    the same, but the result goes to lo, and hi = 0
+;   load.lo, add.lo, sub.lo    the same with the result in lo, and hi = 0
 ;   mul.N X          {hi, lo} = hi + X * (the lowest N bits of lo); N = 1, 2, 16, 32. After 16 the product is RMid
 ;   shift.N          {hi, lo} moves right by N bits; it is mul.N K0
 ;   div X            lo = {hi, lo} / X, hi = the remainder
 ;   add.dec, sub.dec, div.dec  with RWay of the deceleration
 ;   root             VN = square root of lo, hi = 0; VN must be 0 before
 ;   store M          word M = hi
-;   out O            output O = hi; out Acc, out Dec: that coefficient goes up by one
-;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp is over
-;   jump L [if C]    go on at label L; without a condition always
-;   halt             the run is over
+;   out O            output O = hi; out Acc, out Dec: increment that coefficient
+;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp has ended
+;   jump L [if C]    continue at label L if condition C is true; without a condition, always
+;   halt             end of the run
 ;
-; Shorthand: V speed in force, VN the next one, LT live target, VE = VSTOP, R steps left, na, nd the coefficients.
+; Abbreviations: V current speed, VN next speed, LT live target, VE = VSTOP, R steps left, na, nd the
+; coefficients.
 
-; ---- where a start and an update tick enter: labels Entry… go into the package
+; ---- entry points of a start and of an update tick: the labels Entry… are written to the package
 
 EntryPlan:
         jump Plan
@@ -33,55 +35,55 @@ EntryTick:
 ; ---- a motion has been accepted: V = VSTART
 
 Plan:
-        load RLeft              ; R does not stand still for long
+        load RLeft              ; R is stable for a short time only
         store MLeft
 
-Target: ; the live target
+Target: ; live target
         jump TargetAdc if Analog
         load RVmax              ; LT = VMAX
         jump TargetDone
 TargetAdc:
         load RAdc               ; h << 6
-        add.lo RAdc9            ; (h + h[9]) << 6: the largest h is all of VMAX
+        add.lo RAdc9            ; (h + h[9]) << 6: the largest h selects VMAX
         mul.32 RVmax
         load RMid               ; LT = VMAX * (h + h[9]) / 1024
 TargetDone:
         jump PlanTarget if Plan
-        sub MLt                 ; retarget if it has changed
+        sub MLt                 ; new ramp if the target has changed
         jump Walk if Zero
         add MLt
         store MLt               ; the new target
         sub RV
-        jump Reached if Zero    ; it is the speed in force
+        jump Reached if Zero    ; it equals the current speed
         set phase=Ramp up=1 smooth=1
         jump Straight if Analog
 Retarget:                       ; hi = LT - V, with its carry
         jump Coef if Carry
-        set up=0                ; downwards: its height is V - LT
+        set up=0                ; downwards: height V - LT
         load RV
         sub MLt
         jump Coef
 Straight:
-        set smooth=0            ; analog targets are followed without S
+        set smooth=0            ; analog targets are followed without S-curve
         jump Retarget
 Reached:
-        set phase=Cruise        ; no ramp is left to do
+        set phase=Cruise        ; no ramp is needed
         jump Walk
 
-PlanTarget: ; hi = the target that planning begins with
+PlanTarget: ; hi = target at the beginning of the planning
         store MLt
         jump PlanShort if Short
         sub RV
         jump PlanFast if Carry
-        load MLt                ; below VSTART: the target itself, all the way
+        load MLt                ; below VSTART: move at the target speed
         out Speed
         jump Cruise
 PlanFast:
-        jump PlanFree if Speed  ; speed mode has no way to fit into
+        jump PlanFree if Speed  ; speed mode has no distance to keep
         load MLt
         sub RVe
-        jump PlanFree if NotCarry ; below VSTOP: nothing to slow down
-        load MLt                ; ways of both ramps at the coefficients set
+        jump PlanFree if NotCarry ; below VSTOP: no deceleration
+        load MLt                ; distances of both ramps at the set coefficients
         add RV
         store MT                ; LT + V
         load MLt
@@ -92,10 +94,10 @@ PlanFast:
         sub.lo K1               ; to round up
         div RWay
         load RLo
-        store MWay1             ; way of the acceleration
-        load MLt                ; and that of the deceleration follows
+        store MWay1             ; acceleration distance
+        load MLt                ; the deceleration distance follows
 
-Way:    ; way from speed hi down to VSTOP
+Way:    ; distance from speed hi down to VSTOP
         store MX
         add RVe
         store MT                ; hi + VE
@@ -111,22 +113,22 @@ Way:    ; way from speed hi down to VSTOP
         jump PlanWay if Plan
         add RLo                 ; stopping distance
         sub MLeft
-        jump Fit if Carry       ; it is time to slow down
+        jump Fit if Carry       ; begin to decelerate
         jump Target
 PlanWay:
         add K3
         store MSlack            ; margin(LT) + 3
         load RLo
-        store MWay2             ; way of the deceleration
+        store MWay2             ; deceleration distance
 
-PlanNeed: ; do both ways fit? else steeper ramps, up to 5
+PlanNeed: ; if both distances do not fit, use steeper ramps, up to 5
         load MWay1
         add MWay2
         add MSlack
-        sub RLeft               ; Carry: more than there is
+        sub RLeft               ; Carry: more than available
         jump PlanFree if NotCarry
         jump PlanDec if Acc5
-        out Acc                 ; na + 1 halves the way
+        out Acc                 ; na + 1 halves the distance
         load MWay1
         add K1                  ; rounded up
         shift.1
@@ -136,14 +138,14 @@ PlanNeed: ; do both ways fit? else steeper ramps, up to 5
 PlanDec:
         jump PlanPeak if Dec5
 PlanDecMore:
-        out Dec                 ; nd + 1 halves the other
+        out Dec                 ; nd + 1 halves the deceleration distance
         load MWay2
         add K1                  ; rounded up
         shift.1
         store MWay2
         jump PlanNeed
 
-PlanPeak: ; too short even so: the peak speed is lowered
+PlanPeak: ; too short even at 5: reduce the peak speed
         load.lo RV
         mul.16 RV
         load RMid               ; V^2
@@ -153,7 +155,7 @@ PlanPeak: ; too short even so: the peak speed is lowered
         mul.16 RVe
         load RMid               ; V^2 + VE^2
         shift.1
-        store MT                ; half of it
+        store MT                ; half of the sum
         load RLeft
         sub MSlack
         sub K1
@@ -169,16 +171,16 @@ PlanPeak: ; too short even so: the peak speed is lowered
         store MT                ; peak speed
         load MLt
         sub MT
-        jump PlanFree if NotCarry ; above the target: that counts
+        jump PlanFree if NotCarry ; above the target: use the target
         load MT
         jump PlanGoal
 PlanFree:
         load MLt                ; up to the target
 
-PlanGoal: ; hi = speed to go to, not below V
+PlanGoal: ; hi = speed to reach, not below V
         sub RV
-        jump Cruise if Zero     ; it is there already
-        set phase=Ramp          ; a start has set up and smooth
+        jump Cruise if Zero     ; already reached
+        set phase=Ramp          ; up and smooth were set by the start
         jump Coef
 
 PlanShort: ; fewer than 256 steps: one straight ramp to VSTOP
@@ -195,10 +197,10 @@ Cruise:
         set phase=Cruise
 Planned:
         load RV
-        out Next                ; the first interval has the speed in force
+        out Next                ; the first interval has the current speed
         halt
 
-; ---- ramp of height hi from V on: the increment of its coefficient
+; ---- ramp of height hi from V: increment for its coefficient
 
 Coef:
         store MDv               ; height
@@ -209,13 +211,13 @@ Coef:
         load.lo K0              ; lo = 0
         load RRate              ; 17 << coefficient
         sub MT
-        jump CoefWhole if Carry ; the whole ramp in one update
+        jump CoefWhole if Carry ; the complete ramp in one update
         add MT
         div MT                  ; 2^32 * rate / (100 * height)
         load RLo
         jump Ramp
 CoefWhole:
-        load K0                 ; stands for 2^32
+        load K0                 ; represents 2^32
 
 Ramp:   ; hi = increment; the ramp begins at V
         store MDu
@@ -235,7 +237,7 @@ Fit:
         load MLeft
         sub K4
         jump FitSome if Carry
-        load K0                 ; fewer than 4 steps are left
+        load K0                 ; fewer than 4 steps left
 FitSome:
         add K1
         store MX                ; max(1, R - 3)
@@ -259,9 +261,9 @@ FitExact:
         store MDv               ; height
         load MT
         jump Ramp
-FitShort: ; the greater of both increments
+FitShort: ; the greater of the two increments
         load MDu
-        jump Planned if Zero    ; 2^32 is the greater one
+        jump Planned if Zero    ; 2^32 is the greater increment
         sub MT
         jump Planned if Carry
         load MT
@@ -275,42 +277,42 @@ Advance:
         store MLeft
         jump Stopping if Ending
         jump Live if Live
-        jump Walk               ; DEC, CREEP: nothing to decide
+        jump Walk               ; DEC, CREEP: no decision
 Stopping:
-        jump Walk if Stop       ; the request stands
-        set phase=Cruise        ; the stop request is withdrawn
+        jump Walk if Stop       ; the stop request is still active
+        set phase=Cruise        ; the stop request was withdrawn
         load RV
-        store MLt               ; the target is looked at anew
+        store MLt               ; evaluate the target again
 Live:
         jump Stop if Stop
-        jump Target if Speed    ; no way to keep
+        jump Target if Speed    ; no distance to keep
         load RVe
         sub RV
-        jump Target if Carry    ; not above VSTOP: nothing to slow down
+        jump Target if Carry    ; not above VSTOP: no deceleration
         load RV
-        jump Way                ; is it time to slow down?
+        jump Way                ; check whether to decelerate
 Stop:
         load RVe
         sub RV
-        jump Stopped if Carry   ; slow enough to stand still at once
+        jump Stopped if Carry   ; slow enough to stop immediately
         set phase=Stop up=0 smooth=1
         load RV
         sub RVe                 ; height
         jump Coef
 Stopped:
-        set phase=End           ; and on to the next speed
+        set phase=End           ; continue with the next speed
 
 ; ---- the next speed
 
 Walk:
         jump Climb if Ramp
-        jump Compensate if Ending ; VN stands
+        jump Compensate if Ending ; VN is unchanged
         load RV
         out Next                ; VN = V
         jump Compensate
 Climb:
         load MDu
-        jump Climbed if Zero    ; 2^32: the ramp is over with its first update
+        jump Climbed if Zero    ; 2^32: the ramp ends with its first update
         add MU
         jump Climbed if Carry   ; progress has passed 2^32
         store MU
@@ -319,7 +321,7 @@ Climb:
         jump Smooth if Smooth
         load.lo K0              ; straight: x * 2^16
         load MX
-        load.lo RMid            ; lo = part of the way, of 2^32
+        load.lo RMid            ; lo = fraction of the ramp, times 2^32
         jump Shaped
 Smooth:                         ; (3 * x^2 * 2^16 - 2 * x^3) / 2^16
         load.lo MX
@@ -330,15 +332,15 @@ Smooth:                         ; (3 * x^2 * 2^16 - 2 * x^3) / 2^16
         sub MX
         sub.lo MX               ; 3 * 2^16 - 2 * x
         mul.32 MT
-        load.lo RMid            ; lo = part of the way, of 2^32
+        load.lo RMid            ; lo = fraction of the ramp, times 2^32
 Shaped:
         load K2p31              ; to round to the nearest
-        mul.32 MDv              ; hi = height * part / 2^32
+        mul.32 MDv              ; hi = height * fraction / 2^32
         jump Apply
 Climbed:
-        set over                ; what follows the ramp
-        load MDv                ; all of its height
-Apply:                          ; hi = change of speed since the ramp began
+        set over                ; phase after the ramp
+        load MDv                ; full height
+Apply:                          ; hi = change of speed since the start of the ramp
         store MT
         load MV1
         jump ApplyUp if Up
@@ -365,5 +367,5 @@ Compensate:
         out Bump                ; Bn = speed * RB * CCOMP / 2^22
         load.lo MX
         mul.16 RScomp
-        out Lead                ; Wn = speed * SCOMP / 2^16, 64 at most
+        out Lead                ; Wn = speed * SCOMP / 2^16, at most 64
         halt

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc: the planner's calculator: one adder that multiplies and divides step by step, a small memory and
-//         the program of pmc006_calc_rom (pmc006_calc.asm).
+// pmc006_calc: calculator of the planner: one adder that multiplies and divides step by step, a small memory
+// and the program of pmc006_calc_rom (pmc006_calc.asm).
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
-// Timing: 2 clk for an instruction without operand, 3 for one with, n + 2 for n steps. A planning ends within 785 clk of
-//         plan_i, an update tick within 590 of advance_i; either may come while an old run is still going on, which it
-//         ends.
+// Timing: an instruction takes 2 cycles without operand, 3 with one, n + 2 with n steps. A planning ends
+//         within 785 cycles of plan_i, an update tick within 590 of advance_i. Either strobe may occur during
+//         a run; it ends that run.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,19 +15,19 @@ module pmc006_calc
     input  wire logic        rst_ni,
     input  wire logic        plan_i,     // a motion begins: plan it
     input  wire logic        advance_i,  // an update tick
-    output logic             busy_o,     // a run is going on
-    // the motion; steady while busy
+    output logic             busy_o,     // a run is in progress
+    // motion; stable while busy_o
     input  wire logic        short_i,    // kind L
     input  wire logic        speed_i,    // kind V
-    input  wire logic        stop_i,     // stop request, as sampled
+    input  wire logic        stop_i,     // stop request
     input  wire logic        analog_i,   // the target is analog
-    input  wire logic [ 2:0] acc_i,      // taken with plan_i
-    input  wire logic [ 2:0] dec_i,      // the same for the deceleration
+    input  wire logic [ 2:0] acc_i,      // acceleration coefficient, sampled with plan_i
+    input  wire logic [ 2:0] dec_i,      // deceleration coefficient, sampled with plan_i
     input  wire logic [13:0] v_i,        // V
     input  wire logic [11:0] ve_i,       // VSTOP
-    input  wire logic [30:0] left_i,     // until 6 clk after the start
+    input  wire logic [30:0] left_i,     // R; valid until 6 cycles after the start
     input  wire logic [ 7:0] mstep_i,    // 1, 2, 4, .. 128
-    // settings, as sampled
+    // sampled settings
     input  wire logic [13:0] vmax_i,     // VMAX
     input  wire logic [ 9:0] adc_i,      // h
     input  wire logic [ 7:0] base_i,     // base code RB of the current
@@ -36,13 +36,13 @@ module pmc006_calc
     // results
     output phase_e           phase_o,    // phase of the motion
     output logic      [13:0] next_o,     // Vn
-    output logic             start_v_o,  // one clk: V is Vn now
+    output logic             start_v_o,  // strobe: V is set to Vn
     output logic      [10:0] bump_o,     // Bn
     output logic      [ 6:0] lead_o      // Wn
 );
 
 
-  instr_t instr, ir_q;  // as fetched; as its operand is chosen, and executed
+  instr_t instr, ir_q;  // fetched; delayed, for operand and execution
   logic run_q, read_q, bare, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] left_q, steps;
@@ -55,7 +55,7 @@ module pmc006_calc
   logic mul, div, root, shift_only;
   logic [2:0] coefficient;
 
-  // ---- sequence --------------------------------------------------------------------------------------------------
+  // ---- sequence -------------------------------------------------------------------------------------------
 
   assign busy_o = run_q;
   assign last   = exec_q && left_q == '0;
@@ -114,7 +114,7 @@ module pmc006_calc
     else if (done && ir_q.op == OpHalt) run_q <= 1'b0;
   end
 
-  // No reset: a start sets what follows.
+  // No reset: a start sets the following registers.
   always_ff @(posedge clk_i) begin
     if (fetch) pc_q <= pc_d;
     ir_q   <= instr;
@@ -125,11 +125,11 @@ module pmc006_calc
     else left_q <= left_q - 1'b1;
   end
 
-  // ---- operands --------------------------------------------------------------------------------------------------
+  // ---- operands -------------------------------------------------------------------------------------------
 
   assign coefficient = (instr.low[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
-  // Words of a register's code are 0.
+  // The word is 0 if the code is that of a register.
   pmc006_calc_words u_words (
       .clk_i,
       .we_i  (done && ir_q.op == OpStore),
@@ -161,12 +161,12 @@ module pmc006_calc
 
   always_ff @(posedge clk_i) operand_q <= word | (ir_q.low[6] ? register : '0);
 
-  // ---- the adder -------------------------------------------------------------------------------------------------
+  // ---- the adder ------------------------------------------------------------------------------------------
 
   assign mul = ir_q.op == OpMul;
   assign root = ir_q.op == OpRoot;
   assign div = ir_q.op == OpDiv || root;
-  assign shift_only = root && left_q[0];  // a digit of a root takes two bits of its square
+  assign shift_only = root && left_q[0];  // one digit of a root uses two bits of its square
   assign zero = hi_q == '0;
 
   always_comb begin
@@ -193,7 +193,7 @@ module pmc006_calc
     end
   end
 
-  // ---- results ---------------------------------------------------------------------------------------------------
+  // ---- results --------------------------------------------------------------------------------------------
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

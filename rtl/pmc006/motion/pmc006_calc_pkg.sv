@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_pkg: the language of the planner: instructions of pmc006_calc, its operands and conditions.
-// Rules:  P006-MOT-10..23, P006-EXC-20..23 (what the program in pmc006_calc.asm computes).
-// How:    an instruction is {operation, aux, operand} or {jump, condition, target}. hi and lo are the accumulator
-//         pair of the one adder; hi alone takes part in sums.
+// pmc006_calc_pkg: instruction set of the planner: instructions of pmc006_calc, operands and conditions.
+// Rules:  P006-MOT-10..23, P006-EXC-20..23 (computed by the program in pmc006_calc.asm).
+// How:    an instruction is {operation, aux, operand} or {jump, condition, target}. hi and lo are the
+//         accumulator pair of the one adder; only hi takes part in sums.
 `default_nettype none
 
 package pmc006_calc_pkg;
@@ -14,12 +14,12 @@ package pmc006_calc_pkg;
     OpHalt,
     OpLoad,   // hi = operand
     OpAdd,    // hi = hi + operand; carry
-    OpSub,    // hi = hi - operand; carry = it was not greater
+    OpSub,    // hi = hi - operand; carry = operand was not greater
     OpStore,  // word = hi
-    OpMul,    // {hi, lo} = (hi + operand * the low n bits of lo) and the rest of lo, rotated right by n
+    OpMul,    // {hi, lo} = (hi + operand * low n bits of lo), rest of lo rotated right by n
     OpDiv,    // lo = {hi, lo} / operand, hi = remainder
-    OpRoot,   // hi = 0: square root of lo into the output VN, which must be 0
-    OpOut,    // output = hi, or raise a coefficient
+    OpRoot,   // hi = 0: square root of lo to output VN, which must be 0
+    OpOut,    // output = hi, or increment a coefficient
     OpSet,    // phase and shape of the ramp
     OpJump
   } op_e;
@@ -28,11 +28,11 @@ package pmc006_calc_pkg;
   typedef enum logic [3:0] {
     Plain,
     Dec,    // RWay with nd
-    Low,    // the result goes to lo, hi = 0
+    Low,    // result to lo, hi = 0
     LowDec
   } where_e;
 
-  // aux of a multiplication: its steps.
+  // aux of a multiplication: number of steps.
   typedef enum logic [3:0] {
     N1,
     N2,
@@ -52,17 +52,17 @@ package pmc006_calc_pkg;
 
   // Bits 6, 5: 00 a word of pmc006_calc_words, 01 a table there, 10 a register.
   typedef enum logic [6:0] {
-    // words that are written
-    MLt     = 7'h00,  // live target last used
+    // writable words
+    MLt     = 7'h00,  // live target used last
     MU      = 7'h01,  // progress of the ramp
-    MDu     = 7'h02,  // its increment; 0 stands for 2^32
-    MV1     = 7'h03,  // its first speed
-    MDv     = 7'h04,  // and its height
+    MDu     = 7'h02,  // increment of MU; 0 represents 2^32
+    MV1     = 7'h03,  // first speed of the ramp
+    MDv     = 7'h04,  // height of the ramp
     MLeft   = 7'h05,  // R of this update tick
     MT      = 7'h06,
     MX      = 7'h07,
-    MWay1   = 7'h08,  // way of the acceleration, steps
-    MWay2   = 7'h09,  // of the deceleration
+    MWay1   = 7'h08,  // acceleration distance, steps
+    MWay2   = 7'h09,  // deceleration distance, steps
     MSlack  = 7'h0a,  // margin(VT) + 3
     // constants
     K0      = 7'h10,
@@ -74,10 +74,10 @@ package pmc006_calc_pkg;
     K54400  = 7'h16,
     K3x2p16 = 7'h17,  // 196608
     K2p31   = 7'h18,
-    // tables by a coefficient, which is the lowest three bits
-    RRate   = 7'h20,  // 17 << na or, for a ramp that falls, nd
-    RWay    = 7'h28,  // 3400 << na, with Dec nd
-    // the motion's registers and its settings as sampled
+    // tables, indexed by a coefficient in the lowest three bits
+    RRate   = 7'h20,  // 17 << na; for a falling ramp 17 << nd
+    RWay    = 7'h28,  // 3400 << na; with Dec nd
+    // registers of the motion and sampled settings
     RV      = 7'h40,
     RVe     = 7'h41,
     RLeft   = 7'h42,  // R
@@ -88,7 +88,7 @@ package pmc006_calc_pkg;
     RCcomp  = 7'h47,
     RScomp  = 7'h48,
     RMstep  = 7'h49,  // 1, 2, 4, .. 128
-    // of the calculator
+    // registers of the calculator
     RLo     = 7'h4c,
     RMid    = 7'h4d,  // {hi, lo} >> 16
     RMargin = 7'h4e,  // margin(hi): (hi >> 12) + 4
@@ -102,7 +102,7 @@ package pmc006_calc_pkg;
     IfZero,      // hi = 0
     IfShort,     // kind L
     IfSpeed,     // kind V
-    IfStop,      // speed mode has been switched off
+    IfStop,      // speed mode was switched off
     IfAnalog,
     IfPlan,      // before t = 0
     IfEnding,    // phase STOP or END
@@ -114,7 +114,7 @@ package pmc006_calc_pkg;
     IfDec5       // nd = 5
   } cond_e;
 
-  // Bit 2: a ramp; without it, what follows the ramp.
+  // Bit 2: a ramp; without bit 2: the phase after the ramp.
   typedef enum logic [2:0] {
     PhCruise = 3'b000,
     PhCreep  = 3'b001,
@@ -124,20 +124,20 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
-  // Of a set: bit 3 of aux says that the ramp is over, bits 2..0 which of phase, up and smooth are set.
+  // Of OpSet: bit 3 of aux ends the ramp; bits 2..0 select which of phase, up and smooth are set.
   typedef struct packed {
     op_e op;
-    logic [3:0] aux;  // as where_e, steps_e, out_e or cond_e
+    logic [3:0] aux;  // where_e, steps_e, out_e or cond_e
     logic [8:0] low;  // operand, jump target or {phase_e, up, smooth}
   } instr_t;
 
-  // ---- written by `make rom` from pmc006_calc.asm: where the program is entered, how long it is ------------------
+  // ---- written by `make rom` from pmc006_calc.asm: entry points and length of the program -----------------
 
   localparam logic [8:0] EntryPlan = 9'd0;
   localparam logic [8:0] EntryTick = 9'd1;
   localparam int unsigned ProgramWords = 272;
 
-  // ---- end of what is written --------------------------------------------------------------------------------
+  // ---- end of the generated lines -------------------------------------------------------------------------
 
   // verilator lint_on UNUSEDPARAM
 

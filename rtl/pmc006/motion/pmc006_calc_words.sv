@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_words: memory of the planner's calculator: words that its program writes, constants, tables.
+// pmc006_calc_words: memory of the planner's calculator: words written by its program, constants, tables.
 // Rules:  P006-MOT-10..23 (the constants are binding).
-// Timing: word_o is the word of read_i one clk later. A word that is being written is not read.
+// Timing: word_o follows read_i by one cycle.
+// Assumes: a word is not read in the cycle in which it is written.
 `default_nettype none
 
 module pmc006_calc_words
   import pmc006_calc_pkg::*;
 (
     input  wire logic        clk_i,
-    input  wire logic        we_i,    // word at_i := data_i
-    input  wire logic [ 3:0] at_i,    // a word that may be written
-    input  wire logic [31:0] data_i,  // of we_i
-    input  wire logic [ 6:0] read_i,  // as operand_e, tables with a coefficient in its lowest three bits
+    input  wire logic        we_i,    // write data_i to at_i
+    input  wire logic [ 3:0] at_i,    // a writable word
+    input  wire logic [31:0] data_i,  // data of we_i
+    input  wire logic [ 6:0] read_i,  // operand_e; tables have a coefficient in bits 2..0
     output logic      [31:0] word_o   // 0 for a register
 );
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_guard: emergency stops: edges of EXT1 and EXT2, their flags.
+// pmc006_guard: emergency stops: detects edges of EXT1 and EXT2 and stores their flags.
 // Rules:  section 7.1, P006-STA-14/17, P006-BAD-21/26.
-// Timing: event_o in the clk in which the synchronised level differs from that of the clk before; the flag stands
-//         from its end on.
+// Timing: event_o is high in the cycle in which the synchronised level differs from that of the cycle before.
+//         The flag is valid from the end of this cycle.
 `default_nettype none
 
 module pmc006_guard (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
     input  wire logic [1:0] ext_i,     // synchronised; bit 0 EXT1
-    input  wire logic [1:0] rising_i,  // TRIGM
-    input  wire logic [1:0] enable_i,  // EXTEN
-    input  wire logic [1:0] clear_i,   // the flag goes
+    input  wire logic [1:0] rising_i,  // TRIGM; 1 = rising edge
+    input  wire logic [1:0] enable_i,  // EXTEN; 1 = enabled
+    input  wire logic [1:0] clear_i,   // clear the flag
     output logic            event_o,   // a flag is being set
-    output logic      [1:0] flags_o    // of EXT1, EXT2
+    output logic      [1:0] flags_o    // flags of EXT1, EXT2
 );
 
   logic [1:0] before_q, hit;

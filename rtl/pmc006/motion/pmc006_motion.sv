@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_motion: a motion from its acceptance to its end: what it keeps of the settings, planning, steps, live
-//         target, compensation.
+// pmc006_motion: a motion from its acceptance to its end: latched settings, planning, steps, live target,
+// compensation.
 // Rules:  P006-STA-10, P006-CMD-54, P006-MOT-01..05, P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42,
 //         P006-MOT-50..52, P006-EXC-21..24.
-// Timing: motion_o.busy rises at the edge s of start or run, t = 0 is the first us tick at or after s + 800, a step
-//         due at t is made two clk after its us tick. step_o is combinational: high in the clk whose edge makes the
-//         step.
+// Timing: motion_o.busy rises at the edge s of start or run. t = 0 is the first us tick at or after s + 800.
+//         A step scheduled at t is made two cycles after its us tick. step_o is combinational: it is high in
+//         the cycle whose edge makes the step.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,16 +15,16 @@ module pmc006_motion
 (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
-    input  wire logic            us_i,        // one clk every microsecond
+    input  wire logic            us_i,        // strobe every microsecond
     input  wire settings_t       settings_i,  // parameter registers
-    input  wire logic      [7:0] base_i,      // base code of their current, one clk behind
-    // instructions, already judged
-    input  wire launch_t         launch_i,    // a motion to begin
-    input  wire logic            halt_i,      // stop at once; no step in this clk
+    input  wire logic      [7:0] base_i,      // base code of the current, one cycle after settings_i
+    // accepted instructions
+    input  wire launch_t         launch_i,    // start of a motion
+    input  wire logic            halt_i,      // stop immediately; no step in this cycle
     input  wire sample_t         adc_i,       // h of the analog target
-    output motion_t              motion_o,    // how it stands
-    output logic                 step_o,      // a step is made at the coming edge
-    output thrust_t              thrust_o     // what the drive needs
+    output motion_t              motion_o,    // state of the motion
+    output logic                 step_o,      // a step is made at the next rising edge
+    output thrust_t              thrust_o     // values for the drive
 );
 
   logic load, load_q, launch, update, look, look_q, sample, advance, stop, start_v, calc_busy;
@@ -42,7 +42,7 @@ module pmc006_motion
   phase_e phase;
 
   assign load = launch_i.start || launch_i.run;
-  // Until a motion is accepted they follow, for load has a long way.
+  // Until a motion is accepted, the registers follow the inputs, because load is timing-critical.
   assign look = !busy_q || launch || update;
   assign rest = speed_q && phase == PhEnd && !launch_i.speed;
   assign thrust_o = '{increment: increment_q, bump: bump_now, lead: lead_now};
@@ -67,7 +67,7 @@ module pmc006_motion
     end
   end
 
-  // No reset: what follows is set before a motion.
+  // No reset: the following registers are set before a motion.
   always_ff @(posedge clk_i) begin
     if (!busy_q) begin
       speed_q <= launch_i.run;
@@ -86,7 +86,7 @@ module pmc006_motion
       stop_q   <= !launch_i.speed;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
-      steady_q <= busy_q && phase == PhCruise && next != '0;  // at t = 0 the planning has left V in Vn
+      steady_q <= busy_q && phase == PhCruise && next != '0;  // at t = 0, Vn holds the planned V
     end
   end
 

@@ -1,51 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_rate: the running motion's time and steps: update ticks, speed in force, rate accumulator, steps left.
+// pmc006_rate: time and steps of the running motion: update ticks, current speed, rate accumulator, steps
+// left.
 // Rules:  P006-MOT-01..05, section 5.3.
-// Timing: busy_i falls with the edge of stop_o. E = edge of a us tick. At E the count of ticks, V, B and W change, or
-//         the motion ends; a step that is due is made at E + 2 (step_o is high in the clk before that edge); advance_o
-//         follows in the clk after it.
+// Timing: E = edge of a us tick. At E, the count of ticks, V, B and W change, or the motion ends. A scheduled
+//         step is made at E + 2 (step_o is high in the cycle before that edge); advance_o follows in the
+//         cycle after it. busy_i falls on the edge of stop_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module pmc006_rate (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        us_i,       // one clk every microsecond
-    input  wire logic [30:0] count_i,    // with the clk before busy_i: its steps
-    input  wire logic [11:0] vstart_i,   // and VSTART, its first V
+    input  wire logic        us_i,       // strobe every microsecond
+    input  wire logic [30:0] count_i,    // steps, sampled in the cycle before busy_i rises
+    input  wire logic [11:0] vstart_i,   // VSTART, the first V, sampled with count_i
     input  wire logic        endless_i,  // kind V
-    input  wire logic        busy_i,     // it is under way
-    input  wire logic        halt_i,     // stop at once
+    input  wire logic        busy_i,     // the motion is in progress
+    input  wire logic        halt_i,     // stop immediately
     input  wire logic        rest_i,     // end at this update tick
-    input  wire logic        start_v_i,  // V = Vn
+    input  wire logic        start_v_i,  // load Vn into V
     input  wire logic [13:0] next_i,     // Vn
     input  wire logic [10:0] bump_i,     // Bn
     input  wire logic [ 6:0] lead_i,     // Wn
     output logic             launch_o,   // t = 0
     output logic             update_o,   // update tick
-    output logic             sample_o,   // every 100th
+    output logic             sample_o,   // every 100th update tick
     output logic             advance_o,  // start of advance()
-    output logic             step_o,     // combinational
-    output logic             stop_o,     // combinational: the motion ends, halted or by itself
+    output logic             step_o,     // combinational: a step is made
+    output logic             stop_o,     // combinational: the motion ends, halted or completed
     output logic      [13:0] v_o,        // V
     output logic      [30:0] left_o,     // R
     output logic      [10:0] bump_o,     // B
     output logic      [ 6:0] lead_o      // W
 );
 
-  // Clk between acceptance and t = 0: more than the planner needs.
+  // Cycles between acceptance and t = 0: more than the planner needs.
   localparam int unsigned Plan = 800;
   localparam logic [6:0] Ticks = 7'd100;
 
-  // The accumulator holds ACCU + 2^20 - 10^6: a carry is a step.
+  // The accumulator holds ACCU + 2^20 - 10^6, so that a carry is a step.
   localparam logic [19:0] Rest = 20'd48_576;
 
   logic [6:0] ticks_q, updates_q;
   logic [19:0] accu_q;
   logic [20:0] sum;
   logic planned, run_q, tick, wrap, last_q;
-  logic begun_q;  // accumulate
-  logic due_q;  // step
+  logic begun_q;  // accumulate in this cycle
+  logic due_q;  // a step is scheduled
   logic [1:0] updated_q;
   logic [10:0] bump_q;
   logic [6:0] lead_q;
@@ -76,7 +77,7 @@ module pmc006_rate (
       due_q     <= 1'b0;
       advance_o <= 1'b0;
     end else begin
-      // Cleared by BUSY, a clk after stop_o: that has a long way.
+      // Cleared by BUSY, one cycle after stop_o, because stop_o is timing-critical.
       run_q     <= busy_i && (run_q || launch_o);
       begun_q   <= tick;
       updated_q <= {2{busy_i}} & {updated_q[0], launch_o || update_o};
@@ -85,7 +86,7 @@ module pmc006_rate (
     end
   end
 
-  // No reset: what follows is set before a motion.
+  // No reset: the following registers are set before a motion.
   always_ff @(posedge clk_i) begin
     if (!run_q) {ticks_q, updates_q} <= '0;
     else if (tick) begin
@@ -96,7 +97,7 @@ module pmc006_rate (
     if (!run_q) accu_q <= Rest;
     else if (begun_q || due_q) accu_q <= sum[19:0];
 
-    // Until it is accepted: load_i has a long way.
+    // V follows VSTART until a motion is accepted, because load_i is timing-critical.
     if (!busy_i) v_o <= 14'(vstart_i);
     else if (update_o || start_v_i) v_o <= next_i;
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// isa_4axis: four axes on an 8-bit ISA or PC/104 bus: two PPMC-2104 behind one base address, one interrupt.
-// Rules:  ISA-01..11; of each part all P2104 rules. Manual: docs/ppmc2104/isa.md.
-// Timing: that of ppmc2104 at its pins; irq follows int_n by one clk.
-// Axes:   part A has axes 1 and 2, part B has axes 3 and 4, which its host calls 1 and 2.
+// isa_4axis: four axes on an 8-bit ISA or PC/104 bus: two PPMC-2104 at one base address with one interrupt.
+// Rules:  ISA-01..11; all P2104 rules apply to each device. Manual: docs/ppmc2104/isa.md.
+// Timing: that of ppmc2104 at its pins; irq follows int_n by one cycle.
+// Axes:   device A has axes 1 and 2; device B has axes 3 and 4, which its host addresses as 1 and 2.
 `default_nettype none
 
 module isa_4axis #(
-    parameter int unsigned CLK_HZ    = 16_000_000,  // frequency of clk in Hz, 8e6 .. 200e6
+    parameter int unsigned CLK_HZ    = 16_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ   = 16_000_000,  // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter              TIMING    = "FAST",      // or "DATASHEET": with the old chip's processing times
-    parameter int unsigned BASE_ADDR = 'h300        // first register, 000h .. 3F8h, a multiple of 8
+    parameter              TIMING    = "FAST",      // or "DATASHEET": processing times of the old chip
+    parameter int unsigned BASE_ADDR = 'h300        // first register, 000h .. 3F8h, multiple of 8
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,      // power-on reset of the board
     // ISA
-    input  wire logic       reset_drv,  // 1 = reset
+    input  wire logic       reset_drv,  // active high
     input  wire logic [9:0] sa,
     input  wire logic       aen,
     input  wire logic       ior_n,
@@ -22,15 +22,15 @@ module isa_4axis #(
     input  wire logic [7:0] sd_i,
     output logic      [7:0] sd_o,
     output logic            sd_oe,
-    output logic            irq,        // 1 = part A or B interrupts
-    // both parts
-    input  wire logic       errint_n,   // L: an instruction error interrupts, too
-    input  wire logic [3:0] auxi,       // 1..0 part A, 3..2 part B
+    output logic            irq,        // high: device A or B requests an interrupt
+    // both devices
+    input  wire logic       errint_n,   // low: an instruction error also requests an interrupt
+    input  wire logic [3:0] auxi,       // bits 1..0: device A, bits 3..2: device B
     output logic      [3:0] auxo,
-    output logic            clk_o,      // 4 MHz, of part A
+    output logic            clk_o,      // 4 MHz output of device A
     // axes
-    input  wire logic [4:1] run,        // H: pulses may start
-    input  wire logic [4:1] csel,       // internal base clock: H 500 kHz, L 125 kHz
+    input  wire logic [4:1] run,        // high: pulses may start
+    input  wire logic [4:1] csel,       // internal base clock, high: 500 kHz, low: 125 kHz
     input  wire logic [4:1] extck,      // external base clock, rising edges
     input  wire logic [4:1] fl_n,       // CW limit
     input  wire logic [4:1] bl_n,       // CCW limit
@@ -39,9 +39,9 @@ module isa_4axis #(
     input  wire logic [4:1] org_n,      // origin
     input  wire logic [4:1] alm_n,      // alarm
     output logic      [4:1] pout_n,
-    output logic      [4:1] dir,        // 0 = CW
+    output logic      [4:1] dir,        // 0: CW, 1: CCW
     output logic      [4:1] hold,
-    output logic      [5:1] s1_n,       // phases of axis 1, L = energised
+    output logic      [5:1] s1_n,       // phases of axis 1, low: energised
     output logic      [5:1] s2_n,
     output logic      [5:1] s3_n,
     output logic      [5:1] s4_n
@@ -100,7 +100,7 @@ module isa_4axis #(
         .rst_n   (rst_both),
         .cs_n    (cs[p]),
         .a0,
-        .busc    (1'b0),              // separate strobes
+        .busc    (1'b0),              // separate read and write strobes
         .ds_wrs_n(iow_n),
         .rw_rds_n(ior_n),
         .d_i     (sd_i),

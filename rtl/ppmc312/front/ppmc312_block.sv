@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_block: an instruction received in serial mode, as the block of the parallel bus that means the same.
+// ppmc312_block: converts an instruction received in serial mode to the equivalent block of the parallel bus.
 // Rules:  P312-SER-40..43, P312-GEN-04.
-// Timing: data_o is combinational; size_o holds from the last data byte on.
+// Timing: data_o is combinational; size_o is valid from the last data byte on.
 `default_nettype none
 
 module ppmc312_block
@@ -9,20 +9,20 @@ module ppmc312_block
   import ppmc312_serial_pkg::*;
 (
     input  wire logic                        clk_i,   // clock
-    input  wire serial_code_t                info_i,  // what the received code means; stands
-    // bytes on their way into the write window
-    input  wire logic                        we_i,    // strobe
-    input  wire logic                        head_i,  // one that is made here: header, length, code, flags
-    input  wire logic         [         3:0] at_i,    // logical: 0 = header
-    input  wire logic         [         7:0] data_i,  // as received
-    output logic              [         7:0] data_o,  // as it goes into the window
+    input  wire serial_code_t                info_i,  // meaning of the received code, stable
+    // bytes for the write window
+    input  wire logic                        we_i,    // strobe: a byte
+    input  wire logic                        head_i,  // the byte is generated: header, length, code, flags
+    input  wire logic         [         3:0] at_i,    // position of the byte, 0 = header
+    input  wire logic         [         7:0] data_i,  // received byte
+    output logic              [         7:0] data_o,  // byte for the window
     output logic              [BLOCK_BITS:0] size_o   // bytes of the block, 2 .. 15
 );
 
-  localparam logic [3:0] Flags = 4'd3;  // place of the first parameter
-  localparam logic [3:0] InnerLen = 4'd5;  // of the length within an event registration
-  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes of the block around it
-  localparam logic [BLOCK_BITS:0] None = 6'd2;  // makes a size abnormality
+  localparam logic [3:0] Flags = 4'd3;  // position of the first parameter
+  localparam logic [3:0] InnerLen = 4'd5;  // position of the length byte of the embedded block
+  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes before those that the inner length counts
+  localparam logic [BLOCK_BITS:0] None = 6'd2;  // causes the error "size abnormality"
 
   logic [3:0] inner_q;
   logic long_q;
@@ -30,7 +30,7 @@ module ppmc312_block
   always_ff @(posedge clk_i) begin
     if (we_i && !head_i && at_i == InnerLen) begin
       inner_q <= data_i[3:0];
-      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // more than 8
+      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // above 8
     end
   end
 
@@ -39,7 +39,7 @@ module ppmc312_block
     if (info_i.embeds) size_o = long_q ? None : (BLOCK_BITS + 1)'(inner_q) + Inner;
   end
 
-  // Split tables do not exist here, and the monitors always repeat.
+  // The serial mode has no split tables, and its monitors always repeat.
   always_comb begin
     data_o = data_i;
     if (head_i) begin

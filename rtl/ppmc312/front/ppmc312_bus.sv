@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_bus: strobes of the 8-bit parallel bus into register writes and reads, and the wait request.
+// ppmc312_bus: converts strobes of the 8-bit parallel bus to register writes and reads; drives the wait
+//         request.
 // Rules:  P312-PAR-09..12, P312-GEN-01.
-// Timing: a write whose end is first sampled at edge 0 gives wr_o in the cycle before edge 2. A read that is
-//         first sampled at edge 0 drives the bus from edge 3 on, until 2 edges after its end; rd_done_o comes
-//         in the cycle before edge 2 after that end. d_o never changes during a strobe.
+// Timing: if the end of a write is first sampled at edge 0, wr_o is high in the cycle before edge 2. If a
+//         read is first sampled at edge 0, the bus is driven from edge 3 until 2 edges after the end of the
+//         read; rd_done_o is high in the cycle before edge 2 after that end. d_o does not change during a
+//         strobe.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc312_bus #(
-    parameter int unsigned WaitClk = 6  // T_WRQ
+    parameter int unsigned WaitClk = 6  // T_WRQ in cycles
 ) (
     input  wire logic       clk_i,        // clock
     input  wire logic       rst_ni,       // reset, asynchronous
-    input  wire logic       rst_wait_ni,  // of the wait request alone: a strobe goes on
-    input  wire logic       off_i,        // nobody may access
+    input  wire logic       rst_wait_ni,  // reset of the wait request only; strobes continue
+    input  wire logic       off_i,        // 1: accesses are ignored
     // pins
     input  wire logic [2:0] rs_i,         // register
     input  wire logic       cs_ni,        // chip select
@@ -21,17 +23,17 @@ module ppmc312_bus #(
     input  wire logic       oe_ni,        // read strobe
     input  wire logic [7:0] d_i,          // bus, from the host
     output logic      [7:0] d_o,          // bus, to the host
-    output logic            d_oe_o,       // drive d_o
+    output logic            d_oe_o,       // 1: drive d_o
     output logic            wrq_no,       // wait request
     // registers
-    input  wire logic       wait_i,       // EWRQ: the wait request is used
-    output logic            wr_o,         // a write is complete
-    output logic      [2:0] wr_rs_o,      // with wr_o: the register,
-    output logic      [7:0] wr_data_o,    // and what is written
+    input  wire logic       wait_i,       // EWRQ, 1: the wait request is used
+    output logic            wr_o,         // strobe: a write is complete
+    output logic      [2:0] wr_rs_o,      // register; valid with wr_o
+    output logic      [7:0] wr_data_o,    // written byte; valid with wr_o
     output logic      [2:0] rd_rs_o,      // register that is being read
-    input  wire logic [7:0] rd_data_i,    // its value
-    output logic            rd_show_o,    // its value is taken
-    output logic            rd_done_o     // the read has ended
+    input  wire logic [7:0] rd_data_i,    // value of register rd_rs_o
+    output logic            rd_show_o,    // strobe: rd_data_i is latched
+    output logic            rd_done_o     // strobe: the read has ended
 );
 
   localparam logic [2:0] RegDwr = 3'b101;
@@ -76,7 +78,7 @@ module ppmc312_bus #(
         wr_rs_o   <= rs2;
         wr_data_o <= d2;
       end
-      // The first sample may have met the address lines while they changed: that of the second counts.
+      // The address lines may still change at the first sample, so the second sample is used.
       d_oe_o <= rd2 && rd3_q;
       if (rd_show_o) begin
         rs_q <= rs2;
@@ -85,9 +87,10 @@ module ppmc312_bus #(
     end
   end
 
-  // Wait request: a data access that begins too soon after the one before waits for the rest of that time.
-  logic [Width-1:0] age_q;  // clk since the end of the last data access
-  logic [Width-1:0] wait_q;  // clk to wait
+  // Wait request: a data access that begins less than T_WRQ after the previous one waits for the remaining
+  // time.
+  logic [Width-1:0] age_q;  // cycles since the end of the last data access
+  logic [Width-1:0] wait_q;  // remaining cycles of the wait
   logic early;
 
   assign busy2 = (wr2 && rs2 == RegDwr) || (rd2 && rs2 == RegDrr);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_codes: what an instruction code of the serial mode means on the parallel bus.
+// ppmc312_codes: translates an instruction code of the serial mode to the parallel bus.
 // Rules:  section 3.6; P312-SER-40..44.
-// Timing: two clk: a block RAM answers slowly, so its output has a register.
-// How:    a table in a block RAM, written from the function below.
+// Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
+// How:    look-up table in a block RAM; the function meaning computes its words.
 `default_nettype none
 
 module ppmc312_codes
@@ -10,14 +10,14 @@ module ppmc312_codes
   import ppmc312_serial_pkg::*;
 (
     input  wire logic          clk_i,   // clock
-    input  wire logic    [7:0] code_i,  // as received
-    output serial_code_t       info_o   // what it means
+    input  wire logic    [7:0] code_i,  // code as received
+    output serial_code_t       info_o   // meaning of code_i, two cycles later
 );
 
   function automatic serial_code_t meaning(logic [7:0] code);
     serial_code_t info;
     logic position;
-    logic [3:0] bytes;  // received behind the code
+    logic [3:0] bytes;  // data bytes received after the code
     logic [7:0] way, trigger;
     position   = code[5:4] == 2'b01;
     way        = {1'b0, code[5], 6'd0};  // DIR
@@ -39,7 +39,7 @@ module ppmc312_codes
       I_MASK: begin
         bytes = 4'd1;
         info.flagged = 1'b1;
-        info.flags = 8'h01;  // always again
+        info.flags = 8'h01;  // RES: monitoring continues after a report
       end
       S_END, S_ERROR, S_COUNTS:                                              info.local_read = 1'b1;
       8'h41: begin
@@ -106,7 +106,8 @@ module ppmc312_codes
     return info;
   endfunction
 
-  // A constant of all words: synthesis runs the branches of meaning wrongly in an initial block.
+  // The words are a constant, because synthesis evaluates the branches of meaning wrongly in an initial
+  // block.
   function automatic serial_code_t [255:0] every_code();
     serial_code_t [255:0] words;
     for (int unsigned i = 0; i < 256; i++) words[8'(i)] = meaning(8'(i));

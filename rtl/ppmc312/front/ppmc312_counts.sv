@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_counts: how many framing, overrun and checksum errors there have been since they were read.
+// ppmc312_counts: counts framing, overrun and checksum errors since the last read (0 to 255, saturating).
 // Rules:  P312-SER-14, P312-SER-15, P312-SER-45.
-// Timing: one clk after the error. One at a time, none in the clk of a reading.
+// Timing: count_o follows error_i and read_i by one cycle.
+// Assumes: at most one error per cycle, no error in the cycle of read_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc312_counts (
     input  wire logic            clk_i,    // clock
     input  wire logic            rst_ni,   // reset, asynchronous
-    input  wire logic [2:0]      error_i,  // framing, overrun, checksum
-    input  wire logic            read_i,   // they are being read
-    output logic      [2:0][7:0] count_o   // the same order, 0 .. 255 each
+    input  wire logic [2:0]      error_i,  // strobes: framing, overrun, checksum error
+    input  wire logic            read_i,   // strobe: the counts are read and set to 0
+    output logic      [2:0][7:0] count_o   // counts in the order of error_i, 0 .. 255
 );
 
   logic [7:0] old, more;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_frame: takes the frames of the host apart: control code, hexadecimal data, checksum, silence.
+// ppmc312_frame: parses the frames of the host: control code, hexadecimal data, checksum, silence.
 // Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
-// Timing: poll_o, run_o, fault_o, strange_o and overrun_o come in the clk of the character, or of the end of the
-//         silence, that decides.
+// Timing: poll_o, run_o, fault_o, strange_o and overrun_o are asserted in the cycle of the deciding
+//         character, or of the end of the silence.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,43 +11,43 @@ module ppmc312_frame
 #(
     parameter int unsigned ClkHz    = 16_000_000,
     parameter int unsigned XtalHz   = 16_000_000,
-    parameter bit          CharsSum = 1'b0         // checksum of the characters instead of their values
+    parameter bit          CharsSum = 1'b0         // 1: checksum of the characters, 0: of their values
 ) (
     input  wire logic               clk_i,      // clock
     input  wire logic               rst_ni,     // reset, asynchronous
-    input  wire logic         [3:0] adr_i,      // number of the station
+    input  wire logic         [3:0] adr_i,      // station number
     // characters
-    input  wire logic         [7:0] byte_i,     // with valid_i
-    input  wire logic               valid_i,    // strobe: a character
-    input  wire logic               error_i,    // one without a stop bit
+    input  wire logic         [7:0] byte_i,     // received character; valid with valid_i
+    input  wire logic               valid_i,    // strobe: character received
+    input  wire logic               error_i,    // strobe: character without a stop bit
     input  wire logic               busy_i,     // a reply is pending or being sent
     // code table
     output logic              [7:0] code_o,     // code as received
-    input  wire serial_code_t       info_i,     // what it means, two clk later
-    // the block that means the same on the parallel bus: its bytes, data first, then what comes before them
-    output logic                    we_o,       // strobe: a byte
-    output logic                    head_o,     // one of those
-    output logic              [3:0] at_o,       // its place, 0 = header
-    output logic              [7:0] data_o,     // received; with we_o and not head_o
-    // what it comes to
+    input  wire serial_code_t       info_i,     // meaning of code_o, two cycles later
+    // equivalent block of the parallel bus: first the data bytes, then header, length, code and flags
+    output logic                    we_o,       // strobe: a byte of the block
+    output logic                    head_o,     // the byte is header, length, code or flags
+    output logic              [3:0] at_o,       // position of the byte, 0 = header
+    output logic              [7:0] data_o,     // received byte; valid with we_o and head_o = 0
+    // result
     output logic                    poll_o,     // strobe: a poll
-    output logic                    run_o,      // an instruction, its checksum is right
-    output logic                    fault_o,    // a wrong checksum
-    output logic                    strange_o,  // an unknown code
+    output logic                    run_o,      // strobe: an instruction with a correct checksum
+    output logic                    fault_o,    // strobe: wrong checksum or invalid character
+    output logic                    strange_o,  // strobe: unknown code
     output logic                    overrun_o   // strobe: a frame while busy
 );
 
   localparam int unsigned SilenceXtal = 320_000;  // 20 ms
 
   typedef enum logic [2:0] {
-    StSkip,  // until the next control code
+    StSkip,  // waits for the next control code
     StCode,
     StWait,
-    StLook,  // the table knows it or not
+    StLook,  // checks whether the code is known
     StData,
     StHead,  // header, length, code, flags
     StSum,
-    StOdd    // unknown: until silence
+    StOdd    // unknown or invalid code: waits for silence
   } state_e;
 
   state_e state_q;
@@ -56,7 +56,7 @@ module ppmc312_frame
   logic [3:0] nibble, high_q, at_q, first;
   logic [6:0] sum_q;
 
-  // ---- characters ------------------------------------------------------------------------------------------------
+  // ---- characters ---------------------------------------------------------------------------------
 
   assign control = valid_i && byte_i[7];
   assign own = byte_i[6:5] == 2'b00 && byte_i[3:0] == adr_i;
@@ -77,7 +77,7 @@ module ppmc312_frame
 
   assign silent = past && !valid_i && !error_i;
 
-  // ---- what it comes to ------------------------------------------------------------------------------------------
+  // ---- result -------------------------------------------------------------------------------------
 
   assign right = byte_i[6:0] == ~sum_q && !bad_q;
   assign ends = take && state_q == StSum;

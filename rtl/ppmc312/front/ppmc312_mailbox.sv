@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_mailbox: the parallel front end: CSR, write window (WCR, WAR, DWR), read window (RCR, RAR, DRR),
-// interrupt.
+// ppmc312_mailbox: parallel front end: CSR, write window (WCR, WAR, DWR), read window (RCR, RAR, DRR),
+//         interrupt.
 // Rules:  P312-PAR-01..08, P312-PRT-01/02, P312-BAD-01..03/07/08.
-// Timing: a block is offered one clk after the write of its header; irq_no follows its terms by one clk. A
-//         report is shown 6 clk after its load, which comes at least 8 clk after the last byte of the one
-//         before.
-// Note:   blocks and reports cross to the core in logical order; the bus has them reversed.
+// Timing: a block is offered one cycle after the write of its header; irq_no follows its terms by one cycle.
+//         A report can be read 6 cycles after rd_load_o, which is asserted at least 8 cycles after the last
+//         byte of the previous report.
+// Note:   between this module and the core, blocks and reports have the logical order (header first); on the
+//         bus the order is reversed.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,13 +15,13 @@ module ppmc312_mailbox
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 #(
-    parameter int unsigned WaitClk = 6  // T_WRQ
+    parameter int unsigned WaitClk = 6  // T_WRQ in cycles
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic rst_bus_ni,  // of the strobes
-    input wire logic ready_i,  // 0: no instruction may be written yet
-    input wire logic off_i,  // serial mode
+    input wire logic rst_bus_ni,  // reset of the bus strobes
+    input wire logic ready_i,  // 0: instructions cannot be written yet
+    input wire logic off_i,  // 1: serial mode, the bus is off
     // pins
     input wire logic [2:0] rs_i,  // register
     input wire logic cs_ni,  // chip select
@@ -28,22 +29,22 @@ module ppmc312_mailbox
     input wire logic oe_ni,  // read strobe
     input wire logic [7:0] d_i,  // bus, from the host
     output logic [7:0] d_o,  // bus, to the host
-    output logic d_oe_o,  // drive d_o
+    output logic d_oe_o,  // 1: drive d_o
     output logic wrq_no,  // wait request
     output logic irq_no,  // interrupt
-    // blocks of the host
-    output offer_t offer_o,  // one of them
+    // blocks from the host
+    output offer_t offer_o,  // block for the core
     input wire logic [BLOCK_BITS-1:0] blk_addr_i,  // byte of the block, 0 = header
-    output logic [7:0] blk_data_o,  // that byte, two clk later
-    input wire logic blk_done_i,  // strobe: it is processed and answered
-    input wire line_byte_t line_i,  // the serial station writes its blocks here, too
+    output logic [7:0] blk_data_o,  // byte at blk_addr_i, two cycles later
+    input wire logic blk_done_i,  // strobe: the block is processed and answered
+    input wire line_byte_t line_i,  // byte of a block from the serial station
     // reports to the host
-    input wire logic rd_any_i,  // one waits
-    output logic rd_load_o,  // strobe: load it
-    input wire logic [BLOCK_BITS:0] rd_size_i,  // bytes of the loaded one, from 2 clk after the load on
-    output logic [BLOCK_BITS-1:0] rd_addr_o,  // byte of it, 0 = header
-    input wire logic [7:0] rd_data_i,  // at most three clk later
-    output logic rd_done_o  // strobe: it has been read
+    input wire logic rd_any_i,  // a report is pending
+    output logic rd_load_o,  // strobe: load the next report
+    input wire logic [BLOCK_BITS:0] rd_size_i,  // bytes of the loaded report; valid 2 cycles after rd_load_o
+    output logic [BLOCK_BITS-1:0] rd_addr_o,  // byte of the report, 0 = header
+    input wire logic [7:0] rd_data_i,  // byte at rd_addr_o, at most three cycles later
+    output logic rd_done_o  // strobe: the report has been read
 );
 
   localparam logic [2:0] RegCsr = 3'b000;
@@ -57,8 +58,8 @@ module ppmc312_mailbox
   logic wr, rd_show, rd_done, mwef, mref, take, enable_wrq_q, enable_write_q, enable_read_q, armed_q;
   logic [2:0] wr_rs, rd_rs;
   logic [7:0] wr_data, rd_data;
-  logic [BLOCK_BITS:0] at_q;  // write pointer; 0x20: nothing is taken
-  logic [BLOCK_BITS:0] left_q;  // bytes of the report that wait to be read; 0: there is none
+  logic [BLOCK_BITS:0] at_q;  // write pointer; 0x20: writes are ignored
+  logic [BLOCK_BITS:0] left_q;  // unread bytes of the report; 0: no report
 
   ppmc312_bus #(
       .WaitClk(WaitClk)
@@ -88,7 +89,7 @@ module ppmc312_mailbox
   assign mwef = offer_o.valid || !ready_i;
   assign mref = left_q == '0;
 
-  // ---- write window ----------------------------------------------------------------------------------------------
+  // ---- write window -------------------------------------------------------------------------------
 
   assign take = wr && wr_rs == RegDwr && !mwef && armed_q && at_q != Top;
 
@@ -104,7 +105,7 @@ module ppmc312_mailbox
       if (wr && wr_rs == RegCr && !mwef) armed_q <= wr_data == Arm;
       if (wr && wr_rs == RegAr && !mwef) begin
         at_q         <= (wr_data < 8'(Top)) ? wr_data[BLOCK_BITS:0] : Top;
-        offer_o.size <= 6'(ppmc_pkg::inc({26'd0, ~wr_data[BLOCK_BITS:0]})) ^ Top;  // Top less that
+        offer_o.size <= 6'(ppmc_pkg::inc({26'd0, ~wr_data[BLOCK_BITS:0]})) ^ Top;  // Top - wr_data
       end
       if (take) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
       if (take && at_q == Top - 1'b1) offer_o.valid <= 1'b1;
@@ -124,12 +125,12 @@ module ppmc312_mailbox
       .rdata_o(blk_data_o)
   );
 
-  // ---- read window -----------------------------------------------------------------------------------------------
+  // ---- read window --------------------------------------------------------------------------------
 
-  logic [3:0] pause_q;  // clk before the next step
+  logic [3:0] pause_q;  // cycles until the next step
   logic loaded_q, shown_q, last;
 
-  // A read that began before there was a report has shown none of its bytes.
+  // A read that began before the report was available has not returned any of its bytes.
   assign last = rd_done && shown_q && rd_rs == RegDrr && left_q == (BLOCK_BITS + 1)'(1);
   assign rd_load_o = rd_any_i && mref && !loaded_q && pause_q == '0;
   assign rd_done_o = last;
@@ -154,7 +155,7 @@ module ppmc312_mailbox
       end else if (loaded_q && mref && pause_q == '0) begin
         left_q <= rd_size_i;
       end else if (rd_done && shown_q) begin
-        if (rd_rs == RegDrr) left_q <= {1'b0, rd_addr_o};  // one less: shown_q tells that there is one
+        if (rd_rs == RegDrr) left_q <= {1'b0, rd_addr_o};  // left_q - 1; shown_q implies left_q > 0
         if (rd_rs == RegCr) left_q <= rd_size_i;
       end
     end
@@ -163,7 +164,7 @@ module ppmc312_mailbox
   always_comb begin
     unique case (rd_rs)
       RegCsr:  rd_data = {1'b0, enable_wrq_q, enable_write_q, enable_read_q, mwef, mref, 2'b00};
-      RegAr:   rd_data = 8'(ppmc_pkg::inc({26'd0, ~left_q}));  // 40 less that
+      RegAr:   rd_data = 8'(ppmc_pkg::inc({26'd0, ~left_q}));  // 0x40 - left_q
       RegDrr:  rd_data = mref ? 8'h00 : rd_data_i;
       default: rd_data = 8'h00;
     endcase

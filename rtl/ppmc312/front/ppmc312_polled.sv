@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_polled: what a poll is answered: the first report that waits, else busy or ready.
+// ppmc312_polled: selects the answer to a poll: the first pending report, otherwise busy or ready.
 // Rules:  P312-SER-30, sections 4 and 10.3.
 // Timing: combinational.
 `default_nettype none
@@ -9,9 +9,9 @@ module ppmc312_polled
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input  wire poll_t   poll_i,    // what a poll finds
-    input  wire status_e status_i,  // of the part
-    output reply_t       reply_o    // its answer
+    input  wire poll_t   poll_i,    // report that the poll finds
+    input  wire status_e status_i,  // status of the device
+    output reply_t       reply_o    // reply to the poll
 );
 
   logic [7:0] code;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_replies: from a frame to its one reply: polls and the station's own read-outs at once, everything
-// else when the core has executed it.
+// ppmc312_replies: generates one reply to each frame: immediately for polls, local reads and faults,
+//         otherwise after the core has executed the instruction.
 // Rules:  P312-SER-14, P312-SER-17..20, P312-SER-30, P312-SER-45/46, P312-STA-01 (4E, 4F).
-// Timing: a frame that comes with clk n is offered to the core in clk n + 2, or its reply is there in clk n + 2.
+// Timing: a frame that ends in cycle n is offered to the core in cycle n + 2, or its reply is valid in cycle
+//         n + 2.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,23 +16,23 @@ module ppmc312_replies
     input  wire logic               rst_ni,       // reset, asynchronous
     // frames: strobes
     input  wire logic               poll_i,       // a poll
-    input  wire logic               run_i,        // an instruction, its checksum is right
-    input  wire logic               fault_i,      // a wrong checksum
-    input  wire logic               strange_i,    // an unknown code
-    input  wire logic         [7:0] code_i,       // as received
-    input  wire serial_code_t       info_i,       // what it means
+    input  wire logic               run_i,        // an instruction with a correct checksum
+    input  wire logic               fault_i,      // wrong checksum or invalid character
+    input  wire logic               strange_i,    // unknown code
+    input  wire logic         [7:0] code_i,       // code as received
+    input  wire serial_code_t       info_i,       // meaning of code_i
     input  wire logic               framing_i,    // a character without a stop bit
     input  wire logic               overrun_i,    // a frame while busy
     output logic                    busy_o,       // a reply is pending or being sent
     // core
-    input  wire status_e            status_i,     // of the part
-    output logic                    take_o,       // strobe: the report that a poll finds is taken
-    input  wire poll_t              found_i,      // what a poll finds
-    output logic                    blk_valid_o,  // a block waits to be executed
-    input  wire answered_t          answered_i,   // it has been
+    input  wire status_e            status_i,     // status of the device
+    output logic                    take_o,       // strobe: the report in found_i is consumed
+    input  wire poll_t              found_i,      // report that a poll finds
+    output logic                    blk_valid_o,  // a block is pending for the core
+    input  wire answered_t          answered_i,   // result of the executed block
     // sender
-    output logic                    send_o,       // until sent_i
-    output reply_t                  reply_o,      // holds with send_o
+    output logic                    send_o,       // 1: send reply_o; high until sent_i
+    output reply_t                  reply_o,      // reply, stable while send_o
     input  wire logic               sent_i        // strobe: the reply has been sent
 );
 
@@ -62,13 +63,13 @@ module ppmc312_replies
       .count_o(counts)
   );
 
-  // Errors and read-outs belong to different characters: there is time.
+  // Errors and reads of the counters belong to different characters, so the counters may be one cycle late.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) errors_q <= '0;
     else errors_q <= {fault_i, overrun_i, framing_i};
   end
 
-  // ---- what is replied -------------------------------------------------------------------------------------------
+  // ---- reply --------------------------------------------------------------------------------------
 
   assign refused = code_i != S_END && !(status_i inside {StatusIni, StatusNor});
   assign own = run_q && info_i.local_read;
@@ -77,7 +78,7 @@ module ppmc312_replies
 
   always_comb begin
     fails = 1'b0;
-    error = answered_i.code[3:0] + 4'd2;  // F0 42, F1 43, F2 44, F6 48, F7 49
+    error = answered_i.code[3:0] + 4'd2;  // F0: 42, F1: 43, F2: 44, F6: 48, F7: 49
     if (answered_i.code[7:4] == 4'hf) fails = 1'b1;
     else if (answered_i.code == I_EVT_SET && answered_i.first inside {3'd1, 3'd2, 3'd5}) begin
       fails = 1'b1;
@@ -120,7 +121,7 @@ module ppmc312_replies
     else if (own && code_i == S_ERROR) error_q <= '0;
   end
 
-  // ---- one frame after the other ---------------------------------------------------------------------------------
+  // ---- one frame at a time ------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle || run_q || poll_q || fault_q || strange_q;
   assign send_o = state_q == StSend;
@@ -133,7 +134,7 @@ module ppmc312_replies
     end else begin
       {poll_q, run_q, fault_q, strange_q} <= {poll_i, run_i, fault_i, strange_i};
       done_q <= state_q == StRun && answered_i.valid;
-      // State StRun, and not done: a register, because much hangs on it.
+      // 1 in state StRun until the block is executed; a separate register because of its fan-out.
       blk_valid_o <= !reply_we && (run_q || (state_q == StRun && !answered_i.valid));
       if (reply_we) state_q <= StSend;
       else if (run_q) state_q <= StRun;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_reports: what waits to be told to the host: eight classes of reports, each with a store of its own.
+// ppmc312_reports: holds reports until the host has read them: eight classes, each with a separate store.
 // Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30, section 10.1.
-// Timing: an event stands in its store one clk later. rd_size_o and the bytes hold from 2 clk after rd_load_i.
-// Note:   class 2 has two places: one is read while the next answer is written. An answer that is complete
-//         (commit_i) moves on as soon as the one before has been read. In serial mode the station takes the
-//         answer to the host from there, and class 2 tells what came of triggered instructions; a report is
-//         taken in the clk of rd_load_i, and a newer one replaces one that waits.
+// Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
+// Note:   the store of class 2 has two entries: the host reads one while the next answer is written to the
+//         other. A complete answer (commit_i) becomes readable as soon as the previous one has been read. In
+//         serial mode the station reads the answer to the host from the entry that is written, and class 2
+//         reports the result of triggered instructions; rd_load_i consumes a report, and a newer report
+//         replaces a pending one.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,35 +17,35 @@ module ppmc312_reports
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic serial_i,  // the front end is the serial station
-    // what happens
-    input wire notice_t notice_i,  // classes 1, 3, 4, 5
-    input wire logic [31:0] pos_i,  // position, pulses; with notice_i.stop
-    output alarm_t over_o,  // multiple occurrence: a report of class 3, 4 or 5 is lost
-    input wire answer_byte_t byte_i,  // class 2, on its way
-    input wire commit_t commit_i,  // and complete
-    output class2_t class2_o,  // how full it is
-    input wire logic aux_clear_i,  // class 6, strobe: forget what waits
+    input wire logic serial_i,  // 1: the front end is the serial station
+    // events
+    input wire notice_t notice_i,  // events of classes 1, 3, 4, 5
+    input wire logic [31:0] pos_i,  // position in pulses; valid with notice_i.stop
+    output alarm_t over_o,  // multiple occurrence: a report of class 3, 4 or 5 is discarded
+    input wire answer_byte_t byte_i,  // class 2: byte of an answer
+    input wire commit_t commit_i,  // class 2: an answer is complete
+    output class2_t class2_o,  // class 2: state of the store
+    input wire logic aux_clear_i,  // class 6, strobe: discard waiting reports
     input wire logic aux_i,  // strobe: the generalized input has changed
-    input wire logic [7:0] aux_data_i,  // in these bits
+    input wire logic [7:0] aux_data_i,  // changed bits; valid with aux_i
     input wire windows_t windows_i,  // classes 7 and 8
-    output window_take_t take_o,  // they are being loaded, have been read
+    output window_take_t take_o,  // classes 7 and 8: report is loaded, has been read
     // front end
-    input wire logic hold_i,  // an answer is about to come: only classes 1, 2
-    output logic rd_any_o,  // a report waits
-    input wire logic rd_load_i,  // strobe: load it
-    output poll_t poll_o,  // serial mode: what rd_load_i takes
-    output logic [BLOCK_BITS:0] rd_size_o,  // bytes of the loaded one, 3 .. 32
-    input wire logic [BLOCK_BITS-1:0] rd_addr_i,  // logical: 0 = header
-    output logic [7:0] rd_data_o,  // two clk later
-    input wire logic rd_done_i  // strobe: it has been read
+    input wire logic hold_i,  // 1: an answer follows soon; only classes 1, 2 are offered
+    output logic rd_any_o,  // a report is pending
+    input wire logic rd_load_i,  // strobe: load the next report
+    output poll_t poll_o,  // serial mode: report that rd_load_i consumes
+    output logic [BLOCK_BITS:0] rd_size_o,  // bytes of the loaded report, 3 .. 32
+    input wire logic [BLOCK_BITS-1:0] rd_addr_i,  // byte of the report, 0 = header
+    output logic [7:0] rd_data_o,  // byte at rd_addr_i, two cycles later
+    input wire logic rd_done_i  // strobe: the report has been read
 );
 
   logic [8:1] waiting, offered;
   logic hold, load, done;
   logic [3:0] lowest, class_q, class_done;
   triggered_e what_q;
-  logic told_q;  // class 2 of the serial mode
+  logic told_q;  // serial mode: class 2 is pending
   logic loaded_q, bank_q, value, value_q, aux_busy, shift, host_q;
   logic [1:0] alarm_q;
   logic [5:3] once_q, once, once_done;
@@ -58,12 +59,12 @@ module ppmc312_reports
   logic [7:0] ram_byte, own_byte, own_q, code;
   logic [2:0] own_size, own_at_q;
 
-  // ---- what waits, which is next ---------------------------------------------------------------------------------
+  // ---- pending reports, next report ---------------------------------------------------------------
 
   assign waiting = {
     windows_i.waits, aux_count_q != '0, once_q[5], once_q[4], once_q[3], full_q || told_q, alarm_full_q
   };
-  // What an instruction brings about is told after its answer.
+  // Reports that an instruction causes follow its answer.
   assign hold = !serial_i && (hold_i || (waits_q && !full_q));
   assign offered = hold ? {6'd0, waiting[2:1]} : waiting;
   assign rd_any_o = offered != '0 && !loaded_q;
@@ -102,7 +103,7 @@ module ppmc312_reports
     end
   end
 
-  // ---- classes 1, 3, 4, 5 ----------------------------------------------------------------------------------------
+  // ---- classes 1, 3, 4, 5 -------------------------------------------------------------------------
 
   assign once = {notice_i.stop, notice_i.held, notice_i.unlock};
   assign once_done = {class_done == 4'd5, class_done == 4'd4, class_done == 4'd3} & {3{done}};
@@ -132,7 +133,7 @@ module ppmc312_reports
     end
   end
 
-  // ---- class 2 ---------------------------------------------------------------------------------------------------
+  // ---- class 2 ------------------------------------------------------------------------------------
 
   assign class2_o = '{full: full_q, full_host: full_q && host_q, waits: waits_q};
 
@@ -181,7 +182,7 @@ module ppmc312_reports
       .rdata_o(ram_byte)
   );
 
-  // ---- class 6: two places, the second keeps the newest data -----------------------------------------------------
+  // ---- class 6: two entries, the second holds the newest data -------------------------------------
 
   assign aux_busy = loaded_q && class_q == 4'd6;
   assign shift = done && class_done == 4'd6;
@@ -203,14 +204,14 @@ module ppmc312_reports
     end
   end
 
-  // The flag belongs to the second place and moves on with it.
+  // The flag belongs to the second entry and moves to the first one with it.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) aux_flag_q <= 1'b0;
     else if (shift) aux_flag_q <= aux_over_q && aux_count_q == 2'd2;
     else if (aux_count_q == '0) aux_flag_q <= 1'b0;
   end
 
-  // ---- bytes -----------------------------------------------------------------------------------------------------
+  // ---- bytes --------------------------------------------------------------------------------------
 
   always_comb begin
     own_size = 3'd2;
@@ -245,7 +246,7 @@ module ppmc312_reports
     endcase
   end
 
-  // As slow as the RAM.
+  // Same latency as the RAM.
   always_ff @(posedge clk_i) begin
     own_at_q <= rd_addr_i[2:0];
     own_q <= own_byte;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_sender: sends a reply: gate, control code, hexadecimal data, checksum; not before the line is free.
+// ppmc312_sender: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
-// Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after heard_i, the
-//         middle of a stop bit: SndWait + 0.5 bits after its end. Edge n of the frame, the first start bit being number
-//         SndLead and the fall of snd_o the last, occurs ceil(n * bit time) after the rise.
-// Rate:   the phase counts up by step_i a clk and has run through a bit when it passes 2**Width; wrap_i is then
-//         added instead: step_i less the modulus.
+// Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
+//         heard_i, the middle of a stop bit: SndWait + 0.5 bits after its end. Edge n of the frame occurs
+//         ceil(n * bit time) after the rise; the first start bit is edge SndLead, the fall of snd_o the last
+//         one.
+// Rate:   the phase increases by step_i per cycle. When it overflows (Width bits), a bit has ended, and the
+//         next cycle adds wrap_i instead, which is step_i minus the modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,21 +16,21 @@ module ppmc312_sender
     parameter int unsigned Width    = 20,
     parameter bit          CharsSum = 1'b0,
     parameter int unsigned SndLead  = 1,     // bits from the rise of snd_o to the start bit, 1 .. 16
-    parameter int unsigned SndWait  = 0      // bits that snd_o waits beyond half a bit, 0 .. 8
+    parameter int unsigned SndWait  = 0      // bits of wait before snd_o in addition to 0.5, 0 .. 8
 ) (
     input  wire logic               clk_i,     // clock
     input  wire logic               rst_ni,    // reset, asynchronous
-    input  wire logic   [      3:0] adr_i,     // number of the station
-    input  wire logic   [Width-1:0] step_i,    // phases a clk
-    input  wire logic   [Width-1:0] wrap_i,    // the same less the modulus
-    input  wire logic               heard_i,   // a character has come
-    input  wire logic               send_i,    // until sent_o
-    input  wire reply_t             reply_i,   // holds with send_i
-    output logic        [      1:0] index_o,   // data byte
-    input  wire logic   [      7:0] stored_i,  // this one, if it stands in the store; two clk later
+    input  wire logic   [      3:0] adr_i,     // station number
+    input  wire logic   [Width-1:0] step_i,    // phase increment per cycle
+    input  wire logic   [Width-1:0] wrap_i,    // step_i minus the modulus
+    input  wire logic               heard_i,   // strobe: a character has been received
+    input  wire logic               send_i,    // send reply_i; high until sent_o
+    input  wire reply_t             reply_i,   // reply, stable while send_i
+    output logic        [      1:0] index_o,   // index of the data byte
+    input  wire logic   [      7:0] stored_i,  // byte index_o in the answer store, two cycles later
     output logic                    sent_o,    // strobe: the reply has been sent
-    output logic                    txd_o,     // line, rests at 1
-    output logic                    snd_o      // drive the line
+    output logic                    txd_o,     // line, idle high
+    output logic                    snd_o      // 1: drive the line
 );
 
   typedef enum logic [1:0] {
@@ -46,13 +47,13 @@ module ppmc312_sender
   logic [GapBits-1:0] gap_q;  // bits until the line is free
   logic [Width-1:0] phase_q;
   logic [2:0] at_q;  // data bytes sent
-  logic [3:0] left_q;  // bits of the character to come
+  logic [3:0] left_q;  // remaining bits of the character
   logic [7:0] bits_q, char;
   logic [6:0] sum_q, control;
   logic [7:0] data;
   logic [3:0] nibble;
 
-  // ---- characters ------------------------------------------------------------------------------------------------
+  // ---- characters ---------------------------------------------------------------------------------
 
   assign index_o = at_q[1:0];
   assign control = {1'b0, reply_i.kind, adr_i};
@@ -72,12 +73,12 @@ module ppmc312_sender
     endcase
   end
 
-  // ---- bits ------------------------------------------------------------------------------------------------------
+  // ---- bits ---------------------------------------------------------------------------------------
 
   assign sent_o = snd_o && over && left_q == '0 && last_q;
 
-  // The phase waits one step ahead, which compensates the registers of the pins. It also times the gap: at most 9 bits,
-  // so the gap ends before the next stop bit can be heard.
+  // The phase starts one step ahead, which compensates the registers of the pins. It also times the gap: at
+  // most 9 bits, so the gap ends before the next stop bit can be received.
   always_ff @(posedge clk_i) begin
     if (!snd_o && gap_q == '0) {over, phase_q} <= {1'b0, wrap_i};
     else {over, phase_q} <= {1'b0, phase_q} + {1'b0, over ? wrap_i : step_i};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial: the serial front end: a station on a line with a host. Frames in, blocks to the core, replies
-// out.
+// ppmc312_serial: serial front end: a station on a line with a host. It receives frames, passes blocks to the
+//         core and sends replies.
 // Rules:  section 2.4, P312-PRT-01..03, P312-BAD-16/17.
-// Timing: characters count in the middle of their stop bit. See ppmc312_replies and ppmc312_sender.
-// Rate:   bits last whole phases of an accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud.
+// Timing: a character is received in the middle of its stop bit. See ppmc312_replies and ppmc312_sender.
+// Rate:   bits are timed by a phase accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud. A
+//         bit lasts a whole number of phases.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,32 +17,32 @@ module ppmc312_serial
     parameter int unsigned XtalHz   = 16_000_000,
     parameter bit          CharsSum = 1'b0,
     parameter int unsigned SndLead  = 1,           // bits from the rise of snd_o to the start bit, 1 .. 16
-    parameter int unsigned SndWait  = 0            // bits that snd_o waits beyond half a bit, 0 .. 8
+    parameter int unsigned SndWait  = 0            // bits of wait before snd_o in addition to 0.5, 0 .. 8
 ) (
     input  wire logic                       clk_i,       // clock
     input  wire logic                       rst_ni,      // reset, asynchronous
-    input  wire logic                       ready_i,     // 0: nothing may be received yet
-    input  wire logic                       enable_i,    // 0: silent
+    input  wire logic                       ready_i,     // 0: received characters are ignored
+    input  wire logic                       enable_i,    // 0: nothing is received or sent
     input  wire logic      [           1:0] rate_i,      // 1: 19 200, 2: 38 400, 3: 83 333 baud
-    input  wire logic      [           3:0] adr_i,       // number of the station
+    input  wire logic      [           3:0] adr_i,       // station number
     // pins
-    input  wire logic                       rxd_i,       // line, asynchronous; rests at 1
-    output logic                            txd_o,       // line, rests at 1
-    output logic                            snd_o,       // drive the line
-    // blocks of the host
-    output offer_t                          offer_o,     // one of them
-    output line_byte_t                      byte_o,      // into the write window
-    // their answers
-    input  wire answered_t                  answered_i,  // the block is executed
+    input  wire logic                       rxd_i,       // line, asynchronous; idle high
+    output logic                            txd_o,       // line, idle high
+    output logic                            snd_o,       // 1: drive the line
+    // blocks from the host
+    output offer_t                          offer_o,     // block for the core
+    output line_byte_t                      byte_o,      // byte for the write window
+    // answers to these blocks
+    input  wire answered_t                  answered_i,  // result of the executed block
     output logic           [BLOCK_BITS-1:0] rd_addr_o,   // byte of the answer, 0 = header
-    input  wire logic      [           7:0] rd_data_i,   // that byte, two clk later
+    input  wire logic      [           7:0] rd_data_i,   // byte at rd_addr_o, two cycles later
     // state and reports
-    input  wire status_e                    status_i,    // of the part
-    output logic                            take_o,      // strobe: found_i is told
-    input  wire poll_t                      found_i      // what a poll finds
+    input  wire status_e                    status_i,    // status of the device
+    output logic                            take_o,      // strobe: the report in found_i is consumed
+    input  wire poll_t                      found_i      // report that a poll finds
 );
 
-  // Bit time = Modulus / step clk.
+  // A bit lasts Modulus / step cycles.
   localparam longint unsigned Clk = 64'(ClkHz) * 64'd480_000;
   localparam longint unsigned Xtal = 64'(XtalHz) * 64'd4;
   localparam longint unsigned Common = ppmc_pkg::gcd(Clk, Xtal);
@@ -164,7 +165,8 @@ module ppmc312_serial
       .sent_i     (sent)
   );
 
-  // Answers of a position tell which one, before the position itself.
+  // The answer to I_POS names the selected position in an extra byte before the value; a reply omits this
+  // byte.
   assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
 
   ppmc312_sender #(

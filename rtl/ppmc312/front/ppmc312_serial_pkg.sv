@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_pkg: what the parts of the serial station say to each other: codes, polled reports, replies.
+// ppmc312_serial_pkg: types of the serial station: instruction codes, polled reports, replies.
 // Rules:  sections 2.4 and 3.6; P312-SER-20, P312-SER-30, section 10.3 (END codes).
 `default_nettype none
 
@@ -8,32 +8,32 @@ package ppmc312_serial_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- an instruction code of the serial mode --------------------------------------------------------------------
+  // ---- an instruction code of the serial mode -----------------------------------------------------
 
   typedef struct packed {
     logic       known;
-    logic       local_read;  // the station answers it itself: 40, 4E, 4F
-    logic       embeds;      // an event registration: its block tells its own length
-    logic [7:0] code;        // of the same instruction on the parallel bus
+    logic       local_read;  // answered by the station: 40, 4E, 4F
+    logic       embeds;      // event registration; the embedded block has its own length byte
+    logic [7:0] code;        // code of the same instruction on the parallel bus
     logic [3:0] size;        // bytes of the parallel block, header to last parameter
-    logic       flagged;     // the first parameter is made here, not received
-    logic [7:0] flags;       // this is it
-    logic [2:0] reads;       // data bytes of the reply; 0: an acknowledgement
+    logic       flagged;     // the first parameter is generated, not received
+    logic [7:0] flags;       // generated first parameter
+    logic [2:0] reads;       // data bytes of the reply; 0: acknowledgement only
   } serial_code_t;
 
   localparam logic [7:0] S_END = 8'h40;
   localparam logic [7:0] S_ERROR = 8'h4e;
   localparam logic [7:0] S_COUNTS = 8'h4f;
 
-  // ---- what a poll would find ------------------------------------------------------------------------------------
+  // ---- result of a poll ---------------------------------------------------------------------------
 
   typedef struct packed {
-    logic [3:0]                   item;       // class of the first report that waits; 0: none
+    logic [3:0]                   item;       // class of the first pending report; 0: no report
     ppmc312_link_pkg::triggered_e triggered;  // class 2
-    ppmc312_pkg::cause_t          cause;      // class 5; stays for the END code
-    logic                         flag;       // class 6: a change has been lost
-    logic [7:0]                   data;       // class 6: bits of the input that have changed
-    logic                         outside;    // classes 7, 8: 1 outside, 0 inside
+    ppmc312_pkg::cause_t          cause;      // class 5; held for the END code
+    logic                         flag;       // class 6: a change was discarded
+    logic [7:0]                   data;       // class 6: changed bits of the input
+    logic                         outside;    // classes 7, 8: 1: outside, 0: inside
   } poll_t;
 
   function automatic logic [7:0] end_code(ppmc312_pkg::cause_t c);
@@ -47,17 +47,17 @@ package ppmc312_serial_pkg;
     };
   endfunction
 
-  // ---- a byte on its way into the write window -------------------------------------------------------------------
+  // ---- a byte for the write window ----------------------------------------------------------------
 
   typedef struct packed {
     logic       we;
-    logic [3:0] at;    // logical: 0 = header
+    logic [3:0] at;    // position in the block, 0 = header
     logic [7:0] data;
   } line_byte_t;
 
-  // ---- a reply ---------------------------------------------------------------------------------------------------
+  // ---- a reply ------------------------------------------------------------------------------------
 
-  // Coded as bits 5:4 of its control code.
+  // Coded as bits 5:4 of the control code of the reply.
   typedef enum logic [1:0] {
     KindBusy     = 2'b00,
     KindReady    = 2'b01,
@@ -68,8 +68,8 @@ package ppmc312_serial_pkg;
   typedef struct packed {
     kind_e           kind;
     logic [2:0]      count;   // data bytes
-    logic            stored;  // they stand in the store of answers
-    logic [2:0][7:0] data;    // else these, data[0] first
+    logic            stored;  // the data bytes are in the answer store
+    logic [2:0][7:0] data;    // otherwise: data bytes, data[0] first
   } reply_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_answer: writes one answer into the store of class 2, byte after byte.
+// ppmc312_answer: writes an answer byte by byte into the store of class 2.
 // Rules:  section 10.1, P312-GEN-04 (logical order), P312-RSP-10.
-// Timing: 3 + bytes clk from start_i to done_o, answer_i stands still meanwhile. The echo
-//         takes the bytes of the instruction from where it came from, two clk after echo_addr_o.
+// Timing: done_o follows start_i by 3 + bytes cycles. The echo reads the instruction from its source, two
+//         cycles after echo_addr_o.
+// Assumes: answer_i is stable from start_i to done_o.
 `default_nettype none
 
 module ppmc312_answer
@@ -12,31 +13,31 @@ module ppmc312_answer
 (
     input  wire logic                          clk_i,        // clock
     input  wire logic                          rst_ni,       // reset, asynchronous
-    input  wire logic                          start_i,      // strobe
-    input  wire answer_t                       answer_i,     // steady from start_i to done_o
+    input  wire logic                          start_i,      // strobe: write answer_i
+    input  wire answer_t                       answer_i,     // stable from start_i to done_o
     input  wire logic    [  BLOCK_BITS:0]      blk_size_i,   // bytes of the instruction as written, 0 .. 32
-    output logic                               busy_o,       // from the clk after start_i to that of done_o
-    output logic                               done_o,       // strobe: it is written
-    // last bytes
-    input  wire logic    [          31:0]      value_i,      // TailPos
-    input  wire logic    [           5:0][7:0] sums_i,       // TailSums
-    input  wire logic    [           2:0]      codes_i,      // TailCodes: so many
-    output logic                               peek_o,       // and such a code is needed:
-    output logic         [           1:0]      peek_at_o,    // of this entry
-    input  wire logic    [           7:0]      code_i,       // it, two clk later
-    // where the instruction stands
-    output logic         [BLOCK_BITS-1:0]      echo_addr_o,  // 0 = header
-    input  wire logic    [           7:0]      echo_data_i,  // that byte, two clk later
+    output logic                               busy_o,       // from the cycle after start_i to that of done_o
+    output logic                               done_o,       // strobe: the answer is written
+    // sources of the last bytes
+    input  wire logic    [          31:0]      value_i,      // TailPos: position
+    input  wire logic    [           5:0][7:0] sums_i,       // TailSums: pulses of both sides
+    input  wire logic    [           2:0]      codes_i,      // TailCodes: number of codes
+    output logic                               peek_o,       // TailCodes: a code is requested
+    output logic         [           1:0]      peek_at_o,    // TailCodes: entry of this code
+    input  wire logic    [           7:0]      code_i,       // code of entry peek_at_o, two cycles later
+    // source of the instruction
+    output logic         [BLOCK_BITS-1:0]      echo_addr_o,  // byte, 0 = header
+    input  wire logic    [           7:0]      echo_data_i,  // byte at echo_addr_o, two cycles later
     // store of class 2
-    output answer_byte_t                       byte_o,       // a byte of the answer
+    output answer_byte_t                       byte_o,       // byte of the answer
     output logic         [  BLOCK_BITS:0]      size_o        // bytes of the answer, 3 .. 32; with done_o
 );
 
   logic [BLOCK_BITS:0] at_q;
-  logic [BLOCK_BITS:0] beyond_q;  // bytes behind those that are not echo; negative before
+  logic [BLOCK_BITS:0] beyond_q;  // position in the echo; negative before the echo
   logic run_q;
-  logic [BLOCK_BITS:0] len_q;  // length that the answer tells: its bytes but two
-  logic [3:0] rest;  // bytes behind this one, without the echo
+  logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the answer minus two
+  logic [3:0] rest;  // bytes after the current one, without the echo
   logic [7:0] tail;
   logic in_tail;
 
@@ -45,8 +46,9 @@ module ppmc312_answer
   assign done_o = run_q && at_q == size_o;
   assign byte_o.we = run_q && at_q != size_o;
   assign byte_o.addr = at_q[BLOCK_BITS-1:0];
-  // Two ahead of the byte that is written; code and parameters begin at byte 2 of the instruction.
-  assign echo_addr_o = {3'(ppmc_pkg::inc(32'(beyond_q[4:2]))), beyond_q[1:0]};  // 4 more
+  // The address is two bytes ahead of the byte that is written. Code and parameters begin at byte 2 of the
+  // instruction.
+  assign echo_addr_o = {3'(ppmc_pkg::inc(32'(beyond_q[4:2]))), beyond_q[1:0]};  // beyond_q + 4
   assign rest = ~beyond_q[3:0];
   assign peek_o = run_q && answer_i.tail == TailCodes;
   assign peek_at_o = 2'd1 - rest[1:0];
@@ -98,14 +100,14 @@ module ppmc312_answer
     end
   end
 
-  // The sizes stand with the first byte.
+  // The length is valid with the first byte.
   always_ff @(posedge clk_i) begin
-    // An echo stands behind a code and one byte, and is the instruction without header and length, at most 28 bytes.
+    // An echo follows a code and one byte. It is the instruction without header and length, at most 28 bytes.
     if (!answer_i.echo) len_q <= 6'(ppmc_pkg::inc(32'(answer_i.extra)));
     else if (blk_size_i[5:1] == '0) len_q <= 6'd2;
     else len_q <= (blk_size_i[5] || blk_size_i[4:0] == '1) ? 6'd30 : blk_size_i;
     if (start_i)
-      beyond_q <= ~{5'(ppmc_pkg::inc(32'(answer_i.extra[3:1]))), answer_i.extra[0]};  // 3 more, below 0
+      beyond_q <= ~{5'(ppmc_pkg::inc(32'(answer_i.extra[3:1]))), answer_i.extra[0]};  // -(extra + 3)
     else beyond_q <= 6'(ppmc_pkg::inc(32'(beyond_q)));
   end
 

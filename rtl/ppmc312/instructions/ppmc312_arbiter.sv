@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_arbiter: which instruction is next: one that has been triggered, or the host's.
+// ppmc312_arbiter: selects the next instruction: a triggered one or that of the host.
 // Rules:  P312-OVR-10, P312-RSP-20.
-// Timing: combinational. Triggered ones go first, but after one of them a waiting host goes next; among them
-//         position before event 0 before event 1.
+// Timing: combinational.
+// How:    triggered instructions have priority, but after one of them a waiting instruction of the host is
+//         next. Among triggered instructions, position precedes event 0, and event 0 precedes event 1.
 `default_nettype none
 
 module ppmc312_arbiter
@@ -12,14 +13,14 @@ module ppmc312_arbiter
 (
     input  wire logic    clk_i,       // clock
     input  wire logic    rst_ni,      // reset, asynchronous
-    input  wire logic    idle_i,      // the next one can be taken
+    input  wire logic    idle_i,      // 1: the next instruction can be accepted
     input  wire logic    occupied_i,  // an answer waits to be read or stored
-    input  wire logic    host_i,      // the host's waits
-    input  wire stored_t stored_i,    // instructions that wait for a trigger
-    output logic         start_o,     // one is taken
-    output source_e      source_o,    // from here
-    output logic         n_o,         // event buffer
-    output logic         lost_o       // a triggered one cannot be executed
+    input  wire logic    host_i,      // an instruction of the host is pending
+    input  wire stored_t stored_i,    // stored instructions
+    output logic         start_o,     // strobe: an instruction is accepted
+    output source_e      source_o,    // source of this instruction
+    output logic         n_o,         // event buffer of this instruction
+    output logic         lost_o       // a triggered instruction cannot be executed
 );
 
   logic any, host_turn_q, fifo, n;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_codebook: what is known of an instruction code, as a table in a block RAM.
+// ppmc312_codebook: look-up table of the properties of instruction codes.
 // Rules:  P312-STA-01, section 3.1 (info_of in ppmc312_pkg).
-// Timing: two clk: a block RAM answers slowly, so its output has a register.
+// Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
 `default_nettype none
 
 module ppmc312_codebook
@@ -9,10 +9,11 @@ module ppmc312_codebook
 (
     input  wire logic       clk_i,   // clock
     input  wire logic [7:0] code_i,  // instruction code
-    output info_t           info_o   // what is known of it, two clk later
+    output info_t           info_o   // properties of code_i, two cycles later
 );
 
-  // A constant of all words: synthesis runs the branches of info_of wrongly in an initial block.
+  // The words are a constant, because synthesis evaluates the branches of info_of wrongly in an initial
+  // block.
   function automatic info_t [255:0] every_code();
     info_t [255:0] words;
     for (int unsigned i = 0; i < 256; i++) words[8'(i)] = info_of(8'(i));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_compose: the answer to an instruction: what it has come to, in the bytes of the protocol.
+// ppmc312_compose: builds the answer to an instruction from the result of its check or execution.
 // Rules:  sections 3.1, 10.1, 10.2; P312-OVR-04, P312-EVT-02, P312-CMD-FC-1..4, P312-CMD-49.
 // Timing: combinational.
 `default_nettype none
@@ -10,24 +10,24 @@ module ppmc312_compose
   import ppmc312_instr_pkg::*;
 (
     input  wire block_t             block_i,      // the instruction
-    input  wire verdict_e           verdict_i,    // of its judgement
-    input  wire logic         [7:0] error_i,      // number of F0, status of F1
-    input  wire status_e            status_i,     // of the part
-    // where the instruction is; at most one
-    input  wire logic               at_boot_i,    // none; the part comes back from a reset
-    input  wire logic               at_act_i,     // judged
+    input  wire verdict_e           verdict_i,    // result of the check
+    input  wire logic         [7:0] error_i,      // error number of F0; byte s of F1
+    input  wire status_e            status_i,     // status of the device
+    // stage of the instruction; at most one is 1
+    input  wire logic               at_boot_i,    // no instruction; the device leaves a reset
+    input  wire logic               at_act_i,     // checked
     input  wire logic               at_setup_i,   // in the set-up
-    input  wire logic               at_copy_i,    // on its way into the store
+    input  wire logic               at_copy_i,    // being copied into the store
     input  wire logic               at_move_i,    // a start or a rate change
-    input  wire logic               fails_i,      // was triggered and cannot be executed
-    input  wire logic               registers_i,  // was to be registered with the command FIFO
-    input  wire logic               used_i,       // the trigger is in use by the other kind
-    input  wire logic         [2:0] evt_count_i,  // entries of the event buffer concerned, 0 .. 4
-    // what it has come to
-    input  wire told_t              told_i,       // executed
-    input  wire setup_state_t       setup_i,      // with at_setup_i
-    input  wire move_state_t        move_i,       // with at_move_i
-    output answer_t                 answer_o      // to be written
+    input  wire logic               fails_i,      // triggered, and cannot be executed
+    input  wire logic               registers_i,  // to be registered in the command FIFO
+    input  wire logic               used_i,       // the trigger is used by the other kind
+    input  wire logic         [2:0] evt_count_i,  // entries of the event buffer, 0 .. 4
+    // result
+    input  wire told_t              told_i,       // data of an executed instruction
+    input  wire setup_state_t       setup_i,      // valid with at_setup_i
+    input  wire move_state_t        move_i,       // valid with at_move_i
+    output answer_t                 answer_o      // answer to be written
 );
 
   progress_t progress;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_exec: one instruction at a time, from the host or triggered: taken, judged, done, answered.
-// Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06, sections 3.1..3.5, 10.1.
-// Timing: 24 clk from offer_i.valid to do_o, the answer 5 + bytes clk later; set-ups, starts and changes wait in
-//         between. blk_done_o comes when the answer stands in its store.
-// Note:   do_o tells the rest of the part to carry out block_o.
+// ppmc312_exec: processes one instruction at a time, from the host or triggered: fetch, check, execution,
+//         answer.
+// Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06, sections 3.1..3.5,
+//         10.1.
+// Timing: do_o follows offer_i.valid by 24 cycles; the answer is complete 5 + bytes cycles later. Set-ups,
+//         starts and rate changes add a wait in between. blk_done_o is asserted when the answer is stored.
+// Note:   do_o is the command to the other blocks to execute block_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,37 +17,37 @@ module ppmc312_exec
 (
     input  wire logic                          clk_i,        // clock
     input  wire logic                          rst_ni,       // reset, asynchronous
-    input  wire logic                          serial_i,     // answers never wait to be read
-    input  wire logic                          boot_i,       // after a reset by instruction: tell so
-    output logic                               reset_o,      // strobe: reset everything
-    // where instructions come from
-    input  wire offer_t                        offer_i,      // a block of the host
-    output logic                               blk_done_o,   // strobe: it is processed and answered
+    input  wire logic                          serial_i,     // 1: answers never wait to be read
+    input  wire logic                          boot_i,       // reset caused by an instruction; report it
+    output logic                               reset_o,      // strobe: reset the device
+    // sources of instructions
+    input  wire offer_t                        offer_i,      // block from the host
+    output logic                               blk_done_o,   // strobe: the block is processed and answered
     output logic              [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
-    input  wire logic         [           7:0] byte_i,       // that byte, two clk later
-    input  wire stored_t                       stored_i,     // instructions that wait for a trigger
-    output remove_t                            remove_o,     // out of their store
-    output put_t                               put_o,        // into it
-    // state of the part
-    input  wire axis_state_t                   state_i,      // of the motor side
-    input  wire table_t                        table_i,      // in force
-    input  wire told_t                         told_i,       // what block_o tells when it is executed
-    input  wire logic                          open_i,       // the time for block_o has come
-    output logic                               idle_o,       // no instruction is being processed
-    // to be carried out
-    output block_t                             block_o,      // the instruction that is being processed
-    output logic                               do_o,         // strobe: carry it out
-    output logic                               multi_o,      // strobe, a clk late: multiple occurrence
+    input  wire logic         [           7:0] byte_i,       // byte at byte_addr_o, two cycles later
+    input  wire stored_t                       stored_i,     // stored instructions
+    output remove_t                            remove_o,     // removal from the store
+    output put_t                               put_o,        // write port of the store
+    // state of the device
+    input  wire axis_state_t                   state_i,      // state of the motor side
+    input  wire table_t                        table_i,      // active table
+    input  wire told_t                         told_i,       // data that block_o returns
+    input  wire logic                          open_i,       // the processing time of block_o has passed
+    output logic                               idle_o,       // 1: no instruction is being processed
+    // execution
+    output block_t                             block_o,      // instruction in progress
+    output logic                               do_o,         // strobe: execute block_o
+    output logic                               multi_o,      // strobe, one cycle late: multiple occurrence
     output setup_order_t                       setup_o,      // initial setting, free curve
-    input  wire setup_state_t                  setup_i,      // what has come of it
+    input  wire setup_state_t                  setup_i,      // state of the set-up
     output logic                               move_o,       // strobe: a start or a rate change
-    input  wire move_state_t                   move_i,       // what has come of it
+    input  wire move_state_t                   move_i,       // result of move_o
     // answers
-    output answer_t                            answer_o,     // steady while it is written and until commit_o
-    output write_order_t                       write_o,      // what is to be written
-    input  wire write_state_t                  write_i,      // how far that is
-    output logic                               hold_o,       // an answer is about to come
-    output logic                               commit_o,     // strobe: it is complete
+    output answer_t                            answer_o,     // stable while it is written, until commit_o
+    output write_order_t                       write_o,      // write commands
+    input  wire write_state_t                  write_i,      // state of the writing
+    output logic                               hold_o,       // 1: an answer follows soon
+    output logic                               commit_o,     // strobe: the answer is complete
     input  wire class2_t                       class2_i      // answers that wait to be read
 );
 
@@ -53,12 +55,12 @@ module ppmc312_exec
     StBoot,
     StIdle,
     StFetch,
-    StFirst,    // reset, unread answers; the comparisons settle
+    StFirst,    // checks for reset and unread answers; comparisons settle
     StSettle,
     StAct,
-    StWait,     // as the old chip does before 26 and 80; the verdict stands
+    StWait,     // processing time of 26 and 80; the verdict is held
     StSetup,
-    StPace,     // the old chip is still at it
+    StPace,     // remaining processing time
     StCopy,
     StMove,
     StWrite,
@@ -82,7 +84,7 @@ module ppmc312_exec
   assign flags = block_o.par[0];
   assign host  = block_o.source == SrcHost;
 
-  // ---- which one -------------------------------------------------------------------------------------------------
+  // ---- selection ----------------------------------------------------------------------------------
 
   assign ready = offer_i.valid && !host_wait_q;
 
@@ -149,11 +151,11 @@ module ppmc312_exec
   assign hold_o = act || state_q inside {StWrite, StReadback} || write_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset always executes. An instruction on top of an unread answer never does.
+  // A reset is always executed. No other instruction of the host is executed while its last answer is unread.
   assign reset_o = state_q == StFirst && reset_q;
   assign unread = state_q == StFirst && host && class2_i.full_host && !reset_o;
 
-  // ---- what it asks for ------------------------------------------------------------------------------------------
+  // ---- requested actions --------------------------------------------------------------------------
 
   assign act = state_q == StAct && !slow;
   assign slow = !open_i && verdict == VerdictGo && !ov && code inside {I_AUX_OUT, I_HALT};
@@ -162,7 +164,8 @@ module ppmc312_exec
   assign evt_n = inner ? flags[0] : flags[1];
   assign evt_count = stored_i.event_count[evt_n];
   assign empty = evt_count == '0;
-  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;  // by the other kind of trigger
+  // The event pin is in use by the other kind of trigger (command FIFO or event buffer).
+  assign used = inner ? stored_i.fifo_events[evt_n] : flags[0] && !empty;
   assign full = inner ? evt_count == 3'd4 : stored_i.fifo_count == 4'd8;
   assign registers = act && verdict == VerdictGo && (inner ? !flags[1] : ov) && !used && !full;
   assign copy = registers;
@@ -173,7 +176,7 @@ module ppmc312_exec
   assign setup_o.build = go && code == I_INIT;
   assign setup_o.open = go && code == I_FREE;
   assign setup_o.data = act && verdict == VerdictData;
-  // A set-up that fails leaves no table; so does anything that disturbs a transfer.
+  // After a failed set-up, and after anything that disturbs a transfer, there is no valid table.
   assign setup_o.fail = (setup_i.transfer && state_i.status == StatusAbn) ||
       (act && setup_i.transfer && verdict != VerdictData) ||
       (act && verdict == VerdictPar && error != '0 && code == I_FREE && block_o.source != SrcEvent) ||
@@ -194,7 +197,7 @@ module ppmc312_exec
     remove_o.from_event = source == SrcEvent;
     remove_o.n          = n;
     remove_o.all        = setup_o.fail || setup_o.build || setup_o.open || (setup_ends && setup_i.bad);
-    // What cannot be executed takes all that wait with it.
+    // If an entry cannot be executed, all entries that wait in the same FIFO or buffer are removed.
     if (lost && source == SrcOverride) remove_o.fifo = 1'b1;
     if (lost && source == SrcEvent) remove_o.events[n] = 1'b1;
     if (fails && block_o.source == SrcOverride) remove_o.fifo = 1'b1;
@@ -202,7 +205,7 @@ module ppmc312_exec
     if (go && inner && flags[1] && !empty) remove_o.highest[evt_n] = 1'b1;
   end
 
-  // ---- the answer ------------------------------------------------------------------------------------------------
+  // ---- answer -------------------------------------------------------------------------------------
 
   assign move_ends = state_q == StMove && move_i.done;
   assign setup_ends = state_q == StSetup && setup_i.done;
@@ -231,7 +234,7 @@ module ppmc312_exec
 
   always_ff @(posedge clk_i) begin
     if (!(state_q inside {StWrite, StPace})) answer_o <= next;
-    // Header, length and code stand long before.
+    // Header, length and code are stable long before their use.
     reset_q <= code == I_RESET && block_o.len == 8'd1 &&
         (!host || (block_o.size == 6'd3 && block_o.head == 8'h03));
     plain_q <= !(info.starts || code inside {I_INIT, I_FREE, I_TABLE, I_EVT_SET, I_RAMP, I_SPEED});
@@ -248,7 +251,7 @@ module ppmc312_exec
   assign idle_read = state_q == StIdle && write_i.table_more && !class2_i.full && !class2_i.waits && !start &&
       !lost;
 
-  // ---- states ----------------------------------------------------------------------------------------------------
+  // ---- states -------------------------------------------------------------------------------------
 
   always_comb begin
     state_d = state_q;
@@ -288,9 +291,9 @@ module ppmc312_exec
       multi_o     <= 1'b0;
     end else begin
       state_q  <= state_d;
-      multi_o  <= lost || unread;  // it has a long way to the pulses
+      multi_o  <= lost || unread;  // registered: the path to the pulses is timing-critical
       settle_q <= state_q == StSettle;
-      write_q  <= state_d == StWrite && state_q != StWrite;  // once, as it begins
+      write_q  <= state_d == StWrite && state_q != StWrite;  // strobe at the start of StWrite
       if (start) n_q <= n;
       if (setup_o.build || setup_o.data) build_q <= setup_o.build;
       if (blk_done_o) host_wait_q <= 1'b0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_fetch: takes an instruction apart, and copies one into the store of those that wait.
+// ppmc312_fetch: reads an instruction into block_o, or copies it into the store of instructions.
 // Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
-// Timing: 19 clk from start_i or copy_i to done_o, whatever the length. Bytes come two clk after addr_o.
+// Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length. data_i is expected two
+//         cycles after addr_o.
 `default_nettype none
 
 module ppmc312_fetch
@@ -10,18 +11,18 @@ module ppmc312_fetch
 (
     input  wire logic                     clk_i,       // clock
     input  wire logic                     rst_ni,      // reset, asynchronous
-    input  wire logic                     start_i,     // take apart
-    input  wire source_e                  source_i,    // with start_i: where from
+    input  wire logic                     start_i,     // strobe: read an instruction
+    input  wire source_e                  source_i,    // with start_i: source of the instruction
     input  wire logic    [  BLOCK_BITS:0] size_i,      // with start_i: bytes of the host's block
-    input  wire logic                     copy_i,      // copy
-    input  wire logic                     inner_i,     // the block within an event setting
-    output logic                          busy_o,      // from the clk after the start to that of done_o
+    input  wire logic                     copy_i,      // strobe: copy an instruction
+    input  wire logic                     inner_i,     // 1: copy the block inside an event setting
+    output logic                          busy_o,      // from the cycle after the start to that of done_o
     output logic                          done_o,      // strobe
-    output block_t                        block_o,     // the instruction; stands from done_o on
-    // where the instruction stands
+    output block_t                        block_o,     // the instruction; valid from done_o on
+    // source of the instruction
     output logic         [BLOCK_BITS-1:0] addr_o,      // byte, 0 = header
-    input  wire logic    [           7:0] data_i,      // that byte, two clk later
-    // where the copy goes
+    input  wire logic    [           7:0] data_i,      // byte at addr_o, two cycles later
+    // destination of the copy
     output logic                          put_we_o,    // strobe
     output logic         [           3:0] put_addr_o,  // byte, 0 = header
     output logic         [           7:0] put_data_o   // with put_we_o
@@ -32,12 +33,12 @@ module ppmc312_fetch
   logic run_q, copy_q;
   logic [4:0] sent_q, was_q, at_q;
   logic [1:0] valid_q;
-  logic [BLOCK_BITS:0] left_q;  // bytes that are there still
+  logic [BLOCK_BITS:0] left_q;  // remaining bytes of the instruction
   logic [3:0] index;
   logic shifted, twins;
   logic [PARAMS-1:0] takes;
 
-  // The block within an event setting begins at 4.
+  // The block inside an event setting begins at byte 4.
   assign addr_o = {(copy_q && inner_i) ? 3'(ppmc_pkg::inc(32'(sent_q[4:2]))) : sent_q[4:2], sent_q[1:0]};
   assign busy_o = run_q;
   assign done_o = run_q && at_q == Bytes;
@@ -45,12 +46,12 @@ module ppmc312_fetch
   assign put_addr_o = at_q[3:0];
   assign put_data_o = data_i;
 
-  // Parameters go to the places of the long form, positions of 80 and 81 to those of 87 and 88.
+  // Parameters go to their places in the long form; the positions of 80 and 81 go to those of 87 and 88.
   assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
 
-  // Without sides of their own, stop rate and pulses of the deceleration are those of the acceleration.
+  // Without a separate deceleration side, its stop rate and pulses are those of the acceleration.
   assign twins = block_o.code == I_INIT && !block_o.par[0][4];
 
   always_comb begin
@@ -82,13 +83,13 @@ module ppmc312_fetch
     end
   end
 
-  // The byte that has come was asked for two clk before.
+  // The current byte was requested two cycles before.
   always_ff @(posedge clk_i) begin
     if (start_i || copy_i) {at_q, was_q} <= '0;
     else {at_q, was_q} <= {was_q, sent_q};
   end
 
-  // What has been stored is as long as its length, which has been judged, tells.
+  // A stored instruction is as long as its length byte indicates, which has been checked.
   always_ff @(posedge clk_i) begin
     if (start_i) left_q <= (source_i == SrcHost) ? size_i : 6'd2;
     else if (valid_q[1]) begin

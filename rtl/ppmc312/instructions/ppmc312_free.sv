@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_free: a free-curve transfer: blocks of rates and pulse numbers into the stage table.
+// ppmc312_free: receives a free-curve transfer: writes blocks of rates and pulse numbers into the stage
+//         table.
 // Rules:  P312-CMD-FC-1..10.
-// Timing: open_i takes the three parameters. A data block takes its bytes + 4 clk from data_i to done_o; what it
-//         has come to stands until the next one.
-// Note:   what a bad block has written does no harm, because any error ends the transfer without a table.
+// Timing: open_i latches split_i, acc_i and dec_i. done_o follows data_i by bytes_i + 4 cycles; the results
+//         of a block are valid until the next one.
+// Note:   an invalid block may write into the table. This does no harm, because any error ends the transfer
+//         without a table.
 `default_nettype none
 
 module ppmc312_free
@@ -14,27 +16,27 @@ module ppmc312_free
     input  wire logic                  rst_ni,      // reset, asynchronous
     input  wire logic                  open_i,      // strobe: a transfer begins
     input  wire logic                  split_i,     // with open_i: LE
-    input  wire logic [           6:0] acc_i,       // with open_i: stages of the sides, 2 .. 127
-    input  wire logic [           6:0] dec_i,       // the deceleration side's, with split_i
-    input  wire logic                  abort_i,     // strobe: it ends without a table
-    output logic                       transfer_o,  // one is open
+    input  wire logic [           6:0] acc_i,       // with open_i: stages of the acceleration, 2 .. 127
+    input  wire logic [           6:0] dec_i,       // with split_i: stages of the deceleration
+    input  wire logic                  abort_i,     // strobe: end the transfer without a table
+    output logic                       transfer_o,  // 1: a transfer is open
     // a data block
-    input  wire logic                  data_i,      // strobe: take it
-    input  wire logic [           4:0] bytes_i,     // 1 .. 30
-    input  wire logic                  last_i,      // says to be the last one
-    output logic                       busy_o,      // from the clk after data_i to that of done_o
-    output logic                       done_o,      // strobe
-    output logic      [BLOCK_BITS-1:0] addr_o,      // in the block, two clk before its byte
-    input  wire logic [           7:0] byte_i,      // that byte
-    output logic                       bad_o,       // with done_o: the block is wrong
-    output logic      [           7:0] error_o,     // with bad_o: number of F0
-    // what comes next
-    output logic                       complete_o,  // nothing, the curve is complete
-    output logic      [           1:0] list_o,      // 0 rates, 1 acceleration, 2 deceleration
-    output logic      [           6:0] left_o,      // stages of this list to come
-    output logic      [          23:0] acc_sum_o,   // pulses of the acceleration side; with complete_o
-    output logic      [          23:0] dec_sum_o,   // of the deceleration side
-    output entry_t                     entry_o      // into the table
+    input  wire logic                  data_i,      // strobe: process a block
+    input  wire logic [           4:0] bytes_i,     // bytes of the block, 1 .. 30
+    input  wire logic                  last_i,      // the block is marked as the last one
+    output logic                       busy_o,      // from the cycle after data_i to that of done_o
+    output logic                       done_o,      // strobe: the block is processed
+    output logic      [BLOCK_BITS-1:0] addr_o,      // byte of the block, two cycles before byte_i
+    input  wire logic [           7:0] byte_i,      // byte at addr_o
+    output logic                       bad_o,       // with done_o: the block is invalid
+    output logic      [           7:0] error_o,     // with bad_o: error number of F0
+    // progress
+    output logic                       complete_o,  // the curve is complete
+    output logic      [           1:0] list_o,      // next list, 0: rates, 1: acceleration, 2: deceleration
+    output logic      [           6:0] left_o,      // remaining stages of this list
+    output logic      [          23:0] acc_sum_o,   // acceleration pulses; valid with complete_o
+    output logic      [          23:0] dec_sum_o,   // deceleration pulses; valid with complete_o
+    output entry_t                     entry_o      // word for the table
 );
 
   localparam logic [6:0] Fastest = 7'd126;
@@ -53,9 +55,9 @@ module ppmc312_free
   assign word = {high_q, byte_i};
   assign whole = valid_q[1] && part_q == (rates ? 2'd1 : 2'd2);
   assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
-  assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // of any list
+  assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // for any list
   assign list_done = whole && left_o == 7'd1;
-  assign addr_o = {4'(ppmc_pkg::inc(32'(sent_q[4:1]))), sent_q[0]};  // 2 more
+  assign addr_o = {4'(ppmc_pkg::inc(32'(sent_q[4:1]))), sent_q[0]};  // sent_q + 2
   assign busy_o = run_q;
   assign done_o = finishing_q;
   assign last_byte = 5'(ppmc_pkg::inc(32'(seen_q))) == bytes_i;
@@ -95,9 +97,9 @@ module ppmc312_free
     end
   end
 
-  // No reset: a transfer begins with open_i, a block with data_i.
+  // No reset: open_i initialises a transfer, data_i a block.
   always_ff @(posedge clk_i) begin
-    // Without a side of its own the deceleration has the pulses of the acceleration.
+    // Without a separate side, the deceleration has the pulses of the acceleration.
     if (open_i || (list_done && list_o == 2'd1 && split_q)) dec_sum_o <= '0;
     else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin
@@ -111,7 +113,7 @@ module ppmc312_free
     else if (!data_i && whole) stage_q <= 7'(ppmc_pkg::dec(32'(stage_q)));
     if (open_i) left_o <= (split_i && ppmc_pkg::less(32'(acc_i), 32'(dec_i))) ? dec_i : acc_i;
     else if (!data_i && whole) left_o <= !list_done ? 7'(ppmc_pkg::dec(32'(left_o))) : rates ? acc_q : dec_q;
-    // The byte that has come was asked for two clk before.
+    // The current byte was requested two cycles before.
     if (data_i) {seen_q, was_q} <= '0;
     else {seen_q, was_q} <= {was_q, sent_q};
     if (data_i) begin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr: everything that has to do with instructions: those of the host, those that wait for a trigger,
-// what they set going, and their answers.
-// Rules:  through its blocks. Timing: see ppmc312_exec.
+// ppmc312_instr: processing of instructions: those of the host, stored ones that wait for a trigger, their
+//         effects and their answers.
+// Rules:  see its blocks. Timing: see ppmc312_exec.
 `default_nettype none
 
 module ppmc312_instr
@@ -13,37 +13,37 @@ module ppmc312_instr
     parameter int unsigned       ClkHz     = 16_000_000,
     parameter int unsigned       XtalHz    = 16_000_000,
     parameter bit                Datasheet = 1'b0,
-    parameter logic        [7:0] Version   = 8'h12        // what the version instruction answers
+    parameter logic        [7:0] Version   = 8'h12        // value that the version instruction returns
 ) (
     input  wire logic                         clk_i,       // clock
     input  wire logic                         rst_ni,      // reset, asynchronous
-    input  wire logic                         serial_i,    // the front end is the serial station
-    input  wire logic                         boot_i,      // the reset came from an instruction: tell so
-    output logic                              reset_o,     // strobe: an instruction resets everything
-    // blocks of the host
-    input  wire offer_t                       offer_i,     // one of them
+    input  wire logic                         serial_i,    // 1: the front end is the serial station
+    input  wire logic                         boot_i,      // reset caused by an instruction; report it
+    output logic                              reset_o,     // strobe: an instruction requests a reset
+    // blocks from the host
+    input  wire offer_t                       offer_i,     // block from the host
     output logic             [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
-    input  wire logic        [           7:0] blk_data_i,  // that byte, two clk later
-    output logic                              blk_done_o,  // strobe: it is processed and answered
-    // state of the part
-    input  wire inputs_t                      inputs_i,    // pins, synchronous
-    input  wire axis_state_t                  state_i,     // of the motor side
-    // to be carried out
-    output block_t                            block_o,     // the instruction that is being processed
-    output logic                              do_o,        // strobe: carry it out
+    input  wire logic        [           7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
+    output logic                              blk_done_o,  // strobe: the block is processed and answered
+    // state of the device
+    input  wire inputs_t                      inputs_i,    // input pins, synchronised
+    input  wire axis_state_t                  state_i,     // state of the motor side
+    // execution
+    output block_t                            block_o,     // instruction in progress
+    output logic                              do_o,        // strobe: execute block_o
     output logic                              multi_o,     // strobe: multiple occurrence, cause 1
     output motion_order_t                     order_o,     // starts and rate changes
-    // the table
-    output logic                              built_o,     // strobe: a new one comes into force
-    output table_t                            table_o,     // in force
-    output target_t                           home_o,      // what the look-up of its rate_acc has found
-    input  wire look_t                        look_i,      // the motion's port
-    output stage_t                            stage_o,     // what it finds there, two clk later
+    // table
+    output logic                              built_o,     // strobe: a new table becomes active
+    output table_t                            table_o,     // active table
+    output target_t                           home_o,      // look-up result of table_o.rate_acc
+    input  wire look_t                        look_i,      // read port of the motion
+    output stage_t                            stage_o,     // stage at look_i, two cycles later
     // answers, class 2
-    output answer_byte_t                      byte_o,      // on its way into the store
-    output logic                              hold_o,      // an answer is about to come
-    output commit_t                           commit_o,    // it is complete there
-    output answered_t                         answered_o,  // to the serial station
+    output answer_byte_t                      byte_o,      // byte for the store of class 2
+    output logic                              hold_o,      // 1: an answer follows soon
+    output commit_t                           commit_o,    // the answer in the store is complete
+    output answered_t                         answered_o,  // result for the serial station
     input  wire class2_t                      class2_i     // answers that wait to be read
 );
 
@@ -72,7 +72,7 @@ module ppmc312_instr
   answer_byte_t answer_byte, read_byte;
   logic [BLOCK_BITS:0] answer_size, read_size;
 
-  // ---- one after the other ---------------------------------------------------------------------------------------
+  // ---- execution of one instruction at a time -----------------------------------------------------
 
   ppmc312_exec u_exec (
       .clk_i,
@@ -120,7 +120,7 @@ module ppmc312_instr
       .open_o (paced)
   );
 
-  // ---- those that wait for a trigger -----------------------------------------------------------------------------
+  // ---- stored instructions ------------------------------------------------------------------------
 
   ppmc312_store u_store (
       .clk_i,
@@ -140,10 +140,10 @@ module ppmc312_instr
       .fetch_data_o (entry_data)
   );
 
-  // An alarm on its way comes before the end of what a position has stopped.
+  // A pending alarm is reported before the end of a motion that a position has stopped.
   assign order_o.settled = !stored.due && !multi_o && (idle || block_o.source != SrcOverride);
 
-  // ---- what they set going ---------------------------------------------------------------------------------------
+  // ---- effects of instructions --------------------------------------------------------------------
 
   ppmc312_setup u_setup (
       .clk_i,
@@ -215,7 +215,7 @@ module ppmc312_instr
       32'(table_o.first_acc), 32'(table_o.first_dec)
   ) ? table_o.first_acc : table_o.first_dec;
 
-  // ---- answers ---------------------------------------------------------------------------------------------------
+  // ---- answers ------------------------------------------------------------------------------------
 
   ppmc312_reply #(
       .Version(Version)
@@ -268,7 +268,7 @@ module ppmc312_instr
       .size_o (read_size)
   );
 
-  // The last byte is written in the clk of the commit.
+  // The last byte is written in the cycle of the commit.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) byte_o <= '0;
     else begin

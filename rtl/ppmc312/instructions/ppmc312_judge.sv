@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_judge: may this block be executed? Size, header, code, status, length, values, in this order.
+// ppmc312_judge: checks whether a block may be executed: size, header, code, status, length, values, in this
+//         order.
 // Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03, section 10.2.
-// Timing: the verdict stands three clk after the block.
+// Timing: the verdict is valid three cycles after the block.
 `default_nettype none
 
 module ppmc312_judge
@@ -13,24 +14,24 @@ module ppmc312_judge
     input  wire logic          clk_i,       // clock
     input  wire logic          rst_ni,      // reset, asynchronous
     input  wire block_t        block_i,     // the instruction
-    input  wire info_t         info_i,      // of its code
-    input  wire logic          keep_i,      // the verdict stands
-    input  wire status_e       status_i,    // of the part
+    input  wire info_t         info_i,      // properties of its code
+    input  wire logic          keep_i,      // 1: the verdict does not change
+    input  wire status_e       status_i,    // status of the device
     input  wire logic          end_wait_i,  // a motion waits for END
     input  wire logic          transfer_i,  // a free-curve transfer is open
-    input  wire table_t        table_i,     // in force
-    output verdict_e           verdict_o,   // what comes of it
-    output logic         [7:0] error_o,     // number of F0, status of F1
-    output logic               ov_o         // is to be registered
+    input  wire table_t        table_i,     // active table
+    output verdict_e           verdict_o,   // result of the check
+    output logic         [7:0] error_o,     // error number of F0; byte s of F1
+    output logic               ov_o         // 1: register the instruction in the command FIFO
 );
 
   logic host, ov, le, trig_pos, size_bad, len_bad, len_long, huge, accepted, at_table, table_q;
   logic [4:0] few;  // size / 2
-  logic [4:0] fits;  // the length that belongs to the size
+  logic [4:0] fits;  // length that matches the size
   logic [7:0] flags, inner, value_error, size_error;
   logic [15:0] rate, range, start, stop, fast, bound;
-  logic [16:0] above_q;  // a rate less its bound
-  logic [1:0] turn_q, above_turn_q;  // what is compared; of what above_q is
+  logic [16:0] above_q;  // a rate minus its bound
+  logic [1:0] turn_q, above_turn_q;  // current comparison; comparison of above_q
   logic above, near, slow_bad_q, fast_bad_q, given_q, acc_slowest_q;
   logic [1:0] order_q, near_q;
   logic [31:0] count;
@@ -41,7 +42,7 @@ module ppmc312_judge
 
   assign host = block_i.source == SrcHost;
   assign flags = block_i.par[0];
-  assign ov = info_i.has_ov && flags[2] && host;  // what has been triggered is executed
+  assign ov = info_i.has_ov && flags[2] && host;  // triggered instructions are executed, not registered
   assign le = flags[4];
   assign trig_pos = !flags[0];
   assign rate = {block_i.par[1], block_i.par[2]};
@@ -49,9 +50,9 @@ module ppmc312_judge
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
   assign at_table = block_i.code == I_TABLE;
 
-  // One subtractor: start-up and stop rate of an initialisation against its high-speed rate, and how far they are
-  // apart: at least 128 is far; a rate against the fastest and the slowest one of the table. They take turns, and all
-  // stand long before the block does.
+  // One subtractor makes four comparisons in turn: start-up rate and stop rate of an initialisation with its
+  // high-speed rate (less than 128 apart is near); a rate with the fastest and with the slowest rate of the
+  // table. All results are valid long before the block is complete.
   assign start = rate;
   assign stop = {block_i.par[3], block_i.par[4]};
   assign fast = {block_i.par[5], block_i.par[6]};
@@ -83,19 +84,19 @@ module ppmc312_judge
     table_q <= table_i.valid;
   end
 
-  // ---- size and length -------------------------------------------------------------------------------------------
+  // ---- size and length ----------------------------------------------------------------------------
 
-  // Bit patterns: a comparison with a constant is a carry chain otherwise.
+  // Bit patterns, because a comparison with a constant would be a carry chain.
   assign few = block_i.size[5:1];
   assign huge = block_i.len[7:5] != '0 || block_i.len[4:0] == '1;  // 31 or more
-  // Size less 2; that of 1 or less is bad anyway.
+  // Size - 2; a size of 1 or less is an error anyway.
   assign fits = {
     few[3] ^ (few[2:0] == '0), few[2] ^ (few[1:0] == '0), few[1] ^ !few[0], !few[0], block_i.size[0]
   };
   assign size_bad = host && (few == '0 || block_i.len == '0 || huge || block_i.len[4:0] != fits);
   assign size_error = (few != '0 && huge) ? E_FREE_LONG : E_FREE_SIZE;
   assign len_long = block_i.len == 8'(info_i.len_a);
-  // The length of what is in it: 1 .. 14, and 4 less than that around it.
+  // Length of the embedded block: 1 .. 14; the length of the outer block is greater by 4.
   assign inner = block_i.par[2];
   assign embedded_bad = block_i.par[1] != 8'h03 || inner == '0 || inner[7:4] != '0 || inner[3:0] == '1 ||
       block_i.len != {3'd0, inner[3] && inner[2], inner[3] ^ inner[2], !inner[2], inner[1:0]};
@@ -106,12 +107,12 @@ module ppmc312_judge
     if (block_i.code == I_EVT_SET) len_bad = flags[1] ? block_i.len != 8'd2 : embedded_bad;
   end
 
-  // ---- status ----------------------------------------------------------------------------------------------------
+  // ---- status -------------------------------------------------------------------------------------
 
   assign accepted = ((ov ? info_i.later : info_i.now) & status_i) != '0
                     || (block_i.code == I_END && end_wait_i);
 
-  // ---- values ----------------------------------------------------------------------------------------------------
+  // ---- values -------------------------------------------------------------------------------------
 
   always_comb begin
     value_bad   = 1'b1;
@@ -149,7 +150,7 @@ module ppmc312_judge
       default: begin
         value_bad = 1'b0;
         if (ov && trig_pos) begin
-          // only what stops or changes a motion, and with a position
+          // only instructions that stop or change a motion, with a position
           value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_long;
           value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
         end else if (!ov && info_i.counted && count_bad_q) begin
@@ -162,8 +163,8 @@ module ppmc312_judge
     endcase
   end
 
-  function automatic logic stages_bad(logic [7:1] n);  // without the lowest bit
-    return n[7] || n[6:1] == '0;  // below 2, above 127
+  function automatic logic stages_bad(logic [7:1] n);  // n without its lowest bit
+    return n[7] || n[6:1] == '0;  // below 2 or above 127
   endfunction
 
   function automatic logic tiny(logic [15:0] r);
@@ -179,7 +180,7 @@ module ppmc312_judge
     endcase
   endfunction
 
-  // ---- in the order of the rules ---------------------------------------------------------------------------------
+  // ---- verdict, in the order of the rules ---------------------------------------------------------
 
   always_comb begin
     verdict = VerdictGo;

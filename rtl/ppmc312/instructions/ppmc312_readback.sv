@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_readback: the data blocks of a table read: rates, acceleration and deceleration pulses, fastest first.
+// ppmc312_readback: writes the data blocks of a table read: rates, acceleration and deceleration pulses,
+//         fastest stage first.
 // Rules:  P312-CMD-41.
-// Timing: next_i writes the next block: 6 clk a stage; done_o comes with its last clk.
+// Timing: next_i starts the next block, which takes 6 cycles per stage; done_o is asserted in its last cycle.
 `default_nettype none
 
 module ppmc312_readback
@@ -12,32 +13,32 @@ module ppmc312_readback
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic open_i,  // strobe: a table read begins; its first block is written elsewhere
-    output logic more_o,  // blocks are to come
-    input wire logic next_i,  // strobe: write the next one
-    output logic busy_o,  // one is being written
-    output logic done_o,  // strobe: it is written
+    input wire logic open_i,  // strobe: a table read begins; ppmc312_answer writes its first block
+    output logic more_o,  // more blocks follow
+    input wire logic next_i,  // strobe: write the next block
+    output logic busy_o,  // a block is being written
+    output logic done_o,  // strobe: the block is written
     // table
-    input wire table_t table_i,  // in force
-    input wire logic [6:0] first_i,  // its first stage in use
-    output look_t look_o,  // its read port
-    input wire stage_t stage_i,  // two clk later
+    input wire table_t table_i,  // active table
+    input wire logic [6:0] first_i,  // first used stage of the table
+    output look_t look_o,  // read port of the table
+    input wire stage_t stage_i,  // stage at look_o, two cycles later
     // store of class 2
-    output answer_byte_t byte_o,  // a byte of the block
+    output answer_byte_t byte_o,  // byte of the block
     output logic [BLOCK_BITS:0] size_o  // bytes of the block, 5 .. 15; with done_o
 );
 
   localparam logic [6:0] Fastest = 7'd126;
   localparam logic [7:0][3:0] Lengths = {
     12'd0, 4'd13, 4'd10, 4'd7, 4'd4, 4'd1
-  };  // of 4 .. 0 stages: 3 * n + 1
+  };  // lengths of blocks of 4 .. 0 stages: 3 * n + 1
 
   logic run_q, rates, last_item, ends, stage_ends, in_words;
   logic [1:0] item_q, part_q, wait_q;
-  logic [2:0] left_q;  // stages of this block
+  logic [2:0] left_q;  // remaining stages of this block
   logic [6:0] stage_q, first;
   logic [ 2:0] room;
-  logic [ 6:0] rest_q;  // stages of this item to come
+  logic [ 6:0] rest_q;  // remaining stages of this item
   logic [ 5:0] at_q;
   logic [23:0] word;
 
@@ -118,11 +119,11 @@ module ppmc312_readback
     end
   end
 
-  // Looked at long after they have changed.
+  // These registers are used long after their inputs change.
   always_ff @(posedge clk_i) begin
-    if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 less that
+    if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 - first
     else if (stage_ends) rest_q <= 7'(ppmc_pkg::dec(32'(rest_q)));
-    // At most 6, at most 4.
+    // The rest of the item fits into this block: at most 6 rates or 4 pulse numbers.
     ends <= rest_q[6:3] == '0 && (rates ? rest_q[2:0] != '1 : !rest_q[2] || rest_q[1:0] == '0);
   end
 

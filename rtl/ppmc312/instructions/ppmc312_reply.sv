@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_reply: what an executed instruction answers: the bytes behind its code.
+// ppmc312_reply: data that an executed instruction returns: the bytes after the code of its answer.
 // Rules:  section 3.1 (answers), P312-CMD-25/27/40..4D.
-// Timing: registered: the values of one clk, so that a position of four bytes is a snapshot.
+// Timing: outputs are registered. All bytes are from the same cycle, so a position of four bytes is a
+//         snapshot.
 `default_nettype none
 
 module ppmc312_reply
@@ -14,14 +15,14 @@ module ppmc312_reply
 ) (
     input  wire logic               clk_i,     // clock
     input  wire block_t             block_i,   // the instruction
-    input  wire inputs_t            inputs_i,  // pins, synchronous
-    input  wire axis_state_t        state_i,   // of the motor side
-    input  wire table_t             table_i,   // in force
-    input  wire logic        [ 6:0] first_i,   // its first stage in use
-    input  wire stored_t            stored_i,  // instructions that wait
-    input  wire logic               keep_i,    // value_o stands
-    output told_t                   told_o,    // one clk later
-    output logic             [31:0] value_o    // TailPos, one clk later
+    input  wire inputs_t            inputs_i,  // input pins, synchronised
+    input  wire axis_state_t        state_i,   // state of the motor side
+    input  wire table_t             table_i,   // active table
+    input  wire logic        [ 6:0] first_i,   // first used stage of the table
+    input  wire stored_t            stored_i,  // stored instructions
+    input  wire logic               keep_i,    // 1: value_o does not change
+    output told_t                   told_o,    // data of block_i, one cycle later
+    output logic             [31:0] value_o    // TailPos: position, one cycle later
 );
 
   logic n;
@@ -31,7 +32,7 @@ module ppmc312_reply
   tail_e tail;
 
   assign n = block_i.par[0][0];
-  // 127 less these is all their bits inverted.
+  // 127 - n is n with all bits inverted.
   assign counts[0] = {1'b0, ~first_i};
   assign counts[1] = {1'b0, ~table_i.first_acc};
   assign counts[2] = table_i.split ? {1'b0, ~table_i.first_dec} : 8'd0;
@@ -44,7 +45,7 @@ module ppmc312_reply
       I_END:     data[0] = block_i.par[0];
       I_AUX_IN:  data[0] = inputs_i.auxi;
       I_VERSION: data[0] = Version;
-      I_LOCK:    data[0] = 8'(!state_i.lock);  // as it will be
+      I_LOCK:    data[0] = 8'(!state_i.lock);  // state after the execution
       I_SYNC:    data[0] = 8'(!state_i.settings.ungated);
       I_PINS: begin
         extra     = 4'd2;

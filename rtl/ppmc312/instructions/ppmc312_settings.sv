@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_settings: what instructions set and motions look at: high-speed limit, END and RUN monitoring.
+// ppmc312_settings: settings for motions that instructions make: high-speed limit, END and RUN monitoring.
 // Rules:  P312-CMD-05/06/45, P312-CMD-00, P312-GEN-12.
-// Timing: one clk after do_i.
+// Timing: outputs follow do_i and built_i by one cycle.
 `default_nettype none
 
 module ppmc312_settings
@@ -9,14 +9,14 @@ module ppmc312_settings
 (
     input  wire logic        clk_i,         // clock
     input  wire logic        rst_ni,        // reset, asynchronous
-    input  wire logic        do_i,          // strobe: an instruction is carried out
-    input  wire logic [ 7:0] code_i,        // its code
+    input  wire logic        do_i,          // strobe: the instruction is executed
+    input  wire logic [ 7:0] code_i,        // instruction code
     input  wire logic [15:0] value_i,       // first two parameters
-    input  wire logic        built_i,       // a new table is in force
-    input  wire logic [15:0] fast_i,        // its high-speed rate
-    output logic      [15:0] limit_rate_o,  // HSL
-    output logic             end_watch_o,   // END is monitored
-    output logic             ungated_o      // RUN is not
+    input  wire logic        built_i,       // strobe: a new table is active
+    input  wire logic [15:0] fast_i,        // high-speed rate of the table
+    output logic      [15:0] limit_rate_o,  // HSL, base clocks
+    output logic             end_watch_o,   // 1: END is monitored
+    output logic             ungated_o      // 1: RUN is not monitored
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_setup: initial setting and free curve: from their blocks to the table in force.
+// ppmc312_setup: converts the blocks of an initial setting or a free curve to the active table.
 // Rules:  P312-CMD-00, P312-CMD-01, P312-CMD-FC-1..10, P312-INP-31.
-// Timing: build and data are followed by done; what has come of it stands with that and after it.
+// Timing: state_o.done follows order_i.build and order_i.data; its results are valid from done on.
 `default_nettype none
 
 module ppmc312_setup
@@ -12,19 +12,19 @@ module ppmc312_setup
 (
     input  wire logic               clk_i,        // clock
     input  wire logic               rst_ni,       // reset, asynchronous
-    input  wire block_t             block_i,      // the instruction; stands until done
-    input  wire setup_order_t       order_i,      // what to do
-    output setup_state_t            state_o,      // what has come of it
-    output logic                    built_o,      // strobe: a new table comes into force
-    input  wire logic         [7:0] byte_i,       // byte of the block, two clk after state_o.addr
+    input  wire block_t             block_i,      // the instruction; stable until state_o.done
+    input  wire setup_order_t       order_i,      // commands
+    output setup_state_t            state_o,      // state and results
+    output logic                    built_o,      // strobe: a new table becomes active
+    input  wire logic         [7:0] byte_i,       // byte at state_o.addr, two cycles later
     // table unit
-    output logic                    drop_o,       // strobe: the table is void
-    output curve_t                  curve_o,      // what it is to be built from, or is described by
-    output logic              [6:0] open_acc_o,   // first stages of the sides of a free curve
-    output logic              [6:0] open_dec_o,   // of the deceleration side
-    output entry_t                  entry_o,      // a word of a free curve
-    output logic                    close_o,      // strobe: that is complete
-    input  wire logic               unit_busy_i,  // the table cannot be used yet
+    output logic                    drop_o,       // strobe: the table becomes invalid
+    output curve_t                  curve_o,      // curve to be built, or description of a free curve
+    output logic              [6:0] open_acc_o,   // free curve: first stage of the acceleration side
+    output logic              [6:0] open_dec_o,   // free curve: first stage of the deceleration side
+    output entry_t                  entry_o,      // word of a free curve
+    output logic                    close_o,      // strobe: the free curve is complete
+    input  wire logic               unit_busy_i,  // 1: the table cannot be used yet
     input  wire logic               thin_i        // a stage has at most 1 pulse: no table
 );
 
@@ -45,7 +45,7 @@ module ppmc312_setup
   assign le = block_i.par[0][4];
   assign n_acc = block_i.par[1][6:0];
   assign n_dec = le ? block_i.par[2][6:0] : n_acc;
-  assign open_acc_o = ~n_acc;  // 127 less that
+  assign open_acc_o = ~n_acc;  // 127 - n_acc
   assign open_dec_o = ~n_dec;
   assign taken = order_i.build || order_i.open;
 
@@ -77,7 +77,7 @@ module ppmc312_setup
       begun_q <= 1'b0;
       split_q <= 1'b0;
     end else begin
-      begun_q <= state_q inside {StBuild, StClose};  // unit_busy_i stands by then
+      begun_q <= state_q inside {StBuild, StClose};  // unit_busy_i is valid by then
       if (taken) split_q <= le;
       unique case (state_q)
         StIdle: begin

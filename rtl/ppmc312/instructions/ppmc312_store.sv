@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_store: instructions that wait for a trigger: the command FIFO of eight and two event buffers of four.
+// ppmc312_store: stores instructions that wait for a trigger: a command FIFO of eight entries and two event
+//         buffers of four.
 // Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
-// Timing: a new head of the FIFO is armed 2 clk after the trigger of the one before. halt_o comes one clk after
-//         the count. Bytes of an entry stand two clk after fetch_addr_i.
-// How:    entries are whole blocks in one RAM: 16 places for the FIFO, because triggered ones stay until they
-//         have been processed, and 2 * 4 for the events. The FIFO has three pointers: written, armed, processed.
+// Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous one. halt_o follows the
+//         count by one cycle. Bytes of an entry are valid two cycles after fetch_addr_i.
+// How:    entries are whole blocks in one RAM: 16 places for the FIFO, because triggered entries stay until
+//         they are processed, and 2 * 4 for the events. The FIFO has three pointers: written, armed,
+//         processed.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -16,20 +18,20 @@ module ppmc312_store
     input  wire logic           clk_i,          // clock
     input  wire logic           rst_ni,         // reset, asynchronous
     // triggers
-    input  wire logic    [ 1:0] edge_i,         // falling edges of the event pins
-    input  wire logic           counted_i,      // the position has just been counted
-    input  wire logic    [31:0] pos_i,          // position, pulses
-    output logic                halt_o,         // a position-triggered immediate stop has been reached
-    output stored_t             stored_o,       // what waits
-    input  wire put_t           put_i,          // what is added
-    input  wire remove_t        remove_i,       // what is removed
-    // bytes of the entry that has been taken last
-    input  wire logic           fetch_event_i,  // it came from an event buffer
+    input  wire logic    [ 1:0] edge_i,         // strobes: falling edges of the event pins
+    input  wire logic           counted_i,      // strobe: a pulse has been counted in pos_i
+    input  wire logic    [31:0] pos_i,          // position in pulses
+    output logic                halt_o,         // strobe: the position of an immediate stop is reached
+    output stored_t             stored_o,       // contents of the store
+    input  wire put_t           put_i,          // entry to be added
+    input  wire remove_t        remove_i,       // entries to be removed
+    // bytes of the entry that was taken last
+    input  wire logic           fetch_event_i,  // 1: the entry is from an event buffer
     input  wire logic    [ 3:0] fetch_addr_i,   // byte, 0 = header
-    input  wire logic           peek_i,         // instead: the code of an entry
-    input  wire logic           peek_n_i,       // of this event buffer
-    input  wire logic    [ 1:0] peek_at_i,      // entry
-    output logic         [ 7:0] fetch_data_o    // that byte, two clk later
+    input  wire logic           peek_i,         // 1: read the code of an entry instead
+    input  wire logic           peek_n_i,       // with peek_i: event buffer
+    input  wire logic    [ 1:0] peek_at_i,      // with peek_i: entry
+    output logic         [ 7:0] fetch_data_o    // requested byte, two cycles later
 );
 
   typedef struct packed {
@@ -37,11 +39,11 @@ module ppmc312_store
     logic [1:0] trig;
   } tag_t;
 
-  // Bytes come before the entry counts, and all of the entry stands with them: it is written with each. Nobody looks at
-  // what is read from the place that is being written.
+  // put_i.code, trig and pos are stable while the bytes of an entry are written, so the head is written with
+  // each byte. No block uses data that are read from the place that is being written.
   (* ram_style = "block", no_rw_check *)
   logic [34:0] heads[16];
-  logic [34:0] ahead_q;  // of what is armed next
+  logic [34:0] ahead_q;  // head of the entry that is armed next
   (* ram_style = "block", no_rw_check *)
   logic [1:0] trigs[16];
   logic [31:0] head_pos_q;
@@ -53,11 +55,11 @@ module ppmc312_store
   logic head_valid_q, fire, taken_n_q;
   logic [1:0] use_edge, fifo_edge;
   logic [1:0][1:0] taken_entry_q;
-  logic [1:0][3:0] waits_q;  // FIFO entries that wait for an event pin
+  logic [1:0][3:0] waits_q;  // FIFO entries that wait for event pin [n]
   logic [1:0] waits_more, waits_less;
   logic push, drop, take_fifo, due_q;
 
-  // ---- command FIFO ----------------------------------------------------------------------------------------------
+  // ---- command FIFO -------------------------------------------------------------------------------
 
   assign push = put_i.put && !put_i.to_event;
   assign drop = remove_i.all || remove_i.fifo;
@@ -99,10 +101,10 @@ module ppmc312_store
       heads[written_q] <= {put_i.code == I_HALT, put_i.trig, put_i.pos};
       trigs[written_q] <= put_i.trig;
     end
-    // Block RAM answers slowly: the next head stands ready.
+    // Block RAMs are slow, so the next head is read in advance.
     ahead_q <= heads[armed_q+4'(head_valid_q)];
     if (!head_valid_q) {head_q, head_pos_q} <= ahead_q;
-    // Late by two clk only after one has been taken, and then nobody looks.
+    // These are two cycles late only after an entry has been taken, when no block uses them.
     done_word_q <= trigs[done_q];
     done_trig_q <= done_word_q;
   end
@@ -117,7 +119,7 @@ module ppmc312_store
     end else begin
       head_valid_q <= armed_q != written_q && !fire && !drop;
       halt_o       <= fire && head_q.halt && !head_q.trig[0];
-      // armed_q is ahead of done_q; only what is due is taken.
+      // armed_q is equal to done_q or ahead of it, because entries are taken only while due_q = 1.
       due_q        <= !drop && (fire || (take_fifo ? done_next != armed_q : done_q != armed_q));
       if (drop) begin
         armed_q <= written_q;
@@ -137,7 +139,7 @@ module ppmc312_store
     end
   end
 
-  // ---- event buffers ---------------------------------------------------------------------------------------------
+  // ---- event buffers ------------------------------------------------------------------------------
 
   for (genvar n = 0; n < 2; n++) begin : g_event
     logic take, put, empty, one;
@@ -169,7 +171,7 @@ module ppmc312_store
         end else if (remove_i.highest[n]) begin
           count_q[n] <= count_q[n] - 1'b1;
           next_q[n]  <= '0;
-          if (count_q[n] == 3'd1) event_q[n] <= 1'b0;  // nothing is left to be executed
+          if (count_q[n] == 3'd1) event_q[n] <= 1'b0;  // no entry is left
         end
       end
     end
@@ -180,9 +182,9 @@ module ppmc312_store
     else if (remove_i.take) taken_n_q <= remove_i.n;
   end
 
-  // ---- bytes: 0 .. 255 the FIFO, 256 .. 383 the events -----------------------------------------------------------
+  // ---- bytes: FIFO at 0 .. 255, event buffers at 256 .. 383 ---------------------------------------
 
-  localparam logic [3:0] Code = 4'd2;  // where a block has it
+  localparam logic [3:0] Code = 4'd2;  // position of the code in a block
   logic [8:0] put_at, fetch_at;
 
   assign put_at = put_i.to_event ? {2'b10, put_i.n, count_q[put_i.n][1:0], put_i.addr} :

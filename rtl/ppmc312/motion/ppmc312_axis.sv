@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_axis: the motor side: settings, motion, positions, outputs.
-// Rules:  through its blocks.
-// Timing: act_i is carried out at the edge that ends its cycle, an immediate stop a clk later.
+// ppmc312_axis: motor side: settings, motion, positions, outputs.
+// Rules:  see its blocks.
+// Timing: act_i is executed at the edge that ends its cycle, an immediate stop one cycle later.
 `default_nettype none
 
 module ppmc312_axis
@@ -15,25 +15,25 @@ module ppmc312_axis
     input  wire logic          clk_i,      // clock
     input  wire logic          rst_ni,     // reset, asynchronous
     // instructions
-    input  wire logic          act_i,      // strobe: carry block_i out
-    input  wire block_t        block_i,    // stands long before act_i
+    input  wire logic          act_i,      // strobe: execute block_i
+    input  wire block_t        block_i,    // instruction; stable long before act_i
     input  wire motion_order_t order_i,    // starts and rate changes
     input  wire alarm_t        multi_i,    // multiple occurrence
-    // table in force
-    input  wire logic          built_i,    // strobe: it is a new one
-    input  wire table_t        table_i,    // its description
-    input  wire target_t       home_i,     // what the look-up of its rate_acc has found
-    output look_t              look_o,     // its read port
-    input  wire stage_t        stage_i,    // two clk later
+    // active table
+    input  wire logic          built_i,    // strobe: the table is new
+    input  wire table_t        table_i,    // description of the table
+    input  wire target_t       home_i,     // look-up result of table_i.rate_acc
+    output look_t              look_o,     // read port of the table
+    input  wire stage_t        stage_i,    // stage at look_o, two cycles later
     // pins
-    input  wire inputs_t       inputs_i,   // synchronous
-    input  wire logic          extck_i,    // external clock, as on the pin
-    output outputs_t           outputs_o,  // flip-flops
+    input  wire inputs_t       inputs_i,   // input pins, synchronised
+    input  wire logic          extck_i,    // external clock, asynchronous
+    output outputs_t           outputs_o,  // output pins, registered
     // state and reports
-    output axis_state_t        state_o,    // of the motor side
-    output notice_t            notice_o,   // what is to be reported
+    output axis_state_t        state_o,    // state of the motor side
+    output notice_t            notice_o,   // events to be reported
     output windows_t           windows_o,  // reports of the monitors
-    input  wire window_take_t  take_i      // they are loaded, read
+    input  wire window_take_t  take_i      // reports of the monitors are loaded, read
 );
 
   logic [7:0] code;
@@ -41,7 +41,8 @@ module ppmc312_axis
 
   assign code = block_i.code;
 
-  // An immediate stop has a long way to the pulses. The code stands long before act_i.
+  // The path of an immediate stop to the pulses is timing-critical, so it has a register. The code is stable
+  // long before act_i.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {halt_q, decel_q} <= '0;
     else begin

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_motion: an operation from its acceptance to the report of its end: statuses, start gate, pulses,
-// causes, both phases of a zero return.
+// ppmc312_motion: controls an operation from its acceptance to the report of its end: statuses, start gate,
+//         pulses, causes, both phases of a zero return.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
-// Timing: t0 is the edge that ends the cycle of order_i.start, or of the end of the start gate. Pins and stops act in
-//         the cycle in which they are seen: no pulse then. pout_o and dir_o are flip-flops; counted_o comes
-//         with the clk after the rise of pout_o.
+// Timing: t0 is the edge that ends the cycle of order_i.start, or of the end of the start gate. Pins and
+//         stops act in the cycle in which they are sampled: no pulse begins in this cycle. pout_o and dir_o
+//         are registered; counted_o is high in the first cycle after the rise of pout_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -18,44 +18,44 @@ module ppmc312_motion
 ) (
     input  wire logic          clk_i,          // clock
     input  wire logic          rst_ni,         // reset, asynchronous
-    // table in force
-    input  wire table_t        table_i,        // its description
-    input  wire target_t       home_i,         // what the look-up of its rate_acc has found
-    output look_t              look_o,         // its read port
-    input  wire stage_t        stage_i,        // two clk later
+    // active table
+    input  wire table_t        table_i,        // description of the table
+    input  wire target_t       home_i,         // look-up result of table_i.rate_acc
+    output look_t              look_o,         // read port of the table
+    input  wire stage_t        stage_i,        // stage at look_o, two cycles later
     // instructions
     input  wire motion_order_t order_i,        // starts and rate changes
-    input  wire logic          change_ramp_i,  // order_i.change is along the table
+    input  wire logic          change_ramp_i,  // with order_i.change: change along the table
     input  wire logic          halt_i,         // strobe: immediate stop
-    input  wire logic          decel_i,        // strobe: deceleration to the end
-    input  wire settings_t     settings_i,     // limit, monitoring
+    input  wire logic          decel_i,        // strobe: decelerate to the end
+    input  wire settings_t     settings_i,     // high-speed limit, monitoring
     // pins
-    input  wire levels_t       levels_i,       // filtered
-    input  wire logic          run_i,          // 1: starts go ahead
-    input  wire logic          extck_i,        // external clock, as on the pin
+    input  wire levels_t       levels_i,       // switches and drive inputs, filtered
+    input  wire logic          run_i,          // 1: starts are not held
+    input  wire logic          extck_i,        // external clock, asynchronous
     output logic               pout_o,         // 1: a pulse is active
-    output logic               dir_o,          // 0 CW, 1 CCW
+    output logic               dir_o,          // 0: CW, 1: CCW
     // alarm
     input  wire alarm_t        multi_i,        // multiple occurrence
-    input  wire logic          leave_i,        // strobe: alarm clear, no alarm
-    output alarm_t             alarm_o,        // to be reported
+    input  wire logic          leave_i,        // strobe: alarm clear, and no alarm is active
+    output alarm_t             alarm_o,        // alarm to be reported
     // state
-    output status_e            status_o,       // of the part
+    output status_e            status_o,       // status of the device
     output logic               end_wait_o,     // a motion waits for END
-    output logic               output_o,       // pulses are being output
+    output logic               output_o,       // 1: pulses are being output
     output logic               launch_o,       // strobe: t0
     output logic               rested_o,       // strobe: pulse output has ended
-    output logic               counted_o,      // strobe: a pulse of direction dir_o
+    output logic               counted_o,      // strobe: a pulse in direction dir_o
     output logic               held_o,         // strobe: report E2
     output logic               stop_o,         // strobe: report E0
-    output cause_t             cause_o         // why; with stop_o
+    output cause_t             cause_o         // cause of the end; valid with stop_o
 );
 
   typedef enum logic [2:0] {
     StRest,
     StHeld,   // start gate
     StGo,
-    StDrain,  // no more pulses; the last one runs out
+    StDrain,  // no further pulses; the last one runs out
     StEnd     // waits for END
   } state_e;
 
@@ -66,14 +66,14 @@ module ppmc312_motion
   logic hard, fire, due, ends, rest, decel_q, org_q, slow_q, near, slow, gate;
   logic limit, high_limit, origin;
   logic too_fast, fast_q, complete_q;
-  logic why_slow_q;  // what the decision in next_* was made of
+  logic why_slow_q;  // requests that led to the decision in next_*
   logic [1:0] why_decel_q, why_near_q;
-  logic [5:0] young_q;  // the rate of pulse 1 is not known yet
+  logic [5:0] young_q;  // bit 5: the rate of pulse 1 is not valid yet
   logic next_end, next_low, next_count, next_slow, next_walk, flat, walking, first, complete;
   logic [15:0] next_rate, rate;
   plan_t plan;
 
-  // ---- pins ------------------------------------------------------------------------------------------------------
+  // ---- pins ---------------------------------------------------------------------------------------
 
   logic  unused_table;
   assign unused_table = &{1'b0, table_i};
@@ -88,7 +88,7 @@ module ppmc312_motion
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {fast_q, slow_q, complete_q} <= '0;
     else begin
-      complete_q <= complete;  // a position is compared later than that
+      complete_q <= complete;  // delayed, because position comparisons are later
       fast_q <= rate <= settings_i.limit_rate;
       slow_q <= too_fast;
     end
@@ -106,7 +106,7 @@ module ppmc312_motion
     end
   end
 
-  // ---- what stops or slows down ----------------------------------------------------------------------------------
+  // ---- stop and deceleration requests -------------------------------------------------------------
 
   assign near = org_q || (op_q.zero && origin);  // zero return, phase 1
   assign slow = slow_q || decel_q || near;
@@ -122,7 +122,8 @@ module ppmc312_motion
 
   assign fire = state_q == StGo && due && !next_end && !hard && !(first && slow);
   assign ends = state_q == StGo && (hard || (due && next_end && !first) || (first && slow));
-  // A walk to the origin, or no need for one, is followed by the way back.
+  // After the deceleration at the origin, or if no deceleration was necessary, phase 2 of the zero return
+  // follows.
   assign low_turn = first ? near && !slow_q && !decel_q : why_near_q[1] && !why_slow_q && !why_decel_q[1];
 
   always_comb begin
@@ -189,7 +190,7 @@ module ppmc312_motion
           if (enter && (turn_q || (wait_pos_q && cause_q.stp))) begin
             cause_q <= '{als: 1'b1, default: 1'b0};
             turn_q  <= 1'b0;
-          end else if (stay) begin  // a stop between the phases
+          end else if (stay) begin  // a stop between the two phases
             cause_q <= '{stp: halt_i, low: !halt_i, default: 1'b0};
             turn_q  <= 1'b0;
           end else if (rest) state_q <= stop_o ? StRest : StEnd;
@@ -211,7 +212,7 @@ module ppmc312_motion
           op_q.origin <= 1'b1;
         end
       end else begin
-        // Requests that have been judged at a boundary are gone.
+        // Requests that have been evaluated at a boundary are cleared.
         decel_q <= (decel_i && state_q == StGo) || (decel_q && !(fire && next_slow && why_decel_q[1]));
         org_q   <= near && !(fire && next_slow && why_near_q[1]);
         if (fire && next_walk)
@@ -237,7 +238,7 @@ module ppmc312_motion
     if (abn_q) status_o = StatusAbn;
   end
 
-  // ---- pulses ----------------------------------------------------------------------------------------------------
+  // ---- pulses -------------------------------------------------------------------------------------
 
   always_comb begin
     plan = order_i.plan;
@@ -261,7 +262,7 @@ module ppmc312_motion
       .single_i    (order_i.home),
       .change_i    (order_i.change && state_q == StGo),
       .change_ramp_i,
-      .slow_i      ((too_fast || decel_q || near) && state_q == StGo),  // not later than 4 clk after the pin
+      .slow_i      ((too_fast || decel_q || near) && state_q == StGo),  // at most 4 cycles after the pin
       .next_end_o  (next_end),
       .next_low_o  (next_low),
       .next_count_o(next_count),
@@ -299,7 +300,7 @@ module ppmc312_motion
   `PPMC_ASSERT(p312_mot_35, !stop_o || $onehot(cause_o))
   `PPMC_ASSERT(p312_mot_06, !(ends && next_end && !hard && !first) || !pout_o)
   `PPMC_ASSERT(p312_blk_01_8, !order_i.start || (state_q == StRest && !abn_q))
-  // Without a pulse nothing is counted, and what follows the load has not reached next_count yet.
+  // Without a pulse nothing is counted; after a load next_count is not valid yet.
   `PPMC_ASSERT(p312_mot_07_count, !(ends && !hard && !first && next_count) || complete)
 `endif
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_move: a judged motion or rate change: limits, look-up or plan, then the start or the change.
+// ppmc312_move: executes a checked motion or rate change: limits, look-up or plan, then the start or the
+//         change.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (8), P312-STA-04.
-// Timing: begin_i is followed by state_o.done, 4 clk later without a look-up (single step). start_o and change_o come
-//         with it. Rate and number of pulses are kept until t0, whatever is executed meanwhile.
+// Timing: state_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o and change_o are
+//         asserted with it. Rate and number of pulses are held until t0, regardless of other instructions
+//         that are executed until then.
 `default_nettype none
 
 module ppmc312_move
@@ -13,26 +15,26 @@ module ppmc312_move
 (
     input  wire logic           clk_i,         // clock
     input  wire logic           rst_ni,        // reset, asynchronous
-    input  wire logic           begin_i,       // strobe
-    input  wire block_t         block_i,       // the instruction; stands until done
-    input  wire status_e        status_i,      // of the part
-    input  wire table_t         table_i,       // in force
-    input  wire levels_t        levels_i,      // pins
+    input  wire logic           begin_i,       // strobe: begin with block_i
+    input  wire block_t         block_i,       // the instruction; stable until state_o.done
+    input  wire status_e        status_i,      // status of the device
+    input  wire table_t         table_i,       // active table
+    input  wire levels_t        levels_i,      // input pins, filtered
     input  wire logic    [15:0] limit_rate_i,  // HSL, base clocks
-    input  wire logic           gate_i,        // a start is not held
-    input  wire logic           open_i,        // the time for it has come
-    output move_state_t         state_o,       // what has come of it
+    input  wire logic           gate_i,        // 1: a start is not held
+    input  wire logic           open_i,        // the processing time has passed
+    output move_state_t         state_o,       // result
     // motion
-    output logic                start_o,       // strobe: op_o along plan_o
-    output logic                change_o,      // strobe: another rate, plan_o.to
-    output op_t                 op_o,          // with start_o
-    output plan_t               plan_o,        // steady until t0
-    output logic                home_o,        // with start_o: not plan_o.to, but the start-up rate
+    output logic                start_o,       // strobe: start op_o along plan_o
+    output logic                change_o,      // strobe: change the rate to plan_o.to
+    output op_t                 op_o,          // valid with start_o
+    output plan_t               plan_o,        // stable until t0
+    output logic                home_o,        // with start_o: start-up rate instead of plan_o.to
     // planner
-    output plan_order_t         planner_o,     // what it shall do
-    input  wire logic           plan_busy_i,   // it is at it
+    output plan_order_t         planner_o,     // command to the planner
+    input  wire logic           plan_busy_i,   // the planner is busy
     input  wire logic    [ 7:0] plan_kind_i,   // status byte of the plan
-    input  wire plan_t          plan_i         // what it has planned
+    input  wire plan_t          plan_i         // result of the planner
 );
 
   typedef enum logic [2:0] {
@@ -94,7 +96,7 @@ module ppmc312_move
     end
   end
 
-  // No reset: begin_i sets all of it.
+  // No reset: begin_i sets all of these registers.
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
       starts_q  <= info.starts;
@@ -104,7 +106,7 @@ module ppmc312_move
       count_q   <= {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
       rate_q    <= (rate == '0) ? table_i.fast : rate;
       if (code == I_STEP) begin
-        count_q[0] <= 1'b1;  // it has no number: all bits are 0
+        count_q[0] <= 1'b1;  // the instruction has no number of pulses: all bits are 0
         rate_q     <= table_i.rate_acc;
       end
       if (info.starts) begin

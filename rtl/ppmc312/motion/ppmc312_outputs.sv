@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_outputs: pins that instructions and the course of a motion switch: interlock, excitation, counter clear,
-// alarm clear, zero clamp, current reduction, generalized output; and the way out of the abnormal status.
+// ppmc312_outputs: pins that instructions and motions switch: interlock, excitation, counter clear, alarm
+//         clear, zero clamp, current reduction, generalized output. Also detects the end of the abnormal
+//         status.
 // Rules:  P312-CMD-20..26, P312-OUT-01..03, P312-INP-31/33, P312-MON-06.
-// Timing: pins follow by one clk; pulses last 24.576 ms, the current is reduced 100 ms after the last motion.
+// Timing: pins follow by one cycle. Clear pulses last 24.576 ms; the current is reduced 100 ms after the last
+//         motion.
 `default_nettype none
 
 module ppmc312_outputs #(
@@ -18,18 +20,18 @@ module ppmc312_outputs #(
     input  wire logic       aclr_i,      // alarm clear
     input  wire logic       clamp_i,     // zero clamp
     input  wire logic       aux_i,       // generalized output
-    input  wire logic [5:0] aux_data_i,  // with aux_i; 1 = low
-    // course of things
+    input  wire logic [5:0] aux_data_i,  // with aux_i; 1: low
+    // state of the motor side
     input  wire logic       launch_i,    // strobe: t0
     input  wire logic       rested_i,    // strobe: pulse output has ended
-    input  wire logic       abn_i,       // abnormal status
-    input  wire logic       lock_i,      // interlock control runs
-    input  wire logic       alm_ni,      // 0 = active
-    input  wire logic       end_ni,      // 0 = active
+    input  wire logic       abn_i,       // 1: abnormal status
+    input  wire logic       lock_i,      // 1: interlock control is active
+    input  wire logic       alm_ni,      // alarm, active low
+    input  wire logic       end_ni,      // END, active low
     input  wire logic       near_i,      // in-position: inside, coupled to the zero clamp
-    input  wire logic       coupled_i,   // in-position: looked at, coupled to the zero clamp
+    input  wire logic       coupled_i,   // in-position: evaluated, coupled to the zero clamp
     output logic            leave_o,     // strobe: the abnormal status ends
-    // pins, 0 = active
+    // pins, active low
     output logic            intlk_no,    // interlock
     output logic            exon_no,     // excitation
     output logic            cclr_no,     // counter clear
@@ -74,7 +76,7 @@ module ppmc312_outputs #(
       .past_o   (rested)
   );
 
-  // An alarm that goes while its clear pulse lasts has been cleared by it.
+  // An alarm that ends during its clear pulse has been cleared by this pulse.
   assign leave_o = leaving_q && alm_ni;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_pins: every input pin of the motor side into the clock of the core, with the old chip's filters.
+// ppmc312_pins: synchronises the input pins of the motor side; with Datasheet = 1 also filters them.
 // Rules:  P312-GEN-01, P312-INP-01, P312-TIM-14.
-// Timing: synchronised levels 2 clk after the pin; edges in the clk in which the level has become low. With
-//         Datasheet a low level counts after 200 us, of the event pins after 25 ms; a high one at once.
+// Timing: levels are valid 2 cycles after the pin; fell is high in the cycle in which the level has become
+//         low. With Datasheet = 1, a low level is accepted after 200 us (event pins: 25 ms); a high level is
+//         accepted immediately.
 `default_nettype none
 
 module ppmc312_pins
@@ -14,15 +15,15 @@ module ppmc312_pins
 ) (
     input  wire logic          clk_i,    // clock
     input  wire logic          rst_ni,   // reset, asynchronous
-    // as on the pins; the names are those of inputs_t
+    // pins; the names are those of inputs_t
     input  wire levels_t       pins_i,   // switches, drive, encoder index
-    input  wire logic    [1:0] evt_ni,   // [n] is event pin n
-    input  wire logic          run_i,    // 1: starts go ahead
-    input  wire logic          epin_i,   // encoder: counts with its rising edge
-    input  wire logic          epdir_i,  // 0 up, 1 down
+    input  wire logic    [1:0] evt_ni,   // [n]: event pin n
+    input  wire logic          run_i,    // 1: starts are not held
+    input  wire logic          epin_i,   // encoder, counted at its rising edge
+    input  wire logic          epdir_i,  // 0: up, 1: down
     input  wire logic    [7:0] auxi_i,   // generalized input
-    // inside
-    output inputs_t            inputs_o  // synchronous
+    // core side
+    output inputs_t            inputs_o  // all inputs, synchronised
 );
 
   localparam int unsigned Filtered = $bits(levels_t) + 2;
@@ -55,7 +56,7 @@ module ppmc312_pins
       localparam int unsigned Limit = (n < $bits(levels_t)) ? LevelXtal : EventXtal;
       logic past;
 
-      // The part's reset is long enough for a synchronous one.
+      // The reset of the device is long enough for a synchronous restart.
       ppmc_delay #(
           .Ticks(ppmc_pkg::cyc(Limit, ClkHz, XtalHz))
       ) u_timer (

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_position: the two positions and what is compared with them.
+// ppmc312_position: position and encoder position, interlock position, position monitors.
 // Rules:  P312-MOT-05, P312-MON-01..06, P312-OUT-03, P312-CMD-04/43/44.
-// Timing: pos_o changes one clk after count_i, counted_o is high in the clk that follows. The monitors see a
-//         position 3 clk later; in-position is looked at from 4 clk after the end of pulse output on.
+// Timing: pos_o and counted_o follow count_i by one cycle. The monitors use a position 3 cycles later;
+//         in-position is evaluated from 4 cycles after the end of pulse output on.
 `default_nettype none
 
 module ppmc312_position
@@ -12,44 +12,44 @@ module ppmc312_position
     input  wire logic        rst_ni,          // reset, asynchronous
     // pulses
     input  wire logic        count_i,         // strobe: a pulse
-    input  wire logic        ccw_i,           // its direction: down
-    input  wire logic        output_i,        // pulses are being output
+    input  wire logic        ccw_i,           // direction of the pulse: 1: down
+    input  wire logic        output_i,        // 1: pulses are being output
     // encoder, synchronous
-    input  wire logic        epin_i,          // counts with its rising edge
-    input  wire logic        epdir_i,         // 0 up, 1 down
+    input  wire logic        epin_i,          // counted at its rising edge
+    input  wire logic        epdir_i,         // 0: up, 1: down
     // instructions
-    input  wire logic [31:0] value_i,         // a position that is set; pulses, two's complement
-    input  wire logic [31:0] lock_value_i,    // an interlock position that is set
-    input  wire logic        set_pos_i,       // strobe: the position
-    input  wire logic        set_enc_i,       // strobe: the encoder's
-    input  wire logic        set_lock_i,      // interlock position
-    input  wire logic        toggle_lock_i,   // strobe: interlock control on, off
-    input  wire logic [ 1:0] set_window_i,    // in-position, encode: flags and range below
+    input  wire logic [31:0] value_i,         // new position; pulses, two's complement
+    input  wire logic [31:0] lock_value_i,    // new interlock position
+    input  wire logic        set_pos_i,       // strobe: set the position
+    input  wire logic        set_enc_i,       // strobe: set the encoder position
+    input  wire logic        set_lock_i,      // strobe: set the interlock position
+    input  wire logic        toggle_lock_i,   // strobe: interlock control on or off
+    input  wire logic [ 1:0] set_window_i,    // strobes: latch flags and range, [0]: in-position, [1]: encode
     input  wire logic [ 2:0] window_flags_i,  // FO, RES, EN
-    input  wire logic [15:0] window_range_i,  // pulses
+    input  wire logic [15:0] window_range_i,  // range in pulses
     // positions
-    output logic      [31:0] pos_o,           // position, pulses
-    output logic      [31:0] enc_o,           // the encoder's, edges
-    output logic             counted_o,       // strobe: pos_o has been counted
+    output logic      [31:0] pos_o,           // position in pulses
+    output logic      [31:0] enc_o,           // encoder position in edges
+    output logic             counted_o,       // strobe: a pulse has been counted in pos_o
     // interlock
-    output logic             lock_o,          // interlock control runs
-    output logic             unlock_o,        // report E1
-    // monitors: index 0 in-position, 1 encode
-    output logic      [ 1:0] window_on_o,     // enabled
-    output logic      [ 1:0] outside_o,       // enabled, and outside
-    output logic      [ 1:0] wait_o,          // a report waits
-    output logic      [ 1:0] value_o,         // what it will say: 1 outside
-    input  wire logic [ 1:0] load_i,          // strobes: it is being loaded
-    input  wire logic [ 1:0] read_i,          // strobes: it has been read
-    output logic             near_o,          // zero clamp: in-position rests inside, with coupling
-    output logic             coupled_o        // zero clamp: in-position is looked at, with coupling
+    output logic             lock_o,          // 1: interlock control is active
+    output logic             unlock_o,        // strobe: report E1
+    // monitors, [0]: in-position, [1]: encode
+    output logic      [ 1:0] window_on_o,     // monitor is enabled
+    output logic      [ 1:0] outside_o,       // monitor is enabled, and the position is outside
+    output logic      [ 1:0] wait_o,          // a report is pending
+    output logic      [ 1:0] value_o,         // content of the report: 1: outside
+    input  wire logic [ 1:0] load_i,          // strobes: the report is being loaded
+    input  wire logic [ 1:0] read_i,          // strobes: the report has been read
+    output logic             near_o,          // zero clamp: coupled, pulses ended, position inside
+    output logic             coupled_o        // zero clamp: coupled, in-position evaluated
 );
 
   logic epin_q, couple_q, hit, quiet;
   logic [31:0] lock_pos_q, diff_q;
   logic [15:0] size_q;
   logic negative_q, large_q;
-  logic [1:0][16:0] room;  // range - size as a sum: bit 16 tells that it is not negative
+  logic [1:0][16:0] room;  // range - size; bit 16 = 1: not negative
   logic [1:0][15:0] range_q;
   logic [1:0] inside_q, evaluate;
   logic [3:0] quiet_q;
@@ -65,7 +65,7 @@ module ppmc312_position
       pos_o      <= '0;
       enc_o      <= '0;
       counted_o  <= 1'b0;
-      epin_q     <= 1'b1;  // a pin that rests high must not look like an edge
+      epin_q     <= 1'b1;  // a pin that is high after reset is not an edge
       lock_pos_q <= '0;
       lock_o     <= 1'b0;
       unlock_o   <= 1'b0;
@@ -96,10 +96,10 @@ module ppmc312_position
     end
   end
 
-  // No reset: ranges are set before they are used, the rest follows.
+  // No reset: ranges are set before use; the other registers follow their inputs.
   always_ff @(posedge clk_i) begin
     diff_q <= pos_o - enc_o;
-    // The size of a negative difference is one more than its bits inverted.
+    // The size of a negative difference is its inverted bits plus one.
     negative_q <= diff_q[31];
     size_q <= diff_q[15:0] ^ {16{diff_q[31]}};
     large_q <= diff_q[31:16] != {16{diff_q[31]}};

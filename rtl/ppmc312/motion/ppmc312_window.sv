@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_window: one of the two monitors (in-position, encode): inside or outside, and when the host is told.
+// ppmc312_window: one of the two position monitors (in-position, encode): inside or outside its range, and
+//         its reports.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
-// Timing: wait_o follows inside_i by two clk.
-// Note:   a report exists while the state differs from the one that the host has read last.
+// Timing: wait_o follows inside_i by two cycles.
+// Note:   a report is pending while the state differs from the state that the host has read last.
 `default_nettype none
 
 module ppmc312_window (
     input  wire logic clk_i,       // clock
     input  wire logic rst_ni,      // reset, asynchronous
-    input  wire logic set_i,       // instruction: takes the two bits below
-    input  wire logic enable_i,    // 1: the monitor runs
-    input  wire logic repeat_i,    // 0: ends after one report
-    input  wire logic evaluate_i,  // the state follows inside_i
-    input  wire logic inside_i,    // the position is within the range
-    output logic      enabled_o,   // the monitor runs
-    output logic      outside_o,   // it runs, and the position is outside
-    output logic      wait_o,      // a report waits
-    output logic      value_o,     // 1 = outside
-    input  wire logic load_i,      // it is being loaded
-    input  wire logic read_i       // and has been read; both in one clk: taken at once
+    input  wire logic set_i,       // strobe: latch enable_i and repeat_i; restart
+    input  wire logic enable_i,    // with set_i: 1: enable, 0: disable the monitor
+    input  wire logic repeat_i,    // with set_i: 0: the monitor ends after one report
+    input  wire logic evaluate_i,  // 1: the state follows inside_i
+    input  wire logic inside_i,    // 1: the position is within the range
+    output logic      enabled_o,   // 1: the monitor is active
+    output logic      outside_o,   // 1: active, and the position is outside
+    output logic      wait_o,      // 1: a report is pending
+    output logic      value_o,     // content of the report: 1: outside
+    input  wire logic load_i,      // strobe: the report is being loaded
+    input  wire logic read_i       // strobe: the report has been read; may coincide with load_i
 );
 
   logic repeat_q, told_q, loaded_q, shown_q, kept_q, fresh_q;
@@ -37,7 +38,7 @@ module ppmc312_window (
       wait_o    <= 1'b0;
       fresh_q   <= 1'b0;
     end else begin
-      fresh_q <= set_i;  // the state of the new range is not known yet
+      fresh_q <= set_i;  // the state of the new range is not valid yet
       if (load_i) begin
         loaded_q <= !read_i;
         shown_q  <= value_o;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_cosine_rom: raised cosine in 126 steps: round(65536 * (1 - cos(pi * i / 126)) / 2); or i itself.
+// ppmc312_cosine_rom: raised cosine in 126 steps: round(65536 * (1 - cos(pi * i / 126)) / 2); or i unchanged.
 // Rules:  P312-TBL-01 (the values are binding).
-// Timing: weight_o stands two clk after its address.
+// Timing: latency 2 cycles.
 `default_nettype none
 
 module ppmc312_cosine_rom (
     input  wire logic        clk_i,     // clock
-    input  wire logic        linear_i,  // i itself
+    input  wire logic        linear_i,  // 1: the weight is i
     input  wire logic [ 6:0] index_i,   // i, 0 .. 126
-    output logic      [16:0] weight_o   // its weight, two clk later
+    output logic      [16:0] weight_o   // weight of i, two cycles later
 );
 
   localparam int unsigned Half = 63;
-  localparam logic [Half:0][15:0] Weights = {  // the last one first
+  localparam logic [Half:0][15:0] Weights = {  // last value first
     16'd32768,
     16'd31951,
     16'd31135,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_interval: when the next pulse of a motion is due, and how long a pulse lasts; the rate is the number of
-// base clocks of an interval.
+// ppmc312_interval: determines when the next pulse of a motion begins and how long it lasts. The rate is the
+//         number of base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
-// Timing: due_o is combinational and comes for pulse 1 WidthClk clk after arm_i, for pulse k + 1 so that it
-//         fires exactly ceil(ticks * clk a tick) clk after pulse 1; external clock: on the tick itself. Two
-//         pulses are at least 4 clk apart; nothing is caught up.
-// Note:   ppmc_base_clock and ppmc_rate_counter need 3 clk a base clock; here a base clock may be one clk.
+// Timing: due_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
+//         pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1; with the external clock,
+//         on the tick itself. Two pulses are at least 4 cycles apart; lost time is not made up.
+// Note:   ppmc_base_clock and ppmc_rate_counter need 3 cycles per base clock; here a base clock may last one
+//         cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,18 +14,18 @@ module ppmc312_interval #(
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000,
     parameter int unsigned RateBits  = 16,
-    parameter int unsigned WidthXtal = 80           // pulse width and direction set-up
+    parameter int unsigned WidthXtal = 80           // pulse width and direction set-up, crystal periods
 ) (
     input  wire logic                clk_i,    // clock
     input  wire logic                rst_ni,   // reset, asynchronous
-    input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6, 7: pin up, down
-    input  wire logic                extck_i,  // pin
-    input  wire logic                arm_i,    // start of a motion
-    input  wire logic                first_i,  // the coming pulse is pulse 1
-    input  wire logic                fire_i,   // a pulse, in a cycle of due_o
+    input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6: rise, 7: fall
+    input  wire logic                extck_i,  // external clock pin, its edges for base_i 6, 7
+    input  wire logic                arm_i,    // strobe: start of a motion
+    input  wire logic                first_i,  // 1: the next pulse is pulse 1
+    input  wire logic                fire_i,   // strobe: a pulse, in a cycle of due_o
     input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next one, at least 2
-    output logic                     due_o,    // the time for a pulse has come
-    output logic                     high_o    // a pulse is active
+    output logic                     due_o,    // 1: a pulse may begin
+    output logic                     high_o    // 1: a pulse is active
 );
 
   localparam logic [2:0] ExtRise = 3'd6;
@@ -32,10 +33,10 @@ module ppmc312_interval #(
 
   logic quantum, tick, restart, level, last_q, edge_now, external, cut, up, unused_meta;
   logic past_q, elapsed, old, elapsed_now;
-  logic [2:0] age_q;  // clk since the pulse, up to 4
+  logic [2:0] age_q;  // cycles since the pulse, up to 4
   logic [PreBits-1:0] pre_q, pre_load;
-  logic rest_q;  // pre_q is 0: much hangs on it
-  logic [RateBits-1:0] left_q, half_q;  // base clocks to come; with so many half of the interval ends
+  logic rest_q;  // 1: pre_q is 0; separate because of its fan-out
+  logic [RateBits-1:0] left_q, half_q;  // remaining base clocks; value at half of the interval
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;
@@ -76,7 +77,7 @@ module ppmc312_interval #(
     tick = external ? edge_now : quantum && rest_q;
   end
 
-  // A base clock in the cycle of a pulse belongs to the interval before.
+  // A base clock in the cycle of a pulse belongs to the previous interval.
   assign old = age_q[2];
   assign elapsed_now = tick && left_q == RateBits'(1);
   assign elapsed = elapsed_now || past_q;
@@ -112,7 +113,7 @@ module ppmc312_interval #(
       end else begin
         if (elapsed_now) past_q <= 1'b1;
         if (!old) age_q <= age_q + 1'b1;
-        // Below 0 it begins anew: past_q knows.
+        // left_q may wrap below 0; past_q is 1 by then
         if (tick) left_q <= left_q - 1'b1;
       end
     end

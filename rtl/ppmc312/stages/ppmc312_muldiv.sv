@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_muldiv: multiplies and divides step by step with one adder; the pair {hi, lo} holds what goes in and out.
+// ppmc312_muldiv: sequential multiplier and divider with one adder; the pair {hi, lo} holds operands and
+//         results.
 // Rules:  P312-TBL-02/04, P312-MOT-11 (exact integer products and quotients).
-// Timing: busy_o is high for steps_i clk after start_i, of a division one more; then the result stands.
-// How:    multiply: h + operand * (low bits of lo_i), shifted right; after n steps the result has its low n
-//         bits on top of lo. Divide: {hi, lo} by the operand, shifted left; after n steps hi is
-//         the remainder and the low n bits of lo the quotient, for which h < operand < 2**(HiBits - 1) must
-//         hold. It is not restored: a remainder below 0 gets the operand back in the next step, or in that last clk.
+// Timing: busy_o is high for steps_i cycles after start_i, for a division one cycle more; then the result is
+//         valid.
+// Assumes: for a division, h < operand < 2**(HiBits - 1); h is operand_i in the cycle of start_i.
+// How:    multiply: h + operand * (low bits of lo_i), shifted right; after n steps the low n bits of the
+//         result are on top of lo. Divide: {hi, lo} by the operand, shifted left; after n steps hi is the
+//         remainder and the low n bits of lo are the quotient. The division is non-restoring: the next step,
+//         or the additional cycle, adds the operand to a remainder below 0.
 `default_nettype none
 
 module ppmc312_muldiv #(
-    parameter int unsigned HiBits = 40,  // operand, sums, remainders
-    parameter int unsigned LoBits = 24   // multiplier, quotient
+    parameter int unsigned HiBits = 40,  // bits of operand, sums, remainders
+    parameter int unsigned LoBits = 24   // bits of multiplier, quotient
 ) (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe
-    input wire logic mul_i,  // 1 multiply, 0 divide
-    input wire logic keep_i,  // go on with the product instead of h and lo_i
-    input wire logic [5:0] steps_i,  // 1 .. LoBits
+    input wire logic mul_i,  // 1: multiply, 0: divide
+    input wire logic keep_i,  // 1: continue with the product instead of h and lo_i
+    input wire logic [5:0] steps_i,  // number of steps, 1 .. LoBits
     input wire logic [LoBits-1:0] lo_i,  // multiplier; lower part of the dividend
-    // With start_i h: summand, upper part of the dividend. Then steady while busy.
+    // With start_i: h, the summand or the upper part of the dividend. Then: the operand, stable while busy_o.
     input wire logic [HiBits-1:0] operand_i,  // h, then the operand
-    output logic busy_o,  // the result does not stand yet
+    output logic busy_o,  // 1: the result is not valid yet
     output logic [HiBits-1:0] hi_o,  // product; remainder
-    output logic [LoBits-1:0] lo_o  // low bits of the product on top; quotient
+    output logic [LoBits-1:0] lo_o  // top bits: low bits of the product; low bits: quotient
 );
 
   logic [5:0] left_q;
   logic mul_q, load, last;
-  logic busy_q, shift_q;  // what left_q is; a division is under way
-  logic mend_q;  // a remainder below 0 gets the operand back
-  logic take_q, less_q, take, less;  // the operand goes into the sum; it is subtracted
+  logic busy_q, shift_q;  // left_q is not 0; a division is in progress
+  logic mend_q;  // adds the operand to a remainder below 0
+  logic take_q, less_q, take, less;  // the operand is used; it is subtracted
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;
@@ -41,7 +44,7 @@ module ppmc312_muldiv #(
   assign under  = sum[HiBits-1];
   assign hi_o   = hi_q;
 
-  // A load goes through the adder, too: h is added to 0.
+  // A load also uses the adder: h is added to 0.
   assign take   = take_q || load;
   assign less   = less_q && !load;
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_builder: fills the stage table from start-up, stop and high-speed rate and the pulses of both sides.
+// ppmc312_stage_builder: fills the stage table from start-up, stop and high-speed rate and the pulses of both
+//         sides.
 // Rules:  P312-TBL-01..06, P312-CMD-00 (0x05).
-// Timing: busy_o rises with the edge of start_i and falls when the table and its description are complete: at
-//         most 127 * 300 clk. All inputs stand still meanwhile.
-// How:    stage i has the speed D_i = K*RH + (Rs-RH)*W_i. First pass: R[i] = C/D_i rounded, C = K*Rs*RH; where
-//         the sides begin; sums of D_i. Second pass: pulses in proportion to D_i, the remainder carried along.
-//         All sums are made by the multiplier, h + operand * lo; its numbers stay in a small RAM in between.
+// Timing: busy_o rises at the edge that ends the cycle of start_i and falls when the table and its
+//         description are complete, after at most 127 * 300 cycles.
+// Assumes: all inputs are stable while busy_o.
+// How:    stage i has the speed D_i = K*RH + (Rs-RH)*W_i. First pass: R[i] = C/D_i rounded, C = K*Rs*RH;
+//         first stages of the sides; sums of D_i. Second pass: pulses in proportion to D_i, with the
+//         remainder carried along. The multiplier makes all sums, as h + operand * lo; a small RAM holds its
+//         numbers.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -15,22 +18,22 @@ module ppmc312_stage_builder
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
     input wire logic start_i,  // strobe
-    input wire curve_t curve_i,  // steady while busy
-    output logic busy_o,  // from the clk after start_i until all is written
+    input wire curve_t curve_i,  // ramp, stable while busy_o
+    output logic busy_o,  // from the cycle after start_i until all is written
     output logic thin_o,  // a stage has at most 1 pulse; valid until the next start
-    output entry_t entry_o,  // into the table
-    output logic [1:0] begins_o,  // strobes: with its stage the sides begin, unless there is a later one
-    input wire logic [6:0] first_acc_i,  // the last one of those, 0 .. 126
-    input wire logic [6:0] first_dec_i,  // of the deceleration side
+    output entry_t entry_o,  // write port of the table
+    output logic [1:0] begins_o,  // strobes: first stage of a side, if no later strobe follows
+    input wire logic [6:0] first_acc_i,  // stage of the last begins_o[0], 0 .. 126
+    input wire logic [6:0] first_dec_i,  // stage of the last begins_o[1], 0 .. 126
     // arithmetic, shared with the planner
-    output logic op_start_o,  // strobe
-    output logic op_mul_o,  // 1 multiply, 0 divide
+    output logic op_start_o,  // strobe: start an operation
+    output logic op_mul_o,  // 1: multiply, 0: divide
     output logic [5:0] op_steps_o,  // 1 .. 24
     output logic [23:0] op_lo_o,  // multiplier
-    output logic [39:0] word_o,  // h with op_start_o, then the operand
-    input wire logic op_busy_i,  // the result does not stand yet
-    input wire logic [39:0] hi_i,  // result, remainder
-    input wire logic [23:0] lo_i  // its low bits, quotient
+    output logic [39:0] word_o,  // with op_start_o: h; then the operand
+    input wire logic op_busy_i,  // 1: the result is not valid yet
+    input wire logic [39:0] hi_i,  // result; remainder
+    input wire logic [23:0] lo_i  // low bits of the result; quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
@@ -44,7 +47,7 @@ module ppmc312_stage_builder
     StHalf,    // D / 2
     StCurve,   // C + D / 2
     StRate,    // / D
-    StBegin,   // do the sides begin here?
+    StBegin,   // checks whether a side begins here
     StSum,     // S + D
     StShare,   // P * D + remainder
     StPulses,  // / S
@@ -61,7 +64,7 @@ module ppmc312_stage_builder
     WordSpeed,
     WordHalf,
     WordZero,    // never written
-    WordSum,     // of the first side
+    WordSum,     // sum of the first side
     WordSumDec,
     WordRest,
     WordRestDec
@@ -87,7 +90,7 @@ module ppmc312_stage_builder
 
   assign rate = lo_i[15:0];
   assign limit = side_q ? curve_i.stop : curve_i.start;
-  // The slower side has all stages, whatever rounding makes of R[1].
+  // The slower side has all stages, regardless of the rounding of R[1].
   assign hit = (limit == slow_q) ? stage_q == '0 : rate >= limit;
   assign opens = stage_q == first[side_q];
   assign last_side = side_q || !curve_i.split;
@@ -96,7 +99,7 @@ module ppmc312_stage_builder
   assign first = {first_dec_i, first_acc_i};
   assign begins_o = {side_q, !side_q} & {2{state_q == StBegin && hit}};
 
-  // ---- one operation a state: h, then the operand is read, then it is started --------------------------------
+  // ---- one operation per state: h is read, then the operand, then it is started -------------------
 
   assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum, StShare, StPulses};
   assign done = wait_q && !op_busy_i;
@@ -107,7 +110,7 @@ module ppmc312_stage_builder
     h_word     = WordBase;
     x_word     = WordSpeed;
     to_word    = WordSpeed;
-    // At rest the word is 0: the planner's operand is combined with it.
+    // When idle the word is 0, because the planner's operand is combined with it.
     if (state_q inside {StIdle, StBase, StScale}) h_word = WordZero;
     unique case (state_q)
       StBase: begin
@@ -175,7 +178,7 @@ module ppmc312_stage_builder
       .rdata_o(word_o)
   );
 
-  // ---- order -----------------------------------------------------------------------------------------------------
+  // ---- sequence -----------------------------------------------------------------------------------
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -188,7 +191,7 @@ module ppmc312_stage_builder
       stage_q <= Last;
       thin_o <= 1'b0;
     end else begin
-      op_start_o <= works && phase_q == 2'd1;  // as phase 2 begins
+      op_start_o <= works && phase_q == 2'd1;  // high at the start of phase 2
       if (op_start_o) wait_q <= 1'b1;
       else if (done) wait_q <= 1'b0;
       if (op_start_o || done || !(works || state_q == StCopy)) phase_q <= '0;
@@ -250,7 +253,7 @@ module ppmc312_stage_builder
     end
   end
 
-  // No reset: all of it is written before it is used. The rates stand long before they are.
+  // No reset: all of these registers are written before use. The rates are stable long before use.
   always_ff @(posedge clk_i) begin
     slow_q   <= (curve_i.start > curve_i.stop) ? curve_i.start : curve_i.stop;
     spread_q <= slow_q - curve_i.fast;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_plan: looks a rate up in the stage table and plans an operation with acceleration and deceleration.
+// ppmc312_stage_plan: looks up a rate in the stage table, and plans an operation with acceleration and
+//         deceleration.
 // Rules:  P312-MOT-10..13 (kinds, pulses of the sides), P312-GEN-06 (t(x)).
-// Timing: busy_o rises with the edge of start_i. A look-up takes 131 clk, a plan with an end at most 7 clk more, a
-//         triangle 60. 5 clk + the stages of the deceleration side are added where that does not begin with a full stage.
-//         Results stand until the next start.
-// How:    one pass goes up the table and adds the pulses of the sides, and keeps the sums as they are at the last
-//         stage that is fast enough: those of stages that both sides have, and those that only one side has.
-// Note:   t(x) is given as it is and plus 1; "no such stage" is the one before the first in use. Rates need not
-//         fall with the stages.
+// Timing: busy_o rises at the edge that ends the cycle of start_i. A look-up takes 131 cycles; a plan with an
+//         end takes at most 7 cycles more, a triangular one 60. If the deceleration does not begin with a
+//         full stage, 5 cycles + the stages of the deceleration side are added. Results are valid until the
+//         next start.
+// How:    one pass reads the table upward and adds the pulses of the sides. It keeps the sums at the last
+//         stage that is fast enough: of stages that both sides have, and of stages that only one side has.
+// Note:   t(x) is output as it is and plus 1; "no such stage" is the stage before the first used one. Rates
+//         need not fall with the stages.
 `default_nettype none
 
 module ppmc312_stage_plan
@@ -15,33 +17,33 @@ module ppmc312_stage_plan
 (
     input  wire logic        clk_i,         // clock
     input  wire logic        rst_ni,        // reset, asynchronous
-    input  wire logic        start_i,       // strobe
-    input  wire logic        ramp_i,        // plan, too; else look up only
-    input  wire logic        endless_i,     // the operation has no end of its own
-    input  wire logic [15:0] rate_i,        // base clocks; steady while busy, as all below
+    input  wire logic        start_i,       // strobe: start
+    input  wire logic        ramp_i,        // 1: look up and plan, 0: look up only
+    input  wire logic        endless_i,     // 1: the operation runs until it is stopped
+    input  wire logic [15:0] rate_i,        // base clocks; this and all inputs below stable while busy
     input  wire logic [31:0] count_i,       // pulses, at least 1
-    input  wire logic [ 6:0] first_acc_i,   // where the sides of the table begin
-    input  wire logic [ 6:0] first_dec_i,   // of the deceleration side
-    output logic             busy_o,        // from the clk after start_i until the results stand
+    input  wire logic [ 6:0] first_acc_i,   // first stage of the acceleration side
+    input  wire logic [ 6:0] first_dec_i,   // first stage of the deceleration side
+    output logic             busy_o,        // from the cycle after start_i until the results are valid
     // table
-    output logic             both_o,        // the other port is needed, too
-    output logic      [ 6:0] addr_o,        // stage
-    input  wire logic [15:0] table_rate_i,  // two clk later: its rate
-    input  wire logic [23:0] table_acc_i,   // its pulses in the acceleration
-    input  wire logic [23:0] table_dec_i,   // in the deceleration; with both_o
-    output target_t          found_o,       // look-up of rate_i
+    output logic             both_o,        // 1: the other read port is needed as well
+    output logic      [ 6:0] addr_o,        // stage to be read
+    input  wire logic [15:0] table_rate_i,  // rate of stage addr_o, two cycles later
+    input  wire logic [23:0] table_acc_i,   // acceleration pulses of this stage, two cycles later
+    input  wire logic [23:0] table_dec_i,   // deceleration pulses; with both_o
+    output target_t          found_o,       // look-up result of rate_i
     // plan
-    output logic             climb_o,       // begins with acceleration
-    output logic      [ 7:0] kind_o,        // status byte: 00 trapezoid, 10 triangle, 20, 40 right-angled
+    output logic             climb_o,       // the operation begins with acceleration
+    output logic      [ 7:0] kind_o,        // status byte: 00 trapezoidal, 10 triangular, 20, 40 right-angled
     output logic      [23:0] dec_o,         // pulses of the deceleration
-    output walk_t            dec_from_o,    // where it begins
+    output walk_t            dec_from_o,    // start of the deceleration
     // arithmetic, shared with the builder
-    output logic             op_start_o,    // strobe
-    output logic             op_mul_o,      // 1 multiply, 0 divide
+    output logic             op_start_o,    // strobe: start the operation
+    output logic             op_mul_o,      // 1: multiply, 0: divide
     output logic      [23:0] op_lo_o,       // multiplier
-    output logic      [24:0] operand_o,     // 0 with the start of a product; multiplicand, divisor
-    input  wire logic        op_busy_i,     // the result does not stand yet
-    input  wire logic [23:0] lo_i           // low bits of the product, quotient
+    output logic      [24:0] operand_o,     // 0 at the start of a product; multiplicand, divisor
+    input  wire logic        op_busy_i,     // 1: the result is not valid yet
+    input  wire logic [23:0] lo_i           // low bits of the product, or quotient
 );
 
   localparam logic [6:0] Last = 7'd126;
@@ -49,26 +51,26 @@ module ppmc312_stage_plan
   typedef enum logic [3:0] {
     StIdle,
     StFind,      // look-up and sums
-    StOwn,       // what only one side has,
-    StAcc,       // the acceleration where both are,
-    StDec,       // and the deceleration: all
+    StOwn,       // adds pulses of stages that only one side has
+    StAcc,       // adds acceleration pulses of stages that both sides have
+    StDec,       // adds deceleration pulses of these stages: total
     StKind,
-    StDecOwn,    // all of the deceleration side
+    StDecOwn,    // adds all pulses of the deceleration side
     StDecAll,
-    StShort,     // is it too long?
-    StRestAcc,   // what both have
+    StShort,     // checks whether the deceleration is too long
+    StRestAcc,   // adds the pulses of stages that both sides have
     StRestDec,
     StMultiply,
     StDivide,
-    StSplit,     // a triangle's acceleration
+    StSplit,     // adds the acceleration of a triangular profile
     StSplitOwn,
-    StMeet       // where the deceleration begins
+    StMeet       // searches the start of the deceleration
   } state_e;
 
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
-  logic [1:0] valid_q, in_acc_q, in_dec_q;  // in the sides: this stage, the one before
-  // StMeet, a clk late: nothing is left, or less; its first clk; counts.
+  logic [1:0] valid_q, in_acc_q, in_dec_q;  // stage is in the side: [0] this one, [1] the one before
+  // In StMeet, one cycle late: no pulse left, result below 0, first cycle, stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
@@ -80,9 +82,9 @@ module ppmc312_stage_plan
   assign acc_first = ppmc_pkg::less(32'(first_acc_i), 32'(first_dec_i));
   assign busy_o = state_q != StIdle;
 
-  // ---- passes ----------------------------------------------------------------------------------------------------
+  // ---- passes -------------------------------------------------------------------------------------
 
-  // The table's answer is that of stage `at`. A look-up begins before stage 0: "none" may be there.
+  // The table outputs stage `at`. A look-up begins before stage 0, because "no such stage" may be there.
   assign at = at_q[1];
   assign both = in_acc_q[0] && in_dec_q[0];
   assign step = valid_q[1];
@@ -104,7 +106,7 @@ module ppmc312_stage_plan
   assign past = !ppmc_pkg::less(32'(at), 32'(ge1_q));
   assign ends = run_q && step && ((state_q == StFind) ? at == Last : past);
 
-  // ---- look-up ---------------------------------------------------------------------------------------------------
+  // ---- look-up ------------------------------------------------------------------------------------
 
   assign virt = !in_acc_q[0] && !in_dec_q[0] && (at_q[0] == first_acc_i || at_q[0] == first_dec_i);
   assign hit = virt || ((in_acc_q[0] || in_dec_q[0]) && table_rate_i >= rate_i);
@@ -125,7 +127,7 @@ module ppmc312_stage_plan
     if (state_q == StIdle) climb_o <= start_i ? 1'b0 : climb_o;
   end
 
-  // ---- sums ------------------------------------------------------------------------------------------------------
+  // ---- sums ---------------------------------------------------------------------------------------
 
   always_ff @(posedge clk_i) begin
     hit_q <= state_q == StFind && step && hit;
@@ -143,7 +145,7 @@ module ppmc312_stage_plan
     end
   end
 
-  // What is left of the operation without the pulses of the sum.
+  // Pulses of the operation that remain after those of the sum.
   assign ahead = {1'b0, count_i[24:0]} - {1'b0, sum_q};
   assign big = count_i[31:25] != '0;
   assign full = big || !ahead[25];
@@ -151,7 +153,7 @@ module ppmc312_stage_plan
   assign over_none = !big && (below_q || over_q == '0);
 
   always_comb begin
-    // The first pass adds what the deceleration has where both sides are.
+    // The first pass adds the deceleration pulses of stages that both sides have.
     counts = step && ((state_q == StFind) ? both : !past);
     unique case (state_q)
       StOwn:                      x = own_kept_q;
@@ -166,7 +168,7 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // The deceleration as it is, or what is left of it.
+  // Deceleration pulses: all of them, or the rest.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 
@@ -177,7 +179,7 @@ module ppmc312_stage_plan
     begins_q <= state_q == StMeet && next_q;
     counts_q <= state_q == StMeet && counts;
     met_q    <= at;
-    // The deceleration begins with the last stage before which some of its pulses are left.
+    // The deceleration begins at the last stage before which some of its pulses remain.
     if (counts_q && !over_none) begin
       dec_from_o.stage <= met_q;
       dec_from_o.left  <= over_q[23:0];
@@ -191,7 +193,7 @@ module ppmc312_stage_plan
     else if (dec_some) dec_o <= begins_q ? over_q[23:0] : sum_q[23:0];
   end
 
-  // ---- arithmetic ------------------------------------------------------------------------------------------------
+  // ---- arithmetic ---------------------------------------------------------------------------------
 
   assign op_start_o = !wait_q && state_q inside {StMultiply, StDivide};
   assign op_mul_o = state_q == StMultiply;
@@ -200,7 +202,7 @@ module ppmc312_stage_plan
   assign op_lo_o = acc_kept_q;
   assign op_done = wait_q && !op_busy_i;
 
-  // ---- order -----------------------------------------------------------------------------------------------------
+  // ---- sequence -----------------------------------------------------------------------------------
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -235,7 +237,7 @@ module ppmc312_stage_plan
         end
         StOwn:      state_q <= StAcc;
         StAcc: begin
-          inner_q <= none;  // stays where only one side has stages
+          inner_q <= none;  // the motion stays where only one side has stages
           state_q <= StDec;
         end
         StDec:      state_q <= StKind;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_seq: what the next pulse does in a motion along a stage table: its rate, or the end of the motion.
+// ppmc312_stage_seq: selects what the next pulse of a motion along a stage table does: its rate, or the end
+//         of the motion.
 // Rules:  P312-MOT-12, P312-MOT-20, P312-MOT-30..33, P312-OVR-11.
-// Timing: the decision (next_*) is right from 4 clk after a pulse on. slow_i acts if it stands 2 clk before the
-//         boundary, a constant change if change_i comes 5 clk before it, a ramp to a rate 9 clk. When a stage
-//         becomes a constant rate, a search for t(rate) takes 129 clk: a ramp begins 136 clk after that
-//         boundary at the earliest, and a walk to the end (only where rates do not fall) 132 clk.
-// How:    the running interval is a stage, going up or down, or a constant rate. Flags are compared in the first
-//         clk, then it is decided, and the decision goes along with the table's answer: the stage that it needs
-//         is read while the decision waits two clk.
-// Note:   a boundary is the end of an interval; step_i tells that a pulse is made there.
+// Timing: next_* are valid from 4 cycles after a pulse. slow_i acts at a boundary if it is high 2 cycles
+//         before it; change_i acts if it occurs 5 cycles before the boundary (constant rate) or 9 cycles
+//         (ramp). When a stage becomes a constant rate, a search for t(rate) takes 129 cycles: a ramp begins
+//         at the earliest 136 cycles after that boundary, a deceleration to the end (only where rates do not
+//         fall) 132 cycles.
+// How:    the running interval is a stage (up or down) or a constant rate. Flags are compared in the first
+//         cycle; then the decision is made and delayed two cycles, while the stage that it needs is read.
+// Note:   a boundary is the end of an interval; with step_i = 1 a pulse begins there.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,34 +18,34 @@ module ppmc312_stage_seq
 (
     input  wire logic          clk_i,          // clock
     input  wire logic          rst_ni,         // reset, asynchronous
-    // table in force
-    input  wire logic   [ 6:0] first_acc_i,    // where its sides begin
-    input  wire logic   [ 6:0] first_dec_i,    // of the deceleration side
+    // active table
+    input  wire logic   [ 6:0] first_acc_i,    // first stage of the acceleration side
+    input  wire logic   [ 6:0] first_dec_i,    // first stage of the deceleration side
     input  wire logic   [15:0] rate_dec_i,     // R[first_dec_i], base clocks
-    output look_t              look_o,         // its read port
-    input  wire stage_t        stage_i,        // two clk later
+    output look_t              look_o,         // read port of the table
+    input  wire stage_t        stage_i,        // stage at look_o, two cycles later
     // operation
-    input  wire logic          load_i,         // strobe: plan_i begins
-    input  wire plan_t         plan_i,         // with load_i; plan_i.to of a change 2 clk after change_i
-    input  wire logic          single_i,       // with load_i: one pulse, whatever plan_i.dec says
+    input  wire logic          load_i,         // strobe: start plan_i
+    input  wire plan_t         plan_i,         // with load_i; plan_i.to of a change 2 cycles after change_i
+    input  wire logic          single_i,       // with load_i: one pulse, regardless of plan_i.dec
     // requests
-    input  wire logic          change_i,       // strobe: another rate; a newer one replaces an older one
-    input  wire logic          change_ramp_i,  // along the table; 2 clk after change_i
-    input  wire logic          slow_i,         // deceleration to the end
+    input  wire logic          change_i,       // strobe: change the rate; replaces an older change
+    input  wire logic          change_ramp_i,  // 1: change along the table; 2 cycles after change_i
+    input  wire logic          slow_i,         // 1: decelerate to the end
     // decision
-    output logic               next_end_o,     // no pulse
-    output logic               next_low_o,     // because there is nothing to decelerate
-    output logic               next_count_o,   // because the last pulse is out
-    output logic               next_slow_o,    // slow_i has been judged
-    output logic               next_walk_o,    // the walk to the end begins
-    output logic        [15:0] next_rate_o,    // base clocks
-    input  wire logic          step_i,         // strobe: the boundary is now, and a pulse is made
+    output logic               next_end_o,     // no further pulse: the motion ends
+    output logic               next_low_o,     // end, because there is nothing to decelerate
+    output logic               next_count_o,   // end, because the last pulse has been output
+    output logic               next_slow_o,    // slow_i has been evaluated
+    output logic               next_walk_o,    // the deceleration to the end begins
+    output logic        [15:0] next_rate_o,    // rate of the next interval, base clocks
+    input  wire logic          step_i,         // strobe: boundary, and a pulse begins
     // running interval
-    output logic        [15:0] rate_o,         // base clocks; before pulse 1: as it will be, a clk late
-    output logic               flat_o,         // constant rate
-    output logic               walk_o,         // the walk to the end
-    output logic               first_o,        // before pulse 1
-    output logic               complete_o      // the last pulse of the count is out
+    output logic        [15:0] rate_o,         // base clocks; before pulse 1: planned rate, one cycle late
+    output logic               flat_o,         // 1: constant rate
+    output logic               walk_o,         // 1: deceleration to the end
+    output logic               first_o,        // 1: before pulse 1
+    output logic               complete_o      // the last pulse of the count has been output
 );
 
   typedef struct packed {
@@ -52,27 +53,27 @@ module ppmc312_stage_seq
     logic low;
     logic count;
     logic slow;
-    logic drop;   // the walk to the end begins
-    logic fixed;  // the rate comes from the table
-    logic enter;  // with all pulses of a stage before it
-    logic part;   // or some of them
-    logic used;   // what is held is done with
-    logic take;   // it becomes the constant rate
-    logic own;    // the rate of this stage does
+    logic drop;   // the deceleration to the end begins
+    logic fixed;  // the rate is read from the table
+    logic enter;  // a stage begins, with all its pulses
+    logic part;   // a stage begins, with some of its pulses
+    logic used;   // the held change is consumed
+    logic take;   // the held rate becomes the constant rate
+    logic own;    // the rate of this stage becomes the constant rate
   } choice_t;
 
   typedef struct packed {
     logic flat;
     logic down;
     logic walk;
-    logic last;     // deceleration to the end of the count
+    logic last;     // deceleration that ends with the count
     logic changed;
   } mode_t;
 
   choice_t choice, choice_q, do_q;
   mode_t now_q, next, next_q, then_q;
   logic [1:0][6:0] addr_q;
-  logic [1:0] low_end_q, ramp_end_q;  // where this direction ends
+  logic [1:0] low_end_q, ramp_end_q;  // end of this direction
   logic low_end, ramp_end;
   target_t held_q, target_q;
   logic held_valid_q, held_ramp_q, load_q, endless_q, no_point_q, first_q;
@@ -83,7 +84,7 @@ module ppmc312_stage_seq
   logic [31:0] left_q;
   logic [23:0] dec_q;
   walk_t from_q;
-  // flags, a clk behind what they compare
+  // flags, one cycle after the values that they compare
   logic zero_q, point_q, walk_ok_q, spent_q, edge_q;
   logic [6:0] addr, beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, back, forget;
@@ -98,12 +99,12 @@ module ppmc312_stage_seq
   assign first_o = first_q;
   assign complete_o = left_q == '0 && !endless_q;
 
-  // ---- where things are ------------------------------------------------------------------------------------------
+  // ---- positions in the table ---------------------------------------------------------------------
 
   assign here = now_q.flat ? target_q.ge : stage_q;
   assign back = now_q.flat ? ramp_down_q : now_q.down;
 
-  // The ramp of a change lies between the constant rate and what the look-up of the other one has found.
+  // The ramp of a change lies between the constant rate and the look-up result of the new rate.
   assign a = ramp_down_q ? first_dec_i : first_acc_i;
   assign b = ramp_down_q ? held_q.gt1 : beside_q;
   assign ramp_at = ramp_down_q ? beside_q : ramp_end_at_q;
@@ -116,7 +117,7 @@ module ppmc312_stage_seq
     walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || !ppmc_pkg::less(32'(stage_q), 32'(first_dec_i)));
     spent_q <= more_q == '0;
     edge_q <= stage_q == edge_at_q;
-    // The stage beside this one, or beside the constant rate; for pulse 1 this one.
+    // The stage next to this one, or next to the constant rate; for pulse 1 this stage.
     beside_q  <= ((now_q.flat && ramp_down_q) ? target_q.gt1 : here) +
         {{6{back}}, back || now_q.flat || !first_q};
     ramp_down_q <= held_q.rate >= rate_q;
@@ -124,7 +125,7 @@ module ppmc312_stage_seq
     ramp_some_q <= ppmc_pkg::less(32'(ramp_end_at_q), ramp_down_q ? 32'(target_q.gt1) : 32'(held_q.ge1));
   end
 
-  // ---- decision --------------------------------------------------------------------------------------------------
+  // ---- decision -----------------------------------------------------------------------------------
 
   always_comb begin
     choice       = '0;
@@ -234,10 +235,10 @@ module ppmc312_stage_seq
   assign next_walk_o = do_q.drop;
   assign next_rate_o = do_q.fixed ? stage_i.rate : do_q.take ? held_q.rate : target_q.rate;
 
-  // ---- search ----------------------------------------------------------------------------------------------------
+  // ---- search -------------------------------------------------------------------------------------
 
-  // What a look-up finds for a rate that was a stage's: all stages pass, upward, while no decision needs the
-  // table. What is held waits for the end.
+  // Look-up for a constant rate that was the rate of a stage: all stages are read, upward, in cycles in which
+  // no decision needs the table. A held change waits for the end of this search.
   assign stage_ge = stage_i.rate >= rate_q;
   assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
 
@@ -259,10 +260,10 @@ module ppmc312_stage_seq
     in_use_q <= seek_q && (look_q[1] ? in_use : in_use_q);
   end
 
-  // ---- state -----------------------------------------------------------------------------------------------------
+  // ---- state --------------------------------------------------------------------------------------
 
-  // A change is taken over when nothing that has been decided needs the one before it any more. The walk to the
-  // end lets it go.
+  // A change is loaded when no pending decision needs the previous change any more. A deceleration to the end
+  // discards it.
   assign forget = load_i || (step_i && do_q.drop);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -314,7 +315,7 @@ module ppmc312_stage_seq
       more_q <= (do_q.enter ? (do_q.part ? from_q.left : stage_i.pulses) : more_q) - 1'b1;
       left_q <= left_q - 1'b1;
     end
-    // Before pulse 1 a change that waits does not count: it may be replaced, and is judged against the plan.
+    // Before pulse 1 a waiting change is ignored here: it may be replaced, and it is compared with the plan.
     if (step_i || (first_q && !do_q.take)) rate_q <= next_rate_o;
   end
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_table: a ramp of up to 127 stages in block RAM: rate and pulses of each stage, these for two sides.
+// ppmc312_stage_table: ramp of up to 127 stages in block RAM: rate of each stage, and its pulses for two
+//         sides.
 // Rules:  P312-TBL-01, P312-CMD-FC-10.
-// Timing: data stands two clk after its address. Two read ports, each with a copy of its own: one for the
-//         motion, one for who plans the next one or reads back.
+// Timing: read latency 2 cycles.
+// How:    each of the two read ports has a separate copy: one for the motion, one for the planner and the
+//         read-back.
 `default_nettype none
 
 module ppmc312_stage_table #(
@@ -11,19 +13,19 @@ module ppmc312_stage_table #(
     parameter int unsigned SumBits   = 24
 ) (
     input  wire logic                 clk_i,        // clock
-    input  wire logic                 we_rate_i,    // strobe: a rate
-    input  wire logic                 we_pulses_i,  // strobe: pulses of a side
-    input  wire logic                 wside_i,      // 0 acceleration, 1 deceleration
+    input  wire logic                 we_rate_i,    // strobe: write a rate
+    input  wire logic                 we_pulses_i,  // strobe: write the pulses of a side
+    input  wire logic                 wside_i,      // 0: acceleration, 1: deceleration
     input  wire logic [StageBits-1:0] waddr_i,      // stage, 0 .. 126
-    input  wire logic [  SumBits-1:0] wdata_i,      // low bits for a rate
+    input  wire logic [  SumBits-1:0] wdata_i,      // data; a rate uses the low bits
     input  wire logic                 side_a_i,     // port a: side of the pulses
-    input  wire logic [StageBits-1:0] addr_a_i,     // stage
-    output logic      [ RateBits-1:0] rate_a_o,     // base clocks; two clk later
-    output logic      [  SumBits-1:0] pulses_a_o,   // two clk later
-    input  wire logic                 side_b_i,     // port b: the same
-    input  wire logic [StageBits-1:0] addr_b_i,     // stage
-    output logic      [ RateBits-1:0] rate_b_o,     // base clocks; two clk later
-    output logic      [  SumBits-1:0] pulses_b_o    // two clk later
+    input  wire logic [StageBits-1:0] addr_a_i,     // port a: stage
+    output logic      [ RateBits-1:0] rate_a_o,     // port a: base clocks, two cycles later
+    output logic      [  SumBits-1:0] pulses_a_o,   // port a: pulses, two cycles later
+    input  wire logic                 side_b_i,     // port b: side of the pulses
+    input  wire logic [StageBits-1:0] addr_b_i,     // port b: stage
+    output logic      [ RateBits-1:0] rate_b_o,     // port b: base clocks, two cycles later
+    output logic      [  SumBits-1:0] pulses_b_o    // port b: pulses, two cycles later
 );
 
   logic [1:0] side;

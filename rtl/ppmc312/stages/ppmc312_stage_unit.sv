@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_unit: the stage table, who fills it, who plans with it, the arithmetic they share, and the
-// description of the table in force.
+// ppmc312_stage_unit: stage table with builder, planner, the arithmetic that they share, and the description
+//         of the active table.
 // Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
-// Timing: build_i and close_i are followed by busy_o until the table can be used. plan_i.start the same with
-//         plan_busy_o; the plan then stands until the next start. Read-back: data two clk after read_i,
-//         while nothing is busy.
+// Timing: after build_i or close_i, busy_o is high until the table can be used. After plan_i.start,
+//         plan_busy_o is high until the plan is valid; the plan is valid until the next start. Read-back:
+//         read_o is valid two cycles after read_i, while nothing is busy.
 `default_nettype none
 
 module ppmc312_stage_unit
@@ -13,36 +13,36 @@ module ppmc312_stage_unit
     input  wire logic              clk_i,        // clock
     input  wire logic              rst_ni,       // reset, asynchronous
     // set-up
-    input  wire logic              drop_i,       // strobe: the table is void
-    input  wire logic              build_i,      // strobe: from curve_i, steady while busy
+    input  wire logic              drop_i,       // strobe: the table becomes invalid
+    input  wire logic              build_i,      // strobe: build from curve_i, stable while busy_o
     input  wire curve_t            curve_i,      // the ramp
-    output logic                   busy_o,       // the table cannot be used yet
+    output logic                   busy_o,       // 1: the table cannot be used yet
     output logic                   thin_o,       // a stage has at most 1 pulse: no table
     // free curve
-    input  wire logic              open_i,       // strobe: a transfer begins: sides and base clock
-    input  wire logic        [6:0] open_acc_i,   // their first stages
-    input  wire logic        [6:0] open_dec_i,   // of the deceleration side
-    input  wire entry_t            entry_i,      // a word of it
+    input  wire logic              open_i,       // strobe: a transfer begins; latch sides, base clock
+    input  wire logic        [6:0] open_acc_i,   // first stage of the acceleration side
+    input  wire logic        [6:0] open_dec_i,   // first stage of the deceleration side
+    input  wire entry_t            entry_i,      // word of the free curve
     input  wire logic              close_i,      // strobe: complete; curve_i has the pulses of the sides
-    // table in force
-    output table_t                 table_o,      // its description
-    output target_t                home_o,       // what the look-up of rate_acc has found
-    input  wire look_t             read_i,       // read-back
-    output stage_t                 read_o,       // two clk later, while nothing is busy
+    // active table
+    output table_t                 table_o,      // description of the table
+    output target_t                home_o,       // look-up result of table_o.rate_acc
+    input  wire look_t             read_i,       // read-back address
+    output stage_t                 read_o,       // stage at read_i, two cycles later; not while busy
     // planning
-    input  wire plan_order_t       plan_i,       // the operation
-    output logic                   plan_busy_o,  // the plan does not stand yet
+    input  wire plan_order_t       plan_i,       // operation to be planned
+    output logic                   plan_busy_o,  // 1: the plan is not valid yet
     output logic             [7:0] plan_kind_o,  // status byte: 00, 10, 20 or 40
-    output plan_t                  plan_o,       // until the next start
-    // the motion's port
-    input  wire look_t             look_i,       // where it looks
-    output stage_t                 stage_o       // two clk later
+    output plan_t                  plan_o,       // plan, valid until the next start
+    // read port of the motion
+    input  wire look_t             look_i,       // address
+    output stage_t                 stage_o       // stage at look_i, two cycles later
 );
 
   typedef enum logic [1:0] {
     StIdle,
     StBuild,
-    StHome    // look R[first_acc] up
+    StHome    // looks up R[first_acc]
   } state_e;
 
   state_e state_q;
@@ -56,7 +56,7 @@ module ppmc312_stage_unit
   logic [23:0] plan_dec;
   walk_t plan_from;
 
-  // ---- arithmetic ------------------------------------------------------------------------------------------------
+  // ---- arithmetic ---------------------------------------------------------------------------------
 
   logic op_start, op_busy, build_op, plan_op, op_mul, build_mul, plan_mul;
   logic [5:0] op_steps, build_steps;
@@ -80,13 +80,13 @@ module ppmc312_stage_unit
       .steps_i  (op_steps),
       .keep_i   (!op_mul),
       .lo_i     (op_lo),
-      .operand_i(word | 40'(plan_operand)),  // 0 is what the other one says
+      .operand_i(word | 40'(plan_operand)),  // the idle source is 0
       .busy_o   (op_busy),
       .hi_o     (hi),
       .lo_o     (lo)
   );
 
-  // ---- who fills the table ---------------------------------------------------------------------------------------
+  // ---- builder and table --------------------------------------------------------------------------
 
   ppmc312_stage_builder u_builder (
       .clk_i,
@@ -111,8 +111,8 @@ module ppmc312_stage_unit
 
   assign entry = build_busy ? built : entry_i;
 
-  // A plan is made at rest: the motion does not need its port. It keeps it while 87 or 88 look a rate up
-  // (plan_both low), and after the plan (plan_busy low).
+  // A plan is made at standstill, when the motion does not need its read port. The motion keeps the port
+  // while 87 or 88 look up a rate (plan_both low), and after the plan (plan_busy low).
   assign takes = plan_busy && plan_both;
 
   ppmc312_stage_table u_table (
@@ -132,7 +132,7 @@ module ppmc312_stage_unit
       .pulses_b_o (read_o.pulses)
   );
 
-  // ---- who plans -------------------------------------------------------------------------------------------------
+  // ---- planner ------------------------------------------------------------------------------------
 
   assign find_rate = (state_q == StHome) ? table_o.rate_acc : plan_i.rate;
   assign plan_start = (plan_i.start && state_q == StIdle) || begin_q;
@@ -179,10 +179,10 @@ module ppmc312_stage_unit
 
   always_ff @(posedge clk_i) if (plan_i.start) ramp_q <= plan_i.ramp;
 
-  // ---- table in force --------------------------------------------------------------------------------------------
+  // ---- active table -------------------------------------------------------------------------------
 
   assign busy_o = state_q != StIdle;
-  // The last one of several counts: a ramp is built upward.
+  // If several stages qualify, the last one is used, because a ramp is built upward.
   assign begins = build_busy ? build_begins :
       {2{entry.rate}} & {entry.stage == table_o.first_dec, entry.stage == table_o.first_acc};
 
@@ -235,7 +235,7 @@ module ppmc312_stage_unit
     end
   end
 
-  // No reset: table_o.valid tells whether it means anything.
+  // No reset: home_o is used only while table_o.valid = 1.
   always_ff @(posedge clk_i) if (found) home_o <= target;
 
 endmodule

@@ -38,8 +38,8 @@ class Top:
     def comment(self) -> list[str]:
         """What the file is, in the form of all headers."""
         what = f"{self.fitted.top}: {title(self.fitted)} ({self.board.chip}), {clk(self.fitted)}."
-        pages = f"Rules:  pins, lamps, wiring: docs/boards.md; constraints/{self.board.constraints(self.on)}."
-        return wrapped("//", what, f"{pages} {self.on.note}", f"Timing: of {self.carrier.name}.")
+        pages = f"Rules:  pins, LEDs, wiring: docs/boards.md; constraints/{self.board.constraints(self.on)}."
+        return wrapped("//", what, f"{pages} {self.on.note}", f"Timing: see {self.carrier.name}.")
 
     def header(self) -> list[str]:
         """The module's name, parameters and ports."""
@@ -82,7 +82,7 @@ class Top:
         """Ports of lamps and constant outputs."""
         lines = []
         if self.on.lamps:
-            lines.append(f"    // lamps, {self.board.lamps['active']} = on")
+            lines.append(f"    // LEDs, {self.board.lamps['active']} = on")
             for name in dict.fromkeys(lamp["port"].split("[")[0] for lamp in self.board.lamps["pins"]):
                 lines.append(declaration("out", self.fitted.bits(name), ""))
         if self.board.ties:

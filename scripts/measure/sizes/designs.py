@@ -161,10 +161,9 @@ class Design:
 
 
 def _code(path: Path) -> str:
-    """A source without comments and with single spaces."""
-    text = re.sub(
-        r"/\*.*?\*/|//[^\n]*", " ", path.read_text(encoding="utf-8", errors="replace"), flags=re.DOTALL
-    )
+    """Return a source without comments and with single spaces; constraints have comments from # on."""
+    comment = r"/\*.*?\*/|//[^\n]*" if path.suffix in (".sv", ".svh", ".v") else r"(#|//)[^\n]*"
+    text = re.sub(comment, " ", path.read_text(encoding="utf-8", errors="replace"), flags=re.DOTALL)
     return " ".join(text.split())
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_carrier_fv: with the UART as host, four axes, around any bank and any host: strobes reach the bank as
-// the view passes them on, op PINS sees the switches of the axis that was chosen, the lamps tell what they say.
+// ppmc_bank_carrier_fv: a carrier with UART host and four axes, with any bank and any host. Proves that bus
+// strobes reach the bank as the view passes them on, that op PINS reads the switches of the chosen axis, and
+// that the LEDs indicate motion and switches.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -33,7 +34,7 @@ module ppmc_bank_carrier_fv (
       .*
   );
 
-  // The choice, as the host has written it.
+  // Axis number that the host has written to register 3.
   logic [7:0] axis_q;
   logic own, writes;
   logic [1:0] n;
@@ -46,7 +47,7 @@ module ppmc_bank_carrier_fv (
     if (!dut.part_rst_n) axis_q <= '0;
     else if (writes) axis_q <= dut.to_part;
 
-  logic known_q;  // the host has had the bank in reset, as ppmc_uart_host begins
+  logic known_q;  // the host has held the bank in reset, as ppmc_uart_host does first
   always_ff @(posedge clk_i) known_q <= rst_ni && (known_q || !dut.part_rst_n);
 
   logic asked_q;

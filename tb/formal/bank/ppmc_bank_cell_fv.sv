@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_cell_fv: pulses at the clk of their order alone, none at or behind a cause until the axis is
-// armed again.
+// ppmc_bank_cell_fv: proves that pulses occur only in the cycle of their order, and that no pulse occurs at
+// or after a cause until the axis is armed again.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -23,12 +23,12 @@ module ppmc_bank_cell_fv
 
   ppmc_bank_cell #(.RoundBits(3)) dut (.*);
 
-  // Its visit comes once a round.
+  // An axis is visited once per round.
   assign load_i = clock_i == '0;
   always_ff @(posedge clk_i) clock_i <= rst_ni ? clock_i + 1'b1 : '0;
 
-  logic killed_q;  // a cause was there, and the axis has not been armed since
-  logic ordered_q;  // the order that stands has a pulse
+  logic killed_q;  // a cause has occurred, and the axis has not been armed since
+  logic ordered_q;  // the current order has a pulse
   logic [2:0] at_q;
   logic limit, found, cause;
 
@@ -46,7 +46,7 @@ module ppmc_bank_cell_fv
   `FV_ASSUME(one_order, 2'(order_i.pulse) + 2'(order_i.rise) + 2'(order_i.sets) <= 2'd1)
   `FV_ASSUME(pulses_end_first, !(load_i && order_i.pulse) || (pout_no && !dut.pulse) || dut.rise)
 
-  logic again_q;  // there was a pulse
+  logic again_q;  // a pulse has been output
   always_ff @(posedge clk_i) again_q <= rst_ni && (again_q || !pout_no);
 
   `FV_ASSERT(bank_mot_02_none_at_a_cause, !(pout_no == 1'b0 && $past(rst_ni && pout_no)) || !$past(cause))

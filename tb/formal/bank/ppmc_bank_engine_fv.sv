@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine_fv: the engine with ppmc_bank_round, eight axes, any bytes, switches and cells: what a visit leaves
-// the next visit of that axis finds; one order a visit at most, none for an axis that stands still or is stopped;
-// a byte is taken once.
+// ppmc_bank_engine_fv: the engine with ppmc_bank_round and eight axes, for any bytes, switches and cells.
+// Proves that a visit reads the state that the previous visit of the same axis has written, that it issues at
+// most one order, that an axis which is stopped or has no motion gets no pulse, and that a byte is accepted
+// once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -15,7 +16,7 @@ module ppmc_bank_engine_fv
     input wire progress_t       progress_i,
     input wire logic      [1:0] config_ni,
     input wire seen_t           seen_i,
-    input wire logic      [2:0] watched_i    // some axis
+    input wire logic      [2:0] watched_i    // any axis
 );
 
   localparam int unsigned TimeBits = 14;
@@ -63,11 +64,11 @@ module ppmc_bank_engine_fv
 
   // ---- visits --------------------------------------------------------------------------------------
 
-  logic [4:0] clk_q;  // since reset, at most 31
-  logic [2:0] rest_q;  // clk since the last visit of the watched axis has ended
-  logic known_q;  // one has
-  logic ends;  // one is in its last stage
-  logic clears;  // and resets its axis
+  logic [4:0] clk_q;  // cycles since reset, at most 31
+  logic [2:0] rest_q;  // cycles since the end of the last visit of the watched axis
+  logic known_q;  // the watched axis has been visited
+  logic ends;  // a visit of the watched axis is in its last stage
+  logic clears;  // this visit resets the axis
 
   assign ends = axis[5] == watched_i && clk_q > 5'd4;
 
@@ -82,7 +83,7 @@ module ppmc_bank_engine_fv
 
   `FV_ASSERT(bank_gen_01_once_a_round, !known_q || ends == (rest_q == 3'd7))
 
-  // ---- what stays from visit to visit --------------------------------------------------------------
+  // ---- state kept from visit to visit --------------------------------------------------------------
 
   localparam int unsigned HoldBits = 15;
 
@@ -94,7 +95,7 @@ module ppmc_bank_engine_fv
   units_t units_q;
   status_t status_q;
   logic [31:0] position_q;
-  logic worded_q, ramped_q, chopped_q;  // the host has set them
+  logic worded_q, ramped_q, chopped_q;  // set by the host
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {worded_q, ramped_q, chopped_q} <= '0;
@@ -111,7 +112,7 @@ module ppmc_bank_engine_fv
       end
     end
 
-  // For the search: the same words on their way to the stages where they count.
+  // For the induction: the same words in the stages before those that use them.
   for (genvar i = 1; i < 6; i++) begin : g_stage
     `FV_ASSERT(lemma_axis, clk_q < 5'(i) || axis[i] == axis[0] - 3'(i))
     `FV_ASSERT(lemma_clear, clear[i] == (clk_q < 5'(8 + i)))
@@ -142,9 +143,9 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_gen_05_ramp_stays, !(ramped_q && axis[3] == watched_i) || dut.ramp3_q == ramp_q)
   `FV_ASSERT(bank_gen_05_units_stay, !(chopped_q && axis[3] == watched_i) || dut.units3_q == units_q)
 
-  // ---- what a visit does -----------------------------------------------------------------------------
+  // ---- effects of a visit ----------------------------------------------------------------------------
 
-  logic same;  // a visit that has one before it
+  logic same;  // visit of the watched axis that follows another one
   assign same = known_q && ends && !clears;
 
   `FV_ASSERT(one_order, 2'(order_o.pulse) + 2'(order_o.rise) + 2'(order_o.sets) <= 2'd1 || clk_q < 5'd8)
@@ -161,7 +162,7 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_gen_05_reset,
              !(clears && clk_q > 5'd8) || (status_o == '0 && order_o == '0 && position_o == '0))
 
-  // Words as they stand in the memories.
+  // Words in the memories.
   logic [$bits(early_q)-1:0] early_word;
   logic [$bits(late_q)-1:0] late_word;
   pace_t pace_word;
@@ -182,7 +183,7 @@ module ppmc_bank_engine_fv
       units_word == units_q);
   `FV_ASSERT(lemma_set, lemma_set_holds)
 
-  // For the search: the stages of the watched axis, and what the outputs say of its last visit.
+  // For the induction: the stages of the watched axis, and what the outputs of its last visit imply.
   localparam int unsigned BusyAt = $bits(command_t) + $bits(setting_t) + $bits(walk_t) - 1;
   `FV_ASSERT(lemma_visit3,
              !(known_q && axis[3] == watched_i) || {dut.early3_q, dut.late3_q} == {early_q, late_q})
@@ -193,7 +194,7 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(lemma_visit_armed,
              !dut.plan4_q.pulse || clk_q < 5'd8 || (dut.seen4_q.armed && dut.early4_q.walk.busy))
 
-  // What the visits rely on, of every axis in every stage.
+  // Assumptions of the visits, for every axis in every stage.
   for (genvar n = 0; n < 8; n++) begin : g_axis
     logic [$bits(early_q)-1:0] word;
     walk_t walk;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_fv: a bank of four axes around any orders: each reaches the pins of its own axis alone, each axis has its
-// own switches, the interrupts add up to int_n.
+// ppmc_bank_fv: a bank of four axes with any orders. Proves that each order reaches only the pins of its own
+// axis, that each axis reads its own switches, and that int_n is low while any interrupt is pending.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,7 +19,7 @@ module ppmc_bank_fv
     input wire logic [3:0] l4_n,
     input wire logic [3:0] cnp_n,
     input wire logic [3:0] alm_n,
-    input wire logic [1:0] watched_i  // some axis
+    input wire logic [1:0] watched_i  // any axis
 );
 
   logic [7:0] d_o;
@@ -40,15 +40,15 @@ module ppmc_bank_fv
 
   `FV_ASSUME(one_axis, watched_i == $past(watched_i))
 
-  order_t order_q;  // the one that stands for the watched axis
-  logic [2:0] at_q;  // its clk
-  logic [3:0] clk_q;  // since reset, at most 15
+  order_t order_q;  // current order of the watched axis
+  logic [2:0] at_q;  // cycle of the round in which order_q acts
+  logic [3:0] clk_q;  // cycles since reset, at most 15
   logic pending_q, pout_q, dir_q, hold_q;
   logic [4:0] s_q;
-  logic now_q, ordered_q;  // in the clk before: its clk; with a pulse
-  logic [2:0] alarm_q, cw_q;  // switches of the watched axis in the last three clk
+  logic now_q, ordered_q;  // in the cycle before: order_q acted; it had a pulse
+  logic [2:0] alarm_q, cw_q;  // switches of the watched axis in the last three cycles
   logic told_q;  // an interrupt has begun or ended
-  logic ends, known_q;  // a visit of it is in its last stage; there was one
+  logic ends, known_q;  // a visit of the watched axis is in its last stage; one has ended
 
   assign ends = dut.axis[5] == {1'b0, watched_i} && clk_q == '1;
 
@@ -65,7 +65,7 @@ module ppmc_bank_fv
     end
   end
 
-  logic steady;  // nothing is known before the first visit with an order
+  logic steady;  // the state is unknown before the first visit with an order
   logic known2_q;
   always_ff @(posedge clk_i) known2_q <= rst_ni && known_q;
   assign steady = known2_q;

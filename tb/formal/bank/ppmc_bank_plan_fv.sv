@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_plan_fv: what a visit may decide at all: when it takes a byte, what needs one, GO found once, the times of a
-// start and of GO.
+// ppmc_bank_plan_fv: proves the limits of a visit's decisions: when a byte is accepted, which actions require
+// a byte, that GO is acted on once, and the times of a start and of GO.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,7 +28,7 @@ module ppmc_bank_plan_fv
     input wire logic     [17:0] after_i
 );
 
-  localparam int unsigned Quantum = 25, Round = 32, Width = 20 * Quantum;  // clk
+  localparam int unsigned Quantum = 25, Round = 32, Width = 20 * Quantum;  // cycles
 
   asking_t asking_o;
   logic take_o, anew_o;

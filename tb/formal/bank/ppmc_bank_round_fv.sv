@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_round_fv: each axis once a round, in all stages; RAM words never read while they are written; GO
-// for exactly a round, none lost; every axis is reset once.
+// ppmc_bank_round_fv: proves that each axis is visited once per round, in all stages, that a RAM word is
+// never read while it is written, that GO lasts exactly one round and no GO is missed, and that every axis is
+// reset once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -8,7 +9,7 @@ module ppmc_bank_round_fv (
     input wire logic       clk_i,
     input wire logic       go_i,
     input wire logic       stop_i,
-    input wire logic [2:0] watched_i  // some axis
+    input wire logic [2:0] watched_i  // any axis
 );
 
   logic [5:0][2:0] axis_o;
@@ -29,10 +30,10 @@ module ppmc_bank_round_fv (
 
   `FV_ASSUME(one_axis, watched_i == $past(watched_i))
 
-  logic [4:0] clk_q;  // since reset, at most 31
+  logic [4:0] clk_q;  // cycles since reset, at most 31
   logic [2:0] visits_q;  // of the watched axis since GO began, at most 7
-  logic [3:0] stop_q;  // clk since STOP, at most 15
-  logic wanted_q;  // GO was written and none has begun since
+  logic [3:0] stop_q;  // cycles since STOP, at most 15
+  logic wanted_q;  // GO was written and its round has not begun yet
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {clk_q, visits_q, stop_q, wanted_q} <= {8'd0, 4'd15, 1'b0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_step_fv: plan and step of a visit, for any state of its axis: one order at most, the position
-// goes by one a pulse, no pulse into a killed or halted motion, nothing for a motion that is not there.
+// ppmc_bank_step_fv: decision and update of a visit, for any state of its axis. Proves that a visit issues at
+// most one order, that the position changes by one per pulse, that a killed or halted motion has no pulse,
+// and that an axis without a motion has neither pulse nor rise.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -60,7 +61,7 @@ module ppmc_bank_step_fv
       .*
   );
 
-  // What walks hold at all times.
+  // Invariants of a motion's state.
   `FV_ASSUME(at_rest_nothing_runs, walk_i.busy || !(walk_i.run || walk_i.low))
   `FV_ASSUME(operations_behind_their_initialisation, !setting_i.building || !walk_i.busy)
   `FV_ASSUME(known_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)

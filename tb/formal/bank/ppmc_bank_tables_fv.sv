@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_tables_fv: a table is written for the axis that has booked it, from its numbers, while it is
-// booked; it ends.
+// ppmc_bank_tables_fv: proves that a table is written only while an axis has booked it, for this axis and
+// from its numbers, and that the build ends.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,7 +30,7 @@ module ppmc_bank_tables_fv (
 
   `FV_ASSUME(when_free, !(book_i && booked_o))
 
-  logic axis_q, word_q;  // who has booked; its word was written
+  logic axis_q, word_q;  // axis that has booked; its word was written
   logic [7:0] slow_q;
   logic [1:0] steps_q;
   logic [3:0] age_q;

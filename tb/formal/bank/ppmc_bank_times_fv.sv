@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_times_fv: each word of the table is the rest of its interval, with the times of the PPMC-104.
+// ppmc_bank_times_fv: proves that each word of the table is the remainder of its interval, with the times of
+// the PPMC-104.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -10,7 +11,7 @@ module ppmc_bank_times_fv
     input wire pace_t pace_i
 );
 
-  localparam int unsigned Quantum = 1, Round = 8, TimeBits = 14;  // clk
+  localparam int unsigned Quantum = 1, Round = 8, TimeBits = 14;  // cycles
 
   logic [TimeBits-1:0] rest_o;
 
@@ -24,8 +25,9 @@ module ppmc_bank_times_fv
       .*
   );
 
-  // A base clock is 8 quanta (fast) or 32, the first one of a changed direction 30 more; the low time is 20 quanta,
-  // at the three shortest rates half the interval.
+  // A base clock lasts 8 quanta (fast) or 32 (slow). With extra (vsel = L) an interval is 30 quanta longer.
+  // The low time is 20 quanta; with the fast base clock, without extra and at rates 0 to 2 it is half the
+  // interval.
   pace_t before_q, was_q;
   logic [1:0] known_q;  // both registers of the block are filled
   logic [TimeBits-1:0] bases, whole, low;

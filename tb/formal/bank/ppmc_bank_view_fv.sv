@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_view_fv: behind the strobe master of the bridges: no strobe for axes that are not there, none for
-// the choice, and the address stands as long as a strobe does.
+// ppmc_bank_view_fv: the view, driven by the strobe master of the bridges. Proves that no strobe reaches the
+// bank for axes that do not exist or for the axis choice, and that the address is stable while a strobe is
+// low.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -37,7 +38,7 @@ module ppmc_bank_view_fv (
       .*
   );
 
-  logic [7:0] choice_q, latest_q;  // what was written to register 3; on its way
+  logic [7:0] choice_q, latest_q;  // byte written to register 3; the same while it is being written
   logic write_q;
   always_ff @(posedge clk_i)
     if (!rst_ni) {choice_q, latest_q, write_q} <= '0;

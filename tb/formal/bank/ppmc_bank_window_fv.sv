@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_window_fv: what the host writes reaches the visits of its axis as it was, the last byte of those that wait,
-// and is new until it was taken; the bytes of an answer are read in order, each once. Behind the strobe master of
-// the bridges, with an engine that takes a byte, and answers it, when it likes. For one axis, whatever comes to the
-// others.
+// ppmc_bank_window_fv: the window, driven by the strobe master of the bridges, with an engine that accepts
+// and answers bytes at any time.
+// Proves for one axis, regardless of accesses to the others: a visit reads the last byte that the host has
+// written, unchanged, and the byte is new until it was accepted; the bytes of an answer are read in order,
+// each once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -16,16 +17,16 @@ module ppmc_bank_window_fv
     input wire logic [ 9:0] addr_i,
     input wire logic [ 7:0] wdata_i,
     // engine
-    input wire logic        want_i,         // it takes a byte if there is one
-    input wire logic        answers_i,      // and answers it
-    input wire logic        long_i,         // with three bytes
+    input wire logic        want_i,         // the engine accepts a byte if one is waiting
+    input wire logic        answers_i,      // the engine answers the byte it accepts
+    input wire logic        long_i,         // the answer has three bytes
     input wire logic [23:0] answer_data_i,
     input wire logic [ 6:0] others_i,       // status of other axes; of the watched one without taken
     input wire logic [ 1:0] position_i,     // positions
-    input wire logic [ 3:0] map_i           // interrupts pending
+    input wire logic [ 3:0] map_i           // pending interrupts
 );
 
-  localparam logic [2:0] Axis = 3'd2;  // the watched one
+  localparam logic [2:0] Axis = 3'd2;  // the watched axis
 
   logic master_ready, done, cs_n, rd_n, wr_n, d_oe, go, stop;
   logic [9:0] a;
@@ -57,7 +58,7 @@ module ppmc_bank_window_fv
   // ---- visits, as ppmc_bank_round and ppmc_bank_engine make them --------------------------------------
 
   logic [2:0] axis_q, done_axis;
-  logic [3:0] clear_q;  // clk of the reset of all axes that are left
+  logic [3:0] clear_q;  // remaining cycles of the reset of all axes
   logic ready, mine_1, mine_3, mine_5;  // the visit of the watched axis is in this stage
   mail_t mail, mail_q;
   progress_t progress, progress_q;
@@ -135,8 +136,8 @@ module ppmc_bank_window_fv
 
   // ---- input buffer ----------------------------------------------------------------------------------
 
-  logic written, full_q, seen_q;  // a byte waits; the visit at hand has seen it
-  logic late_q;  // one was written since that visit has looked
+  logic written, full_q, seen_q;  // a byte is waiting; the current visit has read it
+  logic late_q;  // a byte was written after the read of that visit
   logic [8:0] held_q, byte_seen_q;
 
   assign written = dut.write && dut.wa_q[9:4] == 6'(Axis) && dut.wa_q[3:1] == '0;
@@ -144,7 +145,7 @@ module ppmc_bank_window_fv
   always_ff @(posedge clk_i)
     if (!rst_ni) {full_q, seen_q, held_q, byte_seen_q} <= '0;
     else begin
-      // A byte that is taken may have been replaced since the visit has seen it: the new one still waits.
+      // The host may replace a byte after the visit has read it. The new byte is still waiting.
       if (written) {full_q, held_q} <= {1'b1, dut.wa_q[0], dut.wd_q};
       else if (mine_5 && taken_q != new_taken_q && !late_q) full_q <= 1'b0;
       if (axis_q == Axis) {seen_q, byte_seen_q} <= {full_q, held_q};
@@ -159,14 +160,14 @@ module ppmc_bank_window_fv
   // ---- answers ---------------------------------------------------------------------------------------
 
   typedef struct packed {
-    logic        newest;  // no other answer has come since
+    logic        newest;  // no other answer has been written since
     logic [1:0]  bytes;
-    logic [1:0]  read;    // of them
+    logic [1:0]  read;    // bytes already read
     logic [23:0] data;
   } answer_view_t;
 
-  answer_view_t now_q, view1_q, view2_q;  // as it is, and on its way through the registers of a read
-  logic shows, there, current_q;  // what is shown is of the last answer
+  answer_view_t now_q, view1_q, view2_q;  // current state, and its copies in the registers of a read
+  logic shows, there, current_q;  // the byte shown belongs to the last answer
   logic [7:0] byte_q;
   logic shows_q, there_q;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_delay_fv: past_o comes with the tick of its number, not earlier, not later, and stands until the next restart.
+// ppmc_delay_fv: proves that past_o rises exactly with tick number Ticks and stays high until the next
+// restart.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -27,7 +28,7 @@ module ppmc_delay_fv (
       .*
   );
 
-  // The most that four bits tell apart.
+  // The largest number of ticks that four bits can count.
   ppmc_delay #(
       .Ticks(15)
   ) u_all (
@@ -35,8 +36,8 @@ module ppmc_delay_fv (
       .*
   );
 
-  logic begun_q;  // there was a restart
-  logic [4:0] ticks_q;  // since then, at most 31
+  logic begun_q;  // a restart has occurred
+  logic [4:0] ticks_q;  // ticks since the restart, at most 31
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, ticks_q} <= '0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_i2c_master_fv: the rules of the bus, and an end of every command whatever the other side does.
+// ppmc_i2c_master_fv: proves the bus rules, and that every command ends regardless of the other device on the
+// bus.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -14,7 +15,7 @@ module ppmc_i2c_master_fv
     input wire logic       sda_i
 );
 
-  localparam int unsigned Bound = 9 * (4 + 1) + 2;  // ticks: 9 bits of 4 and one of stretching
+  localparam int unsigned Bound = 9 * (4 + 1) + 2;  // ticks: 9 bits of 4, one of stretching
 
   i2c_cmd_e cmd_i;
   logic tick_o, first_o, done_o, fail_o, nack_o, scl_oe_o, sda_oe_o;
@@ -31,7 +32,7 @@ module ppmc_i2c_master_fv
       .*
   );
 
-  logic [5:0] age_q;  // ticks since the command stands
+  logic [5:0] age_q;  // ticks since the command became valid
   logic ended;
 
   assign ended = done_o || fail_o;
@@ -47,7 +48,7 @@ module ppmc_i2c_master_fv
   `FV_ASSERT(never_hangs, age_q < 6'(Bound))
   `FV_ASSERT(one_end, !(done_o && fail_o))
   `FV_ASSERT(ends_what_stood, !ended || $past(cmd_i != CmdNone))
-  // With SCL up, SDA moves for START and STOP alone, or when all is given up.
+  // While SCL is high, SDA changes only for START and STOP, or when a failure releases both lines.
   `FV_ASSERT(data_steady_while_clock_high, sda_oe_o == $past(sda_oe_o) || $past(scl_oe_o) || $past
              (cmd_i == CmdStart || cmd_i == CmdStop) || (!sda_oe_o && !scl_oe_o) || scl_oe_o)
   `FV_ASSERT(failure_releases_both, !fail_o || (!scl_oe_o && !sda_oe_o))

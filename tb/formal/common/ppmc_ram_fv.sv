@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ram_fv: a read gives, two clk later, what was written last at its address; every word by itself.
+// ppmc_ram_fv: proves for every word that a read returns, two cycles later, the last value written to its
+// address.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -9,7 +10,7 @@ module ppmc_ram_fv (
     input wire logic [1:0] waddr_i,
     input wire logic [1:0] wdata_i,
     input wire logic [1:0] raddr_i,
-    input wire logic [1:0] watched_i  // some address
+    input wire logic [1:0] watched_i  // any address
 );
 
   logic [1:0] rdata_o, word_q, word1_q, word2_q;
@@ -37,7 +38,7 @@ module ppmc_ram_fv (
     {word2_q, word1_q} <= {word1_q, word_q};
   end
 
-  // Nothing is written before the first clk; then the watched word is zero.
+  // No write occurs before the first cycle; the watched word is zero then.
   `FV_ASSERT(what_was_written, !hit2_q || rdata_o == word2_q)
   `FV_COVER(seen_two_words, hit2_q && word_q != word2_q && word_q != '0 && word2_q != '0)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_sync_fv: two flip-flops a pin, and nothing else; inactive in reset.
+// ppmc_sync_fv: proves that each pin passes through exactly two flip-flops, which are inactive in reset.
 `include "ppmc_fv.svh"
 `default_nettype none
 

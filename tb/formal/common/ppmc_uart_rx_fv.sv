@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx_fv: whatever the line does, the receiver does not hang and speaks once a character.
+// ppmc_uart_rx_fv: proves for any waveform of the line that the receiver does not hang and reports once per
+// character.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -9,7 +10,7 @@ module ppmc_uart_rx_fv (
 );
 
   localparam int unsigned Width = 4;
-  localparam int unsigned Bit = 8;  // clk
+  localparam int unsigned Bit = 8;  // cycles
   localparam int unsigned Character = 10 * Bit;
 
   logic [7:0] byte_o;
@@ -25,8 +26,8 @@ module ppmc_uart_rx_fv (
       .*
   );
 
-  logic [6:0] high_q, quiet_q;  // clk of high line, and without an outcome; at most 127
-  logic wait_q;  // an error, and the line has not been high since
+  logic [6:0] high_q, quiet_q;  // cycles with a high line; cycles without an outcome; at most 127
+  logic wait_q;  // an error has occurred, and the line has not been high since
 
   always_ff @(posedge clk_i)
     if (!rst_ni) begin
@@ -38,11 +39,11 @@ module ppmc_uart_rx_fv (
       wait_q  <= (error_o || wait_q) && !dut.line;
     end
 
-  // For the induction: phase and bit are functions of the time since the start bit was found. Behind a fault
-  // on the line that may be at any phase.
+  // For the induction: phase and bit are functions of the time since the start bit was found. After a fault
+  // on the line, this time may begin at any phase.
   logic [6:0] age_q;
   logic [7:0] phases;
-  logic [3:0] first_q, first;  // phase that it began with
+  logic [3:0] first_q, first;  // phase at the beginning of the character
   logic busy;
 
   assign busy   = dut.state_q == 1 || dut.state_q == 2;

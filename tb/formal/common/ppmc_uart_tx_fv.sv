@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_tx_fv: every byte that is taken arrives in ppmc_uart_rx, as it was, once and in time; at 8 clk a
-// bit.
+// ppmc_uart_tx_fv: proves that every byte accepted arrives in ppmc_uart_rx unchanged, once and in time, at 8
+// cycles per bit.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -39,11 +39,11 @@ module ppmc_uart_tx_fv (
       .break_o(unused_break)
   );
 
-  logic way_q;  // a byte is on its way
+  logic way_q;  // a byte is being transmitted
   logic [7:0] byte_q;
-  logic [6:0] age_q;  // clk since it was taken
-  logic again_q;  // it is not the first one
-  logic up_q;  // the receiver has seen the line at rest
+  logic [6:0] age_q;  // cycles since the byte was accepted
+  logic again_q;  // at least one byte has arrived before
+  logic up_q;  // the receiver has sampled the idle line
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {way_q, age_q, byte_q, up_q, again_q} <= '0;
@@ -54,12 +54,13 @@ module ppmc_uart_tx_fv (
       else if (rx_valid) {way_q, again_q} <= 2'b01;
     end
 
-  // For the search: both shift registers and phases are functions of the byte and its age. Sixteenths of a bit
-  // that the transmitter has sent, and that the receiver has seen; the bits are the upper half.
+  // For the induction: both shift registers and phases are functions of the byte and its age. The unit is a
+  // sixteenth of a bit: sixteenths sent by the transmitter and sampled by the receiver. The upper half counts
+  // bits.
   logic [7:0] sent, seen;
-  logic [8:0] rest;  // the bits to come
+  logic [8:0] rest;  // bits still to be sent
   logic line, rx_idle;
-  logic [2:0] young_q;  // clk since reset, at most 7
+  logic [2:0] young_q;  // cycles since reset, at most 7
 
   assign sent    = 8'(age_q) * 8'd3;
   assign seen    = 8'd2 + 8'(age_q) * 8'd3;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_xtal_cycles_fv: at every clk as many crystal cycles have been told as have passed, 10 in 7 clk.
+// ppmc_xtal_cycles_fv: proves in every cycle that the number of crystal cycles reported equals the number
+// that has passed, at 10 crystal cycles in 7 cycles.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,8 +20,8 @@ module ppmc_xtal_cycles_fv (
       .*
   );
 
-  logic [2:0] clk_q;  // since the restart, modulo 7
-  logic [4:0] told_q;  // cycles, 10 less with each 7 clk
+  logic [2:0] clk_q;  // cycles since the restart, modulo 7
+  logic [4:0] told_q;  // crystal cycles, reduced by 10 every 7 cycles
 
   always_ff @(posedge clk_i)
     if (!rst_ni || restart_i) {clk_q, told_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axil_fv: the handshake rules of AXI4-Lite for any manager that keeps its own; each request is answered
-// once and in time, reads and writes in turn when both wait.
+// ppmc_axil_fv: proves the handshake rules of AXI4-Lite for any manager that keeps its own rules. Each
+// request gets one response in time; if a read and a write are both waiting, they alternate.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,7 +28,7 @@ module ppmc_axil_fv (
 
   ppmc_axil dut (.*);
 
-  // The manager's part: what is offered stands until it is taken.
+  // Rules of the manager: a request is stable until it is accepted.
   `FV_ASSUME(aw_stands, !$past(rst_ni && awvalid_i && !awready_o) || (awvalid_i && awaddr_i == $past
              (awaddr_i)))
   `FV_ASSUME(w_stands, !$past(rst_ni && wvalid_i && !wready_o) || (wvalid_i && {wdata_i, wstrb_i} == $past
@@ -36,8 +36,8 @@ module ppmc_axil_fv (
   `FV_ASSUME(ar_stands, !$past(rst_ni && arvalid_i && !arready_o) || (arvalid_i && araddr_i == $past
              (araddr_i)))
 
-  logic [1:0] aw_q, w_q, ar_q;  // taken and not answered
-  logic [5:0] write_q, read_q;  // clk that a whole request waits for an answer
+  logic [1:0] aw_q, w_q, ar_q;  // accepted requests without a response
+  logic [5:0] write_q, read_q;  // cycles that a complete request waits for its response
   logic aw, w, ar, b, r;
 
   assign {aw, w, ar} = {awvalid_i && awready_o, wvalid_i && wready_o, arvalid_i && arready_o};

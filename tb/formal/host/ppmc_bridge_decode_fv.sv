@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode_fv: an op may begin exactly when the table knows it and the answer has room for what it gives at
-// once; a block is begun by the ops that give one.
+// ppmc_bridge_decode_fv: proves that an op may begin exactly if the table contains it and the answer has
+// space for the bytes that the op returns immediately, and that the ops that return a block begin one.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -28,7 +28,7 @@ module ppmc_bridge_decode_fv
       .*
   );
 
-  // The table of docs/uart_bridge.md for one axis and a recorder, once more.
+  // Independent copy of the table of docs/uart_bridge.md for one axis and a recorder.
   logic known, gives16, gives4;
   assign known = op_i[7] ? op_i[7:4] == 4'd8 || op_i == 8'h90 : op_i[6:4] != 3'd0 || op_i[3:0] <= 4'd9 ||
                  (op_i[3:0] >= 4'd12 && op_i[3:0] <= 4'd14);
@@ -36,7 +36,7 @@ module ppmc_bridge_decode_fv
   assign gives4 = op_i == 8'h08;
 
   `FV_ASSERT(ub_ans_02_unknown, (fail_o == ResIllegal) == !known)
-  logic full;  // no room for what it gives at once
+  logic full;  // no space for the bytes that the op returns immediately
   assign full = (gives16 && full16_i) || (gives4 && full4_i) || (op_i == 8'h06 && full_i);
 
   `FV_ASSERT(ub_ans_05_room, !known || (fail_o == ResOverflow) == full)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_exec_fv: a script ends whatever it holds, reads no byte behind its end, and writes only what it was
-// asked to.
+// ppmc_bridge_exec_fv: proves for any script that it ends, that no byte after its end is read, and that only
+// the ops that write cause a write.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -22,7 +22,7 @@ module ppmc_bridge_exec_fv
 
   localparam int unsigned Idle = 0, Decode = 2, Arg = 3, Arg2 = 4, Loop = 6, Poll = 7, Judge = 8, Write = 9,
       WriteEnd = 10;  // state_q
-  localparam int unsigned Longest = 40;  // clk in a state: RESET and IDENT
+  localparam int unsigned Longest = 40;  // limit of cycles in a state: RESET and IDENT
 
   logic [7:0] raddr_o, waddr_o, wdata_o, d_o;
   logic script_o, answer_o, we_o, rec_next_o, part_rst_no, cs_no, rd_no, wr_no;
@@ -30,7 +30,7 @@ module ppmc_bridge_exec_fv
   logic [3:0] a_o;
   logic count_zero_o;
   outcome_t outcome_o;
-  logic [31:0] counter_q;  // at rest; ppmc_bridge_answer_fv has it move
+  logic [31:0] counter_q;  // constant here; ppmc_bridge_answer_fv lets it change
 
   `FV_RESET
 
@@ -46,11 +46,11 @@ module ppmc_bridge_exec_fv
   assign waiting = dut.state_q == Poll || dut.state_q == Judge;
   assign sends   = dut.kind inside {OpWrite, OpWriteN, OpPost, OpCall};
 
-  logic begun_q;  // a script has begun: registers without reset have a value
-  logic [5:0] stay_q;  // clk in this state
+  logic begun_q;  // a script has begun, so registers without reset have a value
+  logic [5:0] stay_q;  // cycles in the current state
   logic [7:0] loop_q;  // bytes left at the last StLoop of the op
   logic looped_q;
-  logic [3:0] over_q;  // clk of a wait that is over
+  logic [3:0] over_q;  // cycles since the end of a wait
 
   always_ff @(posedge clk_i) begin
     counter_q <= counter_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_msg_fv: one message at a time, answers first, nothing of its own while a script runs; each has
-// its length.
+// ppmc_bridge_msg_fv: proves that one message is sent at a time, that answers have priority, that no
+// unsolicited message begins while a script runs, and that each message has its length.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,7 +30,8 @@ module ppmc_bridge_msg_fv
 
   ppmc_bridge_msg dut (.*);
 
-  // The framer: busy from start_o until some time behind the last byte; takes 3 clk apart.
+  // Model of the framer: busy from start_o until some time after the last byte; takes are at least 3 cycles
+  // apart.
   logic framing_q, over_q;
   logic [1:0] gap_q;
 
@@ -46,7 +47,7 @@ module ppmc_bridge_msg_fv
       if (over_q && end_i) {framing_q, over_q} <= 2'b00;
     end
 
-  // The script unit: its answer stands until it is sent.
+  // Model of the script unit: its answer is valid until it is sent.
   logic answer_q;
   assign answer_i = answer_q;
   always_ff @(posedge clk_i) answer_q <= rst_ni && (answer_q ? !answered_o : want_i && !script_i);
@@ -56,7 +57,7 @@ module ppmc_bridge_msg_fv
   `FV_ASSUME(no_script_with_an_answer, !(script_i && answer_q))
   `FV_ASSUME(nak_stands, !$past(rst_ni && nak_i != NakNone && !nak_taken_o) || nak_i == $past(nak_i))
 
-  logic own_q, asked_q;  // the frame began for the answer; there was one a clk ago
+  logic own_q, asked_q;  // the frame began for the answer; an answer was valid one cycle ago
   logic [3:0] bytes_q;
 
   always_ff @(posedge clk_i)

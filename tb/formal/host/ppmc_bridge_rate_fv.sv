@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_rate_fv: a new rate counts from its answer on, never without one; a break always leads back.
+// ppmc_bridge_rate_fv: proves that the rate changes only with an answer and that a break always restores the
+// default rate.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,8 +20,8 @@ module ppmc_bridge_rate_fv (
 
   ppmc_bridge_rate dut (.*);
 
-  logic [9:0] ms_q;  // since the answer, at most 1023
-  logic trial_q;  // no good frame since the answer that changed the rate
+  logic [9:0] ms_q;  // milliseconds since the answer, at most 1023
+  logic trial_q;  // no valid frame since the answer that changed the rate
 
   always_ff @(posedge clk_i)
     if (!rst_ni || answered_i) ms_q <= '0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_wait_fv: over_o rises behind as many milliseconds as the limit says, and one more at most; at once for 0.
+// ppmc_bridge_wait_fv: proves that over_o rises with millisecond tick number limit + 1 of the wait, so after
+// more than limit and at most limit + 1 milliseconds; with limit 0 it is high immediately.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -23,7 +24,7 @@ module ppmc_bridge_wait_fv (
 
   logic [1:0] limit_q;
   logic known_q, settled_q;
-  logic [2:0] ms_q;  // milliseconds of the wait, at most 7
+  logic [2:0] ms_q;  // millisecond ticks in the wait, at most 7
 
   `FV_ASSUME(ms_apart, !(ms_i && $past(ms_i)))
   `FV_ASSUME(set_before, !(waiting_i || $past(waiting_i)) || (!set_i && !$past(set_i)))

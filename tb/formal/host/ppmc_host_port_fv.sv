@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_host_port_fv: pins to mailbox and back: every whole write is taken once as it was, and every byte that the host
-// has read away was shown to it.
+// ppmc_host_port_fv: pins to mailbox and back. Proves that every complete write is accepted once and
+// unchanged, and that a byte is consumed by a read only if one was available.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -31,7 +31,7 @@ module ppmc_host_port_fv (
   assign take_i = want_i && ready_o;
   assign write  = !cs_ni && !wr_ni && rd_ni;
 
-  logic w1_q, w2_q, w3_q, full_q;  // samples of a write 1, 2, 3 clk ago; a byte waits
+  logic w1_q, w2_q, w3_q, full_q;  // samples of a write 1, 2, 3 cycles ago; a byte is waiting
   logic [8:0] at1_q, at2_q, last_q, held_q;  // register and data
 
   always_ff @(posedge clk_i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_mailbox_fv: what the host writes is taken as it was and once; answers come whole, in order, and no
-// byte twice.
+// ppmc_mailbox_fv: proves that a byte written by the host is accepted unchanged and once, and that answers
+// are read complete, in order, and no byte twice.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -26,7 +26,7 @@ module ppmc_mailbox_fv (
   `FV_ASSUME(take_when_ready, !take_i || ready_o)
   `FV_ASSUME(read_what_is_there, !rd_done_i || obf_o)
 
-  // Input: one place.
+  // Input: one entry.
   logic full_q;
   logic [8:0] held_q;
 
@@ -40,10 +40,10 @@ module ppmc_mailbox_fv (
   `FV_ASSERT(p104_hsk_01_ready_in_time, !ready_o || ibf_o)
   `FV_ASSERT(p104_hsk_01_ready_soon, !(full_q && $past(rst_ni && full_q && !wr_i && !take_i)) || ready_o)
 
-  // Output: bytes of the last answer, and how many of them were read.
+  // Output: bytes of the last answer, and the number of bytes already read.
   logic [23:0] answer_q;
-  logic [1:0] bytes_q, read_q;  // of it, read
-  logic gap_q;  // the clk behind a read
+  logic [1:0] bytes_q, read_q;  // bytes of the answer; bytes of it already read
+  logic gap_q;  // the cycle after a read
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {answer_q, bytes_q, read_q, gap_q} <= '0;
@@ -56,7 +56,7 @@ module ppmc_mailbox_fv (
   `FV_ASSERT(p104_hsk_05_valid_until_all_are_read, obf_o == (read_q < bytes_q && !gap_q))
   `FV_ASSERT(p104_hsk_06_in_order, !obf_o || out_o == 8'(answer_q >> {read_q, 3'd0}))
   `FV_ASSERT(p104_hsk_08_never_more_than_there_are, read_q <= bytes_q)
-  logic [1:0] behind;  // bytes behind the one that is shown
+  logic [1:0] behind;  // bytes after the one that is output
   assign behind = bytes_q - read_q - 2'(obf_o);
   `FV_ASSERT(lemma_behind, dut.have_q == {behind >= 2'd2, behind != 2'd0})
   `FV_ASSERT(new_is_told, !$past(rst_ni && !new_o) || out_o == $past(out_o))

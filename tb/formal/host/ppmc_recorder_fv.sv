@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_fv: while it records each change of a level makes one record, and so does each rest as long as the time
-// counts; nothing else does. Full ends it, and no record is written past the end.
+// ppmc_recorder_fv: proves that a running recorder writes one record for each level change and one for each
+// pause that is as long as the range of the time, and no others. The recording ends when the memory is full,
+// and no record is written past the end.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -31,9 +32,9 @@ module ppmc_recorder_fv (
 
   `FV_ASSUME(one_order, 2'(begin_i) + 2'(end_i) + 2'(rewind_i) <= 2'd1)
 
-  logic [1:0] now_q, before_q;  // levels of the last clk and of the one before it
-  logic first_q;  // the first clk of a recording
-  logic [13:0] age_q;  // clk since the last record
+  logic [1:0] now_q, before_q;  // levels in the last cycle and in the one before
+  logic first_q;  // the first cycle of a recording
+  logic [13:0] age_q;  // cycles since the last record
   logic wanted;
 
   assign wanted = running && (now_q != before_q || first_q || end_i || age_q == '1);
@@ -50,7 +51,7 @@ module ppmc_recorder_fv (
   logic seen_q;  // the levels are known
   always_ff @(posedge clk_i) seen_q <= rst_ni && (seen_q || begin_i);
 
-  // With these the search needs no more than two clk.
+  // With these lemmas, an induction over two cycles is sufficient.
   `FV_ASSERT(lemma_levels, !seen_q || (dut.levels_q == now_q && dut.moved_q[0] == (now_q != before_q)))
   `FV_ASSERT(lemma_time, !seen_q || (dut.time_q == age_q && dut.rest_q == (age_q == '1)))
   `FV_ASSERT(lemma_state, dut.first_q == first_q || !$past(rst_ni))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_recorder_ram_fv: a read gives, one clk later, what was written last at its address; every word by itself.
+// ppmc_recorder_ram_fv: proves for every word that a read returns, one cycle later, the last value written to
+// its address.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -8,7 +9,7 @@ module ppmc_recorder_ram_fv (
     input wire logic       we_i,
     input wire logic [1:0] addr_i,
     input wire logic [1:0] wdata_i,
-    input wire logic [1:0] watched_i  // some address
+    input wire logic [1:0] watched_i  // any address
 );
 
   logic [1:0] rdata_o, word_q, was_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_spi_fv: however fast sck is within its limits, no access comes while another one is under way, every read is there
-// in time, and strobes come in the data of a frame alone.
+// ppmc_spi_fv: proves for any sck within its limits that no access begins while another one is in progress,
+// that every read is complete in time, and that strobes occur only in the data of a frame.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,8 +21,8 @@ module ppmc_spi_fv (
 
   ppmc_spi #(.AddrBits(2)) dut (.*);
 
-  logic last_q;  // sck a clk ago
-  logic [1:0] same_q;  // clk that it has had its level, at most 3
+  logic last_q;  // sck one cycle ago
+  logic [1:0] same_q;  // cycles since the last change of sck, at most 3
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {last_q, same_q} <= '0;
@@ -31,10 +31,10 @@ module ppmc_spi_fv (
       same_q <= (sck_i != last_q) ? 2'd0 : (same_q == '1) ? '1 : same_q + 1'b1;
     end
 
-  // Low for more than 3 clk, high for more than 1.
+  // Low for more than 3 cycles, high for more than 1.
   `FV_ASSUME(sck_within_its_limits, sck_i == last_q || (last_q ? same_q >= 2'd1 : same_q == 2'd3))
 
-  logic [4:0] bits_q;  // of this frame, at most 31
+  logic [4:0] bits_q;  // bits of this frame, at most 31
   always_ff @(posedge clk_i)
     if (!rst_ni || dut.cs_n) bits_q <= '0;
     else if (dut.rise && bits_q != '1) bits_q <= bits_q + 1'b1;

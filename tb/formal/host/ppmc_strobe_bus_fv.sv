@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_bus_fv: each write strobe of the host becomes one write of the byte that stood at its end; a
-// byte that was read whole is done once; no read, no driving. Both styles.
+// ppmc_strobe_bus_fv: proves for both bus styles that each write strobe of the host causes one write of the
+// byte valid at its end, that a complete read of a byte is signalled once, and that the bus is driven only in
+// reads.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -27,13 +28,13 @@ module ppmc_strobe_bus_fv (
 
   `FV_ASSUME(static_style, style_i == $past(style_i))
 
-  // What each sample of the pins was.
+  // Meaning of each sample of the pins.
   logic read, write;
   assign read  = !cs_ni && (style_i ? !wr_ni && rd_ni : !rd_ni && wr_ni);
   assign write = !cs_ni && !wr_ni && (style_i ? !rd_ni : rd_ni);
 
-  logic w1_q, w2_q, w3_q, r1_q, r2_q;  // the samples 1, 2, 3 clk ago
-  logic [8:0] byte1_q, byte2_q, byte3_q;  // register and data, of writes
+  logic w1_q, w2_q, w3_q, r1_q, r2_q;  // the samples 1, 2, 3 cycles ago
+  logic [8:0] byte1_q, byte2_q, byte3_q;  // register and data of writes
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {w1_q, w2_q, w3_q, r1_q, r2_q, byte1_q, byte2_q, byte3_q} <= '0;

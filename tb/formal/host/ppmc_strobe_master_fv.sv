@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_strobe_master_fv: each request becomes one strobe cycle with the set-up, length and gap of the bus,
-// and ends.
+// ppmc_strobe_master_fv: proves that each request causes one strobe with the set-up time, length and gap of
+// the bus, and that the access ends.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,10 +21,10 @@ module ppmc_strobe_master_fv (
 
   ppmc_strobe_master #(.AddrBits(2)) dut (.*);
 
-  logic way_q, write_q;  // a cycle is on its way
+  logic way_q, write_q;  // an access is in progress; it is a write
   logic [1:0] addr_q;
   logic [7:0] data_q;
-  logic [3:0] age_q, low_q, high_q;  // clk since the request; of strobe; of pause, at most 15
+  logic [3:0] age_q, low_q, high_q;  // cycles since the request; of the strobe; of the gap, at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {way_q, write_q, addr_q, data_q, age_q, low_q, high_q} <= '1;
@@ -51,7 +51,7 @@ module ppmc_strobe_master_fv (
   `FV_ASSERT(ends_in_time, !(begun_q && way_q) || age_q <= 4'd8)
   `FV_ASSERT(read_is_what_was_shown, !(done_o && !write_q) || rdata_o == $past(d_i))
 
-  logic second_q;  // it is the second cycle
+  logic second_q;  // a write has ended before
   always_ff @(posedge clk_i) second_q <= rst_ni && (second_q || (done_o && write_q));
 
   `FV_COVER(seen_read_behind_write, done_o && !write_q && second_q)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_bridge_fv: joined, its blocks keep what each takes for granted of the others; a script begins with a
-// new request alone, and nothing is written into its buffer while it runs.
+// ppmc_uart_bridge_fv: proves that the connected blocks keep the assumptions of each other's proofs, that a
+// script begins only with a new request, and that its buffer is not written while it runs.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -32,9 +32,9 @@ module ppmc_uart_bridge_fv (
   );
 
   logic begun_q;  // a script has begun
-  logic [2:0] since_ms_q;  // clk since the last millisecond, at most 7
-  logic [6:0] seq_q;  // of the request that began the last script
-  logic own_q;  // some script was given a number
+  logic [2:0] since_ms_q;  // cycles since the last millisecond, at most 7
+  logic [6:0] seq_q;  // SEQ of the request that began the last script
+  logic own_q;  // a script was given a number
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {begun_q, since_ms_q, seq_q, own_q} <= {1'b0, 3'd4, 8'd0};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axis_fv: a whole motion: how many pulses, when, how long low, and none after its end. Short times:
-// width 6 clk, a quantum at least 4 clk, base clocks of 2 and 3 quanta; any table, any order of stops, gates
-// and edges of the pin.
+// ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no pulse
+// follows the end. Times are short: width 6 cycles, quanta at least 4 cycles apart, base clocks of 2 and 3
+// quanta. Ramp table, sequence of stops, gates and edges of the clock pin are unconstrained.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -53,10 +53,10 @@ module ppmc_axis_fv
       .*
   );
 
-  // ---- what is taken for granted -------------------------------------------------------------------
+  // ---- assumptions ---------------------------------------------------------------------------------
 
-  logic [1:0] quantum_gap_q;  // clk since the last quantum, at most 3
-  logic [2:0] rise_gap_q;  // clk since the last rise of the pin, at most 7
+  logic [1:0] quantum_gap_q;  // cycles since the last quantum, at most 3
+  logic [2:0] rise_gap_q;  // cycles since the last rise of the pin, at most 7
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {quantum_gap_q, rise_gap_q} <= '0;
@@ -69,7 +69,7 @@ module ppmc_axis_fv
   `FV_ASSUME(quantum_of_four_clk, !quantum_i || quantum_gap_q == '1)
   `FV_ASSUME(pin_not_too_fast, !dut.rise || rise_gap_q == '1)
   `FV_ASSUME(legal_ramp, rate_slow_i >= rate_fast_i && ramp_steps_i != '0)
-  // The builder: no threshold beyond PA, which stands at the high-speed rate.
+  // The builder writes no threshold above PA; the entry of the high-speed rate is PA.
   logic [1:0] addr1_q, addr2_q;
   always_ff @(posedge clk_i) {addr2_q, addr1_q} <= {addr1_q, lut_addr_o};
   `FV_ASSUME(table_up_to_pa,
@@ -77,12 +77,12 @@ module ppmc_axis_fv
   `FV_ASSUME(steady_ramp, start_i || !motion_o.busy || {rate_slow_i, rate_fast_i, ramp_steps_i} == $past
              ({rate_slow_i, rate_fast_i, ramp_steps_i}))
 
-  // ---- the motion as its host asked for it ---------------------------------------------------------
+  // ---- the motion as requested by the host ---------------------------------------------------------
 
   op_t   op_q;
   base_t base_q;
-  logic  ended_q;  // an immediate cause was there
-  logic [4:0] total_q, pulses_q;  // to make, made
+  logic  ended_q;  // an immediate cause has occurred
+  logic [4:0] total_q, pulses_q;  // requested pulses; pulses made
   logic [1:0] rate_q;
   logic immediate, limit;
 
@@ -109,8 +109,8 @@ module ppmc_axis_fv
              !(event_o.done && cause_o == '0 && !op_q.origin) || pulses_q == total_q)
   `FV_ASSERT(p104_end_05_complete_is_told, !(event_o.pulse && event_o.complete) || pulses_q + 5'd1 == total_q)
 
-  // What ties the count to the registers of the axis: with these the search for the count ends.
-  logic [1:0] gap_q;  // clk since the start or the last pulse, at most 3
+  // Relates the count to the registers of the axis; with these lemmas the induction over the count succeeds.
+  logic [1:0] gap_q;  // cycles since the start or the last pulse, at most 3
 
   always_ff @(posedge clk_i)
     if (!rst_ni) gap_q <= '0;
@@ -119,7 +119,7 @@ module ppmc_axis_fv
   localparam int unsigned Age = ppmc_lfsr_pkg::width(Width - 1);
   localparam logic [Age-1:0] Second = Age'(ppmc_lfsr_pkg::after(1, Age));
 
-  logic near;  // less than three clk behind the start or a pulse
+  logic near;  // less than three cycles after the start or a pulse
   assign near = gap_q inside {2'd1, 2'd2};
 
   `FV_ASSERT(lemma_count_operation, op_q == dut.op_q && base_q == dut.base_q)
@@ -146,7 +146,7 @@ module ppmc_axis_fv
 
   // ---- set-up, direction, low time -----------------------------------------------------------------
 
-  logic [2:0] setup_q, age_q;  // clk since the start or the end of the gate; since the pulse; at most 7
+  logic [2:0] setup_q, age_q;  // cycles since start or end of gate; since pulse; at most 7
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {setup_q, age_q} <= '0;
@@ -179,11 +179,11 @@ module ppmc_axis_fv
   `FV_ASSERT(p104_int_01_constant_rate,
              !(event_o.pulse && motion_o.running && !op_q.ramp) || rate_o == rate_q)
 
-  // What ties the intervals to the registers of the axis.
-  logic [3:0] since_q;  // clk since the start or the last pulse, at most 15
+  // Relates the intervals to the registers of the axis.
+  logic [3:0] since_q;  // cycles since the start or the last pulse, at most 15
   logic [1:0] from_q;  // rate before the last pulse
-  logic still_q;  // neither rate nor base clocks have moved in the clk before
-  logic between, inner;  // between pulses; of the internal base clock
+  logic still_q;  // no change of rate or base clock in the cycle before
+  logic between, inner;  // between pulses; the same with the internal base clock
 
   assign between = motion_o.running;
   assign inner   = between && !base_q.external;

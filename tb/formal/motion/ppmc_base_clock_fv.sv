@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_base_clock_fv: base clocks come a whole period of quanta apart, the first one of an interval behind
-// the extra time.
+// ppmc_base_clock_fv: proves that base clocks are exactly one period of quanta apart, and that the first one
+// of an interval is later by the extra time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -26,9 +26,9 @@ module ppmc_base_clock_fv (
       .*
   );
 
-  logic began_q;  // there was a pulse
+  logic began_q;  // a pulse has occurred
   logic [3:0] left_q;  // quanta to the next base clock
-  logic second_q;  // the first one of the interval has come
+  logic second_q;  // the first base clock of the interval has occurred
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {began_q, left_q} <= '0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_chopper_fv: a phase lasts exactly base + unit * units quanta, as they were at its beginning; ON first.
+// ppmc_chopper_fv: proves that a phase lasts exactly base + unit * units quanta, with the settings at its
+// beginning, and that ON is the first phase.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -30,7 +31,7 @@ module ppmc_chopper_fv (
 
   logic on_q, began_q;
   logic [1:0] phases_q;  // phases that have ended, at most 3
-  logic [4:0] left_q;  // quanta of this phase
+  logic [4:0] left_q;  // remaining quanta of this phase
 
   function automatic logic [4:0] whole(logic [1:0] base, logic [1:0] n);
     return 5'(base) + Unit * 5'(n);
@@ -50,7 +51,7 @@ module ppmc_chopper_fv (
     end
 
   `FV_ASSUME(base_not_zero, on_base_i != '0 && off_base_i != '0)
-  // The part keeps it still until it has been initialised.
+  // The part keeps the chopper stopped until it has been initialised.
   `FV_ASSUME(begins_with_a_restart, began_q || restart_i || !run_i)
 
   `FV_ASSERT(p104_sw_01_each_phase, !began_q || on_o == (on_q || !run_i))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_excitation_fv: the phases are always a row of the manual's tables, and a step goes to the next one.
+// ppmc_excitation_fv: proves that the phases are always a row of the manual's tables, and that a step selects
+// the next row.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -24,7 +25,7 @@ module ppmc_excitation_fv
 
   ppmc_excitation dut (.*);
 
-  // Index of the half-step table: two places a full step. Row 0 is S1 and S2.
+  // Index of the half-step table: two entries per full step. Row 0 is S1 and S2.
   logic on_q;
   logic [3:0] index_q, length, stride;
 
@@ -37,8 +38,8 @@ module ppmc_excitation_fv
     else if (step_i && ccw_i) index_q <= (index_q < stride) ? index_q + length - stride : index_q - stride;
     else if (step_i) index_q <= (index_q + stride >= length) ? index_q + stride - length : index_q + stride;
 
-  // Even rows: two neighbours. Odd ones: of 3 and 4 phases one, of 5 phases three.
-  logic [3:0] one, two, three;  // phases from the one of the index on, numbered from 0
+  // Even rows have two adjacent phases. Odd rows have one phase of 3 or 4, or three phases of 5.
+  logic [3:0] one, two, three;  // phases starting at the one of the index, counted from 0
 
   assign one   = {1'b0, index_q[3:1]};
   assign two   = (one + 4'd1 == (length >> 1)) ? 4'd0 : one + 4'd1;
@@ -53,7 +54,8 @@ module ppmc_excitation_fv
   end
 
   `FV_ASSUME(a_motor, motor_i != MotorNone)
-  // ppmc_setup takes both from the first initialisation, which homes, and holds them until Excitation OFF.
+  // ppmc_setup loads both in the first initialisation, which sets the phases to index 0, and holds them until
+  // Excitation OFF.
   `FV_ASSUME(motor_stays, !on_q || $past(home_i) || {motor_i, half_i} == $past({motor_i, half_i}))
 
   `FV_ASSERT(p104_phs_01_row_of_the_table, pattern_o == (on_q ? row : 5'd0))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_clock_fv: each edge of the pin once, and what its period is called.
+// ppmc_ext_clock_fv: proves that each edge of the pin is reported once, and that its period is classified
+// correctly.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,8 +20,8 @@ module ppmc_ext_clock_fv (
       .*
   );
 
-  logic [2:0] pin_q;  // samples of the pin, the newest in bit 0
-  logic [4:0] age_q;  // clk since the last rise, at most 31; 31 before the first
+  logic [2:0] pin_q;  // samples of the pin, the latest in bit 0
+  logic [4:0] age_q;  // cycles since the last rise, at most 31; 31 before the first
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {pin_q, age_q} <= '1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag_fv: what an interval loses before its first base edge it gets behind its last one, to the clk.
+// ppmc_ext_lag_fv: proves to the cycle that the time before the first base edge of an interval and the time
+// after its last one add up to the extra time, unless the former alone is at least as long.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -24,8 +25,8 @@ module ppmc_ext_lag_fv (
       .*
   );
 
-  logic run_q, counting_q, hit_q;  // an interval runs; its first base edge has come; its last one
-  logic [3:0] before_q, after_q;  // clk before the first and behind the last one, at most 15
+  logic run_q, counting_q, hit_q;  // an interval is running; its first base edge has occurred; its last one
+  logic [3:0] before_q, after_q;  // cycles before the first and after the last one, at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {run_q, counting_q, hit_q, before_q, after_q} <= '0;
@@ -38,7 +39,7 @@ module ppmc_ext_lag_fv (
       if (fire_o) run_q <= 1'b0;
     end
 
-  // The rate counter sees the edges that count, and ends an interval once.
+  // The rate counter counts the edges that count_o enables, and ends an interval once.
   `FV_ASSUME(hit_counts, !hit_i || (run_q && edge_i && counting_q && !hit_q))
 
   `FV_ASSERT(edges_count_behind_the_first, !run_q || count_o == counting_q)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_hold_timer_fv: hold comes one clk after the last quantum of the hold time and its rest, and goes with
-// a motion.
+// ppmc_hold_timer_fv: proves that hold_o rises one cycle plus RestClk cycles after the last quantum of the
+// hold time, and falls with a motion.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -40,12 +40,12 @@ module ppmc_hold_timer_fv (
       .*
   );
 
-  logic moved_q;  // there was a motion
+  logic moved_q;  // a motion has begun
   logic [1:0] units_q;
-  logic [4:0] quanta_q;  // since its end, at most 31
-  logic [1:0] behind_q;  // clk behind quantum 5, at most 3
-  logic [1:0] gap_q;  // clk since the last quantum, at most 3
-  logic set_q;  // quanta were enough one clk ago
+  logic [4:0] quanta_q;  // quanta since the end of the motion, at most 31
+  logic [1:0] behind_q;  // cycles after quantum 5, at most 3
+  logic [1:0] gap_q;  // cycles since the last quantum, at most 3
+  logic set_q;  // the number of quanta was sufficient one cycle ago
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {moved_q, units_q, quanta_q, behind_q, gap_q, set_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_shaper_fv: a pulse is low for exactly WidthClk clk unless it is cut, never longer; the set-up
-// time as well.
+// ppmc_pulse_shaper_fv: proves that a pulse is low for exactly WidthClk cycles, or shorter if it is cut, and
+// that the set-up time has the same length.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -15,7 +15,7 @@ module ppmc_pulse_shaper_fv (
 );
 
   localparam int unsigned Clk = 10;  // WidthClk
-  localparam int unsigned Half = 2;  // clk of rate 0
+  localparam int unsigned Half = 2;  // cycles of rate 0
 
   logic low, up;
 
@@ -37,8 +37,8 @@ module ppmc_pulse_shaper_fv (
       .up_o (up)
   );
 
-  logic [3:0] since_q;  // clk since the pulse or the arming, 15 for more
-  logic pulse_q, full_q, may_q;  // it was a pulse, a full one; something may have ended it
+  logic [3:0] since_q;  // cycles since the pulse or the arming, at most 15
+  logic pulse_q, full_q, may_q;  // last event was a pulse; a full one; a cause may have ended it
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {since_q, pulse_q, full_q, may_q} <= {4'd15, 3'b000};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_divide_fv: every bit of the quotient is that of long division, for numbers of any length and all divisors.
+// ppmc_ramp_divide_fv: proves that every bit of the quotient equals that of long division, for numbers of any
+// length and all divisors.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -23,8 +24,8 @@ module ppmc_ramp_divide_fv (
 
   logic [3:0] divisor;
   logic [4:0] next;
-  logic [3:0] rest_q;  // of the bits so far, below the divisor
-  logic bit_q, valid_q, one_q;  // bit of the quotient; there is one; one has been 1
+  logic [3:0] rest_q;  // remainder of the bits so far, less than the divisor
+  logic bit_q, valid_q, one_q;  // bit of the quotient; it is valid; a bit was 1
 
   assign divisor = {1'b0, less_i} + 4'd1;
   assign next    = {rest_q, bit_i};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_seq_fv: the number of pulses, the place on the ramp and its rates, for any table and any order of
-// events.
+// ppmc_ramp_seq_fv: proves the number of pulses, the ramp level and its rates, for any table and any sequence
+// of events.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,10 +34,10 @@ module ppmc_ramp_seq_fv (
       .*
   );
 
-  logic loaded_q, over_q, rated_q;  // a motion; its last pulse was made; its rate stands
-  logic [5:0] due_q;  // pulses still to make
-  logic [2:0] gap_q;  // clk since load or pulse, at most 7
-  logic [2:0] addr1_q, addr2_q;  // addresses of the table, a clk and two clk ago
+  logic loaded_q, over_q, rated_q;  // a motion was loaded; its last pulse was made; its rate is valid
+  logic [5:0] due_q;  // pulses still to be made
+  logic [2:0] gap_q;  // cycles since load or pulse, at most 7
+  logic [2:0] addr1_q, addr2_q;  // addresses of the table, one and two cycles ago
   logic [2:0] constant_q;
 
   always_ff @(posedge clk_i)
@@ -59,18 +59,18 @@ module ppmc_ramp_seq_fv (
   logic top_q;
   always_ff @(posedge clk_i) top_q <= rst_ni && !load_i && (top_q || top_o);
 
-  // The axis: pulses of a motion 3 clk apart, the first one 4 clk behind its start, none while a look-up runs, none
-  // after the last one.
+  // Assumptions on the axis: pulses of a motion are at least 3 cycles apart, the first one at least 4 cycles
+  // after its start. No pulse occurs during a look-up or after the last pulse.
   `FV_ASSUME(pulses_apart,
              !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
-  // The builder: no threshold beyond PA, which stands at the high-speed rate.
+  // The builder writes no threshold above PA; the entry of the high-speed rate is PA.
   `FV_ASSUME(table_up_to_pa, lut_data_i <= 3'(steps_i) && (addr2_q != fast_i || lut_data_i == 3'(steps_i)))
   `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
              ({slow_i, fast_i, steps_i}))
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  // The guard takes it back with the end of a motion alone, behind which no pulse comes.
+  // The guard withdraws it only with the end of a motion, after which no pulse occurs.
   logic forced_q, taken_back_q;
   always_ff @(posedge clk_i)
     if (!rst_ni || load_i) {forced_q, taken_back_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial_fv: a pass takes two clk more than it has words, whatever it is; the word that is written is never
-// the one being read.
+// ppmc_ramp_serial_fv: proves that any pass takes two cycles more than it has words, and that the word being
+// written is never the one being read.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,8 +34,8 @@ module ppmc_ramp_serial_fv
       .*
   );
 
-  logic run_q, again_q;  // a pass; one has ended
-  logic [4:0] age_q, words;  // clk of it; words that it has
+  logic run_q, again_q;  // a pass is running; one has ended
+  logic [4:0] age_q, words;  // cycles of the pass; words of the pass
 
   always_comb begin
     unique case (pass_i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_table_fv: what the builder has written stands in the table when busy_o falls, and until the next build; so
-// do the numbers that it was built from.
+// ppmc_ramp_table_fv: proves that the words written by the builder are in the table when busy_o falls, and
+// until the next build. The same holds for the numbers from which the table was built.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -29,8 +29,8 @@ module ppmc_ramp_table_fv (
              ({slow_i, fast_i, steps_i}))
   `FV_ASSUME(once, !(start_i && busy_o))
 
-  // The stand-in writes one word: PA at the start-up rate.
-  logic [1:0] at_q, fast_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: clk since the build, at most 3
+  // The stub writes one word: PA at the start-up rate.
+  logic [1:0] at_q, fast_q, word_q, addr1_q, addr2_q, rest_q;  // rest_q: cycles since the build, at most 3
 
   always_ff @(posedge clk_i) begin
     {addr2_q, addr1_q} <= {addr1_q, addr_i};
@@ -43,7 +43,7 @@ module ppmc_ramp_table_fv (
     end
   end
 
-  logic some_q;  // a build has been
+  logic some_q;  // a build has begun
   always_ff @(posedge clk_i) some_q <= rst_ni && (some_q || busy_o);
 
   `FV_ASSERT(p104_ini_07_what_was_built, !(some_q && rest_q == '1 && addr2_q == at_q) || data_o == word_q)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_rate_counter_fv: the (rate + 1)-th base clock ends an interval, no other one; number floor((rate + 1)
-// / 2) is its half.
+// ppmc_rate_counter_fv: proves that only base clock number rate + 1 ends an interval, and that number
+// floor((rate + 1) / 2) is its half.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,10 +19,10 @@ module ppmc_rate_counter_fv (
 
   ppmc_rate_counter #(.RateBits(4)) dut (.*);
 
-  logic began_q, over_q;  // an interval runs; it is over
-  logic [4:0] ticks_q;  // base clocks of it so far
-  logic [1:0] gap_q;  // clk since restart or tick, at most 3
-  logic fresh_q;  // the restart was in the clk before
+  logic began_q, over_q;  // an interval is running; it has ended
+  logic [4:0] ticks_q;  // base clocks since the restart
+  logic [1:0] gap_q;  // cycles since restart or tick, at most 3
+  logic fresh_q;  // the restart was in the cycle before
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {began_q, over_q, ticks_q, gap_q, fresh_q} <= {2'b01, 8'd0};

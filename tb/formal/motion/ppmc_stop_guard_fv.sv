@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_guard_fv: every immediate cause ends the motion in its very clk, nothing else does; causes are
-// kept.
+// ppmc_stop_guard_fv: proves that every immediate cause ends the motion in the same cycle, that only such
+// causes end it, and that the causes are recorded.
 `include "ppmc_fv.svh"
 `default_nettype none
 

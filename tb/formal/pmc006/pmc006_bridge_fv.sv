@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_bridge_fv: both high sides are never on together, and never one right behind the other; off and
-// blanking times.
+// pmc006_bridge_fv: proves that the two high sides are never on in the same cycle or in adjacent cycles, and
+// proves the off and blanking times.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -12,7 +12,7 @@ module pmc006_bridge_fv (
     input wire logic       cmp_i
 );
 
-  localparam int unsigned Off = 7, Blank = 3, Fast = 5;  // clk
+  localparam int unsigned Off = 7, Blank = 3, Fast = 5;  // cycles
 
   logic pwm_o, en_o, high0_o, high1_o, high;
 
@@ -28,7 +28,7 @@ module pmc006_bridge_fv (
 
   assign high = high0_o || high1_o;
 
-  logic [3:0] off_q, on_q;  // clk that both have been low; that one has been high; at most 15
+  logic [3:0] off_q, on_q;  // cycles with both low; cycles with one high; at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {off_q, on_q} <= '0;
@@ -37,7 +37,7 @@ module pmc006_bridge_fv (
       on_q  <= !high ? '0 : (on_q == '1) ? '1 : on_q + 1'b1;
     end
 
-  logic drove_q;  // there was an ON
+  logic drove_q;  // an ON phase has occurred
   always_ff @(posedge clk_i) drove_q <= rst_ni && (drove_q || dut.state_q == 1);
 
   `FV_ASSERT(p006_chp_01_never_both, !(high0_o && high1_o))

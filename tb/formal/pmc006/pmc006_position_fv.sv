@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_position_fv: the position goes by one a step, in its direction, and by nothing else but an instruction.
+// pmc006_position_fv: proves that only a step or an instruction changes the position, a step by one in its
+// direction.
 `include "ppmc_fv.svh"
 `default_nettype none
 

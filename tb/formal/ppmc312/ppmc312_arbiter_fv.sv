@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_arbiter_fv: a waiting host has its turn behind one triggered instruction at most; nothing starts
-// unasked.
+// ppmc312_arbiter_fv: proves that a waiting host is served after at most one triggered instruction, and that
+// no instruction starts without a request.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,7 +25,7 @@ module ppmc312_arbiter_fv
 
   assign triggered = stored_i.due || stored_i.events != '0;
 
-  logic [1:0] passed_q;  // instructions that began while the host waits
+  logic [1:0] passed_q;  // instructions begun while the host was waiting
   always_ff @(posedge clk_i)
     if (!rst_ni || !host_i || (start_o && source_o == SrcHost)) passed_q <= '0;
     else if (start_o && passed_q != '1) passed_q <= passed_q + 1'b1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command_fv: a byte is taken when it is ready and bytes are open, and no other; what it means was read
-// a clk before.
+// ppmc_command_fv: proves that a byte is accepted if and only if it is ready and the mailbox is open, and
+// that its meaning was decoded one cycle before.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -34,7 +34,7 @@ module ppmc_command_fv
 
   ppmc_command dut (.*);
 
-  // With the mailbox that it empties, and a motion that it starts.
+  // With the mailbox from which it reads, and a motion that it starts.
   ppmc_mailbox u_mailbox (
       .rd_done_i(1'b0),
       .out_o    (out),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_fv: an interrupt a motion that wants one, until the finish status is read; nothing else moves
-// it.
+// ppmc_finish_fv: proves that each motion which is not silent sets the interrupt until the finish status is
+// read, and that no other event changes the interrupt.
 `include "ppmc_fv.svh"
 `default_nettype none
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_judge_fv: a faulty byte makes nothing happen; a byte does one thing at most; no operation starts in a
-// motion or before the initialisation.
+// ppmc_judge_fv: proves that a faulty byte causes no action, that a byte causes at most one action, and that
+// no operation starts during a motion or before the initialisation.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -29,7 +29,7 @@ module ppmc_judge_fv
 
   ppmc_judge dut (.*);
 
-  // Who keeps it, and a motion that it starts.
+  // Register of the parser state, and a motion that the byte starts.
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));
   always_ff @(posedge clk_i) asking_i <= rst_ni ? asking_o : '0;
 
@@ -37,14 +37,14 @@ module ppmc_judge_fv
   `FV_ASSUME(
       params_fit_the_kind,
       decoded_i.params == '0 || decoded_i.kind inside {KindInit, KindOperation, KindSwitching, KindAuxOut})
-  // Parameters are asked for outside a motion, but for those of AUX OUT.
+  // Codes with parameters are allowed only outside a motion, except AUX OUT.
   `FV_ASSUME(codes_with_parameters,
              !(command_i && decoded_i.params != '0 && decoded_i.kind == KindOperation) || byte_i[6])
   `FV_ASSUME(other_codes,
              !(command_i && decoded_i.params != '0 && decoded_i.kind != KindOperation) || !byte_i[6])
   `FV_ASSUME(one_kind_in_motion, !(command_i && decoded_i.kind == KindAuxOut) || (byte_i[7] && byte_i[1]))
 
-  logic welcome;  // in a motion
+  logic welcome;  // allowed during a motion
   assign welcome = decoded_i.kind inside {KindHalt, KindDecel, KindAuxOut, KindExcOff, KindAuxOn, KindAuxOff};
 
   `FV_ASSERT(p104_err_03_a_fault_does_nothing, !(take_i && asking_o.error) || act_o == '0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_fv: with the old chip's times each action takes effect once, in its order, and the mailbox opens
-// again; times shortened to 1/64 by the ratio of the clocks.
+// ppmc_pace_fv: with DATASHEET times, proves that each action takes effect once and in order, and that the
+// mailbox opens again. The ratio of the clocks shortens the times to 1/64.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -12,7 +12,7 @@ module ppmc_pace_fv
     input wire logic [7:0] code_i
 );
 
-  localparam int unsigned Longest = 200;  // clk of a command that is not an initialisation
+  localparam int unsigned Longest = 200;  // limit in cycles of a command other than an initialisation
 
   action_t act_i, act_o;
   logic [ 7:0] code_o;
@@ -43,7 +43,7 @@ module ppmc_pace_fv
       .*
   );
 
-  // One action at most, while the mailbox is open; no initialisation, which takes long.
+  // At most one action, while the mailbox is open; no initialisation, because it takes too long.
   always_comb begin
     act_i = '0;
     if (open_o && rst_ni) begin
@@ -60,9 +60,9 @@ module ppmc_pace_fv
     end
   end
 
-  logic wait_q;  // an action has been asked for and not taken effect
+  logic wait_q;  // an action was requested and has not taken effect yet
   action_t asked_q;
-  logic [7:0] age_q;  // clk since then
+  logic [7:0] age_q;  // cycles since the request
   action_t at_once;
   always_comb begin
     at_once           = '0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_motion_fv: no byte is taken while an ended motion lingers; an initialisation is complete once.
+// ppmc_pace_motion_fv: proves that no byte is accepted during the end delay of a motion, and that an
+// initialisation is completed once.
 `include "ppmc_fv.svh"
 `default_nettype none
 

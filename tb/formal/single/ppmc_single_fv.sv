@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_single_fv: joined in a PPMC-104 with its decoder, the blocks of ppmc_single keep what each takes for granted of
-// the others, whatever stands on the bus and on the switches; an error stands until the next byte is taken.
+// ppmc_single_fv: ppmc_single in a PPMC-104 with its decoder. Proves for any bus accesses and switches that
+// its blocks keep the assumptions of each other's proofs, and that an error is valid until the next byte is
+// accepted.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -42,7 +43,7 @@ module ppmc_single_fv
   action_t act;
   logic busy, building, init_open_q;
   logic [31:0] asked;  // numbers of the ramp that is being built
-  logic [15:0] rates;  // of the ramp in force
+  logic [15:0] rates;  // rates of the active ramp
   decoded_t decoded;
 
   assign on       = dut.rst;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ram, a stand-in for the proofs of those who hold in it what comes from outside: any word at any time. That the
-// real one gives what was written says ppmc_ram_fv.
+// ppmc_ram, stub for proofs in which the RAM holds external data: any word at any time. ppmc_ram_fv proves
+// that the real one returns the word written.
 `default_nettype none
 
 module ppmc_ram #(
@@ -14,7 +14,7 @@ module ppmc_ram #(
     input  wire logic [AddrBits-1:0] raddr_i,
     output logic      [   Width-1:0] rdata_o
 );
-  logic [Width-1:0] any;  // driven by nobody: registered, so that all see the same
+  logic [Width-1:0] any;  // not driven; registered, so that all blocks read the same value
   always_ff @(posedge clk_i) rdata_o <= any;
 
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_builder, a stand-in for the proofs of those who share one: busy for five clk, one word in the
-// middle. That the real one ends says ppmc_ramp_builder_fv.
+// ppmc_ramp_builder, stub for the proofs of the blocks that share one: busy for five cycles, one word in the
+// middle. ppmc_ramp_builder_fv proves that the real one ends.
 `default_nettype none
 
 module ppmc_ramp_builder #(
@@ -32,7 +32,7 @@ module ppmc_ramp_builder #(
     else if (busy_o) left_q <= left_q - 1'b1;
     else if (start_i) left_q <= 3'd5;
 
-  // The start-up rate stands behind a build.
+  // The start-up rate is kept after a build.
   always_ff @(posedge clk_i) if (busy_o) rate_q <= slow_i;
 
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_serial, a stand-in for the proof of ppmc_ramp_builder: passes of two clk, all sums zero. How long a pass
-// of the real one takes says ppmc_ramp_serial_fv.
+// ppmc_ramp_serial, stub for the proof of ppmc_ramp_builder: passes of two cycles, all sums zero.
+// ppmc_ramp_serial_fv proves the length of a real pass.
 `default_nettype none
 
 module ppmc_ramp_serial

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_rx, a stand-in for the proofs of those behind it: any characters, good and faulty ones, six clk apart or
-// more, whatever the line does. That the real one has an outcome a character says ppmc_uart_rx_fv.
+// ppmc_uart_rx, stub for the proofs of the blocks that read from it: any characters, valid and faulty, at
+// least six cycles apart, for any waveform of the line. ppmc_uart_rx_fv proves that the real one has one
+// outcome per character.
 `default_nettype none
 
 module ppmc_uart_rx #(
@@ -18,7 +19,7 @@ module ppmc_uart_rx #(
     output logic                  break_o
 );
 
-  logic [7:0] any;  // driven by nobody: registered, so that all see the same
+  logic [7:0] any;  // not driven; registered, so that all blocks read the same value
   logic [7:0] any_q;
   logic good, good_q, comes, comes_q;
   logic [2:0] gap_q;

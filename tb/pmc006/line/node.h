@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is around a PMC006B4 on the virtual line: an EEPROM that may be a file, and a carriage between two
-// switches that follows the electrical angle. Places are in 1/16 full steps, forward positive.
+// Plant of a PMC006B4 on the virtual line: an EEPROM that may be a file, and a carriage between two switches
+// that follows the electrical angle. Positions are in 1/16 full steps, forward positive.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class Node {
     void set_up(Vboard& top) {
         top.gpi = static_cast<uint8_t>(gpi_);
         set_switches(top);
-        // The model of the EEPROM sets itself up at the first evaluation.
+        // The model of the EEPROM is initialised at the first evaluation.
         top.eval();
         auto& root = *top.rootp;
         root.line_node__DOT__u_eeprom__DOT__missing = missing_;
@@ -41,7 +41,7 @@ class Node {
     }
 
     void follow(Vboard& top) {
-        // The shorter way round of four full steps.
+        // The shorter way around a circle of four full steps.
         const int turned = (top.angle - angle_ + 3 * kTurn / 2) % kTurn - kTurn / 2;
         angle_ = top.angle;
         way_ += turned;
@@ -51,7 +51,7 @@ class Node {
         writes_ = writes;
     }
 
-    // Frames show only as a whole for whom they are: everybody listens.
+    // The address is known only after a complete frame, so every station receives all characters.
     bool named(uint8_t, bool) const { return true; }
 
     uint64_t linger(uint64_t clk_hz) const { return clk_hz / 50; }

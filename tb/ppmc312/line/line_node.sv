@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_node: a PPMC-312 in serial mode as the virtual line runs it: the carrier of the boards, straps, pins
-// of the motor.
-// Rules:  none of its own. Names of ports that every line_node has: clk, rst_n, uart_rxd, line, busy.
-// Timing: of ppmc312_carrier. While busy is 0 and the line rests, nothing but the line can change anything.
+// line_node: a PPMC-312 in serial mode for the virtual line: the carrier of the boards, straps, pins of the
+// motor. Every line_node has the ports clk, rst_n, uart_rxd, line and busy.
+// Timing: see ppmc312_carrier. While busy is 0 and the line is idle, only the line can cause a change.
 `default_nettype none
 
 module line_node #(
@@ -15,7 +14,7 @@ module line_node #(
     input  wire logic       rst_n,
     // line
     input  wire logic       uart_rxd,
-    output logic            line,      // what the driver lets through, 1 while it is off
+    output logic            line,      // output of the driver, 1 while it is off
     // straps
     input  wire logic [2:0] mod,
     input  wire logic [3:0] adr,
@@ -32,9 +31,9 @@ module line_node #(
     // motor
     output logic            pout,
     output logic            dir,
-    // what is to be seen
+    // status
     output logic            busy,
-    output logic      [5:0] status     // as the condition byte has it
+    output logic      [5:0] status     // as in the condition byte
 );
 
   logic txd, de, hold, unused;
@@ -76,7 +75,7 @@ module line_node #(
       .org_n,
       .index_n,
       .alm_n,
-      .end_n    (1'b0),      // the drive says at once that it is where it shall be
+      .end_n    (1'b0),      // the drive reports "in position" immediately
       .epin,
       .epdir,
       .run      (1'b1),

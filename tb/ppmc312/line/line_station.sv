@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_station: a PPMC-312 in serial mode behind two words, so that one compiled station serves all.
-// Rules:  none of its own; inputs that a station of the line does not use rest.
-// Timing: wires only.
+// line_station: a PPMC-312 in serial mode with packed pins, so that one compiled station is used for all.
+// Inputs that a station of the line does not use are inactive.
+// Timing: combinational.
 `default_nettype none
 
 module line_station #(
@@ -12,7 +12,7 @@ module line_station #(
 ) (
     input  wire logic        clk,
     input  wire logic        rst_n,
-    input  wire logic [15:0] pins_i,  // as `ppmc312_line` packs them
+    input  wire logic [15:0] pins_i,  // packed as in `ppmc312_line`
     output logic      [27:0] pins_o
 );
 

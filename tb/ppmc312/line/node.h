@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is around a PPMC-312 on the virtual line: a motor with an encoder, switches, the straps of its number.
+// Plant of a PPMC-312 on the virtual line: a motor with an encoder, switches, the straps of its number.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ class Node {
 
     uint64_t look(const Vboard& top) const { return top.pout; }
 
-    // The motor steps with the rising edges of POUT; a pulse of the encoder is as long, one for each that the
-    // axle follows.
+    // The motor steps with the rising edges of POUT. Pulses of the encoder are as long; one occurs for each
+    // pulse that the axle follows.
     void follow(Vboard& top) {
         top.epin = 0;
         if (!top.pout) return;
@@ -39,10 +39,10 @@ class Node {
         set_switches(top);
     }
 
-    // A control code says who is meant, the characters behind it belong to it.
+    // A control code selects the station; the characters after it belong to it.
     bool named(uint8_t byte, bool before) const { return byte & 0x80 ? (byte & 15) == adr_ : before; }
 
-    // 320 000 cycles of the crystal without a character end a frame, a few more make the reply.
+    // A pause of 320 000 crystal cycles ends a frame; the reply follows a few cycles later.
     uint64_t linger(uint64_t clk_hz) const { return 400'000 * clk_hz / xtal_hz_; }
 
     bool booted(const Vboard&) const { return true; }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_line: stations of the PPMC-312 in serial mode on one RS-485 line.
-// Rules:  a driver that is not enabled leaves the line high; drivers that disagree make it low.
-// Timing: each edge of clk sees what master and stations drive before it. A reset acts at an edge.
-// Note:   the stations are compiled apart (`line_station`, station.cpp): one code for all of them.
-//         Every station hears the master. hear_others: also the other stations; hear_self: also itself.
-//         noise turns round what one station hears.
+// Rules:  a driver that is not enabled leaves the line high; drivers that disagree pull it low.
+// Timing: each rising edge samples the levels that master and stations drive before it. A reset takes effect
+//         at an edge.
+// Note:   the stations are compiled separately (`line_station`, station.cpp), with the same code for all.
+//         Every station receives the master. hear_others: also the other stations; hear_self: also itself.
+//         noise inverts the level that one station receives.
 `default_nettype none
 
 module ppmc312_line #(
@@ -20,7 +21,7 @@ module ppmc312_line #(
     output logic                line,
     output logic      [  N-1:0] txd,
     output logic      [  N-1:0] snd,
-    // set-up, taken at the end of a reset
+    // set-up, latched at the end of a reset
     input  wire logic [4*N-1:0] adr,
     input  wire logic [3*N-1:0] mod,
     // switches and driver
@@ -40,7 +41,7 @@ module ppmc312_line #(
     output logic      [  N-1:0] cd_n,
     output logic      [  N-1:0] intlk_n,
     output logic      [  N-1:0] out_oe,
-    // what serial mode leaves alone
+    // not changed by serial mode
     output logic      [8*N-1:0] d_o,
     output logic      [  N-1:0] d_oe,
     output logic      [  N-1:0] wrq_n,
@@ -57,7 +58,7 @@ module ppmc312_line #(
     input int pins
   );
 
-  // What each driver lets through, and what each station hears.
+  // Output of each driver, and level that each station receives.
   logic [N-1:0] driven, rxd;
 
   assign driven = txd | ~snd;

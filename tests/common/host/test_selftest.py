@@ -10,7 +10,7 @@ from openppmc import __version__, parts, sources
 from openppmc.check.pins import pins_of
 from openppmc.check.records import Change
 from openppmc.check.replay import compare_recording, expected_edges, new_model
-from openppmc.cli.common.version import misfit
+from openppmc.cli.common.session import misfit
 from openppmc.host.script import BadAnswer, Build, Identity
 from openppmc.host.selftest.page import board_name, built
 from openppmc.host.selftest.plan import Plan

@@ -148,7 +148,7 @@ def test_a_block_that_ends_restores_the_handlers() -> None:
 COMMAND = """
 import sys
 from openppmc.cli import main
-from openppmc.cli.common.guard import Guard
+from openppmc.cli.common.session import Guard
 progress, said = Guard.progress, []
 def moving(self, now):
     if now.made and not said:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.cli.common.forecast import Course, key_figures
+from openppmc.cli.common.view import Course, key_figures
 from openppmc.host import units
 from openppmc.host.axis import chop_byte
 from openppmc.host.errors import OutOfRange, PpmcError

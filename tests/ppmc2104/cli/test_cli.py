@@ -13,8 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.cli.common.guard import Guard
-from openppmc.cli.common.state import recall, remember
+from openppmc.cli.common.session import Guard, recall, remember
 from openppmc.host import CW, Ppmc2104
 from tests.common.cli.command_line import Run
 

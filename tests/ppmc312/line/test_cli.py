@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.cli.common.state import lasting, recall
+from openppmc.cli.common.session import lasting, recall
 from openppmc.cli.ppmc312.line.session import line_options, parse_stations
 from openppmc.host.ppmc312.line.wire import SumMode
 from tests.common.cli.command_line import Run

@@ -9,13 +9,11 @@ import pytest
 from openppmc.host.ppmc312.line import line as errors
 from openppmc.host.ppmc312.line import talk
 from openppmc.host.ppmc312.line import wire as ascii
-from openppmc.host.ppmc312.line import wire as serial
 from openppmc.host.ppmc312.line.wire import frame
 from openppmc.sim import part_of
-from openppmc.sim.common import line_child, lines
-from openppmc.sim.ppmc312 import line_spec
-from openppmc.sim.ppmc312.line import StationLine
-from openppmc.sim.ppmc312.line_spec import parse_line
+from openppmc.sim.common import lines
+from openppmc.sim.ppmc312 import line as spec
+from openppmc.sim.ppmc312.line import PART, StationLine, parse_line
 
 
 def test_words() -> None:
@@ -27,7 +25,7 @@ def test_words() -> None:
     assert len(parse_line("").plants) == 16 and len(parse_line("stations=3").plants) == 3
     twin = parse_line("stations=3,twin=1,start1=7").twin
     assert twin is not None and twin[0] == 1 and twin[1].start == 4000
-    assert part_of("start=3, part=ppmc312-serial") == line_spec.PART and part_of("") is None
+    assert part_of("start=3, part=ppmc312-serial") == PART and part_of("") is None
 
 
 @pytest.mark.parametrize(
@@ -103,7 +101,7 @@ def test_the_master_hears_itself_if_asked_for() -> None:
     assert heard("stations=1,echo=on", "80 7F").hex(" ").upper() == "80 7F 90 6F"
 
 
-@pytest.mark.parametrize("module", [ascii, serial, errors, talk, line_child, line_spec, lines])
+@pytest.mark.parametrize("module", [ascii, errors, talk, lines, spec])
 def test_examples_in_the_code(module: object) -> None:
     failed, attempted = doctest.testmod(module)  # type: ignore[arg-type]
     assert attempted and not failed

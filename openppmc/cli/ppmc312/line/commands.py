@@ -11,8 +11,7 @@ from ...common import output, show
 from ...common.board import BOARD
 from ...common.line_session import ending_after
 from ...common.options import Json, Side, check_seconds, with_setup
-from ...common.session import setup_values
-from ...common.state import lasting, remember
+from ...common.session import lasting, remember, setup_values
 from ..view import VIEW
 from . import show as show_line
 from .session import Session, opened

@@ -10,7 +10,7 @@ import typer
 from ....host import PpmcError
 from ...common import output
 from ...common.options import Json
-from ...common.watching import Count, Every, watch
+from ...common.show import Count, Every, watch
 from . import show
 from .session import opened
 

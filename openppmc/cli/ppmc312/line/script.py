@@ -11,13 +11,21 @@ import typer
 from ....host import Ppmc312Bus, Station312
 from ....host.ppmc312.line.line import KIND
 from ...common import output
-from ...common.guard import Guard
 from ...common.options import with_setup
-from ...common.player import Player, check_speeds, check_steps, positions
-from ...common.program import OF_ALL_AXES, OF_AXES, ScriptError, Step, read_file, read_program
-from ...common.reading import Numbered
-from ...common.session import setup_values
-from ...common.words import own_words
+from ...common.reading import Numbered, own_words
+from ...common.script import (
+    OF_ALL_AXES,
+    OF_AXES,
+    Player,
+    ScriptError,
+    Step,
+    check_speeds,
+    check_steps,
+    positions,
+    read_file,
+    read_program,
+)
+from ...common.session import Guard, setup_values
 from . import show
 from .session import Session, opened
 

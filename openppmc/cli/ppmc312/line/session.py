@@ -12,8 +12,8 @@ from ....host.ppmc312.line.bus import Found
 from ....host.ppmc312.line.wire import STATIONS, SumMode
 from ...common import line_session
 from ...common.board import BOARD, LINE_WORDS
-from ...common.guard import Guard
 from ...common.line_session import guarded, parse_numbers
+from ...common.session import Guard
 
 
 def parse_stations(text: str) -> list[int]:

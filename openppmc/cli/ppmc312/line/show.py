@@ -10,7 +10,7 @@ from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
 from ....host.ppmc312.line.bus import Found
 from ...common import output
-from .. import show as part_show
+from ..view import axis_values, report_text
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -56,7 +56,7 @@ def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
 
 def status_values(axis: Station312) -> dict[str, Any]:
     """Everything that may be read at any time, and what went wrong on the line."""
-    return {**part_show.status_values(axis), "line": asdict(axis.counters)}
+    return {**axis_values(axis), "line": asdict(axis.counters)}
 
 
 def status_table(axes: Iterable[Station312]) -> Table:
@@ -68,7 +68,7 @@ def status_table(axes: Iterable[Station312]) -> Table:
     for head in ("station", "state", "position", "encoder", "overrides", "switches", "line faults"):
         grid.add_column(head, justify="left" if head in ("state", "switches") else "right")
     for axis in axes:
-        values = part_show.status_values(axis)
+        values = axis_values(axis)
         active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
         grid.add_row(
             str(axis.number),
@@ -84,7 +84,7 @@ def status_table(axes: Iterable[Station312]) -> Table:
 
 def status_line(axis: Station312) -> str:
     """A station in one line."""
-    values = part_show.status_values(axis)
+    values = axis_values(axis)
     active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
     return (
         f"station {axis.number}  state {values['state']}  position {values['position']}  "
@@ -102,7 +102,7 @@ def nobody(port: str) -> str:
 
 def report_line(number: int, report: Report) -> str:
     """One line for a report of a station."""
-    text = part_show.report_line(report)
+    text = report_text(report)
     who = f"station {number}: "
     return text if text.startswith(who) else who + text
 

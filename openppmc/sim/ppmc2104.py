@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...model.ppmc2104.carrier import Carrier
-from ..common.machine import MachineKind, Setup
+from ..model.ppmc2104.carrier import Carrier
+from .common.machine import MachineKind, Setup
 
 
 def _carrier(setup: Setup) -> Carrier:

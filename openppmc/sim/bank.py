@@ -1,10 +1,10 @@
-"""The machine around a bank: a plant for each of its axes, all alike but for what words with numbers say."""
+"""The machine around a bank: a plant for each axis; all are alike, except as words with numbers say."""
 
 from __future__ import annotations
 
-from ...model.bank.carrier import Carrier
-from ...model.clock import Timebase
-from ..common.machine import MachineKind, Setup
+from ..model.bank.carrier import Carrier
+from ..model.clock import Timebase
+from .common.machine import MachineKind, Setup
 
 
 def _check(setup: Setup) -> None:

@@ -1,13 +1,13 @@
-"""What a PPMC-2104 shows on the command line, and its two axes together."""
+"""What a PPMC-2104 shows on the command line, and moves of both axes together."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ...host import End, Ppmc2104
-from ...host.axis import OnProgress
-from ...host.ppmc2104.words import Status
-from ..common.view import RampView
+from ..host import End, Ppmc2104
+from ..host.axis import OnProgress
+from ..host.ppmc2104.words import Status
+from .common.view import RampView
 
 
 class PartView(RampView[Ppmc2104]):

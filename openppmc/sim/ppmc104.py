@@ -1,9 +1,9 @@
-"""The machine around a PPMC-104: nothing that others have not."""
+"""The machine around a PPMC-104: only what all devices have."""
 
 from __future__ import annotations
 
-from ...model.ppmc104 import Carrier
-from ..common.machine import MachineKind, Setup
+from ..model.ppmc104 import Carrier
+from .common.machine import MachineKind, Setup
 
 
 def _carrier(setup: Setup) -> Carrier:

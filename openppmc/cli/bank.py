@@ -1,14 +1,14 @@
-"""What a bank shows on the command line, and its axes together."""
+"""What a bank shows on the command line, and moves of several axes together."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...host import End, NothingToStop, PpmcBank
-from ...host.axis import OnProgress
-from ...host.part import AnyAxis
-from ..common.view import RampView
+from ..host import End, NothingToStop, PpmcBank
+from ..host.axis import OnProgress
+from ..host.part import AnyAxis
+from .common.view import RampView
 
 
 class BankView(RampView[PpmcBank]):

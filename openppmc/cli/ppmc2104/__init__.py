@@ -1,1 +1,0 @@
-"""What the command line knows about the PPMC-2104."""

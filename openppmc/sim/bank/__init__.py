@@ -1,1 +1,0 @@
-"""The virtual board with a bank."""

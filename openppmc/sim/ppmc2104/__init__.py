@@ -1,1 +1,0 @@
-"""What is around a PPMC-2104: its machine."""

@@ -1,0 +1,27 @@
+"""The machine around an STMC: `read_map` names the read codes that the device was built with.
+
+The reference point is between the deceleration limits of a J105 STMC; a search for it ends at either limit.
+"""
+
+from __future__ import annotations
+
+from ..model.carrier.carrier import Plant
+from ..model.stmc.carrier import Carrier
+from ..model.stmc.codes import READ_MAPS
+from ..model.stmc.part import Stmc
+from .common.machine import MachineKind, Setup
+
+
+def _carrier(setup: Setup) -> Carrier:
+    one = setup.plants[0]
+    return Carrier(one, setup.clk_hz, setup.xtal_hz, setup.timing, setup.on_interrupt, setup.own["read_map"])
+
+
+MACHINE = MachineKind(
+    "an stmc",
+    _carrier,
+    plant=Plant(ccw=-1000, slow_ccw=-200),
+    own={"read_map": tuple(READ_MAPS)},
+    xtal_max=Stmc.XTAL_MAX,
+    alarm="MON low",
+)

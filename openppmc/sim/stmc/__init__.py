@@ -1,1 +1,0 @@
-"""What is around an STMC: its machine."""
