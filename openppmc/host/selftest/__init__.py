@@ -1,10 +1,10 @@
-"""`openppmc selftest`: a board against the golden model, every recorded edge of every output.
+"""Comparison of a board with the golden model (`openppmc selftest`): every recorded edge of every output.
 
-    plan       sections of a test, and how they talk to the part without filling the recorder
-    bytes      what the parts on a byte bus are made to do: every code, moves of each kind
+    plan       sections of a test, and the accesses to the part that do not fill the recorder
+    bytes      stimuli of the parts on a byte bus: every code, moves of each kind
     recording  records of the bridge as a recording of the part
-    run        plays sections, compares, collects
-    page       what is told at the end, as text and JSON
+    run        plays sections, compares and collects results
+    page       result as text and JSON
 
-A part's own `selftest` (column of the table) says what is recorded and what is played.
+The `selftest` module of a part (column of the table) defines what is recorded and played.
 """
