@@ -217,7 +217,10 @@ class AxisCore(Checked):
         return position
 
     def where(self, script: Script) -> Script:
-        """Add a read of the position counter of this axis to a script; it returns one value of 4 bytes."""
+        """Add a read of the position counter of this axis to a script.
+
+        It returns one value of 4 bytes.
+        """
         return script.count(self.number)
 
     def counted(self, count: int) -> int | None:

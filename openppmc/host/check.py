@@ -1,4 +1,4 @@
-"""Checks of the arguments that users pass to a driver: numbers, flags, names, missing parentheses. Pure.
+"""Checks of arguments: numbers, flags, names, missing parentheses. Pure.
 
 Classes of drivers and motions derive from `Checked`: each public method checks its arguments against their
 annotations before it begins.
@@ -127,7 +127,10 @@ _CHECKS = {"int": whole, "Number": _usual, "float": _seconds, "bool": flag}
 
 
 def _kind(annotation: Any) -> Kind | None:
-    """Return the type for an annotation such as `int` or `units.Number | None`; `None` = not checked."""
+    """Return the type for an annotation such as `int` or `units.Number | None`.
+
+    For other annotations, which are not checked, it returns None.
+    """
     first, *more = str(getattr(annotation, "__name__", annotation)).split(" | ")
     name = first.removeprefix("units.")
     return Kind(name, _CHECKS[name], more == ["None"]) if name in _CHECKS and more in ([], ["None"]) else None
@@ -168,7 +171,10 @@ class Entry:
 
 
 def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a class method that checks its arguments. Python 3.10 binds only functions to the class."""
+    """Return a class method that checks its arguments.
+
+    Python 3.10 binds only functions to the class.
+    """
     entry = Entry(function)
 
     @wraps(function)

@@ -37,7 +37,10 @@ class LinkError(PpmcError):
 
 
 class PortError(LinkError):
-    """The port cannot be opened: it does not exist, is in use, is not permitted, or is no serial port."""
+    """The port cannot be opened.
+
+    It does not exist, is in use, is not permitted, or is no serial port.
+    """
 
 
 class NoAnswer(LinkError):
@@ -140,7 +143,10 @@ class UnknownCode(CommandRefused):
 
 
 class StartRefused(CommandRefused):
-    """Error 7 of the PPMC-2104: an active switch prevents the start. Other parts have their own reasons."""
+    """Error 7 of the PPMC-2104: an active switch prevents the start.
+
+    Other parts have their own reasons.
+    """
 
     text = (
         "it may not start: its limit switch of this direction, its alarm or, for a search, its origin "

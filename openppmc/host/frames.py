@@ -1,4 +1,6 @@
-"""Frames of the UART bridge (docs/uart_bridge.md, UB-FRM-01..04) and sessions (UB-SEQ, UB-MSG). Pure.
+"""Frames (UB-FRM-01..04) and sessions (UB-SEQ, UB-MSG) of the UART bridge. Pure.
+
+See docs/uart_bridge.md.
 
 A session has one outstanding request at a time, over a line that may lose, corrupt or repeat bytes. This
 module does no I/O and reads no clock. The caller passes the time in seconds (any origin, never decreasing),
@@ -20,7 +22,10 @@ CRC_BYTES = 2
 REQUEST_LIMIT = 256
 """Longest content of a request in bytes, including SEQ and CRC (UB-FRM-04)."""
 ANSWER_LIMIT = 262
-"""Longest content that a bridge sends: SEQ, RESULT, POS, LAST, 256 data bytes, CRC (UB-ANS-01, -02)."""
+"""Longest content that a bridge sends, in bytes (UB-ANS-01, -02).
+
+It consists of SEQ, RESULT, POS, LAST, 256 data bytes and CRC.
+"""
 
 
 class Fault(IntEnum):
@@ -54,7 +59,10 @@ class Broken:
 
 
 def crc16(data: bytes) -> int:
-    """Return the CRC of UB-FRM-03: polynomial 1021, initial value FFFF, not reflected, not inverted."""
+    """Return the CRC of UB-FRM-03.
+
+    It has the polynomial 1021 and the initial value FFFF, and is not reflected and not inverted.
+    """
     return binascii.crc_hqx(data, CRC_START)
 
 
@@ -137,7 +145,10 @@ class Deframer:
 MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
 LAST_SEQ = 127
 WAKE_UP = b"\x00\x00\x7e"
-"""Sent at 115 200 baud: returns a bridge from any rate and from any frame to the idle state (UB-LIN-06)."""
+"""Bytes sent at 115 200 baud to wake up a bridge (UB-LIN-06).
+
+They return it from any rate and any frame to the idle state.
+"""
 
 
 class Nak(IntEnum):

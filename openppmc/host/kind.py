@@ -1,4 +1,6 @@
-"""Capabilities of a part, for drivers and for plans without a board: the members that all parts share. Pure.
+"""Capabilities of a part, for drivers and for plans without a board. Pure.
+
+This module has the members that all parts share.
 
 The capabilities of each part are `KIND` in its folder (`openppmc.parts`, column `kind`).
 """

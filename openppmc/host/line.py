@@ -1,4 +1,7 @@
-"""Lines with several stations, for any frame format: master, motions, waiting, stopping, errors."""
+"""Lines with several stations: master, motions, waiting, stopping, errors.
+
+They are independent of the frame format.
+"""
 
 # ruff: noqa: N818
 
@@ -33,7 +36,10 @@ class StationSilent(NoAnswer):
 
 
 class GarbledReply(NoAnswer):
-    """Bytes were received, but no complete reply: noise, a wrong speed, or two stations with one address."""
+    """Bytes were received, but no complete reply.
+
+    The cause is noise, a wrong speed, or two stations with one address.
+    """
 
 
 class DuplicateAddress(LinkError):
@@ -76,7 +82,10 @@ class LineMotion(AnyMotion, Protocol):
 
     @property
     def unknown(self) -> EndUnknown | None:
-        """Reason why the part does not confirm the end; `None` if it does, or while the motion is running."""
+        """Reason why the part does not confirm the end.
+
+        It is None if the part confirms it, or while the motion is running.
+        """
 
     @property
     def line(self) -> Master[Any]:
@@ -98,7 +107,9 @@ def wait_all(
     timeout: float | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> list[End]:
-    """Poll the stations until their motions are over; return the ends in the same order, for any cause.
+    """Poll the stations until their motions are over.
+
+    It returns the ends in the same order, for any cause.
 
     Args:
         timeout: longest wait for all motions in s, `None` for no limit.
@@ -133,7 +144,10 @@ def wait_all(
 
 
 def _sum(motions: Sequence[LineMotion]) -> Progress:
-    """Return the progress of several motions together; its position is that of the first running one."""
+    """Return the progress of several motions together.
+
+    Its position is that of the first running motion.
+    """
     known = [(motion, motion.now()) for motion in motions]
     asked = [motion.asked for motion in motions]
     first = next(now for motion, now in known if motion.end is None)
@@ -148,7 +162,10 @@ def _sum(motions: Sequence[LineMotion]) -> Progress:
 # Master of a line with several stations, for any frame format. It sends a frame and receives one reply.
 
 PATIENCE = 0.1
-"""Seconds beyond line time until a station counts as silent: it needs 4 ms, a USB adapter up to 16 ms."""
+"""Seconds beyond line time until a station counts as silent.
+
+A station needs 4 ms, a USB adapter up to 16 ms.
+"""
 BITS = 10
 _GAP_BYTES, _GAP = 5, 0.01
 _MOST_NOISE = 400
@@ -160,11 +177,16 @@ class Listener(Protocol[Answer]):
     """Receiver for the bytes of one reply."""
 
     def take(self, byte: int) -> Answer | Fault | None:
-        """Process a byte; return the reply if it is complete, or a Fault if no reply is possible any more."""
+        """Process a byte; return the reply if it is complete.
+
+        It returns a Fault if no reply is possible any more.
+        """
 
 
 class Master(Generic[Answer]):
-    """Half-duplex master: it sends a frame and receives the reply. It counts faults and repeats nothing.
+    """Half-duplex master: it sends a frame and receives the reply.
+
+    It counts faults and repeats nothing.
 
     Attributes:
         port: open port.

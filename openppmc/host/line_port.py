@@ -139,7 +139,10 @@ _SHORT, _LONGEST = 0.05, 30.0
 
 
 class UrlPort(SerialPort):
-    """Device or URL opened by pyserial. rs485: how RTS switches the line driver, `None`: it does not."""
+    """Device or URL opened by pyserial.
+
+    rs485: how RTS switches the line driver, `None`: it does not.
+    """
 
     def __init__(self, spec: str, baud: int, rs485: RS485Settings | None = None) -> None:
         self._rs485 = rs485

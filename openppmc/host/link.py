@@ -14,7 +14,10 @@ from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity,
 
 DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
-"""Seconds beyond line time and waits until a request is repeated, for USB adapters and busy computers."""
+"""Seconds beyond line time and waits until a request is repeated.
+
+USB adapters and busy computers need this time.
+"""
 _SETTLE = 0.02
 _QUIET = 0.05
 _BITS = 10
@@ -150,7 +153,10 @@ class Link:
         return self.baud == baud
 
     def _raise_rate(self, baud: int) -> None:
-        """Switch to another line rate if board and adapter support it; otherwise return to 115 200 baud."""
+        """Switch to another line rate if board and adapter support it.
+
+        Otherwise return to 115 200 baud.
+        """
         if RATES.index(baud) > self.identity.best_rate:
             return
         self.execute(Script().rate(RATES.index(baud)))
@@ -237,7 +243,10 @@ class Link:
             session.abandon()
 
     def _await(self) -> bytes:
-        """Return the answer to the outstanding request; repeat the request until its attempts are used up."""
+        """Return the answer to the outstanding request.
+
+        The request is repeated until its attempts are used up.
+        """
         session, port = self._session, self.port
         while True:
             deadline = session.deadline
@@ -256,7 +265,10 @@ class Link:
     # ------------------------------------------------------------------ events
 
     def wait_event(self, timeout: float) -> int | None:
-        """Return the pin byte of the next event (UB-MSG-01), `None` after `timeout` seconds without one."""
+        """Return the pin byte of the next event (UB-MSG-01).
+
+        It returns None after `timeout` seconds without an event.
+        """
         session = self._session
         end = self.clock() + timeout
         while not session.events:

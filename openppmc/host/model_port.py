@@ -1,4 +1,4 @@
-"""Port `model:`: golden bridge, golden part and plant model instead of a board, in virtual time.
+"""Port `model:`: golden bridge, golden part and plant model, in virtual time.
 
 The line is modelled byte by byte. A byte takes its line time. A byte at a wrong rate arrives as a framing
 error or a break.
@@ -55,7 +55,10 @@ class Pacer:
             self._origin -= ahead
 
     def behind(self, seconds: float) -> float:
-        """Return the virtual seconds that passed while the program did something else, 0 if there are few."""
+        """Return the virtual seconds that passed while the program did something else.
+
+        It returns 0 if there are few.
+        """
         if self.speed is None:
             return 0.0
         behind = (time.monotonic() - self._origin) * self.speed - seconds
@@ -68,7 +71,9 @@ _worker: tuple[int, int, _Jobs] | None = None
 
 
 def whole(call: Callable[[], T]) -> T:
-    """Call a model. The call ends even if a signal handler raises an exception; the next call waits for it.
+    """Call a model and complete the call, even if a signal handler raises an exception.
+
+    The next call waits for the end of this call.
 
     A model that is interrupted within an edge is unusable. Handlers raise exceptions in the main thread only,
     so one other thread makes all calls. The queues are implemented in C, because a lock of Python can stay

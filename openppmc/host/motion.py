@@ -19,7 +19,10 @@ from .speeds import Number
 
 READ_FINISH = 0x80
 SAFETY_POLL = 0.5
-"""Seconds between reads of BUSY while waiting for the interrupt message, which noise may destroy."""
+"""Seconds between reads of BUSY while waiting for the interrupt message.
+
+Noise may destroy this message.
+"""
 PROGRESS_POLL = 0.1
 OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
 
@@ -260,7 +263,10 @@ class Switched(Protocol):
 
 
 class Searching(Protocol):
-    """Members of an axis that homing needs: an `axis.Axis` or an axis of a part with other commands."""
+    """Members of an axis that homing needs.
+
+    The axis is an `axis.Axis`, or an axis of a part with other commands.
+    """
 
     @property
     def kind(self) -> Kind: ...

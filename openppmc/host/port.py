@@ -1,4 +1,4 @@
-"""Ports that a user names: a serial device, the virtual board (`sim:`) or the model (`model:`).
+"""Ports: a serial device, the virtual board (`sim:`) or the model (`model:`).
 
 This is the only module with real I/O. pyserial is imported when a port is opened or listed; everything else
 works without it. Its SerialException is an OSError.
@@ -28,7 +28,10 @@ class Port(Protocol):
     name: str
 
     def read(self, timeout: float) -> bytes:
-        """Return the bytes received; wait up to `timeout` seconds for the first byte. Raises Disconnected."""
+        """Return the bytes received; wait up to `timeout` seconds for the first byte.
+
+        Raises Disconnected.
+        """
 
     def write(self, data: bytes) -> None:
         """Send bytes. Raises Disconnected."""

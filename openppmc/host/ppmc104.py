@@ -17,7 +17,9 @@ KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COIL
 READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
 _START_XT = 1792
-"""Longest time from the last byte of an operation until BUSY rises, in crystal cycles (P104-DS-03: 112 us).
+"""Crystal cycles from the last byte of an operation until BUSY rises, at most.
+
+They are 112 us (P104-DS-03).
 """
 
 

@@ -1,4 +1,7 @@
-"""Scripts for the UART bridge and its answers (docs/uart_bridge.md, "Ops", UB-ANS-01, -02). Pure."""
+"""Scripts for the UART bridge and its answers (UB-ANS-01, -02). Pure.
+
+See "Ops" in docs/uart_bridge.md.
+"""
 
 from __future__ import annotations
 
@@ -339,7 +342,10 @@ class Build:
 
     @classmethod
     def parse(cls, data: bytes) -> Build | None:
-        """Decode the 16 bytes; return `None` if all are 0 (unknown). Raises BadAnswer for another length."""
+        """Decode the 16 bytes; return `None` if all are 0 (unknown).
+
+        Raises BadAnswer for another length.
+        """
         if len(data) != VERSION_BYTES:
             raise BadAnswer(f"VERSION of {len(data)} bytes")
         if not any(data):

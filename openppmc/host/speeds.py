@@ -1,4 +1,6 @@
-"""Exact conversion between pulses per second and rate bytes (P104-INT-01, P104-INT-02, STMC-INI-01). Pure.
+"""Exact conversion between pulses per second and rate bytes. Pure.
+
+Rules: P104-INT-01, P104-INT-02, STMC-INI-01.
 
 All speeds are exact fractions in pulses per second (pps); for a part without pulses, a pulse is a step. A
 part supports only certain speeds: base clock / (rate + 1) with rate 0 to 255, or base clock / divisor.
@@ -167,7 +169,10 @@ class Setup:
 
     @property
     def flat(self) -> bool:
-        """True if only one speed exists, the high one (on an STMC also with 0 ramp pulses: STMC-MOV-04)."""
+        """True if only one speed exists, the high one.
+
+        On an STMC this is also true with 0 ramp pulses (STMC-MOV-04).
+        """
         return not self.ramp_pulses or self.start.rate == self.high.rate
 
     def ramp(self) -> Ramp:
@@ -220,7 +225,9 @@ def choose_clock(
 
 
 def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
-    """Return an internal base clock that reaches the speed; the one with csel = first is preferred.
+    """Return an internal base clock that reaches the speed.
+
+    The clock with csel = first is preferred.
 
     Raises:
         OutOfRange: no base clock reaches the speed.

@@ -82,7 +82,10 @@ BOARD_CLOCK = BOARD_CLOCK_HZ
 
 
 class StmcKind(RateKind):
-    """Capabilities of an STMC: a speed is step clock / divisor, and the initialisation selects the clock."""
+    """Capabilities of an STMC.
+
+    A speed is step clock / divisor, and the initialisation selects the clock.
+    """
 
     def constant_clock(
         self, xtal_hz: int, ramp: speeds.BaseClock | None, pps: speeds.Number
@@ -120,7 +123,9 @@ READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
 
 
 class Stmc(OneAxis):
-    """One STMC; see `part.OneAxis`. It has no pulse output: the board counts the steps of the phases.
+    """One STMC; see `part.OneAxis`.
+
+    It has no pulse output: the board counts the steps of the phases.
 
     Arguments of `initialise`: a speed is step clock / divisor, with divisors 5 to 255. base_clock: 12 500 Hz
     (internal, at a 16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s);

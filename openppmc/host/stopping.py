@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 # The command line imports this module first. To keep that fast, functions import what they need.
 
 LONGEST_WAIT = 10.0
-"""Seconds allowed for motors to decelerate; a motor that still moves then is stopped immediately."""
+"""Seconds allowed for motors to decelerate.
+
+A motor that still moves then is stopped immediately.
+"""
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 )
@@ -26,7 +29,10 @@ SIGNALS = tuple(
 NO_MOTION = "nothing was moving"
 """First words of the result of `bring_to_rest` in this case."""
 arrived: list[int] = []
-"""Signals that the command line received before it opened a board; an exception of a handler can get lost."""
+"""Signals that the command line received before it opened a board.
+
+They are stored, because an exception of a handler can get lost.
+"""
 
 
 class Signalled(SystemExit):

@@ -19,7 +19,9 @@ from .words import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 
 BUSY, ERR = 0x04, 0x80
 _GO_READS = 8
-"""Read accesses of 10 cycles each, so that GO has reached all axes (at most 64 cycles) before MASK changes.
+"""Number of read accesses before MASK changes.
+
+One takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
 """
 
 
@@ -62,7 +64,9 @@ def write_mask(kind: RateKind, numbers: tuple[int, ...]) -> list[tuple[int, Scri
 
 
 class Group(Checked):
-    """Context manager: motions of these axes that are started inside the block wait at their first pulse.
+    """Context manager whose motions start together.
+
+    Motions of these axes that are started inside the block wait at their first pulse.
 
     At the end of the block all of them start in the same cycle. If the block is left by an exception, the
     waiting motions are stopped, and nothing moves.
@@ -133,7 +137,10 @@ class Group(Checked):
             raise GroupRefused(refusals)
 
     def _ended(self, number: int, status: int) -> bool:
-        """Return True if a switch, a stop or a reset ended the motion of this axis while it was waiting."""
+        """Return True if the motion of this axis ended while it was waiting.
+
+        A switch, a stop or a reset ends it.
+        """
         motion = self._bank.axes[number - 1].motion
         if motion is None:
             return False

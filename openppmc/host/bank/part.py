@@ -95,7 +95,10 @@ class PpmcBank(Part):
         return BankStatus.parse(b"".join(one for (one,) in self._all(Script().read(STATUS))))
 
     def look(self, axes: Iterable[int] | None = None) -> dict[int, Look]:
-        """Return status, position and switches of these axes (`None`: all) by number; allowed at any time."""
+        """Return status, position and switches of axes by number; allowed at any time.
+
+        axes: numbers of the axes, None for all.
+        """
         numbers = tuple(self.axis) if axes is None else numbers_of(self.kind, axes)
         script = Script().read(STATUS).read_number(POSITION, POSITION_BYTES).pins()
         seen = visit(self.link, [(number, script) for number in numbers])
@@ -107,7 +110,9 @@ class PpmcBank(Part):
         }
 
     def pending(self) -> tuple[int, ...]:
-        """Return the numbers of the axes whose interrupt is pending (BANK-WIN-08); allowed at any time.
+        """Return the numbers of the axes whose interrupt is pending (BANK-WIN-08).
+
+        This is allowed at any time.
 
         The motion of such an axis has ended, and no program has read its end.
         """
@@ -248,7 +253,10 @@ class PpmcBank(Part):
         return dict(sorted(ends.items()))
 
     def reset(self) -> None:
-        """Reset the part in any state: pulses end immediately, nothing is initialised, positions are 0."""
+        """Reset the part in any state.
+
+        Pulses end immediately, nothing is initialised, and the positions are 0.
+        """
         self.link.execute(Script().reset())
         self._group = None
         for axis in self.axes:

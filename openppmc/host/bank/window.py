@@ -65,14 +65,19 @@ class AxisLink:
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
     def judge(self, answer: Answer) -> Answer:
-        """Return the answer if all operations were done, otherwise raise its error, which names the axis."""
+        """Return the answer if all operations were done, otherwise raise its error.
+
+        The error names the axis.
+        """
         if answer.result is Result.REFUSED:
             raise refused(answer.last, self._number)
         return self._link.judge(answer)
 
 
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
-    """Execute scripts at several axes in as few frames as possible; return the values of each script.
+    """Execute scripts at several axes in as few frames as possible.
+
+    It returns the values of each script.
 
     It raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
     following scripts are not executed.

@@ -1,4 +1,4 @@
-"""Capabilities, errors and window registers of a bank, as dataclasses (BANK-WIN-02, -03, -07). Pure."""
+"""Capabilities, errors and window registers of a bank (BANK-WIN-02, -03, -07). Pure."""
 
 # ruff: noqa: N818
 
@@ -32,7 +32,10 @@ def go_refused(status: int, number: int) -> CommandRefused:
 
 
 class GroupRefused(PpmcError):
-    """Some axes of a group did not start; the others run. refusals: exception of each axis, by number."""
+    """Some axes of a group did not start; the others run.
+
+    refusals: exception of each axis, by number.
+    """
 
     def __init__(self, refusals: Mapping[int, CommandRefused]) -> None:
         super().__init__("; ".join(str(one) for one in refusals.values()))
@@ -40,7 +43,10 @@ class GroupRefused(PpmcError):
 
 
 STATUS, CONFIG, SELECT, POSITION = 0x1, 0x2, 0x3, 0x4
-"""Registers of an axis. SELECT is a register of the bridge; it selects the axis of all other registers."""
+"""Registers of an axis.
+
+SELECT is a register of the bridge; it selects the axis of all other registers.
+"""
 MASK, PENDING, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC
 """Registers of the bank."""
 MARK, VERSION = 0x42, 0x01
@@ -81,7 +87,10 @@ class Look:
 
 @dataclass(frozen=True)
 class BankStatus:
-    """Status registers of all axes, axis 1 first. raw: all of them as one number, axis 1 in the low byte."""
+    """Status registers of all axes, axis 1 first.
+
+    raw: all of them as one number, axis 1 in the low byte.
+    """
 
     raw: int
     axes: tuple[Status, ...]
@@ -98,13 +107,19 @@ class BankStatus:
 
 
 def members(raw: bytes) -> tuple[int, ...]:
-    """Return the numbers of the axes whose bits are 1 in a register with one bit per axis, byte 0 first."""
+    """Return the numbers of the axes whose bits are 1 in a register.
+
+    The register has one bit per axis, byte 0 first.
+    """
     bits = int.from_bytes(raw, "little")
     return tuple(place + 1 for place in range(8 * len(raw)) if bits >> place & 1)
 
 
 def bit_bytes(numbers: tuple[int, ...], axes: int) -> bytes:
-    """Return the bytes of a register with one bit per axis, byte 0 first; the bits of these axes are 1."""
+    """Return the bytes of a register where the bits of these axes are 1.
+
+    The register has one bit per axis, byte 0 first.
+    """
     return sum(1 << number - 1 for number in numbers).to_bytes((axes + 7) // 8, "little")
 
 

@@ -134,7 +134,9 @@ class Memory(Axis):
             self.offline = 1
 
     def try_instruction(self, place: int) -> None:
-        """Execute one instruction of the buffer, 0 to 99; jumps and similar instructions have no effect.
+        """Execute one instruction of the buffer, 0 to 99.
+
+        Jumps and similar instructions have no effect.
 
         Raises:
             ProgramRuns: a program is running.

@@ -15,7 +15,10 @@ from .wire import Code, Flags
 
 
 class End(ending.End):
-    """End of a motion. LIMIT means EXT1 or EXT2, ALARM means a stall. `finish` is status 1 at the end."""
+    """End of a motion. LIMIT means EXT1 or EXT2, ALARM means a stall.
+
+    `finish` is status 1 at the end.
+    """
 
     unit = "steps"
 

@@ -44,7 +44,7 @@ OUTPUTS = 5
 
 
 class Pmc006(Memory, Device):
-    """One controller. `open` opens a line for this controller alone; `Pmc006Bus` opens a line with several.
+    """One controller with its line; `Pmc006Bus` is a line with several.
 
     Settings are properties (listed in `settings.SETTINGS`). After a lost reply, an instruction is repeated
     only if that has no side effect. A start is first checked in status and position, so nothing moves twice.
@@ -122,8 +122,9 @@ class Pmc006(Memory, Device):
 
     @property
     def outputs(self) -> int:
-        """Levels of GPO5 to GPO1 (bits 4 to 0), including a level set by a stall; an assignment writes all of
-        them.
+        """Levels of GPO5 to GPO1 (bits 4 to 0).
+
+        The value includes a level set by a stall. An assignment writes all of them.
         """
         return self.ports().outputs
 
@@ -254,7 +255,9 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
     def scan(
         self, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
     ) -> list[Found]:
-        """Return the controllers of the line. An address without a controller takes the time `patience`.
+        """Return the controllers of the line.
+
+        An address without a controller takes the time `patience`.
 
         progress: called with each address before it is polled.
         """

@@ -1,4 +1,7 @@
-"""Settings of a PMC006B4 with codes, ranges, units and storage. Each is a property of `Settings`."""
+"""Settings of a PMC006B4 with codes, ranges, units and storage.
+
+Each is a property of `Settings`.
+"""
 
 from __future__ import annotations
 

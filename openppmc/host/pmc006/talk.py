@@ -1,4 +1,7 @@
-"""Communication with one PMC006B4: instructions, their replies, and repetitions without side effects."""
+"""Communication with one PMC006B4: instructions and their replies.
+
+An instruction whose reply is lost is repeated only if that has no side effect.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,10 @@ from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags,
 PART = "pmc006"
 BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200
 DROPPED_AFTER = 200
-"""Bit times of silence after which a controller has discarded an incomplete frame (192, plus a reserve)."""
+"""Bit times of silence after which a controller has discarded an incomplete frame.
+
+The part needs 192; the rest is a reserve.
+"""
 
 
 class Line(Master[Reply]):

@@ -47,7 +47,9 @@ class Both(Protocol):
 
 
 class Axis2104(Axis):
-    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions. `part` has the members of both axes.
+    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions.
+
+    `part` has the members of both axes.
 
     Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, its rate at
     least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz. positive_logic
@@ -158,8 +160,9 @@ class Axis2104(Axis):
         return Inputs.of_pins(self.link.execute(self.part.show(self.number).pins()).byte(0))
 
     def switching(self, on_us: speeds.Number, off_us: speeds.Number) -> tuple[Fraction, Fraction]:
-        """Set the chopper times at standstill in us (16 MHz: 32 to 127.5 each); return the times that are
-        reached.
+        """Set the chopper times at standstill in us; return the times that are reached.
+
+        The range of each is 32 to 127.5 us at 16 MHz.
 
         Allowed only while no motion is running.
         """
@@ -169,8 +172,9 @@ class Axis2104(Axis):
         return on[1], off[1]
 
     def hold_delay(self, microseconds: speeds.Number) -> Fraction:
-        """Set the time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); return the time that
-        is reached.
+        """Set the time from the end of a motion to HOLD in us; return the time that is reached.
+
+        The range is 128 to 32 768 us at 16 MHz.
 
         Allowed only while no motion is running.
         """

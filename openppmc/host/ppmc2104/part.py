@@ -163,7 +163,10 @@ class Ppmc2104(Part):
             self._held = set(self.axis)
 
     def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
-        """Wait until both have ended; return the motion that ended early, which stops the other, if any."""
+        """Wait until both have ended; return the motion that ended early, if any.
+
+        Its end stops the other one.
+        """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
         while running := [motion for motion in motions if not motion.over]:
@@ -182,8 +185,9 @@ class Ppmc2104(Part):
 
     @staticmethod
     def _look(motion: Motion) -> Progress | None:
-        """Poll a motion as `Motion.poll` does; an unconfirmed end raises its error later, when both have
-        stopped.
+        """Poll a motion as `Motion.poll` does.
+
+        An unconfirmed end raises its error later, when both have stopped.
         """
         try:
             return motion.poll()
@@ -251,8 +255,9 @@ class Ppmc2104(Part):
     # ------------------------------------------------------------------ errors
 
     def _error_reads(self) -> Script:
-        """Return a script that reads and clears both error registers; CALL would stop at the error of the
-        other axis.
+        """Return a script that reads and clears both error registers.
+
+        CALL would stop at the error of the other axis.
         """
         script = Script()
         for bit in (0, AXIS_BIT):

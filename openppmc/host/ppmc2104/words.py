@@ -1,4 +1,6 @@
-"""Capabilities, errors (P2104-ERR-01), status register (P2104-STA-01) and times of a PPMC-2104. Pure.
+"""Capabilities, errors, status register and times of a PPMC-2104. Pure.
+
+Rules: P2104-ERR-01, P2104-STA-01.
 
 The PPMC-2104 has its own table of errors. Times in microseconds are converted exactly to parameter bytes and
 back.

@@ -228,7 +228,10 @@ class Executed:
 
 @dataclass(frozen=True)
 class Failed:
-    """F8, F9 or an error with the header of an event: an override or event executed no instruction."""
+    """F8, F9 or an error with the header of an event.
+
+    An override or an event did not execute its instruction.
+    """
 
     by: Source
     error: CommandRefused

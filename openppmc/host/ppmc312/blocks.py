@@ -21,7 +21,10 @@ from ..errors import OutOfRange
 
 CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
-"""Headers: complete instruction, last data block, data block before others, code block before data blocks."""
+"""Headers of blocks.
+
+They are: complete instruction, last data block, data block before others, code block before data blocks.
+"""
 LONGEST = 32
 WINDOW = 0x20
 POSITIONS = 1 << 32
@@ -70,7 +73,9 @@ def number(value: int, width: int, what: str, least: int = 0) -> bytes:
 
 
 def position_bytes(position: int) -> bytes:
-    """Return the bytes of a position, -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
+    """Return the bytes of a position.
+
+    It is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
 
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'
@@ -91,7 +96,9 @@ def _side(direction: int) -> int:
 def initial_setting(
     clk: int, start: int, high: int, up: int, stop: int | None = None, down: int = 0, sigmoid: bool = False
 ) -> bytes:
-    """Return 00: base clock (0 to 7), rates, pulses of the ramps; `stop` adds a separate deceleration ramp.
+    """Return 00: base clock (0 to 7), rates and pulses of the ramps.
+
+    `stop` adds a separate deceleration ramp.
 
     >>> initial_setting(1, 1000, 200, 2000).hex(" ")
     '03 09 00 01 03 e8 00 c8 00 07 d0'
@@ -132,7 +139,9 @@ def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None
 
 
 def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = False) -> bytes:
-    """Return 02: report when the encoder and the pulses agree within `distance` (1 to 65 535), and when not.
+    """Return 02: report when encoder and pulses agree within `distance`, and when not.
+
+    The distance is 1 to 65 535.
 
     >>> in_position(True, 10).hex(" ")
     '03 04 02 03 00 0a'

@@ -100,7 +100,9 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ instructions
 
     def instruct(self, block: bytes, gives: int = 3, milliseconds: int = ANSWER_MS) -> bytes:
-        """Execute any instruction block in logical order (`blocks`); return the parameters of the response.
+        """Execute any instruction block in logical order (`blocks`).
+
+        It returns the parameters of the response.
 
         Raises the error of the part.
         """
@@ -138,8 +140,9 @@ class Core(Checked, Generic[MotionT]):
             self.reports.append(report)
 
     def next_report(self, timeout: float = 0) -> Report | None:
-        """Return the oldest report that was not fetched yet, `None` if no report arrives within `timeout`
-        seconds.
+        """Return the oldest report that was not fetched yet.
+
+        If no report arrives within `timeout` seconds, it returns None.
         """
         end = self.link.clock() + timeout
         if not self.reports:
@@ -365,7 +368,10 @@ class Settings(Core[MotionT]):
         )
 
     def rate_of(self, pps: speeds.Number, what: str = "speed") -> int:
-        """Return the rate of a speed of the table. Raises OutOfRange, also if this object made no table."""
+        """Return the rate of a speed of the table.
+
+        Raises OutOfRange, also if this object made no table.
+        """
         return self.known_setup().rate_of(pps, what)
 
     def known_setup(self) -> Setup:
@@ -395,8 +401,9 @@ class Settings(Core[MotionT]):
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 
     def limit_speed(self, pps: speeds.Number) -> None:
-        """Set the speed limit at an active slow-down limit; the motor runs slower than this (default: high
-        speed).
+        """Set the speed limit at an active slow-down limit.
+
+        The motor runs slower than this speed. Default: the high speed.
         """
         rate = self.known_setup().clock.choose(pps).rate
         self.instruct(blocks.speed_limit(rate))
@@ -411,8 +418,9 @@ class Settings(Core[MotionT]):
             self._plain(Code.RUN_MONITOR, 1)
 
     def interlock(self, position: int | None) -> None:
-        """Activate the output INTLK until the pulses reach this position (`InterlockEnded`); `None`:
-        deactivate it now.
+        """Activate the output INTLK until the pulses reach this position.
+
+        The part then reports `InterlockEnded`. None deactivates the output now.
         """
         running = self.status().interlock
         if running:

@@ -1,4 +1,6 @@
-"""Errors and alarms of the PPMC-312 as exceptions, one class per reason. `host.errors` has the base class.
+"""Errors and alarms of the PPMC-312 as exceptions, one class per reason.
+
+`host.errors` has the base class.
 
 `CommandRefused.status` is the byte of the response that holds the reason.
 """
@@ -123,7 +125,9 @@ _FAILURES = {
 
 
 def refused(code: int, parameters: bytes) -> CommandRefused | None:
-    """Return the exception for a response, `None` if it is no error. parameters: parameters of the response.
+    """Return the exception for a response, `None` if it is no error.
+
+    parameters: parameters of the response.
 
     >>> str(refused(0xF1, bytes([0, 0x10])))
     'the part is in alarm: remove the cause, then clear the alarm (or reset)'

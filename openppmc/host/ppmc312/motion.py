@@ -94,8 +94,9 @@ class Motion(Handle):
             self.held, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
 
     def stopped(self, report: Stopped) -> None:
-        """Process the report that the pulses have ended; it is a confirmed end if the pulses are those of the
-        order.
+        """Process the report that the pulses have ended.
+
+        It is a confirmed end if the pulses are those of the order.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:

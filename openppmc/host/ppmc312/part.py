@@ -93,7 +93,9 @@ class Overrides(Settings[MotionT]):
     # ------------------------------------------------------------------ event buffers
 
     def event_add(self, event: int, block: bytes) -> None:
-        """Append an instruction (`move_block`, `blocks`) to event buffer 1 or 2, each of which holds four.
+        """Append an instruction (`move_block`, `blocks`) to event buffer 1 or 2.
+
+        A buffer holds four instructions.
 
         A falling edge of the event input executes the next one; after the last one the first one follows.
         Only while the motor is stopped.

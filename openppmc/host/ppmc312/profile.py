@@ -1,4 +1,4 @@
-"""Acceleration tables of the PPMC-312 from speeds in pulses per second: linear and sigmoid ones. Pure.
+"""Acceleration tables of the PPMC-312 from speeds in pulses/s: linear and sigmoid. Pure.
 
 A speed is base clock / rate with 16-bit rates. A table has 127 stages, or up to 127 for a free curve.
 """
@@ -99,7 +99,10 @@ def plan_file(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> Setup:
-    """Return the set-up of a free curve from a file; clocks as for `choose_clock`. Raises OutOfRange."""
+    """Return the set-up of a free curve from a file; clocks as for `choose_clock`.
+
+    Raises OutOfRange.
+    """
     return plan_stages(xtal_hz, read_stages(path), base_clock, external_clock)
 
 
@@ -375,7 +378,9 @@ def plan_setup(
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:
-    """Return the least pulses of acceleration and deceleration; 127 * (1 + Rs / RH) for all 127 stages.
+    """Return the least pulses of acceleration and deceleration.
+
+    They are 127 * (1 + Rs / RH) for all 127 stages.
 
     The slowest stage of a ramp has the smallest share, so it defines the limit (P312-TBL-04, P312-TBL-05).
     """

@@ -1,4 +1,6 @@
-"""Block registers of a PPMC-312 accessed through the bridge: an instruction takes one message each way.
+"""Access to a PPMC-312 through its block registers on the bridge.
+
+An instruction takes one message to the bridge and one back.
 
 The message contains these steps: wait until an instruction may be written, write it, wait for a response,
 read it. WAIT on RAR returns how much of a response is left. With a time limit of 0 it ends the script if no

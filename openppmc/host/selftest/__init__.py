@@ -1,4 +1,6 @@
-"""Comparison of a board with the golden model (`openppmc selftest`): every recorded edge of every output.
+"""Self-test: every recorded edge of every output of a board against the golden model.
+
+`openppmc selftest` runs it.
 
     plan       sections of a test, and the accesses to the part that do not fill the recorder
     bytes      stimuli of the parts on a byte bus: every code, moves of each kind

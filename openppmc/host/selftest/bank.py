@@ -1,4 +1,4 @@
-"""Self-test of a board with a bank (`host.selftest`): all of axis 1, then several axes together."""
+"""Self-test of a board with a bank: all of axis 1, then several axes together."""
 
 from __future__ import annotations
 

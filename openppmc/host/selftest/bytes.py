@@ -228,7 +228,10 @@ class ByteBus:
         return [Section(title, MOVES, play) for title, play in kinds]
 
     def registers(self) -> Section:
-        """Return a section that reads the status and every register, before and after the initialisation."""
+        """Return a section that reads the status and every register.
+
+        It reads them before and after the initialisation.
+        """
 
         def play(talk: Talk) -> None:
             talk.read(COMMAND, 3)

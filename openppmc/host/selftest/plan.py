@@ -18,7 +18,10 @@ REGISTERS, COMMANDS, MOVES, SWITCHES = "registers", "commands", "moves", "switch
 _GAP = 4
 """NOPs between two bytes; with FAST timing the part has accepted the first byte by then."""
 _SLOW_BYTE = 0.003
-"""Seconds between two bytes with DATASHEET timing, above all processing times except that of a table."""
+"""Seconds between two bytes with DATASHEET timing.
+
+The time is above all processing times, except that of a table.
+"""
 
 
 class Talk:

@@ -1,4 +1,4 @@
-"""Self-test of a board with a PPMC-2104 (`host.selftest`): each axis, then both on one edge of RUN."""
+"""Self-test of a board with a PPMC-2104: each axis, then both on one edge of RUN."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Conversion of the bridge's records to a recording of the part (UB-REC): which pin changed when."""
+"""Conversion of the bridge's records to a recording of the part (UB-REC).
+
+A recording contains the time of every change of a pin.
+"""
 
 from __future__ import annotations
 
@@ -138,7 +141,10 @@ def recording_of(
 
 
 def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, int]]:
-    """Yield the records from the reset on, and the state when outputs must have their reset levels."""
+    """Yield the records from the reset on.
+
+    It also yields the state at the time when outputs must have their reset levels.
+    """
     looked = False
     before = samples[0][1]
     for t, levels in samples:

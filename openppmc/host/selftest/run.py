@@ -1,4 +1,4 @@
-"""Play the sections of a self-test on a board, compare them with the golden model, collect results."""
+"""Play the sections of a self-test, compare them with the golden model, collect results."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ from .recording import NoReset, Recorded, recording_of, reset_levels
 
 ECHOES, ECHO_BYTES = 8, 48
 TRIES = 3
-"""Attempts per section: if the PC is busy for long, a chopper or a clock may fill the recorder."""
+"""Number of attempts per section.
+
+If the PC is busy for a long time, a chopper or a clock may fill the recorder.
+"""
 Tell = Callable[[str], None]
 
 
@@ -234,7 +237,10 @@ class SelfTest:
         return found
 
     def _difference(self, section: Section, comparison: Comparison) -> tuple[str, str]:
-        """Return the difference in one line and as a report; write picture and waveforms to the folder."""
+        """Return the difference in one line and as a report.
+
+        Picture and waveforms are written to the folder.
+        """
         assert comparison.mismatch is not None
         folder = self.folder / section.folder
         text = report(comparison)

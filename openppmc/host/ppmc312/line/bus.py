@@ -79,7 +79,9 @@ class Ppmc312Bus(LineBus[Line, Station312]):
     def scan(
         self, stations: Iterable[int] = range(STATIONS), progress: Callable[[int], None] | None = None
     ) -> list[Found]:
-        """Return the stations of the line. An address without a station takes twice the time `patience`.
+        """Return the stations of the line.
+
+        An address without a station takes twice the time `patience`.
 
         It reads and clears the error counters of stopped stations. progress: called with each number before
         it is polled.
@@ -132,7 +134,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
     # ------------------------------------------------------------------ several stations
 
     def poll(self, stations: Iterable[int] | None = None) -> dict[int, list[Report]]:
-        """Poll stations (default: those in use) once; return the reports of stations that have reports."""
+        """Poll stations (default: those in use) once; return their reports by station."""
         polled = {axis.number: axis.poll() for axis in self._chosen(stations)}
         return {number: reports for number, reports in polled.items() if reports}
 

@@ -1,4 +1,7 @@
-"""Line with PPMC-312 in serial mode. It transfers one frame and its reply, counts faults, repeats nothing."""
+"""Line with PPMC-312 in serial mode.
+
+It transfers one frame and its reply, counts faults, repeats nothing.
+"""
 
 # ruff: noqa: N818
 

@@ -118,7 +118,9 @@ class Station312(Axis[SerialMotion]):
         self._heard(report)
 
     def poll(self) -> list[Report]:
-        """Poll the station until no report is pending; return all reports not fetched yet, oldest first.
+        """Poll the station until no report is pending; return all reports, oldest first.
+
+        Reports that were fetched before are not included.
 
         Ends of motions that this object started are in their `end` instead.
         """
@@ -170,13 +172,17 @@ class Station312(Axis[SerialMotion]):
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
     def end_status(self) -> Cause | None:
-        """Return the cause of the last end of a motion, `None` before the first since the reset; allowed at
-        any time.
+        """Return the cause of the last end of a motion; allowed at any time.
+
+        Before the first end since the reset, it returns None.
         """
         return self.window.end_status()
 
     def reset(self) -> None:
-        """Reset the station by instruction, in any state: pulses end immediately, no table, position 0."""
+        """Reset the station by instruction, in any state.
+
+        Pulses end immediately, there is no table, and the position is 0.
+        """
         for _ in range(ATTEMPTS):
             sent = self.link.tell(self.number, bytes([Code.RESET]))
             self.link.pause(self.link.seconds(len(sent)) + self.link.patience / 4)
@@ -196,8 +202,9 @@ class Station312(Axis[SerialMotion]):
     # ------------------------------------------------------------------ inside
 
     def _position(self, encoder: bool) -> int:
-        """Read the position until two successive reads are equal, or differ by no more than the motor can
-        move.
+        """Read the position until two successive reads agree.
+
+        They agree if they are equal, or differ by no more than the motor can move.
         """
         times: list[float] = []
 

@@ -1,4 +1,6 @@
-"""Instructions to one station of a line, their responses, errors, and repetitions without side effects.
+"""Instructions to one station of a line, with their responses and errors.
+
+An instruction whose reply is lost is repeated only if that has no side effect.
 
 `ppmc312.window.Window` does the same for the parallel bus.
 """

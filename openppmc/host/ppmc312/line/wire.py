@@ -1,4 +1,4 @@
-"""Frames of the serial mode of the PPMC-312, and conversion of bus blocks to code and data and back. Pure.
+"""Serial mode of the PPMC-312: frames, and conversion of bus blocks and back. Pure.
 
 A frame consists of control code, hexadecimal characters and checksum. Most instructions differ from the
 blocks in their code only; the flag byte becomes part of the code.
