@@ -1,4 +1,4 @@
-"""The bytes of a PPMC-104 host in words."""
+"""Bytes of a PPMC-104 host as text."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ERRORS = (
 
 
 class Words104(OneAxisWords):
-    """One axis, error numbers in the status register."""
+    """Words of a PPMC-104: one axis, error numbers in the status register."""
 
     errors = ERRORS
     reads = {
