@@ -62,9 +62,9 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     for number, (axes, (start, stop)) in enumerate(zip(panels, views, strict=True)):
         _panel(axes, comparison, outputs, pins, start, stop, labels=number == 0)
         axes.set_xlabel(
-            f"clk edge   (1 clk = {clk_ps(recording.params) / 1000:g} ns)"
+            f"clock edge   (1 cycle = {clk_ps(recording.params) / 1000:g} ns)"
             if number == 0
-            else f"zoom: {stop - start} clk"
+            else f"zoom: {stop - start} cycles"
         )
     _title(figure, comparison)
     figure.savefig(path, metadata={"Software": None})

@@ -136,7 +136,10 @@ def wait_all(
             return [motion.end for motion in motions if motion.end is not None]
         if limit is not None and line.clock() >= limit:
             who = ", ".join(str(motion.station) for motion in running)
-            raise Timeout(f"station {who}: not over after {timeout:g} s: wait longer or stop it")
+            raise Timeout(
+                f"station {who}: motion still in progress after {timeout:g} s; "
+                "increase timeout or stop the motion"
+            )
         if progress is not None and line.clock() >= due:
             progress(_sum(motions))
             due = line.clock() + PROGRESS_POLL
@@ -391,7 +394,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         wanted = self.axes if motions is None else motions
         chosen = [one.motion if hasattr(one, "motion") else one for one in wanted]
         if motions is not None and None in chosen:
-            raise OutOfRange("this station was started by nobody: start it first")
+            raise OutOfRange("this station has no motion to wait for; start one first")
         return wait_all([one for one in chosen if one is not None], timeout, progress)
 
     def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[End]:

@@ -212,7 +212,9 @@ class Motion(Handle):
             if progress:
                 progress(now)
             if limit is not None and self._link.clock() >= limit:
-                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+                raise Timeout(
+                    f"motion still in progress after {timeout:g} s; increase timeout or stop the motion"
+                )
         assert self.end is not None
         return self.end
 

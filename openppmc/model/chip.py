@@ -105,7 +105,7 @@ class Square:
 
     def __init__(self, clk_hz: int, hz: int, origin: int = 0) -> None:
         if not 1 <= hz <= clk_hz // 4:
-            raise ValueError(f"a square wave of {hz} Hz from a clk of {clk_hz} Hz")
+            raise ValueError(f"square wave of {hz} Hz is outside 1 Hz to a quarter of clk_hz ({clk_hz} Hz)")
         self._clk_hz, self._hz, self.origin = clk_hz, hz, origin
         self._n = 1
 

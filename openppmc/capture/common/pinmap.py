@@ -80,10 +80,11 @@ class Pins:
 
 @dataclass
 class PinMap:
-    """Map as it was read.
+    """Pin map from a file.
 
-    pins: text of the channel by pin, as written; `None`: the channels' own names are used. scope: scope of a
-    VCD, whose channels have priority over others of the same name.
+    Attributes:
+        pins: text of the channel by pin, as written; `None`: the channels' own names are used.
+        scope: scope of a VCD, whose channels have priority over others of the same name.
     """
 
     name: str = "the channels' names"

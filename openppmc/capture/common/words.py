@@ -172,7 +172,7 @@ class Exchange:
     @property
     def meaning(self) -> str:
         """Bytes sent as text."""
-        return self.words.command(self.sent[0], self.sent[1:]) if self.sent else "look at the status register"
+        return self.words.command(self.sent[0], self.sent[1:]) if self.sent else "read the status register"
 
     @property
     def reply(self) -> str:

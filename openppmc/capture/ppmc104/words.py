@@ -8,10 +8,10 @@ ERRORS = (
     "undefined command, or a stop at rest",
     "not allowed while BUSY",
     "not initialised",
-    "data byte nobody asked for",
+    "unexpected data byte",
     "PA above 11220",
     "RH above RL, or PA below 4",
-    "data byte nobody asked for while BUSY",
+    "unexpected data byte while BUSY",
     "already decelerating",
 )
 

@@ -11,10 +11,10 @@ ERRORS = (
     "undefined command, or a stop at rest",
     "not allowed while BUSY",
     "not initialised",
-    "data byte nobody asked for",
+    "unexpected data byte",
     "unused",
     "divisor 0, or slow divisor below fast one",
-    "data byte nobody asked for while BUSY",
+    "unexpected data byte while BUSY",
     "already decelerating",
 )
 

@@ -143,6 +143,6 @@ def read_info(link: Link) -> Info:
         )
     if axes not in SIZES:
         raise WrongDevice(
-            f"{link.name}: the bank tells of {axes} axes, and there are such of {', '.join(map(str, SIZES))}"
+            f"{link.name}: the bank reports {axes} axes; expected one of {', '.join(map(str, SIZES))}"
         )
     return Info(version, axes)

@@ -207,7 +207,7 @@ class Settings(Talk):
         Code.STATUS_2,
         range(2),
         "0 or 1",
-        "the program starts by itself after power-up; 0 also halts it",
+        "run the program after power-up; 0 also halts it",
         word=STATUS_2_BITS,
         shift=5,
         bits=1,

@@ -202,8 +202,8 @@ class Talk(Checked):
     def lost(self, why: str) -> LostReply:
         """Return the exception for an instruction that may or may not have been executed."""
         return LostReply(
-            f"{self.who}the reply to an instruction was lost, it may have been carried out; {why}: look at "
-            "the controller (status) before you repeat it"
+            f"{self.who}the reply to an instruction was lost, it may have been carried out; {why}: check "
+            "the status of the controller before you repeat the instruction"
         )
 
     # ------------------------------------------------------------------ read-outs

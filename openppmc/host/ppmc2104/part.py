@@ -287,7 +287,7 @@ class Ppmc2104(Part):
         if not numbers[place]:
             place = 1 - place
         if numbers[place] not in BY_NUMBER:
-            return ProtocolError(f"{self.link.name}: the part told of an error and then of none: try again")
+            return ProtocolError(f"{self.link.name}: the part reported an error and then no error; try again")
         return refused(numbers[place], answer.last, place + 1)
 
 

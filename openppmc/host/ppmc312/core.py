@@ -358,7 +358,7 @@ class Settings(Core[MotionT]):
         """
         response = self.window.ask(blocks.block(Code.TABLE_READ), 12)
         if response.code != Code.TABLE_READ:
-            raise ProtocolError(f"{self.link.name}: no table came, but {response.raw.hex(' ')}")
+            raise ProtocolError(f"{self.link.name}: expected the table, received {response.raw.hex(' ')}")
         items: dict[int, bytearray] = {ITEM_RATES: bytearray(), ITEM_UP: bytearray(), ITEM_DOWN: bytearray()}
         while not response.last:
             response = self.window.more()

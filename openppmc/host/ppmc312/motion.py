@@ -172,7 +172,9 @@ class Motion(Handle):
             elif (now := self.poll()) is not None:
                 progress(now)
             if not self.over and limit is not None and self._link.clock() >= limit:
-                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+                raise Timeout(
+                    f"motion still in progress after {timeout:g} s; increase timeout or stop the motion"
+                )
         return end
 
 

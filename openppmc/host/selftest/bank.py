@@ -88,8 +88,8 @@ class PlanBank:
             Section("registers of the window", REGISTERS, window),
             *FIRST.codes(identity, records),
             *FIRST.moves(),
-            Section("group from one clk on", MOVES, together),
-            Section("all stopped on one clk", MOVES, stopped),
+            Section("group started in the same cycle", MOVES, together),
+            Section("all stopped in the same cycle", MOVES, stopped),
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:

@@ -43,7 +43,7 @@ def verdict(found: Findings) -> str:
 def built(build: Build | None) -> str:
     """Return the build of a bitstream as text."""
     if build is None:
-        return "does not tell its version"
+        return "does not report its version"
     commit = f", commit {build.commit}{' with changes' if build.changed else ''}" if build.commit else ""
     return f"version {build.version}, sources {build.source or 'none'}{commit}"
 

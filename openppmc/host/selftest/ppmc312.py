@@ -162,7 +162,9 @@ class Plan312:
             "run CCW, stopped": played(blocks.run(CCW, rate), stop=now),
             "search for an origin, stopped": played(blocks.origin_search(CW, rate), stop=now),
             "zero return": played(blocks.acceleration(CW, PULSES), blocks.zero_return(CCW)),
-            "another speed on the way": played(blocks.run(CW, rate), stop=blocks.change(220), after=0.005),
+            "another speed during the motion": played(
+                blocks.run(CW, rate), stop=blocks.change(220), after=0.005
+            ),
         }
         return [
             Section("registers", REGISTERS, registers),

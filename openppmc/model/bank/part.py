@@ -49,17 +49,17 @@ class PpmcBank(Chip):
         phase_idle: int = 1,
     ) -> None:
         if axes not in SIZES:
-            raise ValueError(f"axes {axes} is none of {', '.join(map(str, SIZES))}")
+            raise ValueError(f"axes={axes} is not supported; use one of {', '.join(map(str, SIZES))}")
         if phase_idle not in (0, 1):
             raise ValueError(f"phase_idle {phase_idle} is neither 0 nor 1")
         self.INPUTS, self.WIDTHS = inputs(axes), widths(axes)
         super().__init__(clk_hz, xtal_hz, "FAST", outputs(axes, phase_idle), Latency(motor_pins=0))
         self.round = round_clk(axes)
         if 4 * clk_hz % xtal_hz:
-            raise ValueError(f"clk_hz {clk_hz}: a quantum of {xtal_hz} Hz is no whole number of clk")
+            raise ValueError(f"clk_hz {clk_hz}: a quantum of {xtal_hz} Hz is not a whole number of cycles")
         if self.timebase.cyc(16) < self.round:
             raise ValueError(
-                f"clk_hz {clk_hz}: 16 XTAL cycles of {xtal_hz} Hz are shorter than {self.round} clk"
+                f"clk_hz {clk_hz}: 16 XTAL cycles of {xtal_hz} Hz are shorter than {self.round} cycles"
             )
         self._size, self._phase_idle = axes, phase_idle
         self._build(0)

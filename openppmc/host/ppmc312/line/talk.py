@@ -162,7 +162,7 @@ class Doubt:
     def _lost(self, why: str) -> LostReply:
         return LostReply(
             f"{self._station.who}the reply to an instruction was lost, it may have been carried out; {why}: "
-            "look at the station (status) before you repeat it"
+            "check the status of the station before you repeat the instruction"
         )
 
 

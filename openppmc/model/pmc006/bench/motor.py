@@ -131,7 +131,7 @@ class Winding:
         self.levels = [Level(begin, 0.0, 0.0, 0, tau)]
 
     def look(self, t: float, outputs: Mapping[str, int], anew: bool = False) -> None:
-        """Process the outputs of the part at t. anew: the back EMF has changed."""
+        """Process the outputs of the part at t. `anew`: the back EMF has changed."""
         seen = tuple(outputs[pin] for pin in self._pins[:-1])
         if seen[:3] != self._seen[:3] or anew:
             self._switch(t, *seen[:3])
@@ -217,7 +217,7 @@ class Plant:
 
     def detach(self) -> None:
         """Remove the motor; the model runs alone again."""
-        self._model.run_until = self._run  # type: ignore[method-assign] # as it was before
+        self._model.run_until = self._run  # type: ignore[method-assign] # restored
 
     # ------------------------------------------------------------------ time
 
