@@ -16,7 +16,7 @@ from typing import ClassVar
 
 from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
 
-# # Common parts of the models' blocks: phases of an edge of `clk`, set-up, input levels, output registers. At
+# Common parts of the models' blocks: phases of an edge of `clk`, set-up, input levels, output registers. At
 # one edge the blocks run in the order of `Phase`, so that each block sees the state of the others that a
 # register would hold just before the edge.
 

@@ -162,7 +162,7 @@ class QuantumCounter:
         return self._timebase.ticks_in(t - self.origin)
 
 
-# # Event queue of the models: callbacks ordered by edge of `clk`, then by phase within the edge. A phase is a
+# Event queue of the models: callbacks ordered by edge of `clk`, then by phase within the edge. A phase is a
 # small integer. It defines which register of the part reads which other one before both change; each part has
 # its own list. Callbacks of one edge and phase run in the order in which they were scheduled.
 

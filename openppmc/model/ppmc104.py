@@ -179,7 +179,7 @@ class Motion(TimedMotion):
         self._gate.set(t, False)
 
 
-# # Command processor of the PPMC-104 model: the effect of each command. `single.commands` processes the bytes
+# Command processor of the PPMC-104 model: the effect of each command. `single.commands` processes the bytes
 # before that. Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary:
 # P104-AUX-01..06, P104-DS-11.
 

@@ -61,7 +61,7 @@ def accesses(
         before = turned[-1:]
         whole = np.flatnonzero(turned[:-1] & 3)
         begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1 == 1
-        # # Sample the bus while the strobe is still active. Sampled wires that change together may be a
+        # Sample the bus while the strobe is still active. Sampled wires that change together may be a
         # sample apart. Therefore use the value before the last sample of the strobe, or in its middle if it
         # is that short.
         seen = np.maximum((begin + end) // 2, end - wires.sample - 1)

@@ -80,8 +80,7 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
     gaps = np.diff(times)
     if not len(gaps):
         return Move(axis, begin, end, sign, len(times), 0.0, 0.0, 0.0)
-    # A single interval may be too short by a sample. Therefore the highest speed is that of a median of
-    # three.
+    # A single interval may be too short by a sample. Therefore the highest speed uses medians of three.
     least = min(gaps[:2].min(), gaps[-2:].min())
     if len(gaps) > 2:
         a, b, c = gaps[:-2], gaps[1:-1], gaps[2:]

@@ -56,9 +56,9 @@ def spoken(
 def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged]) -> list[Line]:
     """Return all accesses as text, from columns.
 
-    For parts with commands and status in register 1, data in register 0.
+    The function is for parts with commands and status in register 1 and data in register 0.
 
-    This function does the work of `exchanges` with columns instead of single accesses.
+    It does the work of `exchanges` with columns instead of single accesses.
     """
     np = numpy()
     accesses = accesses.without_polls(1)

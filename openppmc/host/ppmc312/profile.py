@@ -354,7 +354,7 @@ def plan_setup(
     >>> plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 761)
     Traceback (most recent call last):
     openppmc.host.errors.OutOfRange: 761 pulses: the ramp is too short: each of its stages needs 2 \
-    es: 762 or more
+pulses: 762 or more
     """
     separate = stop_pps is not None or down is not None
     start, high = clock.choose(start_pps, "start speed"), clock.choose(high_pps, "high speed")

@@ -11,7 +11,7 @@ from ..motion.excitation import ALL_PHASES
 from ..ppmc104 import GUARD
 from .chopper import GROUP_LEAD, Visits
 
-# # Pins of the bank with idle and reset levels. A port of all axes is one number; bit i belongs to axis i. In
+# Pins of the bank with idle and reset levels. A port of all axes is one number; bit i belongs to axis i. In
 # `s`, bits 5 i .. 5 i + 4 are S1 .. S5 of axis i.
 
 HOST_PINS = ("a", "cs_n", "rd_n", "wr_n", "d_i")

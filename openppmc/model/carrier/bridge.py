@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from .bridge_ops import BUILD_BYTES, Bus, Engine
 
-# # Receiver of the bridge's golden model: line bytes to requests and faults (UB-FRM-01..06). It is written
+# Receiver of the bridge's golden model: line bytes to requests and faults (UB-FRM-01..06). It is written
 # from docs/uart_bridge.md, deliberately without the codec of the host package, so that one checks the other.
 
 FLAG, ESCAPE = 0x7E, 0x7D

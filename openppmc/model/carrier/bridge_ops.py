@@ -38,8 +38,8 @@ class Bus(Protocol):
         zero()              nothing happens
         count(2), zero(2)   called with two axes as well
         now_ms() -> float   time of the read accesses of this script
-        skip(limit_ms)      called during a wait: let time pass until a register may read differently, at most
-        limit_ms
+        skip(limit_ms)      called during a wait: let at most limit_ms pass until a register may read
+                            differently
 
     With a recorder: `record(what)` 0 = end, 1 = begin, 2 = rewind; `recorded() -> bytes` of RECORDED;
     `fetch() -> int` the next byte of its records.

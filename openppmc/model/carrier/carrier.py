@@ -167,7 +167,7 @@ class Carrier(ABC, Generic[P_co]):
         if not log.edges:
             return
         edges = log.edges[:]
-        # # The log starts again here, with its current levels; otherwise a change of two axes at the same
+        # The log starts again here, with its current levels; otherwise a change of two axes at the same
         # edge would be lost.
         log.edges.clear()
         log.initial.update(log.levels)

@@ -67,7 +67,7 @@ class Motion:
     """
 
     hold_cycles: int
-    # # True if a deceleration request at the start-up rate ends the operation immediately (P2104-FDC-02,
+    # True if a deceleration request at the start-up rate ends the operation immediately (P2104-FDC-02,
     # STMC-DEC-03).
     stops_at_start_speed: ClassVar[bool] = False
 

@@ -141,7 +141,7 @@ class Desk(Protocol):
         """Execute N while the speed mode is running or ending."""
 
 
-# # Instructions of the PMC006B4 (P006 chapters 3.1, 3.2). An instruction is an object that reads the desk and
+# Instructions of the PMC006B4 (P006 chapters 3.1, 3.2). An instruction is an object that reads the desk and
 # its data and returns an `Effect`. Nothing changes before the executor applies the effect.
 
 

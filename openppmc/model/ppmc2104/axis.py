@@ -115,7 +115,7 @@ class Windows:
         return origin + (max(0, t - origin) // self._period + 1) * self._period
 
 
-# # Motion of a PPMC-2104 axis, where it differs: RUN gate, stop at start-up speed, polled inputs. RUN:
+# Motion of a PPMC-2104 axis, where it differs: RUN gate, stop at start-up speed, polled inputs. RUN:
 # P2104-OPR-02, -TIM-02. Stops: P2104-STP-01..05, -FDC-02. Inputs: P2104-LIM-03..09, with DATASHEET timing
 # P2104-DS-20, -21. `motion` has the rest, which the PPMC family shares.
 

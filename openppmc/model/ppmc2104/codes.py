@@ -108,7 +108,7 @@ def rate_error(command: Command, rate: int, setup: Setup, csel: int, other_opera
     return Error.RATE_TWO_AXES if other_operating and rate < together else Error.NONE
 
 
-# # Pins of the PPMC-2104 with idle and reset levels (P2104-PORT-01), and their assignment to the axes. A port
+# Pins of the PPMC-2104 with idle and reset levels (P2104-PORT-01), and their assignment to the axes. A port
 # of both axes is one number, bit 0 = axis 1. `clk_o` is not modelled: it never stops and depends on nothing.
 
 AXES = (0, 1)

@@ -19,7 +19,7 @@ from ..motion.ramp import Ramp
 from .codes import BUSY, ERR, Error, Kind
 from .hostport import BytePort
 
-# # Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08. The STMC has
+# Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08. The STMC has
 # the same times under STMC-DS-01 and -04..10. The `Motion` class of each part has its own behaviour.
 
 DS_BUSY_RAMP, DS_BUSY_CONSTANT = 1792, 432

@@ -28,7 +28,7 @@ from ..single.hostport import HostPort
 from .codes import FINISH_STATUS, INPUTS, OUTPUTS, READ_MAPS, TICK_XT, decode
 from .pins import GUARD, INPUT_REGISTER
 
-# # Motion of the STMC, where it differs: STMC-MOT, -CLK, -DEC, -IN, -DS. Divisors: a gap of x ticks is an
+# Motion of the STMC, where it differs: STMC-MOT, -CLK, -DEC, -IN, -DS. Divisors: a gap of x ticks is an
 # interval of rate x - 1 on a base clock of 1280 crystal periods, so the ramp and the rate counter of the PPMC
 # family are used unchanged (STMC-INI-01, STMC-RMP-01). There is no pulse output: a motion is over with its
 # last step (STMC-MOT-08). An operation that starts while its deceleration limit is active makes one step

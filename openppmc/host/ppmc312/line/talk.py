@@ -45,7 +45,7 @@ from .wire import (
     response,
 )
 
-# # Check whether an instruction was executed whose reply was lost, so that nothing moves twice. A repetition
+# Check whether an instruction was executed whose reply was lost, so that nothing moves twice. A repetition
 # has no side effect if the instruction reads, sets a value or stops the motor. A start is checked by state
 # and position. A toggle and a registration are checked by the status before and after. In all other cases
 # LostReply is raised.

@@ -12,7 +12,7 @@ from ..desk import Desk
 from ..pins import Shared, Ticks
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 
-# # I2C master of the PMC006B4 with a resolution of quarter bits (P006 chapter 13.1). The actions of a master
+# I2C master of the PMC006B4 with a resolution of quarter bits (P006 chapter 13.1). The actions of a master
 # are generators: each `yield` waits for the next quarter tick, and the code after it runs at the edge of this
 # tick.
 

@@ -12,7 +12,7 @@ from functools import lru_cache
 from math import isqrt
 from typing import NamedTuple
 
-# # Arithmetic of the PMC006B4's motions: accelerations, ramps, distances, plans (P006-MOT-02, -10..-21).
+# Arithmetic of the PMC006B4's motions: accelerations, ramps, distances, plans (P006-MOT-02, -10..-21).
 # Speeds are whole steps/s 0..16000, distances whole steps, all times multiples of 1 us. All results are
 # exact.
 

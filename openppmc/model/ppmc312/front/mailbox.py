@@ -16,7 +16,7 @@ from ..codes import Source
 from ..pace import Pace
 from .responses import Responses
 
-# # Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They belong to the pins, not to the
+# Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They belong to the pins, not to the
 # registers: a software reset replaces the registers, but a strobe in progress continues.
 
 SYNC = 2

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..codes import DIR, IDX, OV, Answer, Cause, Code
 from . import responses
 
-# # Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17). This part
+# Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17). This part
 # contains no time: `Parser.take` receives one character after the other, and `silence` is called after 20 ms
 # without one.
 

@@ -125,7 +125,7 @@ def _counter_clear(core: Core, t: int, data: bytes) -> bytes:
     return b""
 
 
-# # Reads of the pins, with the levels of the edge at which they are checked. An action in the next cycle
+# Reads of the pins, with the levels of the edge at which they are checked. An action in the next cycle
 # happens before the levels of that cycle are updated.
 _PINS: dict[int, Callable[[Core], bytes]] = {
     Code.INPUT: lambda core: bytes([core.context.levels["auxi"]]),
