@@ -1,6 +1,7 @@
 """Acceleration tables of the PPMC-312 from speeds in pulses/s: linear and sigmoid. Pure.
 
-A speed is base clock / rate with 16-bit rates. A table has 127 stages, or up to 127 for a free curve.
+A speed is base clock / rate with 16-bit rates. A table has 127 stages, or up to 127 for a free curve. Only
+`read_stages` does I/O: it reads the file of a free curve.
 """
 
 from __future__ import annotations
