@@ -5,69 +5,60 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from typing import Protocol
 
 from ..model.motion.codes import ACC_DEC, CONSTANT, CONTINUOUS, ENDLESS, HIGH_SPEED, ORIGIN, SINGLE_STEP
 from . import speeds
 from .check import Checked
 from .ending import Cause, End
 from .errors import AlreadyDecelerating, NothingToStop, NotWhileBusy, OutOfRange, ProtocolError
-from .kind import COILS_OFF, PULSE_ONLY, RateKind, Wanted
+from .kind import CHOPPER, COILS_OFF, PULSE_ONLY, RateKind, Wanted
 from .link import Talk
-from .motion import READ_FINISH, AnyMotion, Homing, Motion, Order, Progress
+from .motion import READ_FINISH, Homing, Motion, Order, Progress
 from .registers import FAMILY, Outputs, ReadCodes, Switches
 from .script import Script
-from .speeds import Number, Setup, exact, nearby
-
-# Moves that wait for their end. They are the same for all parts.
+from .speeds import Number, exact, nearby
 
 OnProgress = Callable[[Progress], None]
 
 
-class Startable(Protocol):
-    """Members that `Moves` needs; `nothing_to_move` returns the End of a move of 0 pulses."""
-
-    @property
-    def position(self) -> int: ...
-    def start_move(self, pulses: int, pulse_only: bool = False) -> AnyMotion: ...
-    def start_constant(self, pulses: int, pps: speeds.Number) -> AnyMotion: ...
-    def nothing_to_move(self) -> End: ...
-    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End: ...
-
-
-class Moves(Checked):
-    """Moves that wait for their end; base class of axes that are `Startable`."""
-
-    def move(
-        self: Startable, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False
-    ) -> End:
-        """Move with ramps and wait for the end.
-
-        Raises:
-            LimitReached, AlarmStop, StoppedEarly: the move ended before all pulses were output.
-        """
-        if pulses == 0:
-            return self.nothing_to_move()
-        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
-
-    def move_to(self: Startable, position: int, progress: OnProgress | None = None) -> End:
-        """Move with ramps to a position of the pulse counter and wait for the end."""
-        return self.move(position - self.position, progress)
-
-    def move_constant(
-        self: Startable, pulses: int, pps: speeds.Number, progress: OnProgress | None = None
-    ) -> End:
-        """Move at constant speed and wait for the end; raises the same errors as `move`."""
-        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
-
-
-# An axis without its motions: set-up, speeds, registers.
-
 EXCITATION_OFF = 0xC0
+CW, CCW = 0, 1
+STOP_NOW, STOP_SLOWLY = 0x40, 0x41
+
+# The chopper at standstill of parts that have the chopper of the PPMC-104 (P104-SW-04).
+
+SWITCHING = 0x84
 
 
-class AxisCore(Checked):
-    """Set-up, speeds and registers of an axis; see `axis.Axis`.
+def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tuple[int, Fraction]:
+    """Return the chopper byte nearest to a time, and the resulting time in us (P104-SW-04).
+
+    Args:
+        microseconds: requested time.
+        phase: "on" or "off".
+
+    Raises:
+        OutOfRange: the time is out of range; the message states the range.
+    """
+    quantum = Fraction(4_000_000, xtal_hz)
+    offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
+    unit = 12 * quantum
+    low, high = offset, offset + 255 * unit
+    asked = exact(microseconds, f"{phase} time")
+    if not low <= asked <= high:
+        raise OutOfRange(
+            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
+        )
+    byte = min(255, int((asked - offset) / unit + Fraction(1, 2)))
+    return byte, offset + byte * unit
+
+
+class Axis(Checked):
+    """Axis of a part.
+
+    Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second. Pulses are signed, CW positive. Any
+    method may raise a LinkError; commands may raise the CommandRefused errors of the part. The class of each
+    part defines how its straps are set, where its switches are read, and which further functions it has.
 
     Attributes:
         setup: the last initialisation by this object, `None` before it.
@@ -254,6 +245,21 @@ class AxisCore(Checked):
         self.kind.need(COILS_OFF)
         self._at_rest(Script().call(EXCITATION_OFF | self.bit))
 
+    def switching(self, on_us: Number, off_us: Number) -> tuple[Fraction, Fraction]:
+        """Set the chopper times at standstill in us; return the times that are reached.
+
+        Ranges at 16 MHz: on 27 to 792 us, off 33 to 798 us.
+
+        Raises:
+            OutOfRange: a time is out of range, or the part does not have this command.
+        """
+        self.kind.need(CHOPPER)
+        vsel = self.setup.clock.vsel if self.setup else 1
+        on = chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
+        off = chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
+        self.link.execute(Script().call(SWITCHING, on[0], off[0]))
+        return on[1], off[1]
+
     def forget(self) -> None:
         """Discard set-up and motion, because the part was reset."""
         self.setup = self._motion = None
@@ -265,72 +271,7 @@ class AxisCore(Checked):
             raise NotWhileBusy(answer.last)
         self.link.judge(answer)
 
-
-# The chopper at standstill of parts that have the chopper of the PPMC-104 (P104-SW-04).
-
-SWITCHING = 0x84
-
-
-def chop_byte(xtal_hz: int, microseconds: Number, phase: str, vsel: int) -> tuple[int, Fraction]:
-    """Return the chopper byte nearest to a time, and the resulting time in us (P104-SW-04).
-
-    Args:
-        microseconds: requested time.
-        phase: "on" or "off".
-
-    Raises:
-        OutOfRange: the time is out of range; the message states the range.
-    """
-    quantum = Fraction(4_000_000, xtal_hz)
-    offset = {("on", 1): 108, ("on", 0): 100, ("off", 1): 132, ("off", 0): 115}[phase, vsel] * quantum
-    unit = 12 * quantum
-    low, high = offset, offset + 255 * unit
-    asked = exact(microseconds, f"{phase} time")
-    if not low <= asked <= high:
-        raise OutOfRange(
-            f"{phase} time {nearby(microseconds)} us is outside {nearby(low)} to {nearby(high)} us"
-        )
-    byte = min(255, int((asked - offset) / unit + Fraction(1, 2)))
-    return byte, offset + byte * unit
-
-
-class Chopped(Protocol):
-    """Members that `Chopping` needs. setup: initialisation of the axis, `None` if unknown."""
-
-    setup: Setup | None
-
-    @property
-    def link(self) -> Talk: ...
-
-
-class Chopping(Checked):
-    """Chopper settings; base class of axes that are `Chopped`."""
-
-    def switching(self: Chopped, on_us: Number, off_us: Number) -> tuple[Fraction, Fraction]:
-        """Set the chopper times at standstill in us; return the times that are reached.
-
-        Ranges at 16 MHz: on 27 to 792 us, off 33 to 798 us.
-        """
-        vsel = self.setup.clock.vsel if self.setup else 1
-        on = chop_byte(self.link.identity.xtal_hz, on_us, "on", vsel)
-        off = chop_byte(self.link.identity.xtal_hz, off_us, "off", vsel)
-        self.link.execute(Script().call(SWITCHING, on[0], off[0]))
-        return on[1], off[1]
-
-
-CW, CCW = 0, 1
-STOP_NOW, STOP_SLOWLY = 0x40, 0x41
-
-
-class Axis(Moves, AxisCore):
-    """Axis of a part.
-
-    Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second. Pulses are signed, CW positive. Any
-    method may raise a LinkError; commands may raise the CommandRefused errors of the part. The class of each
-    part defines how its straps are set, where its switches are read, and which further functions it has.
-    """
-
-    # ------------------------------------------------------------------ implemented by each part
+    # ------------------------------------------------------------------ stop commands
 
     def look(self, status: int) -> None:
         """Process a status register that was read during a motion of this axis."""
@@ -440,6 +381,26 @@ class Axis(Moves, AxisCore):
             self.brake(now)
         self._motion = motion
         return motion.wait() if wait else None
+
+    # ------------------------------------------------------------------ moves that wait for their end
+
+    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
+        """Move with ramps and wait for the end.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: the move ended before all pulses were output.
+        """
+        if pulses == 0:
+            return self.nothing_to_move()
+        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
+
+    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
+        """Move with ramps to a position of the pulse counter and wait for the end."""
+        return self.move(position - self.position, progress)
+
+    def move_constant(self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None) -> End:
+        """Move at constant speed and wait for the end; raises the same errors as `move`."""
+        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
     # ------------------------------------------------------------------ starting
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from ..parts import part
 from . import speeds
-from .axis import Chopping
 from .errors import NotWhileBusy, OutOfRange
-from .kind import AUX, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind
+from .kind import AUX, CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind
 from .part import OneAxis
 from .registers import Inputs
 from .script import Result, Script
 
-KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, AUX)))
+KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER, AUX)))
 
 
 READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
@@ -23,7 +22,7 @@ They are 112 us (P104-DS-03).
 """
 
 
-class Ppmc104(Chopping, OneAxis):
+class Ppmc104(OneAxis):
     """One PPMC-104; see `part.OneAxis`.
 
     Limits of `initialise` for a 16 MHz crystal: speeds 488.3 to 500 000 pps, ramp_pulses 4 to 11 220,

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from ...model.motion.codes import CONTINUOUS
 from .. import speeds
-from ..axis import CW, Axis, Chopping
+from ..axis import CW, Axis
 from ..check import within
 from ..ending import End
 from ..errors import Misused, ProtocolError
@@ -55,7 +55,7 @@ class BankMotion(Motion):
         return super().wait(timeout, progress)
 
 
-class BankAxis(Chopping, Axis):
+class BankAxis(Axis):
     """Axis of a bank; axis 1 is axis 0 of the window. See `axis.Axis` for the motions.
 
     `initialise` accepts the values of the PPMC-104, without external_clock. The bank itself counts the

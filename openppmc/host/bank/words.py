@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ...parts import part
 from .. import speeds
 from ..errors import BY_NUMBER, CommandRefused, NothingToStop, PpmcError
-from ..kind import COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
+from ..kind import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
 from ..registers import Inputs, Status
 
 # Errors of an axis of a bank.
@@ -141,7 +141,7 @@ class BankKind(RateKind):
 KIND = BankKind(
     part("bank"),
     axes=SIZES[-1],
-    has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF)),
+    has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER)),
     outputs=0,
 )
 """Capabilities of the largest bank; a driver has those of its own bank."""

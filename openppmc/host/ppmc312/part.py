@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...model.ppmc312.codes import Answer
 from .. import speeds
-from ..axis import CCW, CW, Moves, OnProgress
+from ..axis import CCW, CW, OnProgress
 from ..ending import Cause, End
 from ..errors import NothingToStop, OutOfRange, ProtocolError
 from ..kind import PULSE_ONLY
@@ -129,8 +129,28 @@ def _trigger(at: int | None, event: int | None) -> Trigger:
 # Motions of a PPMC-312, for any transport of its instructions.
 
 
-class Axis(Moves, Overrides[MotionT]):
+class Axis(Overrides[MotionT]):
     """Motions; see `ppmc312.Ppmc312`."""
+
+    # ------------------------------------------------------------------ moves that wait for their end
+
+    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
+        """Move with ramps and wait for the end.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: the move ended before all pulses were output.
+        """
+        if pulses == 0:
+            return self.nothing_to_move()
+        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
+
+    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
+        """Move with ramps to a position of the pulse counter and wait for the end."""
+        return self.move(position - self.position, progress)
+
+    def move_constant(self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None) -> End:
+        """Move at constant speed and wait for the end; raises the same errors as `move`."""
+        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
     # ------------------------------------------------------------------ motions
 
