@@ -218,6 +218,8 @@ def test_a_part_of_three_files_and_a_row(tmp_path):
     assert "failed" not in told and re.search(r"\d+ passed", told), told
     assert "openppmc_tiny.core" in run("-m", "scripts.fpga.packages")
     assert "CLK_HZ" in (root / "rtl/tiny/openppmc_tiny.core").read_text(encoding="utf-8")
-    listed = "from scripts.measure.sizes import designs; print({'tiny'} & {d.part for d in designs.of_parts()})"
+    listed = (
+        "from scripts.measure.sizes import designs; print({'tiny'} & {d.part for d in designs.of_parts()})"
+    )
     told = run("-c", listed)
     assert told.strip() == "{'tiny'}"
