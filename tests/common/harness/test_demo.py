@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from scripts.demo.ppmc2104.demo import VIEW as VIEW_2104
-from scripts.demo.stmc.demo import VIEW as VIEW_STMC
 
 from cocotb_tests.harness import PARTS
 from cocotb_tests.harness.compare import compare_recording, replay
@@ -21,7 +19,9 @@ from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import Demo
 from scripts.demo.ppmc312.demo import VIEW as VIEW_312
+from scripts.demo.ppmc2104 import VIEW as VIEW_2104
 from scripts.demo.scenes import register_text
+from scripts.demo.stmc import VIEW as VIEW_STMC
 
 
 def accesses(script: str) -> list[Access]:
