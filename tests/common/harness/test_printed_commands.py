@@ -23,7 +23,8 @@ PAGES = [
     path
     for below in (".", "docs", "drivers", "examples", "openppmc")
     for path in sorted((ROOT / below).glob("*.md" if below == "." else "**/*.md"))
-    if path.name not in ("CHANGELOG.md", "decisions.md")  # they name commands of earlier versions
+    # The changelog and the decision records name commands of earlier versions.
+    if path.name not in ("CHANGELOG.md", "decisions.md") and path.parent.name != "decisions"
 ]
 COMMAND = re.compile(
     r"(?:\$ )?(?:[A-Z_]+=\S+ )*(?P<what>make|(?:\.venv/bin/)?openppmc|(?:\.venv/bin/)?python3? -m)"
