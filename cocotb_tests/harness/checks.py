@@ -49,7 +49,7 @@ class Move:
 
 @dataclass(frozen=True)
 class Train:
-    """Record of a move: pulses, low times if any, rises and falls of the clock (when they act at the pins)."""
+    """Record of a move: pulses, low times if any, edges of the clock (times when they act at the pins)."""
 
     edges: list[int]
     falls: list[int]

@@ -1,4 +1,4 @@
-"""A block that does not answer fails its test quickly, with a message that names the wait."""
+"""A block that does not respond fails its test quickly, with a message that names the wait."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
     ],
 )
 def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -> None:
-    """Also as a second test of its process."""
+    """This also holds for a second test of the process."""
     items = tuple(ITEMS[name] for name in sorted({"polls", test}))
     job = Job(area_design("stalled", BLOCKS), items, 1)
     build(job.design)
     begin = time.monotonic()
     outcome = tried(job)[items[-1]]
     assert outcome.kind == FAILED and re.search(said, outcome.text), outcome
-    assert time.monotonic() - begin < 120  # 10 s; many minutes without the limit
+    assert time.monotonic() - begin < 120  # 10 s; without the limit, many minutes
