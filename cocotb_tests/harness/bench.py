@@ -1,8 +1,7 @@
 """`Bench`: the RTL of one device in a simulation, with clock, reset, pin driver and edge monitors.
 
 Pins are driven on falling edges. A change made now has the stamp `bench.now`, the next rising edge. Clock,
-pins
-and the recorder of output edges belong to the main program of the simulation (`Clockwork`).
+pins and the recorder of output edges belong to the main program of the simulation (`Clockwork`).
 """
 
 from __future__ import annotations
@@ -29,8 +28,7 @@ class Bench(Side):
     """A device on the test bench. Create one with `await Bench.start(dut, part)`.
 
     Members in addition to those of `Side`: `out` (Path for the files of this run) and `repro` (the command
-    that
-    repeats the run).
+    that repeats the run).
     """
 
     def __init__(self, dut: Any, part: Part, seed: int | None = None) -> None:
@@ -69,18 +67,16 @@ class Bench(Side):
         """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
 
         The devices accept bytes from edge 4 on (P104-PORT-03). With settle = 0, the method returns before
-        edge 0.
-        `pins` override idle input levels; these levels have the stamp 0. `reset_clk` is the length of the
-        reset in
-        cycles (>= 2). `seed` replaces the seed of the run.
+        edge 0. `pins` override idle input levels; these levels have the stamp 0. `reset_clk` is the length of
+        the reset in cycles (>= 2). `seed` replaces the seed of the run.
         """
         bench = cls(dut, part, seed)
         part = bench.part
         watchdog.arm()
         collect_seldom()
         # All state starts at random: no edge of `clk` may occur before rst_n has fallen, not even at time 0.
-        # In Icarus Verilog, signals start without a level, and a value set before the first evaluation has
-        # no effect.
+        # In Icarus Verilog, signals start without a level, and a value set before the first evaluation has no
+        # effect.
         at_once = int if cocotb.SIM_NAME.startswith("Icarus") else Immediate
         dut.clk.set(at_once(0))
         dut.rst_n.set(at_once(1))

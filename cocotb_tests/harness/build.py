@@ -103,8 +103,7 @@ def verilate(
     character.
     """
     # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
-    # `-rdynamic`:
-    # `Native` looks up the functions of our main program by name.
+    # `-rdynamic`: `Native` looks up the functions of our main program by name.
     libs = seen_from(folder, cocotb_tools.config.libs_dir)
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
@@ -134,14 +133,11 @@ class Design:
     """Sources of one simulated design; paths are relative to the project root or absolute.
 
     `args` are further arguments of Verilator, appended last so that they take precedence. `ports`: all
-    signals
-    that a test may access ("*": every signal of the top). Verilator can then optimise the inner signals,
-    which
-    doubles the speed. Without `ports`, and in runs with waves, every signal is visible. `inside`: paths of
-    inner
-    signals that are visible in addition to the ports, together with all other signals of the same name.
-    `libraries`: archives to link, each with the digest of its content in its path. `main`: the main program
-    (see `verilate`).
+    signals that a test may access ("*": every signal of the top). Verilator can then optimise the inner
+    signals, which doubles the speed. Without `ports`, and in runs with waves, every signal is visible.
+    `inside`: paths of inner signals that are visible in addition to the ports, together with all other
+    signals of the same name. `libraries`: archives to link, each with the digest of its content in its path.
+    `main`: the main program (see `verilate`).
     """
 
     top: str
@@ -204,8 +200,7 @@ def _build_args(design: Design, waves: bool) -> list[str]:
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
-    """Write the control file that makes only the ports and `inside` signals of a design visible; return its
-    path."""
+    """Write the control file that makes only ports and `inside` signals visible; return its path."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
     names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.inside)
     rows += [f'public_flat_rw -module "*" -var "{name}"' for name in names]
@@ -236,8 +231,7 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
     """Return the folder with the files that all builds with the same arguments share.
 
     These are the compiled run-time library of Verilator and our main program, whose object file has a name
-    like
-    one of the library.
+    like one of the library.
     """
     flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
     flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
@@ -247,8 +241,7 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 
 
 def build(design: Design, waves: bool = False) -> Path:
-    """Build once per (sources, parameters, arguments) and return the folder; SimError with the log on
-    failure.
+    """Build once per (sources, parameters, arguments); return the folder. SimError with the log on failure.
 
     Safe under pytest-xdist: the first worker builds, the others wait for it.
     """
@@ -305,8 +298,7 @@ def simulator(main: str) -> Any:
 
 
 def from_root(text: str) -> str:
-    """Return a tool's text with the project's files named relative to its root; builds are three folders
-    deep."""
+    """Return a tool's text with the project's files named relative to its root."""
     return text.replace(f"{ROOT}/", "").replace(seen_from(SIM_BUILDS / "any", ROOT) + "/", "")
 
 

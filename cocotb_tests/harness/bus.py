@@ -67,11 +67,10 @@ OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 class HostBus:
     """A bus host. `bench.accesses` keeps the history.
 
-    strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
-    lead: cycles for which the address is valid before a strobe. base: added to every register number.
-    pause: called before each access, returns extra idle cycles. timeout: limit of every poll in cycles.
-    `names`: name of an access of (kind, register) in `bench.accesses`, for buses with more than two
-    registers.
+    strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2). lead:
+    cycles for which the address is valid before a strobe. base: added to every register number. pause: called
+    before each access, returns extra idle cycles. timeout: limit of every poll in cycles. `names`: name of an
+    access of (kind, register) in `bench.accesses`, for buses with more than two registers.
     """
 
     names: Mapping[tuple[str, int], str] = {}  # noqa: RUF012, never written
@@ -160,8 +159,7 @@ class HostBus:
         return byte
 
     async def raw(self, clocks: int, **levels: int) -> int:
-        """Set any pin levels on the bus for a number of cycles (illegal accesses); return the stamp of the
-        change.
+        """Set any pin levels on the bus for some cycles (illegal accesses); return the stamp of the change.
 
         The levels stay: a second call restores the idle levels.
         """
@@ -184,8 +182,7 @@ class HostBus:
         """Read status until (status & mask) == value; return that status.
 
         The first `dense` polls follow each other without a pause, later polls with increasing pauses (up to
-        256
-        cycles). Raises TimeoutError.
+        256 cycles). Raises TimeoutError.
         """
         bench = self.bench
         limit = self.timeout if timeout is None else timeout
@@ -220,8 +217,7 @@ class HostBus:
         return await self.read(DATA)
 
     async def send(self, code: int | str, data: Iterable[int] = (), poll: bool = True) -> int:
-        """Send a command (int or hex text such as "0A") and its data bytes; return the result of the last
-        write."""
+        """Send a command (int or hex text such as "0A") and its data bytes; return the last result."""
         result = await self.command(int(code, 16) if isinstance(code, str) else code, poll)
         for byte in data:
             result = await self.data(byte, poll)
@@ -235,8 +231,8 @@ class HostBus:
     async def run(self, script: str) -> list[int]:
         """Run a script of the acceptance tables, such as "c 0A d 09 d 04 d 04 d 00" or "c 83 rrr".
 
-        c XX and d XX are polled writes, r is a data read after OBF = 1, s is a status read. Returns the
-        bytes of all r and s in order. Raises ValueError for any other word.
+        c XX and d XX are polled writes, r is a data read after OBF = 1, s is a status read. Returns the bytes
+        of all r and s in order. Raises ValueError for any other word.
         """
         words, got, place = script.replace(";", " ").split(), [], 0
         while place < len(words):
@@ -258,8 +254,7 @@ class HostBus:
         return await self.send(code, [rl, rh, pa & 0xFF, pa >> 8])
 
     async def move(self, code: int, n: int, rate: int | None = None) -> int:
-        """Start operation 011 (no rate) or 100 (rate) with n pulses, 1..2^24; return the status after the
-        last byte."""
+        """Start operation 011 (no rate) or 100 (rate) with n pulses, 1..2^24; return the final status."""
         d = n - 1
         head = [] if rate is None else [rate]
         return await self.send(code, [*head, d & 0xFF, d >> 8 & 0xFF, d >> 16 & 0xFF])
@@ -289,8 +284,7 @@ class BlockHost(HostBus):
     """A host of the block registers (CSR, RCR, WCR, …).
 
     strobe, read_strobe, gap, pause, timeout: see `HostBus` (P312-PAR-10 needs strobes of 3 cycles). `header`
-    is
-    the edge that ended the header strobe of the last block.
+    is the edge that ended the header strobe of the last block.
     """
 
     names: Mapping[tuple[str, int], str] = NAMES

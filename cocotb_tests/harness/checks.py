@@ -28,8 +28,7 @@ class Move:
     """n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
 
     gaps: cycles from edge to edge of the clock, repeated indefinitely. high: high time of the clock. slowed:
-    the
-    pulse after which a slow-down limit is asserted (0: never).
+    the pulse after which a slow-down limit is asserted (0: never).
     """
 
     n: int
@@ -61,9 +60,8 @@ def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterat
     """Yield each contradiction to the rules; `w` and `brisk` are CYC(80) and CYC(128).
 
     Every interval that is EXACT or longer by the formula must match it to the cycle. The same applies to the
-    low
-    time that begins such an interval; with edges closer than EXACT_LOW it may be longer, up to W. A shorter
-    interval may be longer by whole base periods.
+    low time that begins such an interval; with edges closer than EXACT_LOW it may be longer, up to W. A
+    shorter interval may be longer by whole base periods.
     """
     edges, pulses, lows = train.edges, train.pulses, train.lows
     at = [bisect_left(edges, t) for t in pulses]
@@ -146,8 +144,7 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
     """Yield moves on a ramp: edges 4 to 17 cycles apart, N from 2 to beyond a plateau, some with a limit.
 
     N decides where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
-    limit
-    occurs where the move can still decelerate.
+    limit occurs where the move can still decelerate.
     """
     rl, _, pa = ramp
     fast = [j for j in range(2, pa + 3) if rate_of(ramp, [min(j - 1, pa)]) != [rl]]

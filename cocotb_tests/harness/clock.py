@@ -121,8 +121,7 @@ def _function(name: str, result: Any, *arguments: Any) -> Any:
 
 
 class Native:
-    """`Clockwork` with our main program. The clock continues, and ports stay watched, until it is started
-    again."""
+    """`Clockwork` with our main program. Clock and watches continue until the clock is started again."""
 
     def __init__(self) -> None:
         self._others = Stock()
@@ -223,8 +222,7 @@ class Clockwork(Protocol):
     """Clock, pins and recorder.
 
     Times are steps of the simulation, that is, ps. Ports are those of the top module, by the numbers that
-    `port`
-    returns.
+    `port` returns.
     """
 
     def port(self, name: str) -> int:
@@ -249,8 +247,7 @@ class Clockwork(Protocol):
         """
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
-        """Return (time, port, level) of all changes of watched ports since the last call, including this
-        moment.
+        """Return (time, port, level) of all changes of watched ports since the last call, until now.
 
         The changes of a port are in order; only the last level of each time step counts.
         """

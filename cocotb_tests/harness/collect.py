@@ -82,8 +82,7 @@ def part_of_rule(rule: str) -> str | None:
 
 @cache
 def manual_rules(part: str) -> dict[str, str]:
-    """Return rule ID -> short text, from the tables of docs/<part>/README.md (empty if there is no manual
-    yet).
+    """Return rule ID -> short text, from the tables of docs/<part>/README.md (empty without a manual).
 
     A rule is a table row of two cells whose first cell is an ID. Raises ValueError if an ID occurs twice.
     """
@@ -136,12 +135,9 @@ class Item:
     """One simulation to run: a cocotb test of a module under one configuration.
 
     `target` is the make target of the command that repeats it. `inside`: inner signals that it reads.
-    `skipped`:
-    the reason why it does not run. `uncompared`: the reason why a directed test is not compared with the
-    golden
-    model ("" if it is), None for other tests. `shared`: it may share a process with other tests of its
-    module,
-    although it is not a directed test.
+    `skipped`: the reason why it does not run. `uncompared`: the reason why a directed test is not compared
+    with the golden model ("" if it is), None for other tests. `shared`: it may share a process with other
+    tests of its module, although it is not a directed test.
     """
 
     module: str
@@ -179,11 +175,10 @@ class Item:
 
 
 def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
-    """Return a pytest.param for every cocotb test in `package`'s modules, in each configuration that it
-    names.
+    """Return a pytest.param per cocotb test of `package`'s modules and configuration that it names.
 
-    shared: tests of a module run in one process for each build. Each must begin with a reset.
-    Raises ValueError if a module has no cocotb test or two tests share a name.
+    shared: tests of a module run in one process for each build. Each must begin with a reset. Raises
+    ValueError if a module has no cocotb test or two tests share a name.
     """
     params, seen = [], set()
     for name in modules:

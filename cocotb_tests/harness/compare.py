@@ -50,8 +50,7 @@ def counts_text(sums: Counter[str]) -> str:
 
 
 DIGESTS = "OPENPPMC_DIGESTS"
-"""Environment variable: a simulation appends the digest of each compared recording to DIGEST_FILE, one per
-line."""
+"""Environment variable: a simulation appends the digest of each compared recording to DIGEST_FILE."""
 DIGEST_FILE = "digests.txt"
 
 
@@ -87,8 +86,7 @@ def check_against_model(bench: Any) -> Comparison:
     """Compare all changes that a bench has recorded so far; AssertionError with the report at a difference.
 
     The golden model is the one that has followed the bench (`Side.golden`), if a test has used it. The files
-    of
-    the report are written to bench.out.
+    of the report are written to bench.out.
     """
     recording = bench.recording()
     leave_digest(recording, bench.out)

@@ -50,8 +50,7 @@ def indices(n: int, pa: int) -> list[int]:
 
 
 def forced(n: int, pa: int, j: int) -> list[int]:
-    """Return the interval indices if deceleration is forced when pulse j is the last one output
-    (P104-FDC-02/03)."""
+    """Return the interval indices if deceleration is forced after output of pulse j (P104-FDC-02/03)."""
     done = indices(n, pa)[:j]
     return done + list(range(done[-1] - 1, -1, -1)) if done else []
 
@@ -95,8 +94,7 @@ def bytes_of(value: int) -> list[int]:
 
 
 class Drive:
-    """An axis: pins `pout`, `phases` and `clock`, BUSY bit `busy`, and `axis_bit`, which is or-ed into every
-    code.
+    """An axis: pins `pout`, `phases` and `clock`, BUSY bit `busy`, and `axis_bit`, or-ed into every code.
 
     `since` is the edge from which pulses of the present operation count.
     """
@@ -128,8 +126,8 @@ class Drive:
     async def go(self, code: int, n: int | None = None, rate: int | None = None, poll: bool = True) -> int:
         """Send an operation of n pulses (None: an operation without a count).
 
-        Returns the status after the last byte, or with poll = False edge 0 of its write. `since` becomes
-        the edge from which pulses of this operation count.
+        Returns the status after the last byte, or with poll = False edge 0 of its write. `since` becomes the
+        edge from which pulses of this operation count.
         """
         self.since = self.bench.now
         data = ([] if rate is None else [rate]) + ([] if n is None else bytes_of(n - 1))
@@ -218,8 +216,7 @@ class Drive:
             self.check(rule, "remaining value", await self.remaining(), remaining)
 
     def check_train(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
-        """Check that every pulse of the last `go` occurs where the rates place it, to the cycle
-        (P104-BCK-03)."""
+        """Check that every pulse of the last `go` is on the cycle given by the rates (P104-BCK-03)."""
         pulses = self.pulses
         got = [t - pulses[0] for t in pulses]
         expected = offsets(self.cfg, rates, csel, vsel)
@@ -234,8 +231,7 @@ class Drive:
         self.check(rule, "low times", self.low_times, low_times(self.cfg, rates, csel, vsel))
 
     def stretches(self, since: int) -> list[tuple[int, int]]:
-        """Return (pattern, cycles) of every complete stretch of the phases that began at edge `since` or
-        later."""
+        """Return (pattern, cycles) of every complete stretch of the phases that began at `since` or later."""
         edges = self.bench.edges(self.phases, since)
         return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
 
@@ -256,8 +252,7 @@ class Drive:
             await self.bench.clocks(period - period // 2)
 
     async def tick_until(self, pulses: int, limit: int = 2000) -> None:
-        """Drive external clock edges until the last `go` has output `pulses` pulses and the last one has
-        ended."""
+        """Drive external clock edges until the last `go` has completed `pulses` pulses."""
         for _ in range(limit):
             if len(self.pulses) >= pulses:
                 break

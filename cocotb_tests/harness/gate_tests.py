@@ -20,12 +20,10 @@ GENERATOR = "checks the generator of the random hosts; no simulation"
 
 @dataclass(frozen=True)
 class PartTests:
-    """The tests of one device: directed and random test modules. Netlists run the ITEMS of the directed
-    module.
+    """Directed and random test modules of one device. Netlists run the ITEMS of the directed module.
 
     sample: functions that make the item of a random seed, each with its seeds. The hosts of a sample together
-    use
-    every configuration that random hosts choose from.
+        use every configuration that random hosts choose from.
     builds: names of the configurations that have netlists, for the reason in `why`; empty: all.
     simulating: test functions that run simulations.
     not_applicable: test functions that do not, each with its relation to a netlist.

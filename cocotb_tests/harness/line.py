@@ -1,5 +1,4 @@
-"""A serial line on two pins: `Wire` drives and samples pins in time, `SerialLine` sends in cycles of a
-`Side`."""
+"""A serial line on two pins: `Wire` with a simulator's pins, `SerialLine` on a `Side`."""
 
 from __future__ import annotations
 
@@ -72,8 +71,7 @@ class LineTimes:
 
     t: the next free edge. bit: bit time of the line in cycles. error: relative error of the host's bit time,
     0.02 = 2 % too long. middle: the middle of the last stop bit for a receiver with the correct bit time,
-    counted
-    from the change of the pin.
+    counted from the change of the pin.
     """
 
     t: int
@@ -126,8 +124,7 @@ class SerialLine(LineTimes):
     """A sender for hosts on a `Side`.
 
     After each method, the next one continues at `t`. The side itself is then at the last change of the pin,
-    so
-    that the test can do something else within the stop bit.
+    so that the test can do something else within the stop bit.
     """
 
     side: Side
@@ -138,8 +135,7 @@ class SerialLine(LineTimes):
         """Send one character.
 
         stop: level of its stop bit. spikes: (place in bits, cycles) where the line has the wrong level. bits:
-        number
-        of its bits that are sent before the line becomes idle.
+        number of its bits that are sent before the line becomes idle.
         """
         await self._drive(self._character(byte, stop, spikes, bits))
 
@@ -171,10 +167,8 @@ def characters(
     """Return the bytes that a transmitter sends without a gap, the first start bit beginning at `start`.
 
     edges: changes (t, level) of the line since then; the line is high before. AssertionError if a change
-    occurs
-    more than `within` cycles after its place, or before it (more than `within` cycles, if that is not 0), or
-    if a
-    start or stop bit is missing.
+    occurs more than `within` cycles after its place, or before it (more than `within` cycles, if that is not
+    0), or if a start or stop bit is missing.
     """
     for t, _ in edges:
         number = round((t - start) / bit)

@@ -1,7 +1,7 @@
 """`Part`: the pins of a device as test benches see them; `PARTS`: the devices by name.
 
-A port of several bits is one number, as in the simulator. One bit of it has its own name: "pout_n[2]"
-is bit 2 of a port declared `[2:1]`, whose lowest bit is number 1.
+A port of several bits is one number, as in the simulator. One bit of it has its own name: "pout_n[2]" is bit
+2 of a port declared `[2:1]`, whose lowest bit is number 1.
 """
 
 from __future__ import annotations
@@ -68,9 +68,8 @@ class Part:
     widths: widths of the inputs wider than one bit.
     lowest: ports whose lowest bit is not number 0, with that number.
     parameters: parameters of the top module.
-    styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin, a
-    device
-    without a bus has no style.
+    styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin, and
+        a device without a bus has no style.
     clock: the external base clock.
     unwatched: free-running outputs; only tests that request them record their edges.
     defaults: parameters of a build that names no parameters.
@@ -78,8 +77,7 @@ class Part:
     shape: the pins under parameters that determine the widths of ports (see `built`).
 
     If the top of a bench contains more than the device: `fed` are inputs of the device that the top drives,
-    which
-    are outputs here; `aside` are inputs of the top only.
+    which are outputs here; `aside` are inputs of the top only.
     """
 
     name: str
@@ -124,8 +122,7 @@ class Part:
         return tuple(name for name in self.outputs if name not in self.unwatched)
 
     def params(self, config: Config) -> dict[str, Any]:
-        """Return the parameters of the top module in a build configuration, including the configuration's
-        `extra`."""
+        """Return the parameters of the top module in a build configuration, including its `extra` ones."""
         added = dict(config.extra)
         return {name: v for name, v in config.params.items() if name in self.parameters or name in added}
 

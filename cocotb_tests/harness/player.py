@@ -184,8 +184,7 @@ class SinglePlayer(Player):
     """Plays one scenario: `await SinglePlayer(bench, scenario, rule).run()`.
 
     Adds ("finish", clk): poll until BUSY = 0; after clk cycles send 0x40, which must clear BUSY according to
-    the
-    rule.
+    the rule.
     """
 
     def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:

@@ -117,8 +117,7 @@ def _run(main: Callable[[], int]) -> int:
 
 
 def replace_between(text: str, marker: str, body: str) -> str:
-    """Replace the text between ``<!-- marker -->`` and ``<!-- /marker -->``; append the block if it is
-    missing."""
+    """Replace the text between ``<!-- marker -->`` and ``<!-- /marker -->``, or append the block."""
     start, end = f"<!-- {marker} -->", f"<!-- /{marker} -->"
     block = f"{start}\n{body.strip()}\n{end}"
     if start in text and end in text:

@@ -19,8 +19,7 @@ class MovingPins:
     """Schedules pin changes on a side; a change in the past is made immediately.
 
     kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd. clock: the
-    external
-    clock.
+    external clock.
     """
 
     def __init__(self, side: Side, kept: Sequence[str] = (), clock: str = "extck") -> None:
@@ -189,8 +188,10 @@ class RandomHost:
 
 
 class HostWriter(RandomHost, ABC):
-    """Writes action lists: rng, config, scale (clk cycles per XTAL cycle), externals (clock pins in use),
-    limit_clk, actions so far.
+    """Writes action lists.
+
+    Attributes: rng, config, scale (clk cycles per XTAL cycle), externals (clock pins in use), limit_clk,
+    actions (so far).
 
     name: first word of the seed text. weights: FAST builds; datasheet: DATASHEET builds, for one host in ten.
     external: probability that a clock pin is used, one number per pin.
@@ -241,8 +242,7 @@ class HostWriter(RandomHost, ABC):
             self.add("write", reg, byte, self.rng.randint(2, 3), gap)
 
     def told(self, code: int, data: list[int], polled: float) -> None:
-        """Send a command with its data bytes, polled with the probability `polled`, otherwise without
-        polling."""
+        """Send a command with its data bytes, polled with the probability `polled`, else without polling."""
         if self.rng.random() < polled:
             self.add("send", code, data)
         else:
@@ -253,8 +253,7 @@ class HostWriter(RandomHost, ABC):
         self.blind([self.random_write() for _ in range(self.rng.randint(2, 5))])
 
     def bad_bus(self, codes: tuple[int, ...]) -> None:
-        """Assert both strobes together, or end a strobe by cs_n or by the other strobe (P104-BAD-08,
-        STMC-BAD-12)."""
+        """Assert both strobes, or end a strobe by cs_n or the other strobe (P104-BAD-08, STMC-BAD-12)."""
         rng = self.rng
         byte, reg = rng.choice(codes), rng.getrandbits(1)
         on = {"cs_n": 0, "a0": reg, "d_i": byte}

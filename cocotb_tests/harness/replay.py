@@ -45,8 +45,7 @@ ROWS = 40
 
 
 async def compared(bench: Bench, recording: Recording) -> Comparison:
-    """Apply the pin changes of a recording to the RTL and to a golden model, each just after a reset;
-    compare."""
+    """Compare the RTL with a golden model under a recording's pin changes, each just after a reset."""
     edges = await rerun(bench, recording.stimulus, recording.end)
     return compare_recording(replace(recording, edges=edges))
 
@@ -85,8 +84,7 @@ class Search:
         self.end = min(self.end, t + t // 8 + 2_000)
 
     async def fails(self, acts: Sequence[Act]) -> int | None:
-        """Return the edge of the difference if these acts cause it on this output and no other differs
-        before."""
+        """Return the edge of the difference if these acts cause it and no other output differs before."""
         recording = replace(
             self.last.recording,
             end=self.end,

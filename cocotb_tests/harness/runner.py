@@ -58,8 +58,7 @@ def hint(text: str, design: Design) -> str:
 
 
 def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
-    """Return (scope, name with range, width) of the signals of the top (its ports if known), and the last
-    time."""
+    """Return (scope, name with range, width) of the top's signals (its ports if known), and the last time."""
     scopes: list[str] = []
     found: list[tuple[str, str, int]] = []
     with vcd.open("rb") as file:
@@ -81,8 +80,7 @@ def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int
 
 
 def write_views(vcd: Path, design: Design) -> list[Path]:
-    """Write a GTKWave save file and a Surfer command file next to a VCD; return all three, or [] without a
-    VCD."""
+    """Write a GTKWave save file and a Surfer command file next to a VCD; return all three, if it exists."""
     if not vcd.is_file():
         return []
     signals, end = _signals(vcd, design)
@@ -105,8 +103,7 @@ T = TypeVar("T")
 
 
 def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
-    """Group the things with the same key, at most MOST per group, in order; the key None makes a group of
-    one."""
+    """Group things with the same key, at most MOST per group, in order; each thing with key None is alone."""
     found: dict[Hashable, list[T]] = {}
     for number, thing in enumerate(things):
         found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)
@@ -122,8 +119,7 @@ def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
     """Return the outcome of each item of a job, and the process in which it ran.
 
     The items that a crash prevented from running get a new process, without the test that crashed. For a
-    mutant,
-    one failure is enough.
+    mutant, one failure is enough.
     """
     found: dict[Item, tuple[Outcome, Job]] = {}
     left: Sequence[Item] = job.items
@@ -184,8 +180,7 @@ def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
 def _message(
     item: Item, outcome: Outcome, job: Job, said: Sequence[str] = (), kept: Path | None = None
 ) -> str:
-    """Return the message about a failure: what failed, the results `said` of the other runs, where its files
-    are."""
+    """Return the message about a failure: what failed, the results `said` of the other runs, the files."""
     lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in said)]
     lines.append(f"seed {job.seed}" + (f", log {relative(kept / 'log.txt')}" if kept else ""))
     if kept and (kept / "waves" / VCD).is_file():
@@ -280,8 +275,7 @@ class SimOptions:
     """Options of the user on the command line; seed None = the fixed default of each test.
 
     waves: keep a VCD of each test, also of passing ones. inside: every signal is visible. group: the items
-    that
-    share a simulator process, in order. `done` holds the outcomes of the groups that have run.
+    that share a simulator process, in order. `done` holds the outcomes of the groups that have run.
     """
 
     seed: int | None = None
@@ -303,8 +297,8 @@ def run_sim(
 ) -> Path:
     """Build if needed and run one cocotb test in one process; return the folder of the run.
 
-    `folder` (default below build/runs/) receives log.txt, results.xml and the files of the test.
-    Raises SimError unless exactly this test ran and passed, and the process ended well.
+    `folder` (default below build/runs/) receives log.txt, results.xml and the files of the test. Raises
+    SimError unless exactly this test ran and passed, and the process ended well.
     """
     job = Job(design, (item,), seed, waves, {**(env or {}), **({REPRO: repro} if repro else {})})
     folder = folder or job.folder
@@ -403,8 +397,7 @@ def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> l
 
 
 def check_mains(item: Item, env: Mapping[str, str] | None = None, design: Design | None = None) -> int:
-    """Return the number of recordings of the test; AssertionError if they differ between the two main
-    programs."""
+    """Return the number of recordings of the test; AssertionError if the main programs differ."""
     design = design or part_design(item.part, item.config)
     own, cocotb = (recorded(item, main, env or {}, design) for main in MAINS)
     assert own and own == cocotb, f"{item.id}: {own} with our main program, {cocotb} with cocotb's"

@@ -107,8 +107,7 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
     """Return a `Bench` on the simulator's `dut`, or a `ModelBench` for `OnModel`; both with `now` = `settle`.
 
     A directed test may call it again: the recording of the previous side is compared with the golden model,
-    its
-    scheduled pin changes stop, and the device starts again from a reset.
+    its scheduled pin changes stop, and the device starts again from a reset.
     """
     test = present()
     if test:
@@ -124,8 +123,7 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
 
 
 def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
-    """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in the build configurations
-    `builds`.
+    """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in these builds.
 
     `uncompared`: the reason why the outputs are not compared with the golden model; the run lists such tests.
     Raises ValueError for an invalid rule ID.
@@ -170,8 +168,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
     """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one side.
 
     least: minimum number of output edges that a seed must make; all are compared. uncompared: the reason why
-    they
-    are not compared.
+    they are not compared.
     """
 
     def mark(test: RandomTest) -> Any:

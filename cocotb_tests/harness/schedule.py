@@ -1,9 +1,9 @@
 """Decides which pytest items share a simulator process, and makes xdist send such a group to one worker.
 
-Tests marked with the same `xdist_group` also run in one worker, which shares what they build once.
-Groups are formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker
-knows them from its own collection. The controller, which collects nothing, reads them from a file whose path
-it passes to its workers.
+Tests marked with the same `xdist_group` also run in one worker, which shares what they build once. Groups are
+formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker knows them
+from its own collection. The controller, which collects nothing, reads them from a file whose path it passes
+to its workers.
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ def item_of(test: pytest.Item) -> Item | None:
 
 
 def group_key(test: pytest.Item) -> Hashable:
-    """Return a key that is equal for tests that may share a process: the same test function and the same
-    build.
+    """Return a key that is equal for tests that may share a process: same test function, same build.
 
     The test function determines the design. The design of tests that are not directed may depend on their
     module.
@@ -91,8 +90,7 @@ class Sender:
         node.workerinput[_SCOPES] = str(self._file)
 
     def pytest_xdist_make_scheduler(self, config: pytest.Config, log: Any) -> Any:
-        """Return xdist's scheduler for scopes, with the groups as scopes; None if the user selects another
-        one."""
+        """Return xdist's scheduler for scopes, with the groups as scopes; None if the user selects one."""
         from xdist.scheduler import LoadScopeScheduling
 
         if config.getoption("dist") != "load":

@@ -36,8 +36,7 @@ class Step:
 
 
 class Sessions:
-    """The sessions of one device. `brief`: codes of operations that may end before a slow host reads the
-    status."""
+    """The sessions of one device. `brief`: codes of operations that may end before the status is read."""
 
     def __init__(self, part: str, brief: Collection[int]) -> None:
         self.page = ROOT / "docs" / part / "examples.md"

@@ -159,8 +159,7 @@ def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
 
 
 def _bit(rows: Sequence[tuple[int, int]]) -> int:
-    """Return the cycles per bit: the longest time between two changes of which most others are near
-    multiples."""
+    """Return the cycles per bit: the longest time between changes of which most others are near multiples."""
     lengths = Counter(b - a for (a, _), (b, _) in pairwise(rows))
 
     def fitting(bit: int) -> int:
@@ -315,8 +314,8 @@ class _EnoughError(Exception):
 class Shrinker:
     """Shrinks a list: `acts` is the shortest list so far, `trials` the number of lists tried.
 
-    trials_at_most, seconds (CPU time of this process): limits. kept: called with each list that is
-    shorter than those before it.
+    trials_at_most, seconds (CPU time of this process): limits. kept: called with each list that is shorter
+    than those before it.
     """
 
     acts: list[Act]
@@ -404,7 +403,7 @@ class Shrinker:
             size //= 2
 
     async def _cap_pauses(self) -> None:
-        """Limit all pauses to the shortest of the limits that still fails."""
+        """Limit all pauses to the smallest value of CAPS with which the list still fails."""
         for longest in CAPS:
             acts: list[Act] = []
             saved = last = 0

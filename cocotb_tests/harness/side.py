@@ -1,9 +1,9 @@
 """`Side`: the interface of a test, lab or host to the device under test: the RTL or the golden model.
 
 Time is the index of rising edges of `clk`; edge 0 is the first one that samples rst_n = 1 after the first
-reset.
-A pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising edge
-that caused it. Most methods use a few primitives, which `Bench` (RTL) and `ModelBench` (golden model) define.
+reset. A pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising
+edge that caused it. Most methods use a few primitives, which `Bench` (RTL) and `ModelBench` (golden model)
+define.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ class Given:
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
         """Append the new rows of both, which grow from call to call; return the whole list.
 
-        made: name -> (edge, level), first sampled by the next edge. The last level of the last edge may
-        have changed since the previous call.
+        made: name -> (edge, level), first sampled by the next edge. The last level of the last edge may have
+        changed since the previous call.
         """
         new, self._driven = list(driven[self._driven :]), len(driven)
         for name, rows in made.items():
@@ -127,9 +127,10 @@ class Side(ABC):
 
     @abstractmethod
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """Do the same as `set`, but between two edges, for a reset; return the stamp just after the change.
+        """Do the same as `set`, but between two edges, for a reset; return the stamp of the change.
 
-        `share` (0 to 1) of the low half of `clk` has then passed.
+        The change is made when `share` (0 to 1) of the low half of `clk` has passed; the method returns just
+        after it.
         """
 
     @abstractmethod
@@ -203,8 +204,7 @@ class Side(ABC):
         """Run the external clock: each item is the number of cycles from one rising edge to the next.
 
         `pin` (default: the clock pin of a device with one axis). The first rising edge occurs immediately;
-        the clock
-        ends with the iterable. Each high time is `high` cycles. For the result see `drive`.
+        the clock ends with the iterable. Each high time is `high` cycles. For the result see `drive`.
         """
         name, start = pin or self.part.clock, self.now
 
@@ -224,8 +224,7 @@ class Side(ABC):
         return await self.until(self.now + n)
 
     async def reset(self, clocks: int = 4, settle: int = 4) -> int:
-        """Pulse rst_n low for `clocks` cycles; return the stamp of the release (the first edge that samples
-        1).
+        """Pulse rst_n low for `clocks` cycles; return the stamp of the release (first edge that samples 1).
 
         Waits `settle` cycles after the release (P104-PORT-03: bytes are accepted from then on).
         """

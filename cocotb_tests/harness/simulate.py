@@ -126,8 +126,7 @@ def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> d
     """Return the outcome of each item of a process that has ended.
 
     `trouble`: how the process ended, if not normally. A process that ended normally must have run exactly
-    these
-    items.
+    these items.
     """
     text, names = read_log(log), named_in(results)
     wanted = sorted(item.full_name for item in items)

@@ -22,8 +22,7 @@ LIMIT = "OPENPPMC_WALL_S"
 
 
 def arm(least: int = 1) -> None:
-    """Restart the limit, `least` seconds or more, after which the process is ended even if Python is not
-    running."""
+    """Restart the limit: after `least` seconds or more, the process ends even if Python is not running."""
     faulthandler.dump_traceback_later(max(least, int(os.environ.get(LIMIT, "300"))), exit=True)
 
 

@@ -40,10 +40,8 @@ def probe(
     """Sample the pins of a session.
 
     rate: sample rate in Hz. jitter: maximum error of each edge in ps. begin, until: start and end of the
-    capture
-    in s. without: ports that are not connected. ppm: how much too slow the analyser's clock is. d_i and d_o
-    are
-    one bus.
+    capture in s. without: ports that are not connected. ppm: how much too slow the analyser's clock is. d_i
+    and d_o are one bus.
     """
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6

@@ -55,8 +55,7 @@ def damaged(data: bytes, source: random.Random) -> bytes:
     """Return the data with random damage.
 
     Bytes are changed, removed, inserted or duplicated, the end is cut off, fields or rows are exchanged, or
-    the
-    encoding is changed.
+    the encoding is changed.
     """
     for _ in range(source.choice((1, 1, 2, 5))):
         at = source.randrange(len(data)) if source.random() < 0.6 else source.randrange(min(len(data), 1500))

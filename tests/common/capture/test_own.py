@@ -34,7 +34,7 @@ def test_nothing_has_to_be_named(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_the_file_tells_the_clock(part: str, tmp_path: Path) -> None:
-    """With device and clock in the file, no edge differs; with a wrong clock, edges differ."""
+    """With device and clock in the file, no edge differs; with a wrong clock, those of a PMC006B4 differ."""
     seen = probe(session(part), rate=1e12)
     path = write_vcd(seen, tmp_path / "own.vcd", core_comment(part, CORE))
     result = compare(decode(read_capture(path), PinMap()), US)

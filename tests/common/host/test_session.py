@@ -134,7 +134,7 @@ def spoil(line: bytes, fault: str, where: int) -> bytes:
 
 @given(st.lists(st.tuples(faults, faults, st.integers(0, 5000)), min_size=1, max_size=60))
 def test_every_request_is_carried_out_exactly_once(weather: list[tuple[str, str, int]]) -> None:
-    """On a line that loses, flips, doubles and cuts frames, each command is executed exactly once.
+    """On a line that loses, flips, doubles and cuts frames both ways, each command is executed exactly once.
 
     This holds as long as the host does not abort a request.
     """

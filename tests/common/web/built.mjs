@@ -151,7 +151,7 @@ const checks = {
     await page.waitForTimeout(4000);
     const browser = await view.newBrowserCDPSession();
     const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
-    // Linux counts the ns of each thread; the first thread of a renderer belongs to the page, the worker has another one.
+    // Linux counts the ns of each thread; the first thread of a renderer belongs to the page, the worker has another.
     const spent = () =>
       processInfo
         .filter(({ type, id }) => type === "renderer" && fs.existsSync(`/proc/${id}/task/${id}/schedstat`))
