@@ -7,7 +7,7 @@
 
     @random_test("P312-GEN-01", least=200)
     async def p312_random_host(dut, seed):
-        "All outputs change as in the golden model, whatever a random host sends."
+        "All outputs change as in the golden model for every random host."
         await Lively(await Host.start(dut), seed).play()
 
 Both are `cocotb.test()`, so `cocotb.parametrize`, `skip` and `xfail` work with them. The golden model gets

@@ -70,7 +70,7 @@ def test_garbage_before_a_good_frame(line: Line) -> None:
 
 
 def test_broken_checksum_is_told_and_nothing_done(line: Line) -> None:
-    """A frame with one wrong bit is answered with NAK 2 and with no response."""
+    """A frame with one wrong bit causes NAK 2 and no response."""
     broken = bytearray(IDENT)
     broken[-2] ^= 0x04
     line.port.write(bytes(broken))

@@ -55,7 +55,7 @@ def refuses(what: tuple[Path, int]) -> Result:
 
 
 def slow(what: tuple[Path, int]) -> Result:
-    """Do the same as `square`, but take 0.3 s longer, so that Ctrl-C must end the child process, too."""
+    """Do the same as `square`, after a delay of 0.3 s."""
     time.sleep(0.3)
     return square(what)
 

@@ -1,4 +1,4 @@
-"""Descriptions of FPGA boards: a new one produces top and constraints, an invalid one one error line."""
+"""Descriptions of FPGA boards: a new one produces top and constraints; a mistake is reported in one line."""
 
 from __future__ import annotations
 

@@ -174,7 +174,7 @@ def test_a_broken_environment_is_made_again(project: Path, monkeypatch: pytest.M
 
 
 def test_a_broken_environment_that_cannot_be_removed(project: Path) -> None:
-    """One line asks to remove it."""
+    """If a broken environment cannot be removed, one line asks the user to remove it."""
     (project / ".venv").write_text("a file")
     code, _, err = install(project, "sim")
     assert (code, err) == (

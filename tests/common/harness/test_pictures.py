@@ -153,7 +153,7 @@ def test_diagrams_are_drawn_with_wide_labels():
 
 
 def test_letters_stand_where_a_line_changes():
-    """Letters are assigned to the changes of a line in turn, except to a change in a gap."""
+    """Letters are assigned to the changes of a line in turn; a dot skips a change."""
     samples = [{"a": 0}, {"a": 1}, {"a": 1}, None, {"a": 0}, {"a": 1}]
     assert marked(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}
     assert marked(Row("a", "a"), samples, "").nodes == {}

@@ -107,7 +107,7 @@ def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch
     ],
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
-    """The message names the test, values or line, and the command that repeats it, without any doubt."""
+    """The message names the test, values or line, and the repeat command, and does not question the result."""
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text

@@ -251,7 +251,7 @@ def test_the_gap_before_busy_is_met(lines, request):
 
 
 def test_excitation_off_right_behind_the_last_byte(lines):
-    """Directly after a move command, excitation off is rejected, not executed as AUX ON; idle it works."""
+    """Directly after a move command, excitation off is rejected, not run as AUX ON; when idle it works."""
     assert result(lines, "G off refused")[0] == Error.NOT_WHILE_BUSY + 1
     assert (ending(lines, "G off")["raw"], pulses(lines, "G off")[0]) == (0x83, 12)
     assert result(lines, "G now") == (0, "ok")

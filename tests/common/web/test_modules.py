@@ -34,7 +34,10 @@ def module(name: str) -> Module:
 
 
 def compared(part: WebPart, recording: Recording) -> int:
-    """Play a recording of the golden model; return the number of equal edges. AssertionError otherwise."""
+    """Compare a module with a recording of the golden model; return the number of equal edges.
+
+    Raises AssertionError at a difference.
+    """
     levels = part.part.reset_levels(recording.params)
     initial = {pin: levels[pin] for pin in part.part.watched}
     resets = [change.t for change in recording.stimulus if change.pin == "rst_n" and not change.value]
