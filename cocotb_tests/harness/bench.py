@@ -252,4 +252,4 @@ class Bench(Side):
                 await self.align()
                 return t
         want = "a change" if level is None else f"level {level}"
-        raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
+        raise TimeoutError(f"no {want} of {output} within {timeout} cycles\n{self.context()}")

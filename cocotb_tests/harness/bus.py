@@ -49,7 +49,7 @@ class SideHost:
     async def step(self) -> None:
         """Wait until the next event of the golden model is over: a useful moment to poll the device again."""
         edge = self.side.golden.next_event
-        assert edge is not None, f"nothing happens any more\n{self.side.context()}"
+        assert edge is not None, f"the golden model has no further event\n{self.side.context()}"
         await self.side.until(max(self.t, edge + 1))
 
     def out(self, signal: str) -> int:
@@ -150,7 +150,7 @@ class HostBus:
         await bench.clocks(length)
         byte = bench.level("d_o")
         assert length < 3 or bench.level("d_oe") == 1, (
-            f"d_oe = 0 at the end of a {length} clk read strobe\n{bench.context()}"
+            f"d_oe = 0 at the end of a read strobe of {length} cycles\n{bench.context()}"
         )
         bench.set(**style.read_off)
         bench.accesses.append(Access(edge0, self.names.get(("read", reg), "read"), reg, byte))
@@ -194,7 +194,7 @@ class HostBus:
             if bench.now > end:
                 raise TimeoutError(
                     f"status {status:#04x}: bits {mask:#04x} did not become {value:#04x} "
-                    f"within {limit} clk\n{bench.context()}"
+                    f"within {limit} cycles\n{bench.context()}"
                 )
             count += 1
             if count >= dense:

@@ -74,15 +74,15 @@ def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterat
     for j, (i, end, rate) in enumerate(zip(at, at[1:], rate_list, strict=False), 1):
         length = edges[i + rate + 1] - edges[i]
         if end - i < rate + 1 or (end - i > rate + 1 and length >= EXACT):
-            yield f"interval {j} is {edges[end] - edges[i]} instead of {length} clk"
+            yield f"interval {j} is {edges[end] - edges[i]} instead of {length} cycles"
         if lows and length >= EXACT:
             quick = rate == 0 and edges[i] - edges[i - 1] < brisk
             cut = edges[i + (rate + 1) // 2] - edges[i] if rate else train.falls[i] - edges[i] if quick else w
             most = w if rate and min(differences(edges[i : end + 1])) < EXACT_LOW else cut
             if not min(w, cut) <= lows[j - 1] <= min(w, most):
-                yield f"pulse {j} is low for {lows[j - 1]} instead of {min(w, cut)} clk"
+                yield f"pulse {j} is low for {lows[j - 1]} instead of {min(w, cut)} cycles"
     if lows and lows[-1] != w:
-        yield f"the last pulse is low for {lows[-1]} instead of {w} clk"
+        yield f"the last pulse is low for {lows[-1]} instead of {w} cycles"
 
 
 class ExtMoves:

@@ -224,7 +224,7 @@ class Drive:
             return
         self.check(rule, "number of pulses", len(got), len(expected))
         j = next(j for j, pair in enumerate(zip(got, expected, strict=True), 1) if pair[0] != pair[1])
-        self.check(rule, f"clk from pulse 1 to pulse {j}", got[j - 1], expected[j - 1])
+        self.check(rule, f"cycles from pulse 1 to pulse {j}", got[j - 1], expected[j - 1])
 
     def check_lows(self, rule: str, rates: Sequence[int], csel: int = 1, vsel: int = 1) -> None:
         """Check every low time of a complete move against P104-TIM-05."""

@@ -173,7 +173,7 @@ def characters(
     for t, _ in edges:
         number = round((t - start) / bit)
         late = t - ceil(start + number * bit)
-        assert -within <= late <= within, f"edge {t} is {late} clk away from its place"
+        assert -within <= late <= within, f"edge {t} is {late} cycles from its expected time"
 
     def level(number: int) -> int:
         middle = floor(start + (number + Fraction(1, 2)) * bit)

@@ -173,7 +173,7 @@ class ModelBench(Side):
             if before != was and level in (None, before):
                 return self._now - 1
         want = "a change" if level is None else f"level {level}"
-        raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
+        raise TimeoutError(f"no {want} of {output} within {timeout} cycles\n{self.context()}")
 
 
 def on_model(test: Coroutine[Any, Any, T]) -> T:

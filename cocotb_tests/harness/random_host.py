@@ -63,7 +63,7 @@ class MovingPins:
         side.set(**{pin: level for pin, level in side.part.inputs.items() if pin not in self._kept})
 
 
-UNCOMPARED = "levels change between two edges of clk, where either of the two may see them first"
+UNCOMPARED = "levels change between two edges of clk, and either edge may sample them first"
 """Reason why runs with this noise are not compared with the golden model."""
 
 

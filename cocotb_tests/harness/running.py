@@ -64,7 +64,7 @@ class Running:
     async def opinion(self) -> str:
         """Return the result of the golden model for a run in which a check of the test has failed."""
         if not (self._judge and self.side and self.side.simulated):
-            return "nothing is compared with the golden model here"
+            return "the outputs of this test are not compared with the golden model"
         try:
             await self.judge()
         except Exception as other:  # any error of the model is secondary: the failed check counts
@@ -187,7 +187,9 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
                 await judged(running, test(dut, seed))
                 digest = pins_digest(running.side) if running.side else ""
                 if running.side and running.side.simulated:
-                    assert compared >= least, f"seed {seed} did next to nothing ({compared} edges)"
+                    assert compared >= least, (
+                        f"seed {seed}: {compared} output edges, expected {least} or more"
+                    )
                     cocotb.log.info("seed %d: %d edges compared, pins %s", seed, compared, digest)
                     add_counts(seeds=1)
                 return digest

@@ -24,7 +24,7 @@ PASSED, FAILED, SKIPPED, XFAILED = "passed", "failed", "skipped", "xfailed"
 CRASHED = "crashed"
 """The process ended within this test: crash, $fatal, or the wall-clock limit."""
 MISSING = "did not run"
-TIMEOUT = "no end within the wall-clock limit"
+TIMEOUT = "not finished within the wall-clock limit"
 
 _SAID = re.compile(r"^ *[-\d.]+ns [A-Z]+ +cocotb\.regression +(?P<text>.*)$", re.MULTILINE)
 _FAILED_LINE = re.compile(r"\s*(\w+\.)*\w*(Error|Exception|Failed)\b")

@@ -94,7 +94,8 @@ async def _end(test: FrameType, clk: int) -> None:
     await Timer(2 * clk, "step")
     file, line = test.f_code.co_filename, test.f_lineno
     waiting = linecache.getline(file, line).strip()
-    raise AssertionError(f"no end within {clk} clk, the test waits in {Path(file).name}:{line}: {waiting}")
+    place = f"{Path(file).name}:{line}: {waiting}"
+    raise AssertionError(f"not finished within {clk} cycles; the test waits in {place}")
 
 
 class Unit:

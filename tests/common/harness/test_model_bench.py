@@ -79,7 +79,7 @@ def test_waits_end_at_the_edge_or_after_their_time() -> None:
 
     assert on_model(step()) > 0
     now = side.now
-    with pytest.raises(TimeoutError, match="no level 0 of aux_n within 500 clk"):
+    with pytest.raises(TimeoutError, match="no level 0 of aux_n within 500 cycles"):
         on_model(side.edge("aux_n", 0, 500))
     assert side.now == now + 500
 

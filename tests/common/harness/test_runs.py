@@ -102,12 +102,12 @@ def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch
         ("fires", r"%Error: .*it fired"),
         ("dies", r"it died"),
         ("crashes", r"crashed\n(.*\n)*.*Segmentation fault(.*\n)*.*tb_runs\.py\", line \d+ in crashes"),
-        ("loops", r"no end within the wall-clock limit\n(.*\n)*.*tb_runs\.py\", line \d+ in loops"),
+        ("loops", r"not finished within the wall-clock limit\n(.*\n)*.*tb_runs\.py\", line \d+ in loops"),
         ("cases/step=-2", r"assert -2 > 0"),
     ],
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
-    """The message names the test, values or line, and the repeat command, and does not question the result."""
+    """The message has the test, values or line, and the repeat command; it does not doubt the result."""
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text

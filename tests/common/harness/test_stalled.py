@@ -22,9 +22,10 @@ ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
     [
         (
             "waits_for_an_edge",
-            r"no end within 1500000 clk, the test waits in tb_stalled\.py:\d+: await u\.run_until\(\"q2_o",
+            r"not finished within 1500000 cycles; the test waits in tb_stalled\.py:\d+: "
+            r"await u\.run_until\(\"q2_o",
         ),
-        ("polls", r"no end within 3000 clk, the test waits in tb_stalled\.py:\d+: await risen\(\)"),
+        ("polls", r"not finished within 3000 cycles; the test waits in tb_stalled\.py:\d+: await risen\(\)"),
     ],
 )
 def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -> None:

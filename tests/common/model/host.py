@@ -113,7 +113,7 @@ class ModelHost:
     def step(self) -> None:
         """Run to the next event of the model."""
         edge = self.model.next_event
-        assert edge is not None, "nothing happens any more"
+        assert edge is not None, "the model has no further event"
         self.model.run_until(edge)
         self.t = max(self.t, edge + 1)
 
