@@ -1,4 +1,4 @@
-"""docs/sizes.json: growth, digests of the RTL, tables, unreadable files. No test synthesizes a design."""
+"""docs/sizes.json: growth, digests of the RTL, tables, unreadable files. No test synthesises a design."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ OLD: figures.Figures = {KEY: {"lut": 1000, "ff": 600, "ram": 2, "of": "0"}}
 
 
 def changed(**counts: int) -> figures.Figures:
-    """OLD with other counts."""
+    """Return OLD with other counts."""
     return {KEY: {**OLD[KEY], **counts}}
 
 
@@ -114,7 +114,7 @@ def test_the_check_synthesizes_changed_designs(
 
 
 def test_a_design_of_other_rtl_is_stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A changed source makes the figures stale; a changed comment does not; no information is stale too."""
+    """A changed source makes the figures stale, a changed comment does not; missing figures are reported."""
     source = tmp_path / "a.sv"
     monkeypatch.setattr(project, "ROOT", tmp_path)
     job = {"top": "a", "include": [], "sources": ["a.sv"], "params": {}}
