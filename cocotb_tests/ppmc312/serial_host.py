@@ -26,9 +26,9 @@ FRAME = re.compile(rb"[\x80-\xFF](?:[0-9a-f]{2})*[\x00-\x7F]", re.DOTALL)
 class SerialHost(SerialLine, SideHost):
     """Master of the line; create it with `await SerialHost.start(dut)`.
 
-    Instructions are texts of hexadecimal bytes: code and data. Answers are texts: kind without the address, then
-    data: "90", "A0 38", "B0 42". `wire` is the last answer as received from the line. `waited` is the number
-    of cycles from the end of the master's last stop bit to the rise of snd.
+    Instructions are texts of hexadecimal bytes: code and data. Answers are texts: kind without the address,
+    then data: "90", "A0 38", "B0 42". `wire` is the last answer as received from the line. `waited` is the
+    number of cycles from the end of the master's last stop bit to the rise of snd.
     """
 
     def __init__(self, side: Side, adr: int = 1, error: float = 0) -> None:
