@@ -140,7 +140,7 @@ async def interval_external(dut):
             u.put(base_i=base, extck_i=base == 7)
 
             async def clock(bench=bench, u=u, base=base, ticks=ticks) -> None:
-                """Drive edges of both kinds; record for each active edge the edge of `clk_i` that samples it."""
+                """Drive edges of both kinds; record the edge of `clk_i` that samples each active edge."""
                 slow = False
                 while True:
                     for level in (base == 6, base == 7):
