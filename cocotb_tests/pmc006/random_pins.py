@@ -11,7 +11,7 @@ class Pins(Frames):
     """Random host with changing input pins."""
 
     async def ext(self) -> None:
-        """Operate emergency switches: a press, bounces, an edge near the end of a frame; mostly clear them."""
+        """Operate emergency switches: press, bounces, an edge near the end of a frame; mostly clear them."""
         rng, t = self.rng, self.host.t
         pin = rng.choice(("ext1", "ext2"))
         level = self.host.side.pin(pin)

@@ -51,7 +51,7 @@ ILLEGAL = ({"a03": 121}, {"a04": 6}, {"a08": 2}, {"a0C": 64, "a0D": 0}, {"a13": 
 
 @directed("P006-BAD-14", "P006-EEP-01")
 async def p006_one_bad_field_makes_the_block_bad(dut: Any) -> None:
-    """One invalid field makes the block invalid: factory values apply, nothing is written, the program stays."""
+    """One invalid field makes the block invalid: factory values apply, no write, the program is kept."""
     for changes in ILLEGAL:
         host = await booted(dut, image(page(a06=3, a07=4, **changes), BLINK))
         assert await unread(host), changes

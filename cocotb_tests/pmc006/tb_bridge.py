@@ -83,9 +83,7 @@ async def p006_lengths_of_the_pulses(dut: Any) -> None:
     host, times = await ready(dut)
 
     async def cycle(rise: int, fall: int) -> tuple[int, int]:
-        """Raise cmp_a `rise` cycles after an ON begins and lower it `fall` cycles after the next pulse
-        begins.
-        """
+        """Raise cmp_a `rise` cycles after an ON begins, lower it `fall` cycles after the next pulse."""
         await host.pins(cmp_a=1)
         await host.pause(2 * times.off + 2 * times.fast)
         await host.pins(cmp_a=0)

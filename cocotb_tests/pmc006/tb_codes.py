@@ -72,9 +72,7 @@ IDS += tuple(f"P006-CMD-{n:02}" for n in (30, 32, 34, 35, 36, 38, 39, 42, 43, 49
 @cocotb.parametrize(row=REGISTERS)
 @directed(*IDS, "P006-BAD-08", "P006-BAD-09")
 async def p006_register(dut: Any, row: Row) -> None:
-    """Accepted data is echoed; rejected data leaves the register, whose value is the reply and the read
-    value.
-    """
+    """Accepted data is echoed; rejected data does not change the register, whose value is the reply."""
     host = await Host.start(dut)
 
     async def shown(value: int) -> None:

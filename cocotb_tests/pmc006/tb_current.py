@@ -65,9 +65,7 @@ async def p006_regulated_in_motion(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-03")
 async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
-    """In half steps, fast decay removes the current when the reference falls from 71 % to 0 without a new
-    sign.
-    """
+    """Fast decay removes the current when the reference falls from 71 % to 0 without a new sign."""
     host, plant = await ready(dut, e=2000, m=2, P=300)
     await brisk(host, 1000)
     await start(host, 3)

@@ -22,7 +22,7 @@ PROGRAM = (goto(0), out(1, 1))
 
 
 class State(NamedTuple):
-    """speeds: active settings. begun: frames that lead from standstill into the state, with their place PP."""
+    """speeds: active settings. begun: frames that lead from standstill into the state."""
 
     begun: str = ""
     speeds: dict[str, int] = FLAT

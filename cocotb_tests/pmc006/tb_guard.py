@@ -34,7 +34,7 @@ CLEAR = {"ext1": "b", "ext2": "l"}
     "P006-EXT-01", "P006-EXT-02", "P006-EXT-05", "P006-EXT-06", "P006-EXT-08", "P006-STA-10", "P006-STA-18"
 )
 async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
-    """The selected edge stops every motion within 5 cycles; the other edge and the other pin have no effect."""
+    """The selected edge stops any motion within 5 cycles; the other edge and the other pin have no effect."""
     other = "ext2" if pin == "ext1" else "ext1"
     host = await quick(dut, levels={"sda_i": 0, pin: 1 - rising})
     mask = 1 if pin == "ext1" else 2
@@ -142,7 +142,7 @@ async def p006_homing(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-EXT-02", "P006-STA-18")
 async def p006_ext_around_the_last_step(dut: Any) -> None:
-    """An edge of EXT near the last step always sets the flag, and the position is the number of steps made."""
+    """An edge of EXT near the last step always sets the flag; the position is the number of steps made."""
     for offset in range(-5, 4):
         host = await quick(dut)
         await host.ok(f=1)
