@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test bench: a PMC006B4 and its EEPROM on two open-drain lines.
-// Ports and parameters are those of pmc006, except that the lines are outputs; ee_on is the power of the
-// device.
+// pmc006_eeprom_bench: a PMC006B4 and its EEPROM on two open-drain lines. Ports and parameters are those of
+//         pmc006, except that the lines are outputs; ee_on is the power of the device.
 `default_nettype none
 
 module pmc006_eeprom_bench #(

@@ -28,9 +28,7 @@ class Host(SideHost):
 
     @classmethod
     async def start(cls, dut: Any, *setting: str, **pins: int) -> Host:
-        """Reset a part with these pin levels, wait until it accepts blocks, and have it answer each `setting`
-        block.
-        """
+        """Reset a part with these pin levels, wait until it accepts blocks, and send each `setting` block."""
         host = cls(await start_bench(dut, PPMC312, settle=8, **pins))
         host.mark = 0
         await host.ready(100)
@@ -41,9 +39,7 @@ class Host(SideHost):
     # ------------------------------------------------------------------ bus
 
     async def write(self, reg: int, byte: int, gap: int = 3) -> int:
-        """Write one byte: a strobe of 3 cycles, then `gap` cycles without one; return the edge that ends the
-        strobe.
-        """
+        """Write one byte: a strobe of 3 cycles, then `gap` cycles; return the edge that ends the strobe."""
         side = self.side
         side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
         await side.clocks(3)
@@ -114,9 +110,7 @@ class Host(SideHost):
                 late = self.t + LATE
 
     async def arrival(self, end: int | None = None) -> None:
-        """Wait until the golden model has a response, at the latest until edge `end`; only then a poll makes
-        sense.
-        """
+        """Wait until the golden model has a response, at the latest until edge `end`; no poll is made."""
         while not self.side.golden.core.responses.any_waiting:
             assert end is None or self.t < end, f"no response comes any more\n{self.side.context()}"
             await self.step()

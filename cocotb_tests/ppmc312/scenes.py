@@ -39,9 +39,7 @@ class Scenes(Player):
             await host.read(DRR)
 
     async def attend(self, clk: int) -> None:
-        """Wait `clk` cycles (4 × `clk` with DATASHEET), read responses and let the encoder
-        follow.
-        """
+        """Wait `clk` cycles (DATASHEET: 4 × `clk`), read responses and let the encoder follow."""
         host, rng = self.host, self.rng
         end = host.t + clk * (4 if self.slow else 1)
         while True:
@@ -150,9 +148,7 @@ class Scenes(Player):
     def change_block(
         self, trigger: int | None = None, ahead: int = 0, codes: tuple[int, ...] = CHANGES
     ) -> bytes:
-        """Return an 80, 81, 87 or 88; with `trigger`, registered for it or for a position `ahead` pulses
-        away.
-        """
+        """Return an 80, 81, 87 or 88; with `trigger`, registered for it or `ahead` pulses away."""
         rng = self.rng
         code = rng.choice(codes)
         flags = 0 if trigger is None else 4 | trigger

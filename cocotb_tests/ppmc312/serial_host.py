@@ -105,10 +105,9 @@ class SerialHost(SerialLine, SideHost):
         return next(iter(self.side.rises("snd", self._heard)), None)
 
     async def begin(self, within: int = T_EXEC) -> int:
-        """Return the edge of the next rise of snd, at most `within` cycles after the middle of the last stop
-        bit.
+        """Return the edge of the next rise of snd.
 
-        TimeoutError if there is none by then.
+        TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
         """
         await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK

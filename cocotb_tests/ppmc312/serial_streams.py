@@ -100,10 +100,13 @@ def stream(rng: random.Random, adr: int, sum_mode: str = "BINARY", size: int = 4
 
 
 def campaign(seed: int, size: int) -> int:
-    """Send `size` bytes to one station after the other, with a poll after every few dozen; return the bytes
-    sent.
+    """Send `size` bytes to one station after the other, and a poll after every few dozen bytes.
 
-    AssertionError with the seed if a station does not recover.
+    Returns:
+        The number of bytes sent.
+
+    Raises:
+        AssertionError: A station does not recover; the text states the seed.
     """
     rng = random.Random(f"p312 streams {seed}")
     sent = 0

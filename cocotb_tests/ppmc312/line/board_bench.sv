@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test bench: a PPMC-312 on its serial line with reset and LEDs of a board.
-// All inputs that the serial line does not need are idle.
+// ppmc312_board_bench: a PPMC-312 on its serial line with reset and LEDs of a board.
+//         All inputs that the serial line does not need are idle.
 `default_nettype none
 
 module ppmc312_board_bench (

@@ -142,9 +142,7 @@ class Master:
         self.said.append(Said(begin, round(end), data))
 
     async def hear(self, limit: int) -> bytes:
-        """Receive characters until the line stays high for two bits; b"" if none begins within `limit`
-        cycles.
-        """
+        """Receive characters until the line stays high for two bits; b"" if none begins in `limit` cycles."""
         data, begin, wait = bytearray(), 0, limit
         while (start := await self.port.fall(wait)) is not None:
             begin = begin or start

@@ -1,5 +1,4 @@
-"""Scenes on a line of sixteen stations, valid and disturbed. A scene receives the master and a random
-generator.
+"""Scenes on a line of sixteen stations, valid and disturbed; each has a master and a random generator.
 
 After each disturbance the first poll recovers every station.
 """
@@ -179,9 +178,7 @@ async def noise(master: Master, rng: random.Random) -> None:
 
 
 async def breaks(master: Master, rng: random.Random) -> None:
-    """The line is low for longer than a character, alone and within a frame; each break counts as a framing
-    error.
-    """
+    """Each low level that is longer than a character, alone or within a frame, is one framing error."""
     await forget(master, 2)
     whole = master.frame(INSTRUCTION | 2, b"\x26\x01")
     cut, rest = whole[:4], whole[4:]

@@ -105,9 +105,7 @@ async def board312_serial_open_straps(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_half_a_bit(dut: Any) -> None:
-    """DE is asserted half a bit to half a bit + 1 us after the master's stop bit, the start bit follows a bit
-    later.
-    """
+    """DE is asserted half a bit after the master's stop bit, the start bit follows a bit later (+ 1 us)."""
     board = await start(dut)
     bit = 1e6 / board.rs485.rate
     for master in (board.usb, board.rs485):
@@ -149,9 +147,7 @@ async def board312_serial_straps_and_button(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_motion_and_lamps(dut: Any) -> None:
-    """A move ordered by USB ends after its pulses, as polls on the line report; limit and alarm light their
-    LED.
-    """
+    """A move commanded by USB makes its pulses and is polled on RS-485; limit and alarm light an LED."""
     board = await start(dut)
     usb, pulses = board.usb, []
 
