@@ -20,12 +20,9 @@ class Chip:
     """A device that was just powered up.
 
     content: bytes from address 0 on, the rest is FF. write_us: time of a write cycle. stretch_us: time for
-    which
-    SCL is held low after each acknowledge. missing: no device responds. other: its address differs from the
-    one
-    that the part uses. stuck: "scl" or "sda", a line that is held low. busy_us: a write cycle is in progress
-    for
-    this time.
+    which SCL is held low after each acknowledge. missing: no device responds. other: its address differs from
+    the one that the part uses. stuck: "scl" or "sda", a line that is held low. busy_us: a write cycle is in
+    progress for this time.
     """
 
     content: bytes = b""

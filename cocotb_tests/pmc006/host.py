@@ -1,7 +1,7 @@
 """Host on the link of a PMC006, which acts on the replies of the part.
 
-It has a UART model of its own: replies are decoded from the levels of txd and de, and every edge is checked
-(chapter 2.4).
+It has its own UART model: replies are decoded from the levels of txd and de, and every edge is
+checked (chapter 2.4).
 """
 
 from __future__ import annotations
@@ -68,10 +68,8 @@ class Host(View, SerialLine):
         """Return a host with a part just out of reset, and booted unless `boot` is false.
 
         address: address of the part that the host uses. levels: of input pins from edge 0 on. error: of the
-        host's
-        bit time. chip: the EEPROM, for tests in the bench that has one (test_eeprom.py). Without a chip, SDA
-        is held
-        low, so that the part boots immediately, unless `levels` contains sda_i=1.
+        bit time of the host. chip: the EEPROM, for tests in the bench that has one (test_memory.py). Without
+        a chip, SDA is held low, so that the part boots immediately, unless `levels` contains sda_i=1.
         """
         idle = {} if chip else {"sda_i": 0}
         side = await start_bench(dut, WITH_EEPROM if chip else PMC006, settle=0, **{**idle, **(levels or {})})

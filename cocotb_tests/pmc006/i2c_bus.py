@@ -10,8 +10,8 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 class I2cBus:
     """Replacement of `model.run_until` that adds the EEPROM.
 
-    A level that the part or the device pulls at edge t is on the lines from edge t + 1 on. The pin changes go
-    through `model.pins`.
+    A level that the part or the device pulls at edge t is on the lines from edge t + 1 on. The pin changes
+    go through `model.pins`.
     """
 
     def __init__(self, model: Any, device: Eeprom24C32) -> None:

@@ -1,8 +1,8 @@
 """Program of `make demo PART=pmc006`: a host, and a motor on the bridges of the part.
 
-Three moves of the same distance with finer and finer steps. Then a program that is loaded over the line homes
-to a switch and shuttles without a host. The motor is connected for the moves only, because its comparators
-change often.
+The host makes three moves of the same distance with finer and finer steps. Then a program that is loaded
+over the line homes to a switch and shuttles without a host. The motor is connected for the moves only,
+because its comparators change often.
 """
 
 from __future__ import annotations

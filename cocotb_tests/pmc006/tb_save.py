@@ -55,9 +55,8 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
     old, seen = 600, []
     for place, new in ((13.4, 0x0A0B), (14.3, 0x0201), (14.8, 0x0A0B), (15.6, 0x0201)):
         assert await host.ask("t") == 1
-        # Three bytes precede those of the page. Each lasts 22.5 us longer than the stretch and is read when
-        # the
-        # previous one has been acknowledged, before the stretch.
+        # Three bytes precede those of the page. Each lasts 22.5 us longer than the stretch and is read
+        # when the previous one has been acknowledged, before the stretch.
         await host.go(host.e + host.us(922.5 * place) - int(79.5 * host.bit))
         assert await host.ask("L", new) == new
         await host.ms(58)
@@ -112,7 +111,7 @@ async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
 async def p006_lines_that_stick_while_saving(dut: Any) -> None:
     """With SCL held low a job ends after 1 ms and reports an error.
 
-    SDA held low looks like acknowledges, so that nothing is written.
+    SDA held low looks like acknowledges: the job ends without an error, and nothing is written.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     chip = host.eeprom

@@ -1,8 +1,7 @@
 """Random hosts compared with the golden model: a fixed list of seeds; `--seed N` plays seed N only.
 
-One simulation plays several seeds of one build one after the other, each from a reset. `make soak
-PART=pmc006`
-plays any number of other seeds.
+One simulation plays several seeds of one build one after the other, each from a reset.
+`make soak PART=pmc006` plays any number of other seeds.
 """
 
 from __future__ import annotations

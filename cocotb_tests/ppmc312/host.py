@@ -28,7 +28,7 @@ class Host(SideHost):
 
     @classmethod
     async def start(cls, dut: Any, *setting: str, **pins: int) -> Host:
-        """Reset a part with these pin levels, wait until it accepts blocks, and send each `setting` block."""
+        """Reset a part with these pin levels, wait until it accepts blocks, and ask each `setting` block."""
         host = cls(await start_bench(dut, PPMC312, settle=8, **pins))
         host.mark = 0
         await host.ready(100)
@@ -39,7 +39,7 @@ class Host(SideHost):
     # ------------------------------------------------------------------ bus
 
     async def write(self, reg: int, byte: int, gap: int = 3) -> int:
-        """Write one byte: a strobe of 3 cycles, then `gap` cycles; return the edge that ends the strobe."""
+        """Write one byte: a strobe of 3 cycles, then `gap` cycles without one; return the edge at its end."""
         side = self.side
         side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
         await side.clocks(3)

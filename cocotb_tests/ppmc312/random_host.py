@@ -1,8 +1,7 @@
 """Random hosts of the PPMC-312: a seed decides build, tables, instructions, pins, and the kind of host.
 
 `build(seed)` returns the build, `play(dut, seed)` plays the seed. Most hosts are well-behaved
-(`lively_host`),
-some are rough (`rough_host`).
+(`lively_host`), some are rough (`rough_host`).
 """
 
 from __future__ import annotations

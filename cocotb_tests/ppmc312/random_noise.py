@@ -55,7 +55,7 @@ Changes = list[tuple[int, dict[str, int]]]
 def _bus(rng: random.Random, t: int) -> Changes:
     """Return one strobe of any length, or both strobes together.
 
-    Address and data may change during it. Two cycles or more without a strobe follow.
+    Address and data may change during it. At least 3 cycles without a strobe follow.
     """
     register = rng.choice((CSR, WCR, WAR, DWR, DWR, DWR, DWR, 7, 7, 2, 1))
     begin = {"d_i": rng.choice(BYTES), "rs": register, "cs_n": rng.choice((0, 0, 0, 1))}

@@ -172,7 +172,6 @@ async def p312_a_position_acts_on_the_next_interval(dut: Any) -> None:
     for _ in range(2):
         assert await host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
     assert await host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
-    # 12 pulses are left at the first change: the final deceleration starts at 200. The second change makes
-    # the
-    # rate constant at 400 for the remaining pulses.
+    # 12 pulses are left at the first change: the final deceleration starts at 200. The second change
+    # makes the rate constant at 400 for the remaining pulses.
     assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

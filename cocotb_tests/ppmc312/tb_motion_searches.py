@@ -106,8 +106,8 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
 async def p312_zero_return_whose_origin_meets_a_slow_stop(dut: Any) -> None:
-    # The rate is too low for a deceleration: with both in one interval the stop has priority, without a
-    # return.
+    # The rate is too low for a deceleration: with both in one interval the stop has priority,
+    # and there is no return.
     for origin_first in (False, True):
         host = await Host.start(dut, *TF)
         await host.ask(message(Code.ZERO_RETURN, "00 0190"))

@@ -162,9 +162,8 @@ WALKS = [
         "400x4 200x7 100x7 200x13 400x6 200x3",
         0x40,
     ),
-    # A ramp that ends at the deceleration point without a walk: the next 87 starts from t(R_c), not from the
-    # stage
-    # in which the ramp ended.
+    # A ramp that ends at the deceleration point without a walk: the next 87 starts from t(R_c), not from
+    # the stage in which the ramp ended.
     (
         SLOW_EQUAL,
         message(Code.RAMP, "00 0096 0000003C"),
@@ -179,8 +178,7 @@ WALKS = [
         "400x9 200x13 400x7 200x11",
         0x40,
     ),
-    # The same with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages for a
-    # deceleration.
+    # The same with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages to decelerate.
     (
         UNEVEN,
         message(Code.RAMP, "00 0064 00000050"),

@@ -75,8 +75,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
             assert await host.ask(message(Code.STATUS)) == message(
                 Code.STATUS, f"{enabled | outside * value:02X} 01 00"
             )
-        # Disabled: no more reports; enabled again the monitor begins inside the window, with RES = 0 for one
-        # report.
+        # Disabled: no more reports; enabled again the monitor begins inside the window, for one report with
+        # RES = 0.
         assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await host.ask(f"03 04 {code} 01 0004")
@@ -103,8 +103,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
 @directed("P312-RSP-22", "P312-MON-05", "P312-RSP-10")
 async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     host = await Host.start(dut, message(Code.ENCODE, "03 0002"), message(Code.IN_POSITION, "01 0002"))
-    # While an answer is unread, a move out of the window and back leaves no automatic report; the single one
-    # stays.
+    # While an answer is unread, a move out of the window and back leaves no automatic report;
+    # the single report stays.
     await host.issue(message(Code.VERSION))
     await host.wait()
     await encoder(host, 3)

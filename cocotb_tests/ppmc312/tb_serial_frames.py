@@ -218,7 +218,7 @@ async def p312_serial_silence_in_a_frame(dut: Any, begin: str) -> None:
 @cocotb.parametrize(after=[-40, -1, 0, 1, 2, 40])
 @directed("P312-SER-16")
 async def p312_serial_the_end_of_the_silence(dut: Any, after: int) -> None:
-    """A character whose stop bit ends within 20 ms belongs to the frame."""
+    """A character whose stop bit is sampled within 20 ms belongs to the frame."""
     host = await SerialHost.start(dut)
     await host.raw("81")
     # 10 bits from one stop bit to that of a character that follows immediately.
@@ -230,7 +230,7 @@ async def p312_serial_the_end_of_the_silence(dut: Any, after: int) -> None:
 
 @directed("P312-SER-15", "P312-SER-19")
 async def p312_serial_a_master_that_talks_out_of_turn(dut: Any) -> None:
-    """During a reply, every control code for this station counts as an overrun; its frame is ignored."""
+    """While a reply is pending or sent, each control code for this station is an overrun without effect."""
     host = await SerialHost.start(dut)
     await host.raw("91 34 31 2D")
     await host.send(summed(0x81) + summed(0x91, b"\x26\x15"))

@@ -1,8 +1,7 @@
 """Random hosts and noise compared with the golden model: fixed lists of seeds; `--seed N` plays seed N only.
 
-One simulation plays several seeds of one build one after the other, each from a reset. `make soak
-PART=ppmc312`
-plays any number of other seeds.
+One simulation plays several seeds of one build one after the other, each from a reset.
+`make soak PART=ppmc312` plays any number of other seeds.
 """
 
 from __future__ import annotations

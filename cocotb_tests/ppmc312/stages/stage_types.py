@@ -55,7 +55,7 @@ def pack(*fields: tuple[int, int]) -> int:
 class Target(NamedTuple):
     """target_t: a rate and its look-up result.
 
-    ge: t(rate); if that is no stage in use, one before the first.
+    ge: t(rate); if there is no such stage, one before the first stage in use.
     """
 
     rate: int

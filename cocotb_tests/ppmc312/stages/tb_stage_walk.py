@@ -242,9 +242,8 @@ async def stage_seq_searches(dut):
 class Forgotten(Walker):
     """A change is decided during a search, and a deceleration stop follows.
 
-    A stage of the acceleration ramp becomes a constant rate, 88 is decided during the search for this rate,
-    and
-    81 arrives before the boundary.
+    A stage of the acceleration ramp becomes a constant rate. 88 is decided during the search for this rate,
+    and 81 arrives before the boundary.
     """
 
     def plan_requests(self) -> dict[int, str]:
@@ -274,6 +273,6 @@ async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
         await walker.load()
         end = await walker.run(80)
         ends.add((end, walker.searched > 0))
-    # At 363, loaded where 81 waits, no deceleration is left; the final deceleration lasts until the count
-    # ends.
+    # At 363, loaded where 81 waits, no deceleration is left; the final deceleration lasts
+    # until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])

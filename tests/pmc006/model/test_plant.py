@@ -127,8 +127,8 @@ def measured(cur: int, full: int, emf: float, tau: float = 0.0) -> Figures:
 def test_the_current_follows_a_sine(cur: int, full: int, error: float, thd: float) -> None:
     """Up to 1000 full steps/s in 1/16 steps, the current follows a sine within 5 % rms.
 
-    The THD of the phase current is below 3 %. 0.4 A, which is 26 units of the reference, may need slightly
-    more.
+    The THD of the phase current is below 3 %. At 0.4 A, which is 26 units of the reference, both limits
+    may be slightly exceeded.
     """
     found = measured(cur, full, 0.0)
     print(found)
@@ -140,9 +140,8 @@ def test_the_current_follows_a_sine(cur: int, full: int, error: float, thd: floa
 def test_no_current_hangs_at_a_reference_of_0(mstep: int, thd: float) -> None:
     """At 200 full steps/s without a lead, FAST removes the rest of a positive half wave at a reference of 0.
 
-    With the bridge held off, 0.28 A of a half step remained, and the THD was 1.9 % in 1/16 steps. From below
-    there
-    is no pulse.
+    With the bridge held off, 0.28 A of a half step remained, and the THD was 1.9 % in 1/16 steps. After a
+    negative half wave there is no pulse.
     """
     both = cruising(Case(1000, mstep, 200, scomp=300, periods=1))
     above = max(left_at_zero(found)[0] for found in both)
