@@ -226,7 +226,7 @@ async def p312_serial_hsp_has_no_function(dut: Any, hsp: int) -> None:
 
 @directed("P312-PRT-02", "P312-SER-15", builds=(D16,))
 async def p312_serial_frames_before_out_oe(dut: Any) -> None:
-    """Frames before out_oe have no reply, effect or count, and leave no state behind.
+    """Frames before out_oe have no reply, effect or count, and leave no state.
 
     They are a poll, a framing error, and most of an instruction.
     """
