@@ -1,5 +1,7 @@
-"""What the sheet crosses: instruction and state, refusal and who asked, cause of the end and state. Counted
-in the golden model."""
+"""Coverage crosses of the data sheet, counted in the golden model.
+
+Instruction × state, refusal × source of the instruction, cause of the end × state.
+"""
 
 from __future__ import annotations
 
