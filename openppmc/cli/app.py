@@ -1,6 +1,6 @@
-"""The commands of `openppmc`: the options in front of them, and where each command is.
+"""Commands of `openppmc`: the options before the command, and the table of all commands.
 
-What goes wrong leaves as an exception; `main` in __init__ makes one line of it.
+A command raises an exception for an error; `main` in __init__ prints it as one line.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Commands about boards: what is there, and how it is set up."""
+"""Commands that list ports, identify a board and initialise an axis."""
 
 from __future__ import annotations
 

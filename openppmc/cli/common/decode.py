@@ -1,4 +1,4 @@
-"""The command that reads captures of old chips."""
+"""The command `decode`, which reads captures of old chips."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 WAYS = {1: "CW", -1: "CCW", 0: "?"}
 SHOWN = 10
-"""Differences that are told one by one."""
+"""Number of differences that are printed one by one."""
 
 
 def decode_capture(
@@ -150,7 +150,7 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
 
 
 def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
-    """For JSON; times in s."""
+    """Return the values for JSON; times in s."""
     values: dict[str, Any] = {
         "capture": found.capture,
         "part": found.part,

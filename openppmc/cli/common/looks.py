@@ -1,4 +1,4 @@
-"""Commands that look at a board."""
+"""Commands that read the state of a board."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 
 def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
-    """Values of the axes, by what to write in front of them."""
+    """Return the values of each axis, by the prefix of its rows."""
     seen = session.view.status_of(session.part, session.chosen(axis))
     return {f"axis {number} " if len(seen) > 1 else "": values for number, values in seen.items()}
 
 
 def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
-    """The same for people."""
+    """Return the values as rows of text."""
     return {
         prefix + name: text
         for prefix, values in looks.items()
@@ -34,7 +34,7 @@ def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
 
 
 def _table(session: Session, looks: dict[str, dict[str, Any]]) -> Table:
-    """For people on a terminal."""
+    """Return the values as a table."""
     if not session.view.wide or len(looks) == 1:
         return output.table(_rows(session, looks))
     return output.grid({prefix.strip(): session.view.status_rows(one) for prefix, one in looks.items()})

@@ -36,7 +36,7 @@ EncoderRange = Annotated[
 
 
 def override_values(texts: list[str] | None) -> list[Override]:
-    """The values of --at."""
+    """Return the values of --at. Raise BadParameter."""
     try:
         return [parse_override(text) for text in texts or ()]
     except ValueError as error:
@@ -44,7 +44,7 @@ def override_values(texts: list[str] | None) -> list[Override]:
 
 
 def numbers_of(text: str | None, count: int) -> tuple[int, ...]:
-    """The axes that as many numbers are for."""
+    """Return the axes of `count` values: those of --axes, else 1 to count. Raise BadParameter."""
     if text is None:
         return tuple(range(1, count + 1))
     words = text.split(",")

@@ -1,4 +1,4 @@
-"""The command `selftest`: a board against the golden model, and a page about it."""
+"""The command `selftest`: compare a board with the golden model, write a page about it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .options import Json
 from .session import misfit
 
 RECORDS = 13
-"""Of a virtual board for which nobody asked for another number."""
+"""Size of the recorder of a virtual board without `record=`: 2**RECORDS records."""
 KINDS = (REGISTERS, COMMANDS, MOVES, SWITCHES)
 Kinds = Annotated[
     list[str] | None,
@@ -76,7 +76,10 @@ def selftest(
 
 
 def _spec() -> str:
-    """The port; a virtual board gets a recorder, the golden model cannot be compared with itself."""
+    """Return the port; a virtual board gets a recorder.
+
+    Raises PpmcError for `model:`: the golden model cannot be compared with itself.
+    """
     spec = BOARD.spec
     if spec.startswith(MODEL):
         raise PpmcError("model: is what a board is compared with: name its port, or sim: for a virtual one")
@@ -94,7 +97,10 @@ def _plan(link: Link) -> Plan:
 
 
 def _ask(plan: Plan, yes: bool, jumpers: bool) -> None:
-    """Nothing turns before somebody has said so."""
+    """List the wires, and ask the user whether motors may turn.
+
+    Raises PpmcError if stdin is not a terminal, Abort if the user declines.
+    """
     for wire in plan.jumpers if jumpers else ():
         output.note(f"wire: {wire}")
     if yes or BOARD.spec.startswith(SIM):

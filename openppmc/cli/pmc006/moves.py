@@ -44,7 +44,7 @@ class Way(str, Enum):
 
     @property
     def sign(self) -> int:
-        """1 or -1."""
+        """1 for forward, -1 for backward."""
         return FORWARD if self is Way.FORWARD else BACKWARD
 
 
@@ -82,7 +82,10 @@ def jog(
 
 
 def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgress | None = None) -> None:
-    """Wait for all, print where they stand, tell the first that ended early."""
+    """Wait for all motions and print their ends.
+
+    judge: raise an error for the first motion that ended early.
+    """
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
     for end in ends:
@@ -109,7 +112,7 @@ def speed(
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
-    """Change the speed of a motor that runs this way already."""
+    """If the motor already runs in this direction, change its speed and return True."""
     modes = part.modes()
     if not modes.running or modes.forward != (pps > 0):
         return False
@@ -146,7 +149,7 @@ def home(
             output.say(f"{part.who}position {part.position}: {off} steps from the edge of EXT{switch}")
 
 
-# ---------------------------------------------------------------------- who is there
+# ---------------------------------------------------------------------- scan and status
 
 
 def scan(as_json: Json = False) -> None:

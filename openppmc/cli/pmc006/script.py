@@ -1,4 +1,4 @@
-"""User programs and script files of PMC006B4: one command a line; address=N selects a controller."""
+"""User programs and script files of PMC006B4; in scripts, address=N selects a controller."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Place = Annotated[int, typer.Option("--at", metavar="N", help="number of the ins
 
 
 def _read(path: Path) -> Program:
-    """A program from a text or an image. PpmcError."""
+    """Read a program from a text or an image. Raise PpmcError."""
     try:
         if path.suffix == ".bin":
             return Program.from_image(path.read_bytes())
@@ -40,7 +40,7 @@ def _read(path: Path) -> Program:
 
 
 def _write(path: Path | None, text: str | bytes) -> None:
-    """Into a file, a text without one to standard output. PpmcError."""
+    """Write to a file; without a file, print the text. Raise PpmcError."""
     try:
         if path is None:
             assert isinstance(text, str)
@@ -252,18 +252,18 @@ READERS: dict[str, Reader] = {
 
 
 class Player:
-    """Carries a script out. Lines without address= are for the controller that answers first."""
+    """Executes a script. Lines without address= apply to the first controller that replies."""
 
     def __init__(self, session: Session, name: str) -> None:
         self._session, self._name = session, name
         self._first: Pmc006 | None = None
 
     def run(self, steps: Iterable[Step]) -> None:
-        """All steps. ScriptError with file:line for what a controller refuses."""
+        """Execute all steps. Raise ScriptError with file:line if a controller rejects one."""
         carry_out(steps, self._name, self._session.guard, self._do)
 
     def controller(self, address: int | None) -> Pmc006:
-        """The one with this address, or the first that answers."""
+        """Return the controller with this address; for None, the first that replies."""
         if address is not None:
             return self._session.bus.axis(address)
         if self._first is None:
@@ -294,7 +294,7 @@ class Player:
             self._set(step, part)
 
     def _set(self, step: Step, part: Pmc006) -> None:
-        """What moves nothing."""
+        """Execute a step that moves no motor."""
         values: dict[str, Any] = step.values
         if step.word == "set":
             for name, value in values["settings"].items():
@@ -309,7 +309,7 @@ class Player:
 
 
 def addresses(steps: Iterable[Step]) -> set[int | None]:
-    """Of the controllers that a script is about, None for the first that answers."""
+    """Return the addresses in a script; None is the first controller that replies."""
     found: set[int | None] = set()
     for step in steps:
         found |= addresses(step.body)

@@ -1,4 +1,4 @@
-"""The commands for a line of PPMC-312 in serial mode: `openppmc --part ppmc312-serial …`."""
+"""Commands for a line of PPMC-312 in serial mode: `openppmc --part ppmc312-serial …`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ AnyAxis = Annotated[
 ]
 
 
-# ---------------------------------------------------------------------- who is there
+# ---------------------------------------------------------------------- scan and status
 
 
 def scan(as_json: Json = False) -> None:
@@ -88,7 +88,7 @@ def reset(axis: Axis) -> None:
 
 
 def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any]) -> list[Any]:
-    """Initialise stations, all plans made before the first."""
+    """Make all plans, then initialise the stations; return the reached set-ups."""
     xtal_hz = session.bus.line.identity.xtal_hz
     plans: list[Any] = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
     reached = []
@@ -142,7 +142,10 @@ def move(
 
 
 def _finish(session: Session, motions: list[Any], asked: int | None = None) -> None:
-    """Wait for all, print where they stand, tell the first that ended early."""
+    """Wait for all motions and print their ends.
+
+    asked: unless it is None, raise an error for the first motion that ended early.
+    """
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()
     for end in ends:

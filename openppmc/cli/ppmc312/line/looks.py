@@ -1,4 +1,4 @@
-"""Commands that look at a line of PPMC-312 as those of one part do."""
+"""Commands that read the state of a line of PPMC-312."""
 
 from __future__ import annotations
 
