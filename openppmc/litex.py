@@ -1,12 +1,12 @@
-"""A PPMC-104, or a bank of its axes, behind Wishbone in a SoC of LiteX. Needs the extra `litex`.
+"""PPMC-104, or a bank of its axes, on the Wishbone bus of a LiteX SoC. Needs the extra `litex`.
 
 from openppmc.litex import add_part
 
 add_part(soc, "stepper", "/where/openppmc/is", pads=platform.request("stepper"))
 
 `sources` is a checkout of OpenPPMC, its archive openppmc-rtl (SystemVerilog, for Verilator and tools that
-read it), or a folder with the plain Verilog of a release (for yosys). The program finds the part by
-STEPPER_BASE in generated/mem.h and uses the project's C driver, docs/integration.md.
+read it), or a folder with the plain Verilog of a release (for yosys). The address of the part is STEPPER_BASE
+in generated/mem.h. The software uses the C driver of the project, see docs/integration.md.
 """
 
 from __future__ import annotations
@@ -29,19 +29,20 @@ from migen import ClockSignal, Instance, ResetSignal, Signal  # noqa: E402
 
 
 class SourcesError(PpmcError):
-    """No sources there, or plain Verilog with other parameters than these."""
+    """The sources are missing, or the plain Verilog has other parameters."""
 
 
 class PadsError(PpmcError):
-    """Pads with a name or width that the part does not have."""
+    """A pad has a name or a width that the part does not have."""
 
 
 @dataclass(frozen=True)
 class Part:
-    """What is put into the SoC. address: the port with `bits` address lines; parameters: their defaults.
+    """Part that `add_part` can instantiate.
 
-    inputs: port -> level without a pad, all its bits alike; outputs. Widths: a number of bits, or a number
-    for each axis after *.
+    address: name of the address port, which has `bits` bits. parameters: name -> default. inputs: name ->
+    (width, level of all bits without a pad). outputs: name -> width. A width is a number of bits; after `*`
+    it is a number of bits for each axis.
     """
 
     top: str
@@ -53,7 +54,7 @@ class Part:
     outputs: Mapping[str, str]
 
     def width(self, text: str, parameters: Mapping[str, Any]) -> int:
-        """Bits of a port under these parameters."""
+        """Return the number of bits of a port with these parameters."""
         return int(text[1:]) * int(parameters["AXES"]) if text.startswith("*") else int(text)
 
 
@@ -81,13 +82,13 @@ PARTS = {
         {"s": "*5", "hold": "*1", "pout_n": "*1", "dir": "*1"},
     ),
 }
-"""Name -> what `add_part` can add. PHASE_IDLE: 0 if the drivers switch a coil on with H."""
+"""Name -> part. PHASE_IDLE: 0 if a high level at the driver switches a coil on."""
 BRIDGE = "ppmc_wishbone"
 _BUILT_IN = re.compile(r"^//   (\w+) += (\S+)", re.M)
 
 
 def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
-    """SourcesError if a file of plain Verilog has other parameters than these."""
+    """Raise SourcesError if a file of plain Verilog has other parameters."""
     head = path.read_text(encoding="utf-8").partition("`default_nettype")[0]
     for name, value in _BUILT_IN.findall(head):
         has = re.sub(r"^\d+'[bd]", "", value)
@@ -99,7 +100,10 @@ def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
 
 
 def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapping[str, Any]) -> bool:
-    """Give the files to the platform, once each; whether their parameters are built in (plain Verilog)."""
+    """Add the files to the platform, each once; return True if they are plain Verilog.
+
+    The parameters of plain Verilog are built in. Raises SourcesError.
+    """
     folder = Path(sources)
     listed = folder / "packages" / f"{part.files}.f"
     present = {entry[0] for entry in platform.sources}
@@ -127,11 +131,12 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
 
 
 class PpmcPart(LiteXModule):  # type: ignore[misc]
-    """A part and its Wishbone bridge: `bus`, `size` in bytes, the event `ev.finish` while int_n is low.
+    """Part with its Wishbone bridge: `bus`, `size` in bytes, event `ev.finish` while int_n is low.
 
-    platform: gets the sources. pads: a record whose fields are called as ports of the part; inputs without a
-    pad rest, outputs without one go nowhere. parameters: those of the part; CLK_HZ is the SoC's clock, 8 …
-    200 MHz. The register map is in docs/integration.md. Raises SourcesError and PadsError.
+    platform: receives the sources. pads: record whose fields have the names of ports of the part. An input
+    without a pad has its idle level; an output without a pad is not connected. parameters: those of the part;
+    CLK_HZ is the clock of the SoC, 8 … 200 MHz. The register map is in docs/integration.md. Raises
+    SourcesError and PadsError.
     """
 
     def __init__(
@@ -199,7 +204,7 @@ class PpmcPart(LiteXModule):  # type: ignore[misc]
 
     @staticmethod
     def _pins(of: Part, pads: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Ports of the instance that go to pads, or rest."""
+        """Return the ports that are connected to pads, and the idle levels of other inputs."""
         found = {}
         named = {} if pads is None else {field[0]: getattr(pads, field[0]) for field in pads.layout}
         for name, (text, level) in of.inputs.items():
@@ -230,10 +235,11 @@ def add_part(
     origin: int | None = None,
     **parameters: Any,
 ) -> PpmcPart:
-    """Put a part into a SoC with a Wishbone bus, with its interrupt if the CPU has interrupts; the module.
+    """Add a part to a SoC with a Wishbone bus and return the module.
 
-    name: of the module, of its region (NAME_BASE in generated/mem.h) and its interrupt (NAME_INTERRUPT).
-    origin: its address, uncached; without it LiteX finds one. The rest as PpmcPart takes it.
+    The interrupt is connected if the CPU has interrupts. name: name of the module, of its region (NAME_BASE
+    in generated/mem.h) and of its interrupt (NAME_INTERRUPT). origin: its address, uncached; without it,
+    LiteX chooses one. For the other arguments see PpmcPart.
     """
     module = PpmcPart(soc.platform, soc.sys_clk_freq, sources, part, pads, **parameters)
     soc.add_module(name, module)

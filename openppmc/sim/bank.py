@@ -1,4 +1,4 @@
-"""The machine around a bank: a plant for each axis; all are alike, except as words with numbers say."""
+"""Machine model of a bank: one plant for each axis; words with a number differ by axis."""
 
 from __future__ import annotations
 

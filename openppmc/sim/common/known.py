@@ -1,6 +1,6 @@
-"""`openppmc.sim.KNOWN`, apart because it needs the machines of all parts."""
+"""`openppmc.sim.KNOWN`, in a separate module because it imports the machine models of all parts."""
 
 from .spec import known_words
 
 KNOWN = known_words()
-"""Words of a board's text."""
+"""Words of the text of a board."""
