@@ -77,5 +77,7 @@ def _complain(error: Exception) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 1
     kind = type(error).__name__
-    print(f"error: a fault of this program ({kind}: {error}): OPENPPMC_DEBUG=1 shows where", file=sys.stderr)
+    print(
+        f"error: fault of this program ({kind}: {error}); set OPENPPMC_DEBUG=1 to see where", file=sys.stderr
+    )
     return 1

@@ -29,7 +29,7 @@ def split_link(text: str) -> tuple[str, Path | None]:
     links = [word.partition("=")[2].strip() for word in words if word.strip().startswith("link=")]
     rest = ",".join(word for word in words if not word.strip().startswith("link="))
     if links and (not links[-1] or (Path(links[-1]).exists() and not Path(links[-1]).is_symlink())):
-        raise SpecError(f"link={links[-1]}: there is something else of that name")
+        raise SpecError(f"link={links[-1]}: a file with this name exists; use another name")
     return rest, Path(links[-1]) if links else None
 
 

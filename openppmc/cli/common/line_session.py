@@ -29,7 +29,9 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
             ends = int(first), int(last if dash else first)
         except ValueError:
             what = span.partition(" ")[0]
-            raise typer.BadParameter(f"{option} {text!r}: {what} are 3, 0,2,5 or {example}") from None
+            raise typer.BadParameter(
+                f"{option} {text!r}: not a list of {what}; write 3, 0,2,5 or {example}"
+            ) from None
         if ends[0] not in known or ends[1] not in known or ends[0] > ends[1]:
             raise typer.BadParameter(f"{option} {text!r}: {span}")
         numbers += [number for number in range(ends[0], ends[1] + 1) if number not in numbers]

@@ -41,7 +41,7 @@ def _table(session: Session, looks: dict[str, dict[str, Any]]) -> Table:
 
 
 def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
-    """Position, switches, state. Disturbs nothing."""
+    """Print position, switches and state without side effects."""
     with opened() as session:
         looks = _looks(session, axis)
     if not as_json:
@@ -53,7 +53,7 @@ def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
 
 
 def monitor(axis: AxisOrAll = None, count: Count = None, every: Every = 0.2) -> None:
-    """Watch position and switches until Ctrl-C."""
+    """Show position and switches until Ctrl-C."""
     with opened() as session:
 
         def line() -> list[str]:
@@ -71,9 +71,9 @@ def monitor(axis: AxisOrAll = None, count: Count = None, every: Every = 0.2) -> 
 @with_setup
 def table(
     typed: dict[str, Any],
-    out: Annotated[Path | None, typer.Option("--out", help="write it into this file instead")] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="write it to this file instead")] = None,
 ) -> None:
-    """Read the ramps back from a PPMC-312, as the CSV that --curve takes."""
+    """Read the ramps of a PPMC-312 as a CSV file for --curve."""
     with ready(typed, (1,)) as session:
         lines = session.view.table_lines(session.part)
     if out is None:

@@ -18,14 +18,14 @@ from ...host.kind import AnySetup, Kind, Wanted
 
 MOST_AXES = max(row.axes for row in parts.having("number", "kind"))
 """Highest number that --axis accepts; the connected part may have fewer axes."""
-Json = Annotated[bool, typer.Option("--json", help="for programs")]
-_PANEL = "Set-up (remembered by init)"
+Json = Annotated[bool, typer.Option("--json", help="print JSON")]
+_PANEL = "Set-up (stored by init)"
 
 
 def check_seconds(seconds: float | None) -> None:
     """Raise BadParameter if the value of --seconds is negative, infinite or not a number."""
     if seconds is not None and not 0 <= seconds < float("inf"):
-        raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
+        raise typer.BadParameter(f"--seconds {seconds:g}: not a valid time; use 0 or more")
 
 
 class Logic(str, Enum):
@@ -113,20 +113,20 @@ _OPTIONS: dict[str, Any] = {
         _option("--ramp", text="pulses from start to high speed (200; ppmc312: 2000)", metavar="PULSES"),
     ],
     "phases": Annotated[
-        int | None, _option("--phases", text="phases of the motor: 3, 4, 5 (4)", metavar="N")
+        int | None, _option("--phases", text="number of motor phases: 3, 4 or 5 (4)", metavar="N")
     ],
     "half_step": Annotated[bool | None, _option("--half-step/--full-step", text="excitation (full step)")],
     "logic": Annotated[
         Logic | None,
-        _option("--logic", text="level that switches a coil on (positive; a PPMC-2104 has no choice)"),
+        _option("--logic", text="level that switches a coil on (positive; not on ppmc2104)"),
     ],
-    "chop": Annotated[bool | None, _option("--chop/--no-chop", text="switch the coils at rest (no)")],
+    "chop": Annotated[bool | None, _option("--chop/--no-chop", text="chopper at standstill (no)")],
     "base_clock": Annotated[
         float | None,
         _option(
             "--base-clock",
             text="500000 or 125000, stmc: 48675 or 12500, ppmc312: 8e6 … 15625 "
-            "(the one that reaches the start speed)",
+            "(default: reaches the start speed)",
             metavar="HZ",
         ),
     ],
@@ -135,7 +135,7 @@ _OPTIONS: dict[str, Any] = {
     ],
     "long_intervals": Annotated[
         bool | None,
-        _option("--long-intervals/--plain-intervals", text="7.5 us more an interval (vsel low) (plain)"),
+        _option("--long-intervals/--plain-intervals", text="7.5 us longer intervals, vsel low (plain)"),
     ],
     "stop": Annotated[
         float | None, _option("--stop", text="ppmc312: stop speed (the start speed)", metavar="PPS")

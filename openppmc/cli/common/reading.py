@@ -52,7 +52,7 @@ def _read_outputs(words: list[str]) -> Values:
 def _lacks_aux(kind: Kind, values: Values) -> str:
     if AUX in kind.has:
         return ""
-    return f"a {kind} has no output AUX" + (": use auxo" if kind.outputs else "")
+    return f"a {kind} has no output AUX" + ("; use auxo" if kind.outputs else "")
 
 
 def _lacks_outputs(kind: Kind, values: Values) -> str:
@@ -175,7 +175,7 @@ def read_axis(words: list[str], numbered: Numbered = AXES) -> int | None:
 
 def read_repeat(words: list[str]) -> Values:
     """Return the number of repetitions."""
-    turns = whole(first(words, "how often"), "count", 1, MOST_TURNS)
+    turns = whole(first(words, "number of repetitions"), "count", 1, MOST_TURNS)
     none_left(words)
     return {"turns": turns}
 

@@ -256,13 +256,13 @@ def read_program(
                 stack[-1][2].append(Step(start, "repeat", values, tuple(body)))
             elif word == "repeat":
                 if len(stack) > DEEPEST:
-                    raise ValueError(f"repeat deeper than {DEEPEST}")
+                    raise ValueError(f"repeat: nested deeper than {DEEPEST}")
                 stack.append((number, read_repeat(rest), []))
             elif word in readers:
                 axis = read_axis(rest, numbered) if word in of_axes else None
                 step = Step(number, word, readers[word](rest), axis=axis)
                 if axis is not None and step.values.get("second") is not None:
-                    raise ValueError("two numbers are for both axes: leave axis= out")
+                    raise ValueError("two numbers move both axes; omit axis=")
                 stack[-1][2].append(step)
             else:
                 known = ", ".join(sorted([*readers, "repeat", "end"]))
@@ -272,7 +272,7 @@ def read_program(
     if len(stack) > 1:
         raise ScriptError(f"{name}:{stack[-1][0]}: repeat without end")
     if not stack[0][2]:
-        raise ScriptError(f"{name}:1: there is no command in this file")
+        raise ScriptError(f"{name}:1: no command in this file")
     return tuple(stack[0][2])
 
 
@@ -281,7 +281,7 @@ def script(
     typed: dict[str, Any],
     file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
 ) -> None:
-    """Carry out a file of commands."""
+    """Execute a file of commands."""
     name, text = read_file(file)
     steps = read_program(text, name)
     with opened() as session:

@@ -71,7 +71,7 @@ def recall(port: str, axis: int = 1) -> dict[str, Any]:
             raise ValueError("no table")
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise PpmcError(
-            f"{path}: the remembered set-up cannot be read: delete the file, then run init"
+            f"{path}: the stored set-up cannot be read; delete the file, then run init"
         ) from error
     return values
 
@@ -88,7 +88,7 @@ def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
         fresh.write_text(text, encoding="utf-8")
         fresh.replace(path)
     except OSError as error:
-        raise PpmcError(f"{path}: the set-up cannot be remembered ({error.strerror})") from error
+        raise PpmcError(f"{path}: the set-up cannot be stored ({error.strerror})") from error
 
 
 BAR_AFTER = 0.6
@@ -222,7 +222,7 @@ def misfit(build: Build | None, number: int) -> str:
         return ""
     if build.version != __version__:
         older = "the package" if _order(build.version) > _order(__version__) else "the bitstream"
-        return f"the bitstream is of version {build.version}, this package {__version__}: renew {older}"
+        return f"the bitstream has version {build.version}, this package {__version__}; renew {older}"
     row = parts.by_number(number)
     if not build.source or row is None:
         return ""
@@ -236,7 +236,7 @@ def misfit(build: Build | None, number: int) -> str:
     if own and build.source != own:
         return (
             f"the bitstream was built from other sources ({build.source}) than those of this checkout "
-            f"({own}): build and load it anew to test these"
+            f"({own}); build and load it again to test this checkout"
         )
     return ""
 

@@ -48,7 +48,7 @@ def switches(axis_inputs: dict[str, bool]) -> str:
 def speed(value: speeds.Speed, byte_name: str = "rate") -> str:
     """Return the reached speed, its rate or divisor, and a different requested speed."""
     text = f"{speeds.nearby(value.reached)} pps ({byte_name} {value.rate})"
-    return text if value.reached == value.asked else f"{text}, asked {speeds.nearby(value.asked)} pps"
+    return text if value.reached == value.asked else f"{text}, requested {speeds.nearby(value.asked)} pps"
 
 
 # ---------------------------------------------------------------------- the ramp of the PPMC family
@@ -59,7 +59,7 @@ def setup_rows(setup: speeds.Setup) -> dict[str, str]:
     byte_name = "rate" if setup.clock.beyond else "divisor"
     rows = {"start speed": speed(setup.start, byte_name), "high speed": speed(setup.high, byte_name)}
     if not setup.ramp_pulses:
-        rows["ramp"] = "none: high speed at once"
+        rows["ramp"] = "none: high speed immediately"
     elif not setup.flat:
         steep = speeds.nearby(setup.acceleration)
         rows["ramp"] = f"{setup.ramp_pulses} pulses, {setup.ramp_seconds:.4g} s, {steep} pps/s"
@@ -84,8 +84,8 @@ def setup_values(setup: speeds.Setup) -> dict[str, Any]:
     }
 
 
-Count = Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")]
-Every = Annotated[float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")]
+Count = Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N readings")]
+Every = Annotated[float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between readings")]
 
 
 def watch(

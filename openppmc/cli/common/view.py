@@ -129,9 +129,9 @@ def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
     from ...plot.profile import FORMATS, draw_profile
 
     if abs(pulses) > LONGEST_PLOT:
-        raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses: choose a shorter move")
+        raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses; choose a shorter move")
     if path.suffix.lower() not in FORMATS:
-        raise OutOfRange(f"{path}: the name of a plot ends in {', '.join(FORMATS)}")
+        raise OutOfRange(f"{path}: unsupported suffix of a plot; use {', '.join(FORMATS)}")
     draw_profile(course(abs(pulses)), f"{pulses} pulses", path)
 
 
@@ -219,7 +219,7 @@ class View(ABC, Generic[PartT, SetupT]):
     def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
         """Set the overrides of the next move and the permitted deviation of the encoder in pulses."""
         if encoder is not None:
-            raise OutOfRange(f"encoder: a {part.kind} does not have one")
+            raise OutOfRange(f"encoder: a {part.kind} does not have that")
         if overrides:
             raise OutOfRange(f"overrides: a {part.kind} does not have that")
 
@@ -259,7 +259,7 @@ class View(ABC, Generic[PartT, SetupT]):
 
     def table_lines(self, part: PartT) -> list[str]:
         """Return the ramps in the part as the lines of a CSV file for --curve."""
-        raise OutOfRange(f"table: a {part.kind} cannot be asked for it")
+        raise OutOfRange(f"table: a {part.kind} does not have that")
 
 
 class RampView(View[PartT, speeds.Setup]):

@@ -28,7 +28,7 @@ Address = Annotated[
         "-a",
         metavar="N",
         envvar="OPENPPMC_ADDRESS",
-        help="pmc006: controllers, as 3 or 1,5 or 1-4 (the first that answers)",
+        help="pmc006: controllers, as 3, 1,5 or 1-4 (the first that replies)",
     ),
 ]
 
@@ -62,7 +62,7 @@ class Session:
     def one(self, text: str | None) -> Pmc006:
         """Return the only controller. Raise BadParameter for several."""
         if text is not None and len(parse_addresses(text)) > 1:
-            raise typer.BadParameter(f"--address {text!r}: this is for one controller at a time")
+            raise typer.BadParameter(f"--address {text!r}: the command is for one controller; name only one")
         return self.chosen(text)[0]
 
     def scan(self) -> list[Found]:

@@ -94,7 +94,7 @@ MOST = 8
 def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
     """Set the overrides in this order. Raise OutOfRange if the part does not support one."""
     if len(overrides) > MOST:
-        raise OutOfRange(f"{len(overrides)} overrides: a {part.kind} keeps {MOST}")
+        raise OutOfRange(f"{len(overrides)} overrides: too many; a {part.kind} stores {MOST}")
     for one in overrides:
         if one.speed is None:
             part.override_stop(at=one.at, slow=not one.now)
@@ -103,10 +103,10 @@ def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
 
 
 _DONE = {
-    Code.STOP: "stopped at once",
+    Code.STOP: "stopped without a ramp",
     Code.SLOW_STOP: "stopped with a ramp",
     Code.RAMP_CHANGE: "speed changed with a ramp",
-    Code.CHANGE: "speed changed at once",
+    Code.CHANGE: "speed changed without a ramp",
 }
 
 
@@ -178,8 +178,8 @@ def report_text(report: Report) -> str:
     if isinstance(report, Executed):
         by = "override" if report.by is Source.OVERRIDE else "event"
         if report.code is None:
-            return f"{by}: an instruction carried out"
-        return f"{by}: {_DONE.get(Code(report.code), f'instruction {report.code:02X} carried out')}"
+            return f"{by}: an instruction executed"
+        return f"{by}: {_DONE.get(Code(report.code), f'instruction {report.code:02X} executed')}"
     if isinstance(report, (Failed, Alarm)):
         return str(report.error)
     if isinstance(report, EncoderChange):
@@ -190,7 +190,9 @@ def report_text(report: Report) -> str:
         return f"inputs changed: {report.changed:08b}"
     if isinstance(report, Stopped):
         return f"stopped at position {report.position}: {report.cause.name.lower().replace('_', ' ')}"
-    return "interlock position reached" if isinstance(report, InterlockEnded) else "RUN: the start went off"
+    return (
+        "interlock position reached" if isinstance(report, InterlockEnded) else "RUN: the motion has started"
+    )
 
 
 _DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
@@ -220,7 +222,7 @@ def read_event(words: list[str]) -> Values:
         _count(operands, 1)
         return {"event": event, "what": what, "value": _whole(operands[0])}
     else:
-        raise ValueError(f"{words[1]!r}: an event does {_DOES}")
+        raise ValueError(f"{words[1]!r}: no action of an event; use {_DOES}")
     return {"event": event, "what": what}
 
 

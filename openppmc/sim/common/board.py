@@ -115,7 +115,7 @@ class Child:
         word, _, rest = self._line().partition(" ")
         if word != "port":
             self.close()
-            raise SimError(f"the virtual board does not start: {rest or 'it ended at once'}")
+            raise SimError(f"the virtual board does not start: {rest or 'it ended immediately'}")
         self.port = rest
 
     def _line(self) -> str:

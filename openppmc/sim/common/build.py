@@ -81,8 +81,8 @@ def verilator_environment(folder: Path) -> dict[str, str]:
         root = seen_from(folder, home)
         if re.search(r"[^\w./+@=,~-]", root, re.ASCII):
             raise SimError(
-                f"Verilator lies in {home}: with a space or a letter beyond ASCII between there and {folder} "
-                "nothing can be built, put environment and project into one folder"
+                f"Verilator is in {home}: the path from {folder} has a space or a non-ASCII letter, which a "
+                "makefile does not support; put the Python environment and the project into one folder"
             )
         env |= {"VERILATOR_ROOT": root, "VERILATOR_BIN": f"{root}/bin/verilator_bin"}
     return env
@@ -109,10 +109,10 @@ def find_root() -> Path:
         if (place / BOARDS).is_dir() and (place / "tb/board/main.cpp").is_file():
             return place.resolve()
     if named:
-        raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC there")
+        raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC in this folder")
     raise SimError(
-        "the virtual board is built from the RTL, so it needs a checkout of OpenPPMC: run the command "
-        "in one, name one with OPENPPMC_ROOT, or use model: instead"
+        "the virtual board is built from the RTL, so it needs a checkout of OpenPPMC; run the command in a "
+        "checkout, set OPENPPMC_ROOT to one, or use model: instead"
     )
 
 
@@ -174,7 +174,7 @@ def build(
     Raises SimError.
     """
     if not sys.platform.startswith("linux"):
-        raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
+        raise SimError("the virtual board needs Linux (pseudo-terminals); use model: instead")
     root = find_root()
     made = make(root)
     rtl, cpp = made.rtl, made.sources(root)
@@ -217,7 +217,7 @@ def build(
                 raise SimError(
                     f"{tool} is not installed: install it with the package manager (apt install {tool})"
                 )
-        say("building the virtual board; this takes some 20 s, once …")
+        say("building the virtual board; this takes about 20 s, only once …")
         _forget_old(folder.parent)
         work = folder.with_suffix(".part")
         shutil.rmtree(work, ignore_errors=True)
@@ -285,7 +285,7 @@ def _run(words: list[str], folder: Path, log: Path) -> None:
     if done.returncode:
         text = log.read_text(encoding="utf-8", errors="replace")
         first = next((line.strip() for line in text.splitlines() if "rror" in line), "no message")
-        raise SimError(f"the virtual board does not build: {first} (the whole log: {log})")
+        raise SimError(f"the virtual board does not build: {first} (complete log: {log})")
 
 
 def _forget_old(folder: Path) -> None:

@@ -122,12 +122,12 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     axes = int(own.get("axes", kind.axes))
     if last > axes == 1:
         other, _ = _first(lambda one: one.axes > 1)
-        raise ValueError(f"{last_item}: {kind.called} has one axis: add part={other}")
+        raise ValueError(f"{last_item}: {kind.called} has one axis; add part={other}")
     if last > axes:
         raise ValueError(f"{last_item}: {kind.called} has {axes} axes")
     if encoder and not kind.encoder:
         other, its = _first(lambda one: one.encoder)
-        raise ValueError(f"{encoder}: only {its.called} has an encoder: add part={other}")
+        raise ValueError(f"{encoder}: only {its.called} has an encoder; add part={other}")
     plants = tuple(_placed(kind.plant, words.get(axis, {})) for axis in range(1, axes + 1))
     return Machine(part, plants, own, others)
 
@@ -169,7 +169,9 @@ def _where(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]
         return {"origin_from": first, "origin": last}
     number = _position(word, value)
     if name == "index" and number < 0:
-        raise ValueError(f"{word}={value}: the pulses of a turn, 0 for an encoder without index")
+        raise ValueError(
+            f"{word}={value}: must not be negative; use the pulses of a turn, or 0 without index"
+        )
     return {name: number}
 
 
@@ -189,5 +191,5 @@ def _span(word: str, value: str) -> tuple[int, int]:
         raise ValueError(f"{word}={value} is not of the form {word}=100..200")
     span = _position(word, first), _position(word, last)
     if span[0] > span[1]:
-        raise ValueError(f"{word}={value}: the first position is behind the last one")
+        raise ValueError(f"{word}={value}: the first position must not exceed the last one")
     return span

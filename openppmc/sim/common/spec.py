@@ -100,7 +100,7 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     if timing not in ("FAST", "DATASHEET"):
         raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
     if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
-        raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
+        raise SpecError("vcd_from and vcd_for need a waveform file; add vcd=FILE")
     speed = rest.get("speed", "1")
     kind = machine_kind(machine.part)
     clk_hz = _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000)
@@ -137,7 +137,7 @@ def _number(word: str, text: str, low: float, high: float, unit: str) -> float:
 
 def _record(text: str) -> int:
     if text not in ("0", *map(str, range(4, 17))):
-        raise SpecError(f"record={text}: 0 for no recorder, or 4 to 16 for 2 to the power of it records")
+        raise SpecError(f"record={text}: not supported; use 0 (no recorder) or 4 to 16 (2**record records)")
     return int(text)
 
 

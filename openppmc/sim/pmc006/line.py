@@ -175,12 +175,12 @@ def parse_line(text: str) -> LineSpec:
         if address not in addresses:
             there = ", ".join(map(str, addresses))
             raise ValueError(
-                f"{next(iter(own))}{address}: no such controller, there is {there}: see address="
+                f"{next(iter(own))}{address}: no controller with this address; address= has {there}"
             )
     carriages = {address: _carriage(words.shared | words.own.get(address, {})) for address in addresses}
     files = [one.eeprom for one in carriages.values() if one.eeprom is not None]
     if len(set(files)) < len(files):
-        raise ValueError(f"eeprom={files[0]}: each controller needs a file of its own, as eeprom1=…")
+        raise ValueError(f"eeprom={files[0]}: each controller needs its own file; write eeprom1=…")
     twin = _address("twin", options["twin"]) if "twin" in options else None
     if twin is not None and twin not in addresses:
         raise ValueError(f"twin={twin}: there is no controller {twin} to share the address with")
@@ -211,7 +211,7 @@ def _carriage(words: dict[str, str]) -> Carriage:
     if carriage.low >= carriage.high:
         raise ValueError(f"low={carriage.low},high={carriage.high}: EXT2 (high) must lie above EXT1 (low)")
     if carriage.program is not None and (carriage.no_eeprom or carriage.eeprom is not None):
-        raise ValueError(f"program={carriage.program}: goes into a new EEPROM: leave the word eeprom out")
+        raise ValueError(f"program={carriage.program}: is written into a new EEPROM; omit the word eeprom")
     return carriage
 
 
@@ -247,7 +247,7 @@ def _position(word: str, text: str) -> int:
 def _levels(text: str) -> int:
     """Parse the levels of GPI5 to GPI1. Raise ValueError."""
     if len(text) != 5 or set(text) - {"0", "1"}:
-        raise ValueError(f"gpi={text}: five levels of GPI5 to GPI1, as 11111")
+        raise ValueError(f"gpi={text}: not five levels; write GPI5 to GPI1, as 11111")
     return int(text, 2)
 
 

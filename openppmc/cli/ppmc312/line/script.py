@@ -74,11 +74,13 @@ def check_line(steps: Iterable[Step], name: str) -> None:
     for step in steps:
         where = f"{name}:{step.line}: "
         if step.word in OF_AXES and step.word not in OF_ALL_AXES and step.axis is None:
-            raise ScriptError(f"{where}{step.word}: which station? add axis=N")
+            raise ScriptError(f"{where}{step.word}: no station; add axis=N")
         if step.values.get("second") is not None:
-            raise ScriptError(f"{where}two numbers are for both axes of a part: a line for each station")
+            raise ScriptError(
+                f"{where}two numbers: only for a part with two axes; write a line for each station"
+            )
         if step.word in own_words():
-            raise ScriptError(f"{where}{step.word}: not on a line")
+            raise ScriptError(f"{where}{step.word}: not supported on a line")
         check_line(step.body, name)
 
 
@@ -87,7 +89,7 @@ def script(
     typed: dict[str, Any],
     file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
 ) -> None:
-    """Carry out a file of commands."""
+    """Execute a file of commands."""
     name, text = read_file(file)
     steps = read_program(text, name, numbered=Numbered(low=0))
     check_line(steps, name)

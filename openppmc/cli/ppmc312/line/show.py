@@ -94,10 +94,7 @@ def status_line(axis: Station312) -> str:
 
 def nobody(port: str) -> str:
     """Return the message for a line without a reply."""
-    return (
-        f"{port}: no station replies: are they powered, are speed (MOD, --baud), MODE "
-        "and the two wires right?"
-    )
+    return f"{port}: no station replies; check power, speed (MOD, --baud), MODE and the two wires"
 
 
 def report_line(number: int, report: Report) -> str:
