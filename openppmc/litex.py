@@ -1,4 +1,4 @@
-"""PPMC-104, or a bank of its axes, on the Wishbone bus of a LiteX SoC. Needs the extra `litex`.
+"""PPMC-104 or bank on the Wishbone bus of a LiteX SoC. Needs the extra `litex`.
 
 from openppmc.litex import add_part
 
@@ -131,7 +131,9 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
 
 
 class PpmcPart(LiteXModule):  # type: ignore[misc]
-    """Part with its Wishbone bridge: `bus`, `size` in bytes, event `ev.finish` while int_n is low.
+    """Part with its Wishbone bridge.
+
+    bus: the Wishbone interface. size: in bytes. ev.finish: event, active while int_n is low.
 
     platform: receives the sources. pads: record whose fields have the names of ports of the part. An input
     without a pad has its idle level; an output without a pad is not connected. parameters: those of the part;

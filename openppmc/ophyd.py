@@ -1,4 +1,4 @@
-"""Axis of any part as a positioner of ophyd, for plans of bluesky. Needs the extra `ophyd`.
+"""Axis of any part as an ophyd positioner for bluesky plans. Needs the extra `ophyd`.
 
 from openppmc.host import open_part
 from openppmc.ophyd import PpmcPositioner

@@ -71,7 +71,7 @@ class Commands(PartGroup):
         Command(
             "reset",
             "ppmc312.line.commands:reset",
-            "ppmc312-serial: Reset stations. Pulses end immediately, the table is lost, the position is 0.",
+            "ppmc312-serial: Reset stations. Pulses end immediately; table and position are cleared.",
             (SERIAL,),
         ),
         Command("init", "ppmc312.line.commands:init", parts=(SERIAL,)),

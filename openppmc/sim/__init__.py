@@ -1,4 +1,4 @@
-"""Virtual board: the Verilated RTL of a part with its bridge; its UART is a pseudo-terminal.
+"""Virtual board: Verilated RTL of a part and its bridge; the UART is a pseudo-terminal.
 
     with openppmc.sim.start("start=2000") as board:
         print(board.port)

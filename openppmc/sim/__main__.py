@@ -1,4 +1,4 @@
-"""`python -m openppmc.sim [TEXT]`, `make board SIM=TEXT`: run a virtual board in the foreground."""
+"""Run a virtual board: `python -m openppmc.sim [TEXT]` or `make board SIM=TEXT`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp
 
 
 def split_link(text: str) -> tuple[str, Path | None]:
-    """Separate `link=PATH` from the text. Raise SpecError if the path is not a link."""
+    """Separate `link=PATH` from the text. Raise SpecError if another file has this name."""
     words = text.split(",")
     links = [word.partition("=")[2].strip() for word in words if word.strip().startswith("link=")]
     rest = ",".join(word for word in words if not word.strip().startswith("link="))
@@ -48,7 +48,10 @@ def motor(axis: AxisStatus, alarm: str) -> str:
 
 
 def show(board: SimBoard | SimLine) -> None:
-    """Print the status until the board ends: on a terminal one updated line, else a line every PLAIN s."""
+    """Print the status until the board ends.
+
+    A terminal has one line that is updated; other outputs receive a line every PLAIN seconds.
+    """
     live = sys.stdout.isatty()
     while True:
         text = (

@@ -1,4 +1,4 @@
-"""Machine model of a bank: one plant for each axis; words with a number differ by axis."""
+"""Machine model of a bank: equal plants, except for words with the number of an axis."""
 
 from __future__ import annotations
 

@@ -39,7 +39,7 @@ def decode_capture(
         str, typer.Option(metavar="PART", help=f"{', '.join(row.name for row in parts.having('decode'))}")
     ] = "",
     beside: Annotated[
-        bool, typer.Option("--compare", help="replay it to the golden model, compare each output edge")
+        bool, typer.Option("--compare", help="apply it to the golden model, compare each output edge")
     ] = False,
     tolerance: Annotated[
         float, typer.Option(min=0.0, max=1e6, metavar="US", help="permitted deviation of an edge in µs")

@@ -92,7 +92,7 @@ def move(
     if speed is not None and pulse_only:
         raise typer.BadParameter("--pulse-only: only for moves with a ramp; omit --speed")
     if axis is not None and (len(pulses) > 1 or axes is not None):
-        raise typer.BadParameter(f"--axis {axis}: only for one value; use --axes for several")
+        raise typer.BadParameter(f"--axis {axis}: only for one value and without --axes; omit it")
     wanted = override_values(overrides)
     numbers = numbers_of(axes, len(pulses)) if axis is None else (axis,)
     with ready(typed, numbers) as session:
@@ -116,7 +116,7 @@ def move(
 @with_setup
 def jog(
     typed: dict[str, Any],
-    direction: Annotated[Side, typer.Argument(help="direction")],
+    direction: Annotated[Side, typer.Argument(help="direction of rotation")],
     axis: AxisNumber = 1,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
     ramped: Annotated[bool, typer.Option("--ramped", help="accelerate to the high speed")] = False,

@@ -118,7 +118,7 @@ _OPTIONS: dict[str, Any] = {
     "half_step": Annotated[bool | None, _option("--half-step/--full-step", text="excitation (full step)")],
     "logic": Annotated[
         Logic | None,
-        _option("--logic", text="level that switches a coil on (positive; not on ppmc2104)"),
+        _option("--logic", text="level that switches a coil on (positive; not for ppmc2104)"),
     ],
     "chop": Annotated[bool | None, _option("--chop/--no-chop", text="chopper at standstill (no)")],
     "base_clock": Annotated[
@@ -161,9 +161,8 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         if "logic" in typed:
             typed["logic"] = typed["logic"].value
         if "curve" in typed:
-            typed["curve"] = os.path.abspath(
-                typed["curve"]
-            )  # init stores it, and later commands may run in another folder
+            # `init` stores the path, and later commands may run in another folder.
+            typed["curve"] = os.path.abspath(typed["curve"])
         return command(**arguments, typed=typed)
 
     # get_type_hints is not used: on Python 3.10 it hides the Annotated of an option with the default None.

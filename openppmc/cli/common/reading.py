@@ -1,4 +1,4 @@
-"""Parser for lines of script files: words of all devices and of one (column `words`)."""
+"""Parser for lines of script files: common words and words of parts (column `words`)."""
 
 from __future__ import annotations
 

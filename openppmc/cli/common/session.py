@@ -1,4 +1,4 @@
-"""The board that a command uses: its versions, the stored set-up, signals and progress bars.
+"""The board that a command uses: versions, stored set-up, signals and progress bars.
 
 `init` stores the values of the set-up options of each port in a small JSON file. The first signal decelerates
 the motor, the second one stops it immediately, the third one ends the program.
@@ -142,7 +142,7 @@ class Guard:
         self.bar(now)
 
     def pause(self, part: Device, seconds: float) -> None:
-        """Wait for this time on the board's clock."""
+        """Wait for a time in s, measured by the clock of the board."""
         link = part.link
         end = link.clock() + seconds
         while (left := end - link.clock()) > 0:

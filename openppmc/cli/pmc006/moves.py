@@ -68,7 +68,7 @@ def move(
 
 
 def jog(
-    direction: Annotated[Way, typer.Argument(help="direction")],
+    direction: Annotated[Way, typer.Argument(help="direction of rotation")],
     address: Address = None,
     speed: Speed = None,
     seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after this time")] = None,

@@ -57,7 +57,10 @@ def _write(path: Path | None, text: str | bytes) -> None:
 
 @program.command("assemble")
 def assemble_file(file: File, out: Out = None) -> None:
-    """Check a program; print its words or write its EEPROM image (803 bytes), without a controller."""
+    """Check a program; print its words or write its EEPROM image (803 bytes).
+
+    No controller is needed.
+    """
     made = _read(file)
     if out is not None:
         _write(out, made.image())
@@ -71,7 +74,7 @@ def assemble_file(file: File, out: Out = None) -> None:
 
 @program.command("disassemble")
 def disassemble_file(file: File, out: Out = None) -> None:
-    """Print or write the text of an image, without a controller."""
+    """Print or write the text of an image. No controller is needed."""
     _write(out, disassemble(_read(file), numbers=out is None))
 
 

@@ -1,8 +1,8 @@
-"""Build of the virtual board's program with Verilator, make and g++, when its sources have changed.
+"""Build of the program of the virtual board, if its sources have changed.
 
-Verilator writes paths into makefiles, and make passes them to a shell. A space or a non-ASCII letter in a
-path would stop the build. So Verilator runs in the build folder, and all its paths are relative to this
-folder.
+The tools are Verilator, make and g++. Verilator writes paths into makefiles, and make passes them to a shell.
+A space or a non-ASCII letter in a path would stop the build. So Verilator runs in the build folder, and all
+its paths are relative to this folder.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def seen_from(folder: Path, path: Path | str) -> str:
 
 
 def verilator_command(words: Sequence[str], folder: Path) -> list[str]:
-    """Return the command line of Verilator with these arguments, for the build folder `folder`.
+    """Return the command line of Verilator with these arguments for the build folder.
 
     Absolute paths among the words, alone or after -I, become relative. Raises SimError without Verilator.
     """
@@ -148,9 +148,10 @@ def board_program(root: Path, part: str) -> Program:
 
 
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
-    """Return the program for stations on a line: tb/<part>/line/line_node.sv around the carrier.
+    """Return the program for stations on a line.
 
-    more: additional sources, relative to tb/.
+    Its top is tb/<part>/line/line_node.sv, which contains the carrier. more: additional sources, relative to
+    tb/.
     """
     own = parts.part(part).folder
     rtl = _rtl(root, f"{parts.part(part).rtl}_carrier")

@@ -13,7 +13,7 @@ from typing import Generic, Protocol, TypeVar
 BITS = 10
 _STOP_MIDDLE = 9.5
 _CLEAN = 0.25
-"""Bit times by which equal characters of two stations may differ without corrupting each other."""
+"""Bit times between equal characters of two stations that do not corrupt each other."""
 
 
 class LineOptions(Protocol):
@@ -84,7 +84,7 @@ class LineStation(ABC, Generic[H]):
         self.part.hear(max(t, self.part.now + 1), byte)
 
     def taken(self) -> list[tuple[int, int]]:
-        """Return the characters sent since the last call, with the edge in the middle of their stop bits."""
+        """Return new characters since the last call, as (edge in the middle of a stop bit, byte)."""
         sent = self.part.sent[:]
         self.part.sent.clear()
         self.part.replies.clear()
@@ -104,7 +104,7 @@ class Runs(Protocol):
         """Receive a character whose stop bit is sampled at edge t."""
 
     def taken(self) -> list[tuple[int, int]]:
-        """Return the characters sent since the last call, with the edge in the middle of their stop bits."""
+        """Return new characters since the last call, as (edge in the middle of a stop bit, byte)."""
 
 
 S = TypeVar("S", bound=Runs)
@@ -133,7 +133,7 @@ class CharLine(Generic[S]):
         return self.t / self.spec.clk_hz
 
     def station(self, number: int) -> S:
-        """Return the station with this number, after it has been simulated up to the time of the line."""
+        """Return the station with this number, simulated up to the time of the line."""
         self.settle()
         return next(one for one in self.stations if one.number == number)
 
@@ -157,7 +157,7 @@ class CharLine(Generic[S]):
             one.run_until(self.t)
 
     def run_seconds(self, seconds: float) -> None:
-        """Advance by a time in s; stop earlier, at the end of a character time, if a character arrives."""
+        """Advance by a time in s; if a character arrives, stop after its character time."""
         end = self.t + max(1, round(seconds * self.spec.clk_hz))
         step = round(BITS * self.bit)
         while self.t < end and not self._waiting:
@@ -166,7 +166,7 @@ class CharLine(Generic[S]):
     # ------------------------------------------------------------------ bytes
 
     def write(self, data: bytes) -> None:
-        """Send characters of the master back to back, from now on or after those that are being sent."""
+        """Send characters of the master back to back, now or after those being sent."""
         begin = max(self.t, self._free)
         for place, byte in enumerate(data):
             if self.spec.echo:

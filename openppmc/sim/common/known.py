@@ -1,4 +1,4 @@
-"""`openppmc.sim.KNOWN`, in a separate module because it imports the machine models of all parts."""
+"""`openppmc.sim.KNOWN`; a separate module, because it loads the models of all machines."""
 
 from .spec import known_words
 

@@ -1,4 +1,4 @@
-"""Virtual lines with stations: text (`word=value`, `wordN=value` for station N) and process."""
+"""Virtual lines with stations: text (`word=value`, for station N `wordN=value`), process."""
 
 from __future__ import annotations
 

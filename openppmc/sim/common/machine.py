@@ -1,4 +1,4 @@
-"""Machine model of a motor controller, described by a text: `start=4000,cw=40000,alarm=100..200`.
+"""Machine model of a motor controller as a text: `start=4000,cw=40000,alarm=100..200`.
 
 The virtual board and the golden model use the same text. Words of axis 2 end in 2 (`cw2=30000`), and so on.
 The module that the table of parts names for a part defines the differences of the part.
@@ -139,7 +139,10 @@ def _first(wanted: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
 
 
 def _own(kind: MachineKind, others: dict[str, str], known: Collection[str]) -> dict[str, str]:
-    """Move the words of this part from `others` to the result. Raise ValueError for words of another."""
+    """Remove the words of this part from `others` and return them.
+
+    Raises ValueError for a word of another part and for an unknown value.
+    """
     strange = others.keys() - kind.own.keys() - set(known)
     for its in map(machine_kind, machine_parts() if strange else ()):
         for word in its.own:

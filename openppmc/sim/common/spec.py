@@ -26,7 +26,7 @@ def known_words() -> str:
 
 
 class SpecError(ValueError):
-    """The text of a virtual board is wrong; the message is one line with the error and the known words."""
+    """The text of a virtual board is wrong; the message is one line with the known words."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Spec:
 
 
 def parse_spec(text: str = "", **options: object) -> Spec:
-    """Parse `word=value,word=value`; options with the same names have priority. Raise SpecError."""
+    """Parse `word=value,word=value`; options have priority over the text. Raise SpecError."""
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
         machine = parse_machine(",".join(words), (*OPTIONS, *FILES))

@@ -1,4 +1,4 @@
-"""PMC006B4 on one line: RTL, or models with EEPROM, motor and a carriage between two switches.
+"""PMC006B4 on one line: RTL or models, with EEPROM, motor, carriage and two switches.
 
 The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
 controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
@@ -107,12 +107,12 @@ KNOWN = ", ".join((*(f"{word}[N]" for word in OWN), *OPTIONS))
 
 @dataclass(frozen=True)
 class Carriage:
-    """Carriage, inputs and EEPROM of a controller; positions in 1/16 full steps, forward positive.
+    """Carriage, inputs and EEPROM of a controller.
 
-    start: initial position. EXT1 is at level 0 at and below `low`, EXT2 at and above `high`. gpi: levels of
-    GPI5 to GPI1. eeprom: file with the content of the EEPROM; None: the EEPROM is new each time and has the
-    address. no_eeprom: no EEPROM is connected. program: text that is assembled into the EEPROM and starts
-    after power-up, or None.
+    Positions are in 1/16 full steps, forward positive. start: initial position. EXT1 is at level 0 at and
+    below `low`, EXT2 at and above `high`. gpi: levels of GPI5 to GPI1. eeprom: file with the content of the
+    EEPROM; None: the EEPROM is new each time and has the address. no_eeprom: no EEPROM is connected. program:
+    text that is assembled into the EEPROM and starts after power-up, or None.
     """
 
     start: int = 4000

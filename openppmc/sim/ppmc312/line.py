@@ -73,9 +73,9 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """Return the text with the speed for a host at this line rate in bit/s added, unless it names a speed.
+    """Return the text with the speed for a host added, unless it names a speed.
 
-    Raises ValueError.
+    rate: line rate of the host in bit/s. Raises ValueError.
 
     >>> at_rate("stations=2,xtal=8000000", 9600)
     'stations=2,xtal=8000000,baud=19200'

@@ -79,10 +79,10 @@ def test_plan(run: Run) -> None:
     ("words", "line", "code"),
     [
         (("move", "1", "2", "3"), "axis 3: a PPMC-2104 has axes 1 to 2", 1),
-        (("move", "1", "2", "--axis", "1"), "--axis 1: only for one value; use --axes", 2),
+        (("move", "1", "2", "--axis", "1"), "--axis 1: only for one value and without --axes", 2),
         (("move", "1", "--axis", "3"), "axis 3: a PPMC-2104 has axes 1 to 2", 1),
         (("move", "1", "--axis", "65"), "Invalid value for '--axis'", 2),
-        (("move", "1", "--axis", "1", "--axes", "1"), "--axis 1: only for one value; use --axes", 2),
+        (("move", "1", "--axis", "1", "--axes", "1"), "--axis 1: only for one value and without --axes", 2),
         (("move", "1", "2", "--axes", "1"), "--axes 1: 1 axes for 2 values", 2),
         (("move", "1", "2", "--axes", "1,1"), "--axes 1,1: an axis occurs twice", 2),
         (("move", "1", "2", "--axes", "1,b"), "--axes 1,b: not a list of axes; write 1,2,5", 2),

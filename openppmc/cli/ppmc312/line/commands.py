@@ -77,7 +77,7 @@ def status(axis: AnyAxis = None, as_json: Json = False) -> None:
 
 
 def reset(axis: Axis) -> None:
-    """ppmc312-serial: Reset stations. Pulses end immediately, the table is lost, the position is 0."""
+    """ppmc312-serial: Reset stations. Pulses end immediately; table and position are cleared."""
     with opened() as session:
         for one in session.chosen(axis):
             one.reset()
@@ -159,7 +159,7 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
 @with_setup
 def jog(
     typed: dict[str, Any],
-    direction: Annotated[Side, typer.Argument(help="direction")],
+    direction: Annotated[Side, typer.Argument(help="direction of rotation")],
     axis: Axis,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
     ramped: Annotated[bool, typer.Option("--ramped", help="accelerate to the high speed")] = False,
@@ -192,7 +192,7 @@ def home(
         bool, typer.Option("--index", help="origin is the first encoder index on the switch")
     ] = False,
 ) -> None:
-    """Find the origin switch of stations, one after the other, and set the position to 0 there."""
+    """Find the origin switch of each station in turn, and set the position to 0 there."""
     with opened() as session:
         axes = session.chosen(axis)
         _initialise(session, axes, typed)

@@ -16,7 +16,7 @@ from .session import opened
 
 
 def info(as_json: Json = False) -> None:
-    """Print the speed of the line, and stations that reply with their versions."""
+    """Print the speed of the line, the stations that reply, and their versions."""
     with opened() as session:
         line, found = session.bus.line, session.scan()
     if not found:
