@@ -1,12 +1,18 @@
-"""PPMC-104 or bank on the Wishbone bus of a LiteX SoC. Needs the extra `litex`.
+"""A PPMC-104, or a bank of its axes, on the Wishbone bus of a LiteX SoC.
 
-from openppmc.litex import add_part
+Requires the extra `litex`.
 
-add_part(soc, "stepper", "/where/openppmc/is", pads=platform.request("stepper"))
+    from openppmc.litex import add_part
+    add_part(soc, "stepper", "/where/openppmc/is", pads=platform.request("stepper"))
 
-`sources` is a checkout of OpenPPMC, its archive openppmc-rtl (SystemVerilog, for Verilator and tools that
-read it), or a folder with the plain Verilog of a release (for yosys). The address of the part is STEPPER_BASE
-in generated/mem.h. The software uses the C driver of the project, see docs/integration.md.
+`sources` is one of these folders:
+
+    - a checkout of OpenPPMC,
+    - its archive openppmc-rtl (SystemVerilog, for Verilator and other tools that read it),
+    - the plain Verilog of a release (for yosys).
+
+The program finds the part at STEPPER_BASE in generated/mem.h and uses the C driver of the project, see
+docs/integration.md.
 """
 
 from __future__ import annotations
@@ -29,20 +35,24 @@ from migen import ClockSignal, Instance, ResetSignal, Signal  # noqa: E402
 
 
 class SourcesError(PpmcError):
-    """The sources are missing, or the plain Verilog has other parameters."""
+    """The sources are missing, or are plain Verilog with other parameters."""
 
 
 class PadsError(PpmcError):
-    """A pad has a name or a width that the part does not have."""
+    """A pad has a name or width that the part does not have."""
 
 
 @dataclass(frozen=True)
 class Part:
-    """Part that `add_part` can instantiate.
+    """A part that can be added to the SoC.
 
-    address: name of the address port, which has `bits` bits. parameters: name -> default. inputs: name ->
-    (width, level of all bits without a pad). outputs: name -> width. A width is a number of bits; after `*`
-    it is a number of bits for each axis.
+    Attributes:
+        address: port with `bits` address lines.
+        parameters: parameters with their defaults.
+        inputs: name -> width and the level of all its bits without a pad.
+        outputs: name -> width.
+
+    A width is a number of bits, or `*` and a number of bits per axis.
     """
 
     top: str
@@ -82,13 +92,13 @@ PARTS = {
         {"s": "*5", "hold": "*1", "pout_n": "*1", "dir": "*1"},
     ),
 }
-"""Name -> part. PHASE_IDLE: 0 if a high level at the driver switches a coil on."""
+"""Name -> part for `add_part`. PHASE_IDLE: 0 if the drivers switch on a coil with H."""
 BRIDGE = "ppmc_wishbone"
 _BUILT_IN = re.compile(r"^//   (\w+) += (\S+)", re.M)
 
 
 def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
-    """Raise SourcesError if a file of plain Verilog has other parameters."""
+    """Check the parameters of a file of plain Verilog. Raises SourcesError."""
     head = path.read_text(encoding="utf-8").partition("`default_nettype")[0]
     for name, value in _BUILT_IN.findall(head):
         has = re.sub(r"^\d+'[bd]", "", value)
@@ -100,9 +110,10 @@ def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
 
 
 def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapping[str, Any]) -> bool:
-    """Add the files to the platform, each once; return True if they are plain Verilog.
+    """Add the files to the platform, each once.
 
-    The parameters of plain Verilog are built in. Raises SourcesError.
+    Returns:
+        Whether their parameters are built in (plain Verilog).
     """
     folder = Path(sources)
     listed = folder / "packages" / f"{part.files}.f"
@@ -131,14 +142,20 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
 
 
 class PpmcPart(LiteXModule):  # type: ignore[misc]
-    """Part with its Wishbone bridge.
+    """A part and its Wishbone bridge.
 
-    bus: the Wishbone interface. size: in bytes. ev.finish: event, active while int_n is low.
+    The module has `bus`, `size` in bytes, and the event `ev.finish` while `int_n` is low. The register map is
+    in docs/integration.md.
 
-    platform: receives the sources. pads: record whose fields have the names of ports of the part. An input
-    without a pad has its idle level; an output without a pad is not connected. parameters: those of the part;
-    CLK_HZ is the clock of the SoC, 8 … 200 MHz. The register map is in docs/integration.md. Raises
-    SourcesError and PadsError.
+    Args:
+        platform: receives the sources.
+        pads: record whose fields have the names of ports of the part. Inputs without a pad have their idle
+            level; outputs without a pad are open.
+        parameters: parameters of the part. CLK_HZ is the clock of the SoC, 8 to 200 MHz.
+
+    Raises:
+        SourcesError: sources are missing or have other parameters.
+        PadsError: a pad does not match the part.
     """
 
     def __init__(
@@ -206,7 +223,7 @@ class PpmcPart(LiteXModule):  # type: ignore[misc]
 
     @staticmethod
     def _pins(of: Part, pads: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the ports that are connected to pads, and the idle levels of other inputs."""
+        """Return the ports of the instance, connected to pads or to idle levels."""
         found = {}
         named = {} if pads is None else {field[0]: getattr(pads, field[0]) for field in pads.layout}
         for name, (text, level) in of.inputs.items():
@@ -237,11 +254,17 @@ def add_part(
     origin: int | None = None,
     **parameters: Any,
 ) -> PpmcPart:
-    """Add a part to a SoC with a Wishbone bus and return the module.
+    """Add a part to a SoC with a Wishbone bus, with its interrupt if the CPU has interrupts.
 
-    The interrupt is connected if the CPU has interrupts. name: name of the module, of its region (NAME_BASE
-    in generated/mem.h) and of its interrupt (NAME_INTERRUPT). origin: its address, uncached; without it,
-    LiteX chooses one. For the other arguments see PpmcPart.
+    Args:
+        name: name of the module, of its region (NAME_BASE in generated/mem.h) and of its interrupt
+            (NAME_INTERRUPT).
+        origin: address, not cached; without it LiteX selects one.
+
+    Other arguments are those of `PpmcPart`.
+
+    Returns:
+        The module.
     """
     module = PpmcPart(soc.platform, soc.sys_clk_freq, sources, part, pads, **parameters)
     soc.add_module(name, module)

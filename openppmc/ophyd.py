@@ -1,4 +1,6 @@
-"""Axis of any part as an ophyd positioner for bluesky plans. Needs the extra `ophyd`.
+"""An axis of any part as a positioner of ophyd, for plans of bluesky.
+
+Requires the extra `ophyd`.
 
 from openppmc.host import open_part
 from openppmc.ophyd import PpmcPositioner
@@ -29,25 +31,33 @@ needs("ophyd", "openppmc.ophyd", "ophyd")
 from ophyd import SoftPositioner  # noqa: E402
 
 POLL = 0.03
-"""Seconds of board time between two polls of a motion."""
+"""Time between two polls of a motion, in seconds of the board."""
 FREE = 0.01
-"""Seconds without the lock after each poll: a lock does not serve waiting threads in turn."""
+"""Pause in seconds after each poll, so that other threads can use the port.
+
+A lock has no queue.
+"""
 
 _locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()
 
 
 class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
-    """Axis of a part or of a bank, or a station of a line.
+    """One axis of a part or of a bank, or a station of a line.
 
-    device: the open device; its axis must be initialised, and it must outlive the positioner. axis: number of
-    the axis, from 1, or of the station. pulses_per_unit: pulses for one unit of `egu`, negative if CW
-    decreases the position. limits: soft limits in `egu`, (0, 0): no soft limits. The switches of the machine
-    end a motion regardless of the soft limits. Other arguments are those of ophyd. Raises OutOfRange for an
-    axis that does not exist and for a value that is not a finite number.
+    `set` returns a Status immediately. The Status fails with the error of the driver: LimitReached,
+    AlarmStop, StoppedEarly, Disconnected and others. Positioners of one device can move at the same time, and
+    any thread can call them. Other code must not use the device during this time.
 
-    `set` returns a Status immediately. The Status fails with the exception that the driver raises:
-    LimitReached, AlarmStop, StoppedEarly, Disconnected … Positioners of one device may move at the same time,
-    and any thread may use them. During this time, use the device only through its positioners.
+    Args:
+        device: the opened device with the port, its axis initialised; it must exist as long as the
+            positioner.
+        axis: number of the axis from 1 on, or the station.
+        pulses_per_unit: pulses per `egu`, negative if the position decreases with CW.
+        limits: soft limits in `egu`, (0, 0) for none. Switches of the machine end a motion in any case.
+        others: arguments of ophyd.
+
+    Raises:
+        OutOfRange: the axis does not exist, or a number is not finite.
     """
 
     def __init__(
@@ -74,7 +84,10 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
 
     @property
     def position(self) -> float:
-        """Position in `egu`, read from the part; the last known one if the connection has failed."""
+        """Position of the axis in `egu`, read from the part.
+
+        If the port is lost, it is the last known position.
+        """
         try:
             return self._ask()
         except LinkError:
@@ -83,7 +96,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             return float(self._position)
 
     def read(self) -> Any:
-        """Return the reading as ophyd does. Raise LinkError if the connection has failed."""
+        """Read as ophyd does; the port must be connected."""
         self._ask()
         return super().read()
 
@@ -93,29 +106,35 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         return bool(self._moving)
 
     def check_value(self, pos: float) -> None:
-        """Raise OutOfRange unless `pos` is a finite number, LimitError outside the soft limits."""
+        """Check a position.
+
+        Raises:
+            OutOfRange: it is not a finite number.
+            LimitError: it is outside the soft limits (error of ophyd).
+        """
         super().check_value(_number(pos, "position"))
 
     def move(
         self, position: float, wait: bool = True, timeout: float | None = None, moved_cb: Any = None
     ) -> Any:
-        """Move with ramps to the pulse nearest to a position in `egu`, and return ophyd's Status.
+        """Move with ramps to the pulse nearest to a position in `egu`; return a Status of ophyd.
 
-        Raises NotWhileBusy while another move of this positioner is in progress.
+        Raises:
+            NotWhileBusy: another move of this positioner is in progress.
         """
         if self._moving:
             raise NotWhileBusy(0, f"{self.name} is moving; wait for its Status or stop it")
         return super().move(position, wait=wait, timeout=timeout, moved_cb=moved_cb)
 
     def stop(self, *, success: bool = False) -> None:
-        """Decelerate if a move of this positioner is in progress. success: its Status succeeds."""
+        """Decelerate, if a move of this positioner is in progress. success: its Status counts as done."""
         self._stopped_well = success
         with self._lock:
             if self._moving:
                 try:
                     self._axis.stop(wait=False)
                 except NothingToStop:
-                    pass  # the motion has just ended
+                    pass  # it has just stopped
 
     # ------------------------------------------------------------------ internal
 
@@ -140,7 +159,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             threading.Thread(target=self._watch, args=(motion, status), name=self.name, daemon=True).start()
 
     def _watch(self, motion: AnyMotion, status: Any) -> None:
-        """Publish the position until the motion has ended."""
+        """Report the position until the motion has ended."""
         try:
             while True:
                 with self._lock:
@@ -161,7 +180,10 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             self._over(status)
 
     def _over(self, status: Any, error: Exception | None = None) -> None:
-        """Report the end of the move to its Status, as the last action: a new move may start then."""
+        """Finish the move.
+
+        The Status is set last, because the next move may begin immediately.
+        """
         self._reset_sub(self._SUB_REQ_DONE)
         if error is not None:
             self._moving = False
@@ -174,7 +196,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
 
 
 def _axis(device: Device, number: int) -> Any:
-    """Return an axis of a part, or a station of a line, by its number. Raise OutOfRange."""
+    """Return an axis of a part by its number, or a station of a line."""
     station = getattr(device, "axis", None)
     if callable(station):
         return station(number)

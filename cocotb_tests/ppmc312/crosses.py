@@ -18,7 +18,7 @@ INSTRUCTIONS = Cross(
     "instruction and state that it meets", (*CODES.values(), NONE), tuple(state.name for state in State)
 )
 NEVER_REFUSED = {
-    **{("F5 COMMAND", "OVERRIDE"): "a registration has looked at the code"},
+    **{("F5 COMMAND", "OVERRIDE"): "a registration has checked the code"},
     **{("F6 SIZE", source): "registered blocks have passed it" for source in ("EVENT", "OVERRIDE")},
     **{("F7 REGISTRATION", source): "only the host registers" for source in ("EVENT", "OVERRIDE")},
 }

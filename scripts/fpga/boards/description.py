@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -230,6 +231,7 @@ def load(path: Path) -> Description:
     return Description(name=name, path=path, devices=tuple(devices), **{**optional, **keys})
 
 
+@cache
 def load_all(folder: Path = FOLDER) -> tuple[Description, ...]:
     """Every board, in the order of its `place`."""
     found = (load(path) for path in sorted(folder.glob("*/board.yml")))

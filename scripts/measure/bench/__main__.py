@@ -24,7 +24,7 @@ from scripts.measure.bench.sides import LABELS, PLAIN, Times, turns
 from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
-HEADS = ["side", "clk", "output edges", "seconds", "clk / s", "time, Verilator alone = 1"]
+HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
 
 
 def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
@@ -66,7 +66,7 @@ def bench(name: str, demo: Demo) -> None:
     mhz = int(str(times.recording.params["CLK_HZ"])) / 1e6
     text = (
         f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, start of the simulator included.\n"
-        "All sides make the same output edges. Seconds depend on the machine and on what else it does; the "
+        "All sides produce the same output edges. The seconds depend on the machine and its load; the "
         f"last column is the median of the ratios in one turn. {machine()}."
     )
     if name == costs.PART:
@@ -83,7 +83,8 @@ def bench(name: str, demo: Demo) -> None:
             ]
         )
         text += (
-            " The virtual board runs as fast as it can, its motor turning; its clk / s are of processor time."
+            " The virtual board runs at full speed with a turning motor; its cycles / s are of "
+            "processor time."
         )
         tell(
             "board",
@@ -95,9 +96,9 @@ def bench(name: str, demo: Demo) -> None:
         )
         tell(
             "costs",
-            "clk of commands",
-            "What a host waits for, counted at the pins of the PPMC-104 (FAST) with the shortest bus cycles: "
-            "from the end of the last data byte until the next command is carried out, and from the start of "
+            "cycles of commands",
+            "Waits of a host, counted at the pins of the PPMC-104 (FAST) with the shortest bus accesses: "
+            "from the end of the last data byte until the next command is executed, and from the start of "
             "a command until its last answer is read.",
             costs.HEADS,
             costs.rows(costs.measure()),

@@ -16,7 +16,7 @@ from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
 SIDES = ("RTL in Verilator alone", "golden model, same pin changes")
-HEADS = ["side", "clk", "output edges", "seconds", "clk / s"]
+HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
@@ -52,7 +52,7 @@ def main() -> int:
         rows.append([side, f"{clk:,}", f"{edges:,}", f"{middle:.2f}", f"{clk / middle:,.0f}"])
     text = (
         f"{AXES} axes of a bank: the run of `make demo PART={NAME}` at {CLK_HZ / 1e6:g} MHz, median of "
-        f"{RUNS} runs, files of pin changes and edges included. Both sides make the same output edges. "
+        f"{RUNS} runs, files of pin changes and edges included. Both sides produce the same output edges. "
         f"{machine()}."
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(HEADS, rows))

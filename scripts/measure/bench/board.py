@@ -37,7 +37,7 @@ class Figures:
             ["commands with their answer/s", f"{self.commands:,.0f}"],
             ["initialise with a table, ms", f"{self.initialise:,.1f}"],
             ["board time / wall time, motor turning", f"{self.factor:.2f}"],
-            ["million clk / s of processor time", f"{self.clk / 1e6:.2f}"],
+            ["million cycles / s of processor time", f"{self.clk / 1e6:.2f}"],
         ]
 
 

@@ -22,7 +22,13 @@ from scripts.measure.sizes.report import markdown_table
 SECONDS = 3.0
 CLK_HZ = 8_000_000
 FAR = "cw=2000000000,slow_cw=2000000000"
-HEADS = ["line", "moving", "line time / wall time", "million clk / s of processor time", "polls / s at rest"]
+HEADS = [
+    "line",
+    "moving",
+    "line time / wall time",
+    "million cycles / s of processor time",
+    "polls / s at standstill",
+]
 
 
 @dataclass(frozen=True)
@@ -112,9 +118,9 @@ def main() -> int:
             return project.fail(str(error))
         console.print(", ".join(f"{head}: {value}" for head, value in zip(HEADS, rows[-1], strict=True)))
     text = (
-        "Virtual lines (`sim:`, `make board`), the RTL of each station at 8 MHz, as fast as it goes. At rest "
-        "one costs nothing until it is spoken to; those that move share the processors, which may have other "
-        "work. "
+        "Virtual lines (`sim:`, `make board`), the RTL of each station at 8 MHz, at full speed. A station at "
+        "standstill needs no time until it is addressed; moving stations share the processors, which may "
+        "have other work. "
         f"{machine()}."
     )
     project.update_benchmarks("bench:lines", f"{text}\n\n{markdown_table(HEADS, rows)}")

@@ -99,7 +99,7 @@ def main() -> int:
     except SimError as error:
         return project.fail(str(error))
     rows = rows_of(measured, F8L.clk_hz)
-    heads = ["side", "clk", "seconds", "processor s", "clk / s", "of real time", f"goal 1/{GOAL}"]
+    heads = ["side", "cycles", "seconds", "processor s", "cycles / s", "of real time", f"goal 1/{GOAL}"]
     table = Table(title=f"{STATIONS} stations on a line, median of {RUNS} runs", title_justify="left")
     for index, head in enumerate(heads):
         table.add_column(head, justify="right" if index else "left")
@@ -109,8 +109,8 @@ def main() -> int:
     text = (
         f"{STATIONS} stations of the PPMC-312 on one line: the run of `make demo PART={NAME}` at "
         f"{F8L.clk_hz / 1e6:g} MHz and 83 333 bps, {measured[0][1] / F8L.clk_hz * 1e3:.0f} ms of the line, "
-        f"median of {RUNS} runs, start of the simulator included. clk/s and the share of real time are those "
-        f"of the processor's time. {machine()}."
+        f"median of {RUNS} runs, start of the simulator included. The cycles/s and the share of real time "
+        f"refer to processor time. {machine()}."
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(heads, rows))
     console.print("written: docs/benchmarks.md")

@@ -14,13 +14,16 @@ from scripts.measure.coverage.sums import LEFT_OUT, Sums, folder_of
 KINDS = (LINE, BRANCH, TOGGLE)
 HEAD = """# Coverage
 
-Written by `make coverage`: all simulations of `make test`, with builds in which Verilator counts. A point (a
-line, a way of a branch, a bit that rises or falls) is reached if any instance in any simulation reaches it;
-whether a test would notice a fault there, [mutants](mutants.md) tell. A figure without the points that are
-explained stands behind the one with all of them.
+`make coverage` writes this page: it runs all simulations of `make test` with builds in which Verilator \
+counts.
+A point (a line, a way of a branch, a bit that rises or falls) is covered if any instance in any simulation \
+reaches it.
+The page [mutants](mutants.md) shows whether a test would detect a fault there.
+Each figure of all points is followed by the figure without the explained points.
 
-Counting builds have copies of the sources in which Verilator counts `return` and packages right
-([how](testing.md#coverage)). Functions that only elaboration calls, below, are no points at all.
+Counting builds have copies of the sources in which Verilator counts `return` and packages correctly \
+([how](testing.md#coverage)).
+Functions that only elaboration calls are listed below; they are not points.
 """
 
 
@@ -133,11 +136,14 @@ def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool
     lines += ["\n### Files with holes\n", *files(sums), "\n### Holes of lines and branches\n", *holes(sums)]
     lines += ["\n### Left out: functions that only elaboration calls\n"]
     lines += [
-        "Each call has constants alone, or stands in a parameter, a dimension, a generate block's head or"
+        "Each call has only constants, or is in a parameter, a dimension, the head of a generate block or "
+        "such a function.",
+        "No simulation executes these functions.\n",
+        *elaborated(),
     ]
-    lines += ["such a function: no simulation runs them.\n", *elaborated()]
-    lines += ["\n## What the sheets cross\n"]
-    lines += ["Counted in the golden models that the simulations are compared with. A **0** was not seen.\n"]
+    lines += ["\n## Crosses of the data sheets\n"]
+    lines += ["They are counted in the golden models that the simulations are compared with."]
+    lines += ["A **0** was not observed.\n"]
     for part in parts.having("crosses"):
         lines += of_part(part, counts)
     return "\n".join(lines).rstrip() + "\n"

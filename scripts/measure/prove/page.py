@@ -30,7 +30,7 @@ def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
 
 def without(every: Sequence[Proof]) -> list[str]:
     """The files of the shared rooms without a proof of their own, and why."""
-    lines = ["### Without a proof of their own", "", "| File | Why | It is part of |", "|---|---|---|"]
+    lines = ["### Without a separate proof", "", "| File | Why | It is part of |", "|---|---|---|"]
     for name, by in unproved(every).items():
         package = "package: constants, types and functions, no state"
         why = package if name.endswith("_pkg") else "**open**"
@@ -42,19 +42,19 @@ def without(every: Sequence[Proof]) -> list[str]:
 def method(proof: Proof) -> str:
     """How it is proved."""
     if proof.induct:
-        return f"without end, by induction over {proof.induct} clk"
-    return f"the first {proof.bound} clk" if proof.bound else "without end"
+        return f"unbounded, by induction over {proof.induct} cycles"
+    return f"the first {proof.bound} cycles" if proof.bound else "unbounded"
 
 
 def row(proof: Proof) -> str:
     """One line of the table."""
-    says = "<br>".join(proof.says)
+    says = " <br>".join(f"{text}." for text in proof.says)
     if proof.why:
         says += f"<br>*Bounded:* {proof.why}"
     taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "nothing"
     rules = ", ".join(proof.rules) or "its header"
     source = f"[{proof.name}](../{relative(proof.file)})"
-    return f"| {source} | {says} | {method(proof)} | {proof.cover} clk | {taken} | {rules} |"
+    return f"| {source} | {says} | {method(proof)} | {proof.cover} cycles | {taken} | {rules} |"
 
 
 def table(every: Sequence[Proof]) -> str:
@@ -62,8 +62,8 @@ def table(every: Sequence[Proof]) -> str:
     lines = [
         "",
         f"{len(every)} proofs of {len({one.block for one in every})} blocks;"
-        f" {sum(not one.bound for one in every)} hold without end,"
-        f" {sum(bool(one.bound) for one in every)} for the first clk that the table says.",
+        f" {sum(not one.bound for one in every)} are unbounded,"
+        f" {sum(bool(one.bound) for one in every)} hold for the first cycles that the table states.",
         "",
     ]
     for folder, group in groupby(every, key=lambda one: one.folder):

@@ -72,7 +72,7 @@ def house() -> bytes:
     total = sum(heights) + 0.4
     figure = plt.figure(figsize=(sum(widths) * 0.93, total * 0.93))
     axes = figure.add_axes((0.004, 0.005, 0.992, 0.99))
-    for left, width, head in zip(lefts[1:], widths[1:], ("shared rooms", *columns), strict=True):
+    for left, width, head in zip(lefts[1:], widths[1:], ("shared folders", *columns), strict=True):
         axes.text(left + width / 2, 0.2, head, ha="center", va="center", size=9, weight="bold", color=TEXT)
     y = 0.4
     for (folder, what, shared, own), height in zip(rows, heights, strict=True):

@@ -111,7 +111,7 @@ CIRCUITS = (
         lambda pad: "RESET, L = reset" if pad.port == "host_rst_n" else f"{_old(pad)} of the old socket",
         "5 V in",
         items=(
-            Item("buffer at 3.3 V, inputs stand 5 V", "SN74LVC245AN (DIP-20)", chips(8)),
+            Item("buffer at 3.3 V, inputs tolerate 5 V", "SN74LVC245AN (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
             Item("33 Ω, in series at the host's side", "CFR-25JB-52-33R", each()),
         ),
@@ -128,7 +128,7 @@ CIRCUITS = (
         lambda pad: "3.3 V",
         (
             Item("open-drain buffer, at 3.3 V", "SN74LVC1G07DBVR, on a SOT-23 adapter", each()),
-            Item("4.7 kΩ to 5 V, if the board has none", "CFR-25JB-52-4K7", each()),
+            Item("4.7 kΩ to 5 V, if not on the old board", "CFR-25JB-52-4K7", each()),
             Item(CAPACITOR, "K104K15X7RF5TL2", each()),
         ),
     ),
@@ -146,7 +146,7 @@ CIRCUITS = (
             Item("1 kΩ, from the pin to GND", "CFR-25JB-52-1K", each()),
             Item("10 nF, at the pin to GND", "K103K15X7RF5TH5", each()),
         ),
-        note="One of these each, collector to 3.3 V, emitter to the pin. Dark or wire broken = L = active.",
+        note="One for each pin, collector to 3.3 V, emitter to the pin. Dark or wire broken = L = active.",
     ),
     Circuit(
         "origin",
@@ -161,7 +161,7 @@ CIRCUITS = (
             Item("optocoupler", "PC817X2CSP9F or LTV-817", each()),
             Item("2.2 kΩ 0.5 W, in series with the LED", "CFR-50JB-52-2K2", each()),
         ),
-        "One of these each. Collector to the pin, emitter to GND: lit = L = active.",
+        "One for each pin. Collector to the pin, emitter to GND: lit = L = active.",
     ),
     Circuit(
         "steps",
@@ -204,7 +204,7 @@ CIRCUITS = (
         "5 V",
         _gate,
         (
-            Item("buffer at 5 V, takes 3.3 V", "SN74HCT244N (DIP-20)", chips(8)),
+            Item("buffer at 5 V, accepts 3.3 V", "SN74HCT244N (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
         ),
         "VCC = 5 V of the drive's side, both G* to GND.",
@@ -219,10 +219,10 @@ CIRCUITS = (
         "5 V",
         _idle,
         (
-            Item("buffer at 5 V, takes 3.3 V", "SN74HCT244N (DIP-20)", chips(8)),
+            Item("buffer at 5 V, accepts 3.3 V", "SN74HCT244N (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
         ),
-        "Relays and lamps: a ULN2803A behind it.",
+        "Relays and lights: add a ULN2803A.",
     ),
     Circuit(
         "inputs",
@@ -233,11 +233,11 @@ CIRCUITS = (
         lambda pad: f"{_old(pad)} of the machine",
         "3.3 or 5 V in",
         items=(
-            Item("buffer at 3.3 V, inputs stand 5 V", "SN74LVC245AN (DIP-20)", chips(8)),
+            Item("buffer at 3.3 V, inputs tolerate 5 V", "SN74LVC245AN (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
             Item("10 kΩ, from each used input to 3.3 V", "CFR-25JB-52-10K", each()),
         ),
-        note="VCC = 3.3 V, OE* to GND. What the machine does not have stays open at the board.",
+        note="VCC = 3.3 V, OE* to GND. Leave unused inputs open at the board.",
     ),
     Circuit(
         "straps",
@@ -248,7 +248,7 @@ CIRCUITS = (
         lambda pad: "jumper to GND = L, open = H",
         "GND or open",
         items=(Item("jumper 2.54 mm with two pins", "M20-9990245 and M7582-05", each()),),
-        note="A jumper to GND and nothing else: no voltage of any kind belongs here.",
+        note="Only a jumper to GND: never connect a voltage.",
     ),
     Circuit(
         "line",
@@ -296,7 +296,7 @@ CIRCUITS = (
         "3.3 V logic",
         lambda pad: "GND" if pad.way == "out" and not pad.port.startswith("pwm") else "",
         (),
-        "To be chosen by the motor: docs/pmc006/README.md, Power stage.",
+        "Select it for the motor: docs/pmc006/README.md, Power stage.",
     ),
     Circuit(
         "spi",
@@ -307,7 +307,7 @@ CIRCUITS = (
         lambda pad: pad.port.removesuffix("_n").upper(),
         "3.3 V only",
         items=(Item("33 Ω, in series at the sender", "CFR-25JB-52-33R", each()),),
-        note="A microcontroller with 3.3 V pins, direct. 5 V ones through a 74LVC245.",
+        note="3.3 V pins of the microcontroller direct, 5 V pins through a 74LVC245.",
     ),
     Circuit(
         "direct",
@@ -396,7 +396,7 @@ def order(found: list[Use]) -> list[tuple[int, str, str]]:
         if use.circuit.key == "steps":
             axes = sum(pad.port == "pout_n" for pad in use.pads)
             rows = [
-                ("driver carrier, a motor each", "Pololu 2133 (DRV8825)"),
+                ("driver carrier, one for each motor", "Pololu 2133 (DRV8825)"),
                 ("100 µF 50 V at VMOT", "EEU-FR1H101"),
             ]
             if any(pad.port == "hold" for pad in use.pads):

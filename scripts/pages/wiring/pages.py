@@ -17,20 +17,23 @@ HEAD = """\
 
 For {revisions}: [revisions](../boards.md#revisions).
 
-Written by `make docs` from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change those, not this.
-A drawing, the levels and an order list for each part that the board carries. Why it is so, other drivers and
-switches: [boards.md](../boards.md#4-power-and-levels); before a winding is connected: [Before the motor
-turns](../boards.md#10-before-the-motor-turns). None of these was built by us.
+`make docs` writes this page from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change these \
+files, not this page.
+For each part that the board carries, the page has a drawing, the levels and an order list.
+[boards.md](../boards.md#4-power-and-levels) has the reasons, other drivers and other switches.
+Before you connect a winding, read [Before the motor turns](../boards.md#10-before-the-motor-turns).
+These circuits were not built or tested.
 
-- **Every pin of a header is 3.3 V and must never see more**: not 5 V, not the motor's supply, not through a
-  pull-up. 5 V and more are allowed on the right side of the drawings only, behind the shifter, buffer,
-  optocoupler or driver that is drawn.
-- {resistor} at a wire: from there to GND or 3.3 V, on the FPGA's side. It holds the line still while the
-  FPGA is not configured.
-- Take what your machine needs: a circuit without a machine behind it is left out, with its lines of the
-  order list. With `HOST=uart` nothing stands at the bus pins.
-- Order numbers are examples of parts that were sold when this was written; any part of the same type and
-  case does.
+- **Every pin of a header is 3.3 V and must never carry more**: not 5 V, not the motor's supply, not through \
+a pull-up.
+  5 V and more are allowed only on the right side of the drawings, on the far side of the shifter, buffer, \
+optocoupler or driver.
+- {resistor} at a wire is connected from there to GND or 3.3 V, on the FPGA's side.
+  It holds the line at a fixed level while the FPGA is not configured.
+- Build only the circuits that your machine needs, and omit the lines of the others in the order list.
+  With `HOST=uart` nothing is connected to the bus pins.
+- Order numbers are examples of components that were sold when this page was written.
+  Any component of the same type and case is suitable.
 
 Contents: {contents}
 """
@@ -70,7 +73,7 @@ def _section(one: Fitted) -> str:
     rows += [f"![Wiring](img/{one.board.name}-{one.on.name}.svg)", ""]
     rows += ["| circuit | header pins | the other side |", "|---|---|---|"]
     rows += [_levels(use) for use in found]
-    rows += ["", "Order list, for all of it:", "", "| number | what | order number |", "|---:|---|---|"]
+    rows += ["", "Order list for all circuits:", "", "| number | what | order number |", "|---:|---|---|"]
     rows += [f"| {number} | {what} | {which} |" for number, what, which in order(found)]
     return "\n".join([*rows, ""])
 

@@ -467,7 +467,7 @@ def test_a_line_with_several() -> None:
             nine.jog(FORWARD)
             nine.jog(FORWARD)
         nine.halt()
-        with pytest.raises(OutOfRange, match="started by nobody"):
+        with pytest.raises(OutOfRange, match="no motion to wait for"):
             bus.wait([bus.axis(255)])
 
 

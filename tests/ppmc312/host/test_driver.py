@@ -262,7 +262,7 @@ def test_ends(part: Ppmc312) -> None:
 
 def test_progress_and_timeout(part: Ppmc312) -> None:
     motion = part.start_move(5000)
-    with pytest.raises(Timeout, match="not over after 0.2 s"):
+    with pytest.raises(Timeout, match="motion still in progress after 0.2 s"):
         motion.wait(0.2)
     now = motion.poll()
     assert now is not None and 0 < now.made == now.position < now.asked == 5000

@@ -98,11 +98,11 @@ def test_several_stations_at_once() -> None:
         assert seen and seen[-1].asked == 2100 and 0 < seen[-1].made <= 2100
         assert bus.axis(3).status().state is State.NOR and not bus.wait([])
         motions = [bus.axis(3).jog(CW), bus.axis(6).jog(CCW, high=True)]
-        with pytest.raises(Timeout, match=r"station 3, 6: not over after 0.05 s"):
+        with pytest.raises(Timeout, match=r"station 3, 6: motion still in progress after 0.05 s"):
             bus.wait(timeout=0.05)
         ends = bus.stop()
         assert [end.cause for end in ends] == [Cause.STOP, Cause.STOP] and not bus.stop()
-        with pytest.raises(OutOfRange, match="started by nobody"):
+        with pytest.raises(OutOfRange, match="no motion to wait for"):
             bus.wait([bus.axis(4)])
 
 

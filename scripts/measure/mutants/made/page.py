@@ -17,14 +17,17 @@ from scripts.measure.mutants.made.work import ALIVE, BROKEN, ENDLESS, KILLED, PR
 JUDGED = Path(__file__).with_name("judged.yml")
 HEAD = """# Mutants
 
-Written by `make mutate`. A mutant is the RTL with one small fault: an operator, a constant, a condition,
-an assignment ([how they are made](testing.md#mutants-by-rule)). It is killed if a proof or a test fails; the
-proofs of its block come first. *No end*: tests only come to no end with it, which is counted apart.
-*Equivalent*: somebody has found that it does what the RTL does. The score is the share of the killed ones
-among those that are killed or alive and not equivalent.
+`make mutate` writes this page.
+A mutant is the RTL with one small fault: an operator, a constant, a condition, an assignment \
+([how they are made](testing.md#mutants-by-rule)).
+It is killed if a proof or a test fails; the proofs of its block run first.
+*No end*: the tests do not terminate with it; these mutants are counted separately.
+*Equivalent*: a review found that it behaves like the RTL.
+The score is the share of the killed mutants among those that are killed, or that survived and are not \
+equivalent.
 """
-QUICK = "**Each mutant here has met the first of its tests alone: some that are alive would be killed.**\n"
-SO_FAR = "They ran at different times; some that are alive have met the first of their tests alone.\n"
+QUICK = "**Only the first tests of each mutant were run here: some survivors would be killed.**\n"
+SO_FAR = "The mutants ran at different times; for some survivors only the first tests were run.\n"
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,7 @@ def row(name: str, tried: Sequence[Tried], made: int) -> str:
 
 def table(title: str, rows: Sequence[str]) -> Iterator[str]:
     """With its head."""
-    yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | alive | score |"
+    yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | survived | score |"
     yield "|---|---|---|---|---|---|---|---|---|"
     yield from rows
 
@@ -125,7 +128,11 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
             text = one.source.replace("|", "\\|")
             what = one.fault.what.replace("|", "\\|")
             said = (
-                f"equivalent: {one.why}" if one.why else "no end" if one.verdict == ENDLESS else "**alive**"
+                f"equivalent: {one.why}"
+                if one.why
+                else "no end"
+                if one.verdict == ENDLESS
+                else "**survived**"
             )
             yield f"| {one.file} | `{text}` | {what} | {said} |"
 
