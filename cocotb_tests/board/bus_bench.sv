@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// bus_bench: a board top without a PLL and an old host on its data bus; the tri-states meet here.
+// bus_bench: a board top without a PLL and an old host on its data bus, with the tri-state drivers of
+// both.
 `default_nettype none
 
 module bus_bench #(
