@@ -1,5 +1,6 @@
-"""What the sheet crosses: operation, cause, phase, clock; error and state; bus style and access. Counted in
-the golden model."""
+"""Coverage crosses of the manual: operation, cause, phase and clock; error and state; bus style and
+access. They are counted in the golden model.
+"""
 
 from __future__ import annotations
 
