@@ -62,8 +62,8 @@ async def isa_slave_three_parts(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_slave_write_of_the_source(dut: Any) -> None:
-    """Only a write of the source register deasserts irq while an interrupt is pending, for the duration
-    of the write.
+    """While an interrupt is pending, only a write of the source register deasserts irq, and only during
+    the write.
     """
     unit = Unit(dut, "three", BLOCKS, "irq_o")
     await unit.reset(int_ni=5, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0)
