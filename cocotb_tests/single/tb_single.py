@@ -297,7 +297,7 @@ async def pace_datasheet(dut, name):
         ramp, single = op in (3, 6), op == 2
         for end in ("normal", "stop", "short"):
             if end == "short" and not ramp:
-                continue  # without a count only a limit can end it with a pulse
+                continue  # only a ramp ends with a pulse before its count
             await u.clk(
                 act_i=action("start"),
                 code_i=0x40 | op,

@@ -105,9 +105,7 @@ async def stmc_ds_02_initialisations(dut: Any) -> None:
 
 @directed("STMC-DS-06", "STMC-DS-13", builds=ALL_CLOCKS)
 async def stmc_ds_06_single_step(dut: Any) -> None:
-    """After a single step, int_n falls 112 us after its byte, and bytes are accepted from then on
-    (STMC-DS-06).
-    """
+    """int_n falls, and bytes are accepted again, 112 us after the byte of a single step (STMC-DS-06)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     t = await event(lab, 0x42)
     await lab.pulse(1)

@@ -156,7 +156,7 @@ def test_one_builder(axis, rl):
 
 
 def test_command_need_not_wait_for_the_builder():
-    """A command for another axis does not wait for the builder (BANK-HSK-05)."""
+    """A command does not wait for the builder and replaces a waiting last byte (BANK-HSK-05)."""
     host = Host()
     host.send(6, "c 0A d 09 d 04 d 04")
     built = host.send(1, INIT_A)

@@ -279,8 +279,8 @@ def test_slow_limit_between_visits_is_not_seen(first, length, status):
 
 
 def test_slow_limit_before_the_start_and_in_pulse_mode():
-    """A slow-down limit before the start leads to one pulse, in POUT mode to a complete ramp
-    (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
+    """A slow-down limit before the start leads to one pulse; in POUT mode it acts from the
+    plateau on (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
     """
     for script, pulses in (("c 43 d E7 d 03 d 00", 1), ("c C3 d E7 d 03 d 00", 22)):
         host = Host()

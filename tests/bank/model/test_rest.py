@@ -27,8 +27,8 @@ def test_completion(rl, rh):
 
 @pytest.mark.parametrize("wait", [4, 3, 10])
 def test_completion_to_the_clk(wait, monkeypatch):
-    """The first visit from D + 3 on completes: tried with builds that end 3, 4 and 10 cycles before a
-    visit (BANK-INI-02).
+    """The first visit from D + 3 on completes: tried with builds that end 2, 3 and 4 cycles before a visit
+    (BANK-INI-02).
     """
     build = 4000 - wait
     monkeypatch.setattr(part, "Latency", lambda **rest: Latency(build_clk=lambda rl, rh, pa: build, **rest))
