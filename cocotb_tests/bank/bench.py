@@ -1,5 +1,6 @@
-"""Test bench of the bank: its builds, and pins whose width depends on AXES. Names and levels of the
-pins are those of the golden model.
+"""Test bench of the bank: its builds, and pins whose width depends on AXES.
+
+Names and levels of the pins are those of the golden model.
 """
 
 from __future__ import annotations

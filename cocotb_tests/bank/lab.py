@@ -1,8 +1,8 @@
-"""`Lab`: a bank on the bench with its host and its axes.
+"""`Lab`: a bank on the test bench with its host and its axes.
 
 @directed("BANK-MOT-01", builds=(B8, F100))
 async def bank_mot_01_exact(dut):
-    "Given ..., when ..., then ..."
+    "The intervals of a move are exact to the cycle (BANK-MOT-01)."
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     await axis.move(0x43, 14)
@@ -50,8 +50,9 @@ SYNC = 2
 
 
 class WindowBus(HostBus):
-    """Host at the window; with `axis`, registers 0 and 1 are those of this axis. Strobes and pauses
-    have the minimum lengths of BANK-WIN-04.
+    """Host at the window; with `axis`, registers 0 and 1 are those of this axis.
+
+    Strobes and pauses have the minimum lengths of BANK-WIN-04.
     """
 
     names = NAMES
@@ -133,8 +134,9 @@ class Axis(Drive):
             await self.opened()
 
     async def opened(self) -> None:
-        """Wait until the axis accepts bytes: until it has executed a read command. The answer is
-        discarded.
+        """Wait until the axis accepts bytes: until it has executed a read command.
+
+        The answer is discarded.
         """
         await self.host.command(0x81)
         await self.host.read(DATA)
@@ -246,8 +248,9 @@ class Lab:
     # ---------------------------------------------------------------- exact to the cycle
 
     def at_event(self, edge: int, address: int, byte: int) -> Any:
-        """Schedule a write with its write event on that edge, in parallel with the test. The host must
-        be idle then.
+        """Schedule a write with its write event on that edge, in parallel with the test.
+
+        The host must be idle then.
         """
         edge0 = edge - WRITE_EVENT
         return self.bench.drive(

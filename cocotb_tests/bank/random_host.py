@@ -43,8 +43,9 @@ def in_motion(seed: int) -> bool:
 
 
 class BankHost(RandomHost):
-    """Constrained-random host. It reacts to what it reads; the golden model reports which axes are at
-    rest.
+    """Constrained-random host.
+
+    It reacts to what it reads; the golden model reports which axes are at rest.
     """
 
     def __init__(self, seed: int) -> None:
@@ -134,8 +135,9 @@ class BankHost(RandomHost):
         return self.rng.randrange(self.lab.size)
 
     async def send(self, n: int, code: int, *data: int) -> None:
-        """Send an instruction; most bytes are written after IBF = 0 was polled. A host that stops
-        polling is legal, too.
+        """Send an instruction; most bytes are written after IBF = 0 was polled.
+
+        A host that stops polling is legal, too.
         """
         bus = self.lab.axes[n].host
         for reg, byte in ((STATUS, code), *((DATA, byte) for byte in data)):
@@ -251,8 +253,9 @@ class BankHost(RandomHost):
         await self.lab.host.write(k << 4 | MASK, self.rng.choice((0, few, few, 255, self.rng.randrange(256))))
 
     async def go(self) -> None:
-        """Write GO once or more. A host that keeps the axes in motion seldom lets a held operation wait
-        for long.
+        """Write GO once or more.
+
+        A host that keeps the axes in motion seldom lets a held operation wait for long.
         """
         for _ in range(self.rng.choice((1, 1, 1, 2, 3))):
             await self.lab.host.write(GO, 0)

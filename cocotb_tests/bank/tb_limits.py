@@ -64,8 +64,9 @@ class Waves:
         return [first + k * self.interval for k in range(N)]
 
     async def let_go(self) -> list[int]:
-        """Write GO at a fixed position in the round and return `edges`. The pulses then have all
-        positions in the rounds of the axes.
+        """Write GO at a fixed position in the round and return `edges`.
+
+        The pulses then have all positions in the rounds of the axes.
         """
         g = -(-(self.lab.bench.now + 10) // self.lab.round) * self.lab.round
         await self.lab.write_at(g, GO, 0)
@@ -124,8 +125,9 @@ def cases_of_pins() -> list[tuple[str, int, int, int]]:
 
 
 async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
-    """Run every case `rounds` times on successive axes. If `rounds` is R, this covers each position in
-    the round.
+    """Run every case `rounds` times on successive axes.
+
+    If `rounds` is R, this covers each position in the round.
     """
     lab = await Lab.start(dut)
     waves, rng = Waves(lab, rate), random.Random(rate)

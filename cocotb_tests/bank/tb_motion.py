@@ -100,8 +100,8 @@ async def bank_mot_01_slow_clocks(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
-    """With csel low, the intervals of a steep ramp are those of the PPMC-104. Such a ramp skips so many
-    rates that, while decelerating, the search for the next rate ends after the low time (BANK-MOT-01).
+    """With csel low, the intervals of a steep ramp are those of the PPMC-104. Such a ramp skips many
+    rates; while decelerating, the search for the next rate therefore ends after the low time (BANK-MOT-01).
     """
     lab = await Lab.start(dut)
     axis = lab.axes[lab.size - 2]

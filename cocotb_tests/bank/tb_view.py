@@ -17,7 +17,7 @@ CHOICE = 3
 AXES = 64
 WRITE_CLK, READ_CLK, GAP_CLK = 4, 6, 4
 STEADY = 2
-"""Rising edges of clk that sample the address, up to the first one that samples the strobe
+"""Rising edges of `clk` that sample the address, up to the first one that samples the strobe
 (BANK-WIN-04).
 """
 
@@ -45,8 +45,9 @@ class Bridge:
         return data
 
     def strobes(self) -> list[tuple[int, int]]:
-        """Return (address, cycles) of the strobes at the bank. Raise AssertionError if an address is
-        not stable.
+        """Return (address, cycles) of the strobes at the bank.
+
+        Raise AssertionError if an address is not stable.
         """
         found = []
         for n, (cs_n, address) in enumerate(self.seen):

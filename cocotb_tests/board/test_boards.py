@@ -24,7 +24,7 @@ HERE = ROOT / "cocotb_tests" / "board"
 RTL = ROOT / "rtl" / "boards"
 # One C++ file, because the make file of the wheel cannot use the header that several files share. Start
 # values 0, as in an FPGA: they make the power-on reset of the top, and no pin can output an edge of reset
-# before the first rising edge of clk.
+# before the first rising edge of `clk`.
 ARGS = ("--output-split", "0", "--x-initial", "0")
 SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
 

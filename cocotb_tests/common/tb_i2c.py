@@ -57,8 +57,9 @@ later.
 
 @dataclass
 class Lines:
-    """Levels over time, and the shortest value of each time in cycles. The device holds SCL low for
-    `stretch` cycles.
+    """Levels over time, and the shortest value of each time in cycles.
+
+    The device holds SCL low for `stretch` cycles.
     """
 
     stretch: int = 0

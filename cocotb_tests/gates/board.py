@@ -14,8 +14,9 @@ B24 = Config("b24m", clk_hz=24_000_000)
 
 
 def sources() -> list[Path]:
-    """Return the sources of the part, then the board module and its blocks. The tops of boards contain
-    vendor cells.
+    """Return the sources of the part, then the board module and its blocks.
+
+    The tops of boards contain vendor cells.
     """
     return [*project.sources(project.part("ppmc104")), *project.board_files("ppmc104")]
 

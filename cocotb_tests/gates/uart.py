@@ -29,8 +29,9 @@ class Uart(Wire):
         self._came.set()
 
     async def frame(self, limit_us: int = 200_000) -> Frame:
-        """Return the next frame. Raise AssertionError if it is broken or no frame arrives within the
-        limit.
+        """Return the next frame.
+
+        Raise AssertionError if it is broken or no frame arrives within the limit.
         """
         limit = Timer(limit_us, "us")
         while not self.frames:

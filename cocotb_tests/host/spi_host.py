@@ -46,7 +46,7 @@ def header(word: int) -> list[int]:
 
 
 class SpiHost:
-    """Drives the pins at any times, in fractions of a cycle; rising edge n of clk is at time n."""
+    """Drives the pins at any times, in fractions of a cycle; rising edge n of `clk` is at time n."""
 
     def __init__(self, unit: Unit, dut: Any, name: str) -> None:
         self.unit, self.now, self.edge = unit, 0.0, 0
@@ -74,7 +74,7 @@ class SpiHost:
         await self.wait(8)
 
     async def until(self, time: float) -> None:
-        """Let all rising edges of clk before this time pass."""
+        """Let all rising edges of `clk` before this time pass."""
         self.now = time
         while self.edge < time:
             await self.unit.clk()
@@ -85,8 +85,9 @@ class SpiHost:
         await self.until(self.now + clk)
 
     async def frame(self, bits: list[int], pace: Pace = Pace(), short: int = -1) -> list[int]:
-        """Send one frame; return the level of miso at each rise of sck. The low time of the bit `short`
-        is 2 cycles.
+        """Send one frame; return the level of miso at each rise of sck.
+
+        The low time of the bit `short` is 2 cycles.
         """
         put, seen = self.unit.put, []
         put(sck_i=pace.idle)
@@ -113,8 +114,9 @@ class SpiHost:
 
 
 class Book:
-    """Reference model from docs/bank/spi.md: accesses, miso, flags. `registers` are those that the
-    block accesses.
+    """Reference model from docs/bank/spi.md: accesses, miso, flags.
+
+    `registers` are those that the block accesses.
     """
 
     def __init__(self) -> None:

@@ -165,7 +165,7 @@ async def spi_one_short_low_time(dut):
 
 @cocotb.test()
 async def spi_lines_that_stand_still(dut):
-    """If mosi is constantly 0 or 1, or sck has only some edges, no access occurs."""
+    """If mosi is constantly 0 or 1, or sck has edges while cs_n is high, no access occurs."""
     host, _ = await start(dut)
     same("all 0", await host.talk(0, 0, 0, 0), [SIGN, 0, 0, 0])
     same("all 1", await host.talk(0xFF, 0xFF, 0xFF, 0xFF), [SIGN, 0, 0, 0])

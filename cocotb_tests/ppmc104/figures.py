@@ -44,5 +44,5 @@ INIT_B = (0x0A, 19, 9, 10)
 # edge.
 INIT_EXT = (0x1A, 1, 0, 4)
 
-# Initialisation codes, positive logic, of each step list; bit 3 cleared gives negative logic.
+# Initialisation codes, positive logic, of each step list; bit 3 = 0 selects negative logic.
 STEP_CODES = {"3 full": 0x09, "3 half": 0x0D, "4 full": 0x0A, "4 half": 0x0E, "5 full": 0x0B, "5 half": 0x0F}

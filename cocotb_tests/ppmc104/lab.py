@@ -18,8 +18,9 @@ PINS_LATEST = 12
 
 
 class Lab(Drive):
-    """Test bench and host; created with `await Lab.start(dut, INIT_A)`. `None` leaves the core in its
-    reset state.
+    """Test bench and host; created with `await Lab.start(dut, INIT_A)`.
+
+    `None` leaves the core in its reset state.
     """
 
     def __init__(self, bench: Side) -> None:

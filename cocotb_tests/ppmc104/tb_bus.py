@@ -24,7 +24,7 @@ async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
 
 def off_edge(lab: Lab, part: int) -> int:
     """Return an even number of ps of the given eighths of a cycle, with a small offset that avoids the
-    edges of clk.
+    edges of `clk`.
     """
     return lab.bench.period * part // 16 * 2 + 2 * (lab.bench.period // 64)
 

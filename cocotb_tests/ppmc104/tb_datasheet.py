@@ -1,5 +1,6 @@
-"""Processing times of the old chip, TIMING = "DATASHEET" (P104-DS). All times: CYC(16·us), -0/+16
-cycles.
+"""Processing times of the old chip, TIMING = "DATASHEET" (P104-DS).
+
+All times: CYC(16·us), -0/+16 cycles.
 """
 
 from __future__ import annotations

@@ -252,8 +252,8 @@ async def p104_end_04_cause_bits(dut):
 
 @directed("P104-END-06", "P104-END-05", "P104-RD-07")
 async def p104_end_06_one_left_or_none(dut):
-    """The cause bits tell a move that ended one pulse early from a complete one: the remaining count is
-    0 in both (P104-END-06).
+    """The cause bits distinguish a move that ended one pulse early from a complete one; both have a
+    remaining count of 0 (P104-END-06).
     """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 4, rate=9)

@@ -1,5 +1,6 @@
-"""Coverage crosses of the manual: operation, cause, phase and clock; error and state; bus style and
-access. They are counted in the golden model.
+"""Coverage crosses of the manual, counted in the golden model.
+
+Operation, cause, phase and clock; error and state; bus style and access.
 """
 
 from __future__ import annotations

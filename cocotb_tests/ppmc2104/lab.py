@@ -1,8 +1,8 @@
-"""`Lab`: a PPMC-2104AFP on the bench with its host and its two axes.
+"""`Lab`: a PPMC-2104AFP on the test bench with its host and its two axes.
 
 @directed("AC-09", "P2104-EX-01", builds=(F16, F11))
 async def p2104_ac_09_trapezoid(dut):
-    "Given ..., when ..., then ..."
+    "With ramp B, 25 pulses have the trapezoidal profile of EX-01 (AC-09)."
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.move(0x43, 25)

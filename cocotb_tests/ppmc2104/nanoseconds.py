@@ -38,7 +38,7 @@ class SlowBus:
             await Timer(ps(ns), "ps")
 
     async def phase(self, sixteenth: int) -> None:
-        """Wait until that sixteenth of a cycle; no edge of clk is exactly there."""
+        """Wait until that sixteenth of a cycle; no edge of `clk` is exactly there."""
         await self.bench.align()
         await Timer(self.bench.period * sixteenth // 32 * 2 + 2 * (self.bench.period // 128), "ps")
 

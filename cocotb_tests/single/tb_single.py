@@ -234,8 +234,9 @@ async def finish_answers(dut, fresh):
 
 
 async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
-    """Return the clock edges until act_o outputs an action. With `closed`, check that the mailbox is
-    closed until then.
+    """Return the clock edges until act_o outputs an action.
+
+    With `closed`, check that the mailbox is closed until then.
     """
     for took in range(5_000):
         if (await u.settle())[0]:

@@ -1,5 +1,6 @@
-"""Test bench of the STMC core and the J105 board: the meaning of their pins. Levels are those of the
-golden models.
+"""Test bench of the STMC core and the J105 board: the meaning of their pins.
+
+Levels are those of the golden models.
 """
 
 from __future__ import annotations

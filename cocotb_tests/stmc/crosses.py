@@ -1,5 +1,6 @@
-"""Coverage crosses of the manual: operation, cause, phase and clock; error and state. They are counted
-in the golden model.
+"""Coverage crosses of the manual: operation, cause, phase and clock; error and state.
+
+They are counted in the golden model.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""`Lab`: an STMC core on the bench with its host.
+"""`Lab`: an STMC core on the test bench with its host.
 
 @directed("AC-05", "STMC-MOV-02")
 async def stmc_ac_05_trapezoid(dut):
-    "Given ..., when ..., then ..."
+    "A move of 20 steps has the gaps of W1 (AC-05)."
     lab = await Lab.start(dut, STANDARD, clock=16)
     await lab.move(0x43, 20)
     lab.train("AC-05", gaps(20))
@@ -34,8 +34,9 @@ BUILD_LATEST = 40_000
 
 
 class Lab(Drive):
-    """Test bench and host. `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 =
-    stopped.
+    """Test bench and host.
+
+    `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = stopped.
     """
 
     def __init__(self, bench: Side, host: HostBus | None = None, clock: str = "ext_clk") -> None:

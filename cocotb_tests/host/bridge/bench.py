@@ -165,8 +165,9 @@ class Bench:
                 self._frame.set()
 
     async def message(self, ms: float = 50) -> bytes:
-        """Return the next payload from the bridge, after its stop bit. Raise TimeoutError if no payload
-        arrives.
+        """Return the next payload from the bridge, after its stop bit.
+
+        Raise TimeoutError if no payload arrives.
         """
         while not self.got:
             self._frame.clear()

@@ -149,8 +149,8 @@ async def line_framing_error(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_break(dut):
-    """A break restores the first rate and the hunt; a slow 00 does so, too (UB-LIN-05, UB-LIN-06,
-    UB-FRM-08).
+    """A break restores the first rate and the hunt; a character 00 at the lower first rate is a break, too
+    (UB-LIN-05, UB-LIN-06, UB-FRM-08).
     """
     bench = await Bench.start(dut)
     for code in (1, 4):
@@ -206,7 +206,7 @@ async def line_rate_trial(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_no_drift(dut):
-    """The average bit time is exactly clk / rate: every edge of a long answer is at its time
+    """The average bit time is exactly `clk` / rate: every edge of a long answer is at its time
     (UB-LIN-03).
     """
     bench = await Bench.start(dut)

@@ -22,7 +22,7 @@ LAMP_RUNNING, LAMP_SWITCH, LAMP_MOVING = 8, 4, 2
 
 
 class Host:
-    """Accesses in one bus style; all edges are midway between two rising edges of clk."""
+    """Accesses in one bus style; all edges are midway between two rising edges of `clk`."""
 
     def __init__(self, dut: Any, style: BusStyle) -> None:
         self.dut, self.style = dut, style

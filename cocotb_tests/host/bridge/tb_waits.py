@@ -105,8 +105,7 @@ async def waits_time(dut):
         answer = await bench.message(limit + 30)
         log = bench.accesses()
         same(text, answer, bytes([0, 1, place, log[-1][2]]))
-        # The answer begins shortly after the end of the wait; its begin is its last byte minus 6
-        # characters and the flag.
+        # The answer begins shortly after the end of the wait; `begun` is the start of its first character.
         begun = bench.line[-len(encode(answer))][0] - round(9.5 * bench.bit_ps())
         took = (begun - start) * 1000 / SECOND
         assert limit - 0.1 <= took <= limit + 1.3, f"{text}: {took} ms"

@@ -22,7 +22,7 @@ MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_recorder", "tb_waits", "tb_mess
 ONE_FILE = ("--output-split", "0")
 # Start values 0, as in an FPGA: they make the power-on reset of a board. With a random start value, the
 # reset flip-flop could start at 0, and the part in a two-state simulation would get no edge of its reset
-# before the first rising edge of clk.
+# before the first rising edge of `clk`.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
 BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)

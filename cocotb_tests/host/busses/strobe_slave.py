@@ -32,7 +32,7 @@ class Registers:
 
 
 class StrobeSlave:
-    """Slave at the pins `<prefix>_*`; `cycles` lists ("w" or "r", address, value, clk of its first low
+    """Slave at the pins `<prefix>_*`; `cycles` lists ("w" or "r", address, value, cycle of its first low
     level).
 
     A read outputs the value in the last cycle of its strobe only, else noise. Any violation of the

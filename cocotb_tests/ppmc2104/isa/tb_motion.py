@@ -181,7 +181,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_four_axes_together(dut: Any) -> None:
-    """When RUN rises, four waiting moves in two parts start on the same edge of clk (ISA-10)."""
+    """When RUN rises, four waiting moves in two parts start on the same edge of `clk` (ISA-10)."""
     setting = await Setting.start(dut, run=0)
     bench, axes = setting.bench, setting.axes
     ramps = {1: RAMP_B, 2: (0x3B, 0x09, 20), 3: (0x27, 0x01, 60), 4: (0x0E, 0x0C, 16)}

@@ -134,6 +134,7 @@ def test_mask_taken_away_from_a_held_operation():
 
 def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
     """Return a host whose axis 0 holds an operation that a GO does not detect, and the edge of this GO.
+
     Further ones, `gaps` cycles later, detect it.
     """
     host = held(64, count=1)

@@ -56,8 +56,8 @@ def edges(log: Path, axis: int) -> list[tuple[int, int]]:
 
 
 def test_info_and_wrong_driver(board: SimBoard) -> None:
-    """The bridge reports the part; the driver of another part is rejected, and a part that was just
-    reset reports no initialisation.
+    """The bridge reports the part and rejects the driver of another part; the driver rejects a move before
+    initialisation.
     """
     with pytest.raises(WrongDevice, match="PPMC-2104, not a PPMC-104"):
         Ppmc104.open(board.port)

@@ -205,7 +205,7 @@ def test_axis_1_never_changes_axis_2(moves, traffic, clk_hz):
     after=st.integers(6, 500),
 )
 def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, after):
-    """The remaining value follows m = N - j, and bits 6-3 tell a complete move from a cut one
+    """The remaining value follows m = N - j, and bits 6-3 distinguish a complete move from a cut one
     (P2104-END-05, -06).
     """
     rh = max(1, rl - span)

@@ -1,5 +1,6 @@
-"""The driver of the STMC on the modelled board, in virtual time. Functions common to all parts are
-tested in test_driver.py.
+"""The driver of the STMC on the modelled board, in virtual time.
+
+Functions common to all parts are tested in test_driver.py.
 """
 
 from __future__ import annotations

@@ -49,8 +49,9 @@ class Clocked(Stmc):
 
 
 class Host(ModelHost):
-    """`ModelHost` of the STMC. It runs its script immediately; scripts may also contain idle (wait for
-    BUSY = 0).
+    """`ModelHost` of the STMC.
+
+    It runs its script immediately; scripts may also contain idle (wait for BUSY = 0).
     """
 
     MODEL = Clocked

@@ -94,8 +94,8 @@ def test_interrupt(lines):
 
 
 def test_interrupt_served_after_the_restart(lines):
-    """An interrupt routine that runs during the next motion is rejected; after the end of this motion
-    it deasserts IRQ.
+    """The read of an interrupt routine that runs during the next motion is rejected; the read after
+    the end of this motion deasserts IRQ.
     """
     assert result(lines, "late") == result(lines, "late again") == (0, "ok")
     assert result(lines, "late service")[0] == Error.NOT_WHILE_BUSY + 1
