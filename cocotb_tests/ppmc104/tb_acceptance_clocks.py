@@ -234,7 +234,7 @@ async def p104_ac_56_too_fast_for_commands(dut):
 
 @directed("AC-57", "P104-BAD-19")
 async def p104_ac_57_reset_in_motion(dut):
-    """If rst_n falls between two edges of `clk` during a move, all outputs take their reset levels (AC-57)."""
+    """When rst_n falls between two edges during a move, all outputs take their reset levels (AC-57)."""
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
     await lab.host.run("c C1 c 86 d 0F")

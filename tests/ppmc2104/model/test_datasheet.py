@@ -271,7 +271,7 @@ def test_live_levels_at_the_start():
 
 
 def error(host: Host, script: str) -> int:
-    """Error of an operation of axis 1; ended again if it started."""
+    """Return the error of an operation of axis 1; stop the operation if it started."""
     (code,) = host.run(script + " e1")
     if host.model.busy(1):
         host.run("c 40")
