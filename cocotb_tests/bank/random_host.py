@@ -65,7 +65,7 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """The host; it owns its side."""
+        """This object, which owns its side."""
         return self
 
     def _pause(self) -> int:
@@ -148,7 +148,7 @@ class BankHost(RandomHost):
             await bus.write(reg, byte, self.rng.choice((2, 2, 3)), self.rng.choice((3, 3, 4, 9)))
 
     async def init(self, n: int) -> None:
-        """Initialise an axis: with a quick ramp in motion seeds, else also with unusual settings."""
+        """Initialise an axis: with a short ramp in motion seeds, else also with unusual settings."""
         rng = self.rng
         if self.quick:
             rl, rh, pa = rng.choice((5, 5, 9, 19)), rng.choice((0, 0, 1, 2, 4)), rng.choice((4, 6, 10, 40))

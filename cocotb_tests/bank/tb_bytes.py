@@ -34,8 +34,8 @@ def idle_answer(code: int, initialised: bool) -> int:
 
 @directed("BANK-HSK-01", "BANK-GEN-01", builds=(B4, B8, B32, B64, F100))
 async def bank_hsk_01_seven_clk(dut):
-    """The first visit V at w + 7 or later accepts a byte written at w: tried with w = V - 8, V - 7, V -
-    6, V - 1, V (BANK-HSK-01).
+    """The first visit V at w + 7 or later accepts a byte written at w: tried with w = V - 8, V - 7,
+    V - 6, V - 1, V (BANK-HSK-01).
     """
     lab = await Lab.start(dut)
     for axis in (lab.axes[0], lab.axes[lab.size // 2], lab.axes[-1]):

@@ -30,7 +30,7 @@ async def bank_mot_03_requests_around_an_end(dut):
     requests = ((0x40, 0x46), (0x40, 0x45), (0x41, 0x45), (0x41, 0x46), ("slow", 0x46))
     for (request, code), late, plus in product(requests, range(-2, 7), (100, 0)):
         await axis.go(code, rate=9)
-        await axis.pulse(6, plus)  # pout_n is high or low.
+        await axis.pulse(6, plus)  # pout_n is high or low
         visit = axis.visit(lab.bench.now + (60 if plus else 12))
         blip(axis, visit - late, alm_n=0)
         if request == "slow":
@@ -107,7 +107,7 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
         await lab.mask()
         g = axis.visit(lab.bench.now + 60) - 4 - lab.round  # the last visit that checks for the first GO
         g += lab.round * (g < lab.bench.now + 20)
-        member = g + 2 * lab.round - 2  # MASK = 1 only for the visits of the second GO.
+        member = g + 2 * lab.round - 2  # MASK = 1 only for the visits of the second GO
         for edge, address, byte in (
             (g, GO, 0),
             (g + gap, GO, 0),

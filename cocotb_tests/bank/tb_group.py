@@ -97,8 +97,8 @@ async def bank_grp_02_refused(dut):
 
 @directed("BANK-GRP-02", builds=(B8, B32, F100))
 async def bank_grp_02_which_visit(dut):
-    """GO at g starts a held operation that started at V, if V is before the first visit at g + 5 or
-    later (BANK-GRP-02).
+    """GO acts at the first visit at g + 5 or later; it finds only operations that started at an earlier
+    visit (BANK-GRP-02).
     """
     lab = await Lab.start(dut)
     axis = await lab.ready(2)

@@ -46,7 +46,7 @@ class Case:
 
 
 class Waves:
-    """Waves of cases on all axes of a lab. With `rate`, the low time is half of an interval, or W."""
+    """Waves of cases on all axes of a lab. `rate` sets the low time: half of an interval, or W."""
 
     def __init__(self, lab: Lab, rate: int) -> None:
         self.lab, self.rate, self.done = lab, rate, 0
@@ -163,8 +163,8 @@ async def bank_mot_02_pins_around_slower_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-GRP-04", "BANK-WIN-07", builds=(B4, B8, B32, F100))
 async def bank_grp_04_stop_around_pulses(dut):
-    """STOP with g + 1 at -2 to +2 cycles around a pulse of all axes suppresses exactly the pulses at g
-    + 1 or later (BANK-GRP-04).
+    """STOP with g + 1 at -2 to +2 cycles around a pulse of all axes suppresses exactly the pulses at
+    g + 1 or later (BANK-GRP-04).
     """
     lab = await Lab.start(dut)
     waves = Waves(lab, 2)

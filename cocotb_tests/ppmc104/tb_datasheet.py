@@ -151,8 +151,8 @@ async def p104_ds_03_clock_of_the_c_event(dut):
 
 @directed("P104-DS-05", builds=(D16,))
 async def p104_ds_05_long_triangles(dut):
-    """With PA = 300, the delay of pulse 1 is proportional to N only for D below 2·PA: tried with D =
-    599, 600, 300 (P104-DS-05).
+    """With PA = 300, the delay of pulse 1 is proportional to N only for D below 2·PA: tried with
+    D = 599, 600, 300 (P104-DS-05).
     """
     lab = await Sheet.start(dut, (0x0A, 40, 9, 300))
     for n, first in ((600, 3200 + 123 * 600 // 16), (601, 3200), (301, 3200 + 123 * 301 // 16)):
