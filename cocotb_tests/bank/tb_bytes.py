@@ -9,7 +9,7 @@ from .lab import DATA, INIT_A, STATUS, Lab
 
 UNDEFINED, WHILE_BUSY, NOT_READY, NOT_WANTED = 0, 1, 2, 3
 LONG = (0x0A, 255, 1, 4)
-"""Its table takes longest to build."""
+"""Initialisation with the longest table build."""
 ERROR = 0x80
 PARAMETERS = {3: 3, 4: 4, 5: 1, 7: 1}
 
@@ -111,7 +111,7 @@ async def bank_hsk_05_axes_do_not_wait(dut):
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_queue(dut):
-    """Each data read returns the next of three answer bytes; it acts on edge 2 after its strobe
+    """The end of each data read loads the next of three answer bytes, on edge 2 after its strobe
     (BANK-HSK-04).
     """
     lab = await Lab.start(dut)

@@ -47,7 +47,7 @@ async def bank_grp_01_mask_of_a_start(dut):
         for early in (6, 5, 4):
             await lab.mask(*([] if byte else [3]))
             visit = axis.visit(lab.bench.now + 100)
-            # Both writes do not fit into one round of 8 cycles: the operation's byte is written as early
+            # The two writes do not fit into one round of 8 cycles: the operation's byte is written as early
             # as possible.
             lab.at_event(visit - early - 7, axis.n << 4 | STATUS, 0x42)
             lab.at_event(visit - early, MASK, byte)

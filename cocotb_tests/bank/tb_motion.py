@@ -218,7 +218,7 @@ async def bank_mot_05_only_the_first_request(dut):
         await axis.idle()
         axis.set(l3_n=1)
         lab.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
-    # While pout_n is high, and in its low time, which an end waits for.
+    # Both while pout_n is high and during its low time, which delays an end of the motion.
     for early, plus in product((7, 6, 5, 4, 3, 2), (100, 0)):
         await axis.go(0x46)
         await axis.pulse(6, plus)

@@ -1,4 +1,4 @@
-"""ppmc_board_reset and ppmc_board_lamp against their headers."""
+"""Contracts of ppmc_board_reset and ppmc_board_lamp, as their headers state them."""
 
 from __future__ import annotations
 

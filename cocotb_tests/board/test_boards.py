@@ -23,8 +23,8 @@ ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"
 RTL = ROOT / "rtl" / "boards"
 # One C++ file, because the make file of the wheel cannot use the header that several files share. Start
-# values 0, as in an FPGA: they make the power-on reset of the top, and no pin can output an edge of reset
-# before the first rising edge of `clk`.
+# values 0, as in an FPGA: they make the power-on reset of the top, which has no pin that could make an edge
+# of its reset before the first rising edge of `clk`.
 ARGS = ("--output-split", "0", "--x-initial", "0")
 SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
 

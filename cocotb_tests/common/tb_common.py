@@ -79,7 +79,7 @@ def unit(dut, name: str, watch: str) -> Unit:
 
 @cocotb.test()
 async def sync_two_stages(dut):
-    """q1 follows a random level by one edge, q2 by two; during reset both are ResetVal."""
+    """A level is on q1 after the edge that samples it, on q2 one cycle later; in reset both are ResetVal."""
     rand, u = rng(), unit(dut, "sync", "q1_o q2_o")
     await u.reset(d_i=0)
     past = [0b10110, 0b10110]

@@ -124,7 +124,7 @@ def course() -> Iterator[tuple[int, int]]:
 
 
 async def played(dut: object, number: int, stretch: int = 0) -> Lines:
-    """Run a course on one instance."""
+    """Run `course` on one instance; return the lines."""
     u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
     lines = Lines(stretch)
     await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=NONE)

@@ -21,7 +21,7 @@ async def waits_for_an_edge(dut):
 
 @cocotb.test()
 async def polls(dut):
-    """Poll an output that never rises after each cycle, in a separate function."""
+    """After each cycle, poll an output that never rises, in a separate function."""
     u = Unit(dut, "sync", BLOCKS, "q2_o", 3_000)
 
     async def risen() -> None:

@@ -289,7 +289,7 @@ async def ramp_seq_walks(dut):
 
 @cocotb.test()
 async def ramp_seq_longest(dut):
-    """The longest ramp that the table can hold is accelerated, held and decelerated correctly."""
+    """A move on the longest ramp of the table accelerates, holds its speed and decelerates correctly."""
     rand = rng()
     u = Unit(dut, "wide", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()

@@ -164,8 +164,8 @@ async def p104_fsm_01_table(dut):
 
 @directed("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
 async def p104_fsm_01_stops(dut):
-    """In each state, the two stops stop, set the flag, return an error or have no effect, as the table
-    states (P104-FSM-01).
+    """In each state, a stop command ends the motion, sets the flag, returns an error or has no effect, as
+    the table states (P104-FSM-01).
     """
     lab = await Lab.start(dut, None)
     for state in ("UNINIT", "READY"):

@@ -172,7 +172,7 @@ class Lab:
         self.check(rule, "outputs in reset", levels, {name: reset[name] for name in names})
 
     def quiet(self, rule: str, since: int, *others: str) -> None:
-        """Check that no motor pin and not int_n changed since that edge; `others` are further outputs."""
+        """Check that neither a motor pin nor int_n changed since that edge; `others` are further outputs."""
         names = ("pout_n", "dir", "hold", "s1_n", "s2_n", "int_n", *others)
         moved = {name: edges for name in names if (edges := self.bench.edges(name, since))}
         self.check(rule, f"edges of outputs since {since}", moved, {})

@@ -23,7 +23,11 @@ REGULAR, SETTING, CONSTANT = 35, 71_000, 38
 def detection(processing: int, first: int, second: int, period: int = 0) -> int:
     """Return T_max of the data sheet (2.6), the longest time to detect a limit, in us.
 
-    processing: Ti; first, second: T1, T2 of the axes in us; period: of the pulses in us, 0: no pulses.
+    Args:
+        processing: Ti in us.
+        first: T1 of the first axis in us.
+        second: T2 of the second axis in us.
+        period: period of the pulses in us; 0: no pulses.
     """
     cycle = REGULAR + processing
     interrupts = ceil(cycle / (period - (first + second))) if period else 0

@@ -146,7 +146,7 @@ async def p2104_bck_01_intervals(dut: Any) -> None:
 
 @directed("P2104-BCK-02", "P2104-BAD-20", "P2104-BCK-05", "P2104-LIM-08")
 async def p2104_bck_02_csel_latched(dut: Any) -> None:
-    """If csel toggles during motions of both axes, only the level of the own pin at the start applies
+    """If csel toggles during motions of both axes, only the level of the axis's own pin at the start applies
     (P2104-BCK-02).
     """
     lab = await Lab.start(dut)

@@ -83,7 +83,7 @@ async def messages_answer_form(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_events(dut):
-    """Events are off at first. Enabled, each fall of int_n causes one, and so does enabling while int_n
+    """Events are off at first. When enabled, each fall of int_n causes one, and so does enabling while int_n
     is low; disabling discards them (UB-MSG-01, UB-MSG-02).
     """
     bench = await Bench.start(dut)
