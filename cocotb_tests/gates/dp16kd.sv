@@ -2,10 +2,10 @@
 // DP16KD: simulation model of the block RAM of the ECP5, in the modes that this project uses. The model
 //         library of yosys has only its ports. Any other mode ends the elaboration with an error.
 // Rules:  two ports, 1 to 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of
-//         their addresses. The word address begins at AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4), AD1 (2)
-//         or AD0 (1). With 36 bits AD0 to AD3 enable the bytes of a write, with 18 bits AD0
-//         and AD1. With 36 bits port A only writes (DIB, DIA) and port B only reads: 36 bits to DOB and DOA,
-//         fewer to DOB.
+//         their addresses. The word address begins at AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4),
+//         AD1 (2) or AD0 (1). With 36 bits AD0 to AD3 enable the bytes of a write, with 18 bits AD0 and AD1.
+//         With 36 bits port A only writes (DIB, DIA) and port B only reads: 36 bits to DOB and DOA, fewer
+//         to DOB.
 // Timing: read data is valid after the rising edge of the clock. A port that writes keeps its output
 //         (NORMAL), outputs the new word (WRITETHROUGH) or the old one (READBEFOREWRITE).
 `default_nettype none

@@ -12,7 +12,7 @@ from .lab import WRITE_EVENT, Lab
 
 @directed("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
 async def stmc_ac_35_interrupt(dut: Any) -> None:
-    """With bit 4 a motion does not assert int_n, without it it does; only 80 releases it (AC-35)."""
+    """A motion asserts int_n only without bit 4, and only 80 releases int_n (AC-35)."""
     lab = await Lab.start(dut)
     await lab.move(0x53, 1)
     lab.check("AC-35", "edges of int_n", lab.bench.edges("int_n"), [])

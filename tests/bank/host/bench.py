@@ -59,7 +59,7 @@ def pulses(bank: PpmcBank) -> dict[int, list[int]]:
 
 
 def at(link: Link, number: int, script: Script) -> Script:
-    """Access an axis as another program does: it selects the axis without the knowledge of the driver."""
+    """Access an axis as another program does: it selects the axis unknown to the driver."""
     whole = Script().write(3, number - 1).extend(script)
     link.execute(whole)
     return whole
