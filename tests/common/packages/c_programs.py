@@ -92,7 +92,7 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
     command += ["--output-split", "0", "--Mdir", relative(folder), "--top-module", top, "-o", "program"]
     command += [f"-I{relative(path)}" for path in design.includes]
     command += [*map(relative, design.sources), *params, *map(str, objects), relative(sources[-1])]
-    command += ["-CFLAGS", f"-I{BENCH} -O2"]
+    command += ["-CFLAGS", f"-I{BENCH} -O1"]
     made_of = _digest(command, [*sources, *design.sources])
     with locked(BUILD / f"{name}.lock"):
         done = folder / "digest"
