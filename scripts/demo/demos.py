@@ -37,7 +37,7 @@ class View:
 class Demo:
     """One demo of PART=`name`, which runs on `part`.
 
-    `picture` returns the content of the standard picture; `own` draws another picture instead. `config`: build.
+    `picture` returns the content of the standard picture; `own` draws another one. `config`: its build.
     `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves.
     """
 

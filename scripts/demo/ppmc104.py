@@ -54,7 +54,7 @@ def zooms(
         "limit stop",
         press - 330 * us,
         press + 170 * us,
-        f"no pulse after L1; INT {done - press} clk later, until the finish status is read",
+        f"no pulse after L1; INT {done - press} cycles later, until the finish status is read",
         marks=[(press, "L1 closes")],
         spans=spans(before, clk_hz),
     )

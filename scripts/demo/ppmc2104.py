@@ -93,7 +93,7 @@ def limit(pulses: Mapping[int, list[int]], outputs: Levels, press: int, clk_hz: 
         "limit of axis 1",
         press - 330 * us,
         press + 400 * us,
-        f"no pulse of axis 1 after FL1; INT {done - press} clk later; axis 2 continues",
+        f"no pulse of axis 1 after FL1; INT {done - press} cycles later; axis 2 continues",
         marks=[(press, "FL1 closes")],
         spans=spans(before, clk_hz),
     )

@@ -59,7 +59,7 @@ def stop(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Sect
         "stop limit in the deceleration ramp",
         before[0] - 150 * us,
         press + 600 * us,
-        f"no step after L1; IRQ {end - press} clk later, until the finish status is read",
+        f"no step after L1; IRQ {end - press} cycles later, until the finish status is read",
         marks=[(press, "L1 closes")],
         spans=spans(before, clk_hz),
     )

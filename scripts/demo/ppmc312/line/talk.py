@@ -92,7 +92,7 @@ def as_text(frame: bytes) -> str:
 
 
 def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
-    """Return exchanges of rows (begin, end, "master" or "station", characters in hexadecimal), in time order."""
+    """Return exchanges from rows (begin, end, "master" or "station", hexadecimal characters) by time."""
     found: list[Exchange] = []
     for begin, end, who, text in talk:
         begin, end, data = int(begin), int(end), bytes.fromhex(str(text))
