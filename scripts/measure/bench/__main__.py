@@ -1,7 +1,7 @@
-"""`make bench`: how fast a demo simulates on each side; for the PPMC-104 the virtual board and commands, too.
+"""`make bench`: simulation speed of a demo on each side; for the PPMC-104 also virtual board and commands.
 
-The figures go between their markers of docs/benchmarks.md: seconds, which are those of one machine and its
-load, and ratios of one run, which repeat.
+The figures are written between their markers in docs/benchmarks.md: seconds, which depend on the machine and
+its load, and ratios of one run, which are repeatable.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from scripts.measure.bench.sides import LABELS, PLAIN, Times, turns
 from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
-HEADS = ["side", "clk", "output edges", "seconds", "clk / s", "time, Verilator alone = 1"]
+HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
 
 
 def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
-    """A table in the terminal and, with `text` above it, in docs/benchmarks.md."""
+    """Print a table and write it, with `text` above it, to docs/benchmarks.md."""
     table = Table(title=title, title_justify="left")
     for index, head in enumerate(heads):
         table.add_column(head, justify="right" if index else "left")
@@ -39,7 +39,7 @@ def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[li
 
 
 def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
-    """What the turns of a demo's run took, and its rows."""
+    """Measure the turns of a demo's run; return the times and the rows of the table."""
     times = None
     console.print("building …")
     for run, times in enumerate(turns(demo, RUNS), 1):
@@ -61,12 +61,12 @@ def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
 
 
 def bench(name: str, demo: Demo) -> None:
-    """Measure and write all that there is for a part."""
+    """Measure and write all figures of a part."""
     times, rows = played(name, demo)
     mhz = int(str(times.recording.params["CLK_HZ"])) / 1e6
     text = (
-        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, start of the simulator included.\n"
-        "All sides make the same output edges. Seconds depend on the machine and on what else it does; the "
+        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, with the start of the simulator.\n"
+        "All sides make the same output edges. Seconds depend on the machine and its other load; the "
         f"last column is the median of the ratios in one turn. {machine()}."
     )
     if name == costs.PART:
@@ -83,7 +83,7 @@ def bench(name: str, demo: Demo) -> None:
             ]
         )
         text += (
-            " The virtual board runs as fast as it can, its motor turning; its clk / s are of processor time."
+            " The virtual board runs at full speed with a moving motor; its cycles / s are of processor time."
         )
         tell(
             "board",
@@ -95,10 +95,10 @@ def bench(name: str, demo: Demo) -> None:
         )
         tell(
             "costs",
-            "clk of commands",
-            "What a host waits for, counted at the pins of the PPMC-104 (FAST) with the shortest bus cycles: "
-            "from the end of the last data byte until the next command is carried out, and from the start of "
-            "a command until its last answer is read.",
+            "cycles of commands",
+            "Waiting times of a host, counted at the pins of the PPMC-104 (FAST) with the shortest accesses: "
+            "from the end of the last data byte until the next command is executed, and from the start of "
+            "a command until its last response byte is read.",
             costs.HEADS,
             costs.rows(costs.measure()),
         )
@@ -108,7 +108,7 @@ def bench(name: str, demo: Demo) -> None:
 
 
 def main() -> int:
-    """Command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m scripts.measure.bench", description=__doc__)
     parser.add_argument("--part", default="ppmc104")
     row = project.part(parser.parse_args().part)

@@ -16,11 +16,11 @@ from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
 SIDES = ("RTL in Verilator alone", "golden model, same pin changes")
-HEADS = ["side", "clk", "output edges", "seconds", "clk / s"]
+HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
-    """clk, output edges, seconds of each run of both sides. ProjectError if they do not make the same."""
+    """Return cycles, output edges, seconds of each run of both sides; ProjectError if the edges differ."""
     program = build()
     played = play()
     times: list[list[float]] = [[], []]
@@ -41,7 +41,7 @@ def measure() -> tuple[int, int, list[list[float]]]:
 
 
 def main() -> int:
-    """Measure, write docs/benchmarks.md."""
+    """Measure and write docs/benchmarks.md."""
     try:
         clk, edges, times = measure()
     except SimError as error:
@@ -52,7 +52,7 @@ def main() -> int:
         rows.append([side, f"{clk:,}", f"{edges:,}", f"{middle:.2f}", f"{clk / middle:,.0f}"])
     text = (
         f"{AXES} axes of a bank: the run of `make demo PART={NAME}` at {CLK_HZ / 1e6:g} MHz, median of "
-        f"{RUNS} runs, files of pin changes and edges included. Both sides make the same output edges. "
+        f"{RUNS} runs, including the files of pin changes and edges. Both sides make the same output edges. "
         f"{machine()}."
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(HEADS, rows))

@@ -1,4 +1,4 @@
-"""docs/coverage.md."""
+"""The page docs/coverage.md."""
 
 from __future__ import annotations
 
@@ -14,23 +14,26 @@ from scripts.measure.coverage.sums import LEFT_OUT, Sums, folder_of
 KINDS = (LINE, BRANCH, TOGGLE)
 HEAD = """# Coverage
 
-Written by `make coverage`: all simulations of `make test`, with builds in which Verilator counts. A point (a
-line, a way of a branch, a bit that rises or falls) is reached if any instance in any simulation reaches it;
-whether a test would notice a fault there, [mutants](mutants.md) tell. A figure without the points that are
-explained stands behind the one with all of them.
+`make coverage` writes this page.
+It runs all simulations of `make test` with builds in which Verilator counts.
+A point is a line, a path of a branch, or a rising or falling bit.
+It is covered if any instance in any simulation covers it.
+[Mutants](mutants.md) show whether a test would detect a fault there.
+A second figure, without the explained points, follows the figure for all points.
 
-Counting builds have copies of the sources in which Verilator counts `return` and packages right
-([how](testing.md#coverage)). Functions that only elaboration calls, below, are no points at all.
+Counting builds use copies of the sources in which Verilator counts `return` and packages correctly
+([how](testing.md#coverage)).
+Functions that only elaboration calls are listed below and have no points.
 """
 
 
 def percent(value: float) -> str:
-    """One digit behind the point; 100 % is said only of all."""
+    """Return a percentage with one decimal; 100 only if all points are covered."""
     return "100" if value == 100 else f"{min(value, 99.9):.1f}"
 
 
 def cell(sums: Sums, place: str, kind: str) -> str:
-    """Percentage, and how many are explained or open."""
+    """Return the percentage, and the numbers of explained and open points."""
     figure = sums.figure(place, kind)
     if not figure.all:
         return "–"
@@ -44,7 +47,7 @@ def cell(sums: Sums, place: str, kind: str) -> str:
 
 
 def folders(sums: Sums) -> Iterator[str]:
-    """Table of folders."""
+    """Yield the table of folders."""
     yield "| folder of rtl/ | " + " | ".join(KINDS) + " |"
     yield "|---" * (1 + len(KINDS)) + "|"
     for folder in sums.folders():
@@ -54,7 +57,7 @@ def folders(sums: Sums) -> Iterator[str]:
 
 
 def files(sums: Sums) -> Iterator[str]:
-    """Table of files that are not reached as a whole."""
+    """Yield the table of files that are not fully covered."""
     yield "| file | " + " | ".join(KINDS) + " |"
     yield "|---" * (1 + len(KINDS)) + "|"
     for folder in sums.folders():
@@ -64,7 +67,7 @@ def files(sums: Sums) -> Iterator[str]:
 
 
 def holes(sums: Sums) -> Iterator[str]:
-    """Each hole of lines and branches, with its reason."""
+    """Yield each hole of lines and branches, with its reason."""
     every = [hole for kind in (LINE, BRANCH) for hole in sums.holes(kind)]
     if not every:
         yield "None."
@@ -78,7 +81,7 @@ def holes(sums: Sums) -> Iterator[str]:
 
 
 def elaborated() -> Iterator[str]:
-    """The functions that are no points."""
+    """Yield the table of functions without points."""
     yield "| file | functions |"
     yield "|---|---|"
     names: dict[str, list[str]] = {}
@@ -90,7 +93,7 @@ def elaborated() -> Iterator[str]:
 
 
 def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
-    """One table; **0** has not been seen, – cannot be."""
+    """Yield one table; **0**: not seen, –: impossible."""
     yield f"| {table.name} | " + " | ".join(table.columns) + " |"
     yield "|---" * (1 + len(table.columns)) + "|"
     reasons: dict[str, None] = {}
@@ -109,7 +112,7 @@ def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
 
 
 def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
-    """The crosses of a part."""
+    """Yield the crosses of a part."""
     found: Crosses = part.load("crosses")
     yield f"### {part.title}\n"
     if not any(key.startswith(f"{part.name}\t") for key in counts):
@@ -126,18 +129,18 @@ def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
 
 
 def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool = False) -> str:
-    """The whole page, from so many of all tests; `old`: perhaps with earlier states of the sources."""
+    """Return the whole page, from `tests` of all tests; `old`: sources may have been in earlier states."""
     much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
-    much += " They ran at different times, some perhaps on earlier sources." if old else ""
+    much += " They ran at different times, some possibly with earlier sources." if old else ""
     lines = [HEAD, f"{much}\n", "## The RTL\n", *folders(sums)]
     lines += ["\n### Files with holes\n", *files(sums), "\n### Holes of lines and branches\n", *holes(sums)]
     lines += ["\n### Left out: functions that only elaboration calls\n"]
     lines += [
-        "Each call has constants alone, or stands in a parameter, a dimension, a generate block's head or"
+        "Each call has only constant arguments, or is in a parameter, a dimension, a generate block's head"
     ]
-    lines += ["such a function: no simulation runs them.\n", *elaborated()]
-    lines += ["\n## What the sheets cross\n"]
-    lines += ["Counted in the golden models that the simulations are compared with. A **0** was not seen.\n"]
+    lines += ["or such a function. No simulation runs these functions.\n", *elaborated()]
+    lines += ["\n## Crosses of the data sheets\n"]
+    lines += ["The golden models of the simulations count these combinations. **0**: not seen.\n"]
     for part in parts.having("crosses"):
         lines += of_part(part, counts)
     return "\n".join(lines).rstrip() + "\n"
