@@ -18,26 +18,27 @@ HEAD = """\
 For {revisions}: [revisions](../boards.md#revisions).
 
 Written by `make docs` from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change those, not this.
-A drawing, the levels and an order list for each part that the board carries. Why it is so, other drivers and
-switches: [boards.md](../boards.md#4-power-and-levels); before a winding is connected: [Before the motor
-turns](../boards.md#10-before-the-motor-turns). None of these was built by us.
+This page has a drawing, the levels and an order list for each part of the board.
+[boards.md](../boards.md#4-power-and-levels) gives the reasons and describes other drivers and switches.
+Before you connect a winding, read [Before the motor turns](../boards.md#10-before-the-motor-turns).
+This project has not built these circuits.
 
-- **Every pin of a header is 3.3 V and must never see more**: not 5 V, not the motor's supply, not through a
-  pull-up. 5 V and more are allowed on the right side of the drawings only, behind the shifter, buffer,
-  optocoupler or driver that is drawn.
-- {resistor} at a wire: from there to GND or 3.3 V, on the FPGA's side. It holds the line still while the
-  FPGA is not configured.
-- Take what your machine needs: a circuit without a machine behind it is left out, with its lines of the
-  order list. With `HOST=uart` nothing stands at the bus pins.
-- Order numbers are examples of parts that were sold when this was written; any part of the same type and
-  case does.
+- **Never apply more than 3.3 V to a header pin**: not 5 V, not the motor supply, not through a pull-up.
+  5 V and more are permitted only on the right side of the drawings, beyond the shifter, buffer,
+  optocoupler or driver.
+- {resistor} at a wire is a resistor to GND or 3.3 V on the FPGA's side.
+  It keeps the line stable while the FPGA is not configured.
+- Build only what your machine needs.
+  Omit unused circuits and their lines of the order list. With `HOST=uart`, leave the bus pins open.
+- Order numbers are examples of parts that were sold when this page was written.
+  Any part of the same type and package works.
 
 Contents: {contents}
 """
 
 
 def pages() -> dict[Path, bytes]:
-    """Path and content of every page and drawing."""
+    """Return path and content of every page and drawing."""
     files: dict[Path, bytes] = {}
     fitted = fitted_parts(load_all())
     for board in dict.fromkeys(one.board.name for one in fitted):
@@ -70,7 +71,7 @@ def _section(one: Fitted) -> str:
     rows += [f"![Wiring](img/{one.board.name}-{one.on.name}.svg)", ""]
     rows += ["| circuit | header pins | the other side |", "|---|---|---|"]
     rows += [_levels(use) for use in found]
-    rows += ["", "Order list, for all of it:", "", "| number | what | order number |", "|---:|---|---|"]
+    rows += ["", "Order list for all circuits:", "", "| quantity | item | order number |", "|---:|---|---|"]
     rows += [f"| {number} | {what} | {which} |" for number, what, which in order(found)]
     return "\n".join([*rows, ""])
 
