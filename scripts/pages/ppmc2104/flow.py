@@ -14,7 +14,7 @@ BOXES = {
     "over": Box(
         7.0,
         1.25,
-        "overwrite it with the stop\nwithout waiting; error 6,\nthe start is discarded",
+        "overwrite the code\nwith the stop, no waiting;\nerror 6, start discarded",
         "host",
         1.9,
         0.75,

@@ -1,4 +1,4 @@
-"""The timing diagrams of docs/stmc/README.md: what the golden model does on its pins."""
+"""The timing diagrams of docs/stmc/README.md, from the pins of the golden model."""
 
 from __future__ import annotations
 
