@@ -1,4 +1,7 @@
-"""The base of all errors that users see; most of them are in `host.errors`. What is not installed."""
+"""Base of all errors for users, and the check for missing libraries.
+
+Most errors are in `host.errors`.
+"""
 
 from __future__ import annotations
 
@@ -10,11 +13,18 @@ class PpmcError(Exception):
 
 
 class MissingExtraError(PpmcError):
-    """A library of an extra, such as `plot` or `ophyd`, is not installed. One line that says which."""
+    """A library of an extra, such as `plot` or `ophyd`, is not installed. One line with its name."""
 
 
 def needs(extra: str, what: str, *modules: str) -> None:
-    """Before the libraries of an extra are imported. what: begins the line. Raises MissingExtraError."""
+    """Check that the libraries of an extra are installed before they are imported.
+
+    Args:
+        what: begins the message.
+
+    Raises:
+        MissingExtraError: a library is missing.
+    """
     for module in modules:
         if find_spec(module) is None:
             raise MissingExtraError(

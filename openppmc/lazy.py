@@ -1,8 +1,8 @@
-"""Packages that import a name when it is first used (PEP 562).
+"""Packages that import a name at its first use (PEP 562).
 
-Such a package writes its imports out under `TYPE_CHECKING`, for type checkers and editors, and again as rows
-for this module; tests/common/test_lazy.py compares both with `__all__`. The modules of the package import
-each other and never the package, so that a name loads only the modules that it needs.
+Such a package has its imports twice: under `TYPE_CHECKING` for type checkers and editors, and as rows for
+this module. `tests/common/test_lazy.py` compares both with `__all__`. The modules of the package import each
+other and never the package, so a name loads only the modules that it needs.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from typing import Any
 def lazy(package: str, rows: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
     """Return `__getattr__` and `__dir__` of a package.
 
-    rows: lines of a module, relative to the package, and names in it; `PUBLIC=NAME` renames one. Names of
-    the module "." are modules themselves.
+    Args:
+        rows: lines of a module, relative to the package, and names in it; `PUBLIC=NAME` renames one. Names of
+            the module "." are modules themselves.
     """
     places = {}
     for module, *names in map(str.split, rows.strip().splitlines()):

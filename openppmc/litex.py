@@ -1,12 +1,18 @@
-"""A PPMC-104, or a bank of its axes, behind Wishbone in a SoC of LiteX. Needs the extra `litex`.
+"""A PPMC-104, or a bank of its axes, on the Wishbone bus of a LiteX SoC.
 
-from openppmc.litex import add_part
+Requires the extra `litex`.
 
-add_part(soc, "stepper", "/where/openppmc/is", pads=platform.request("stepper"))
+    from openppmc.litex import add_part
+    add_part(soc, "stepper", "/where/openppmc/is", pads=platform.request("stepper"))
 
-`sources` is a checkout of OpenPPMC, its archive openppmc-rtl (SystemVerilog, for Verilator and tools that
-read it), or a folder with the plain Verilog of a release (for yosys). The program finds the part by
-STEPPER_BASE in generated/mem.h and uses the project's C driver, docs/integration.md.
+`sources` is one of these folders:
+
+    - a checkout of OpenPPMC,
+    - its archive openppmc-rtl (SystemVerilog, for Verilator and other tools that read it),
+    - the plain Verilog of a release (for yosys).
+
+The program finds the part at STEPPER_BASE in generated/mem.h and uses the C driver of the project, see
+docs/integration.md.
 """
 
 from __future__ import annotations
@@ -29,19 +35,24 @@ from migen import ClockSignal, Instance, ResetSignal, Signal  # noqa: E402
 
 
 class SourcesError(PpmcError):
-    """No sources there, or plain Verilog with other parameters than these."""
+    """The sources are missing, or are plain Verilog with other parameters."""
 
 
 class PadsError(PpmcError):
-    """Pads with a name or width that the part does not have."""
+    """A pad has a name or width that the part does not have."""
 
 
 @dataclass(frozen=True)
 class Part:
-    """What is put into the SoC. address: the port with `bits` address lines; parameters: their defaults.
+    """A part that can be added to the SoC.
 
-    inputs: port -> level without a pad, all its bits alike; outputs. Widths: a number of bits, or a number
-    for each axis after *.
+    Attributes:
+        address: port with `bits` address lines.
+        parameters: parameters with their defaults.
+        inputs: name -> width and the level of all its bits without a pad.
+        outputs: name -> width.
+
+    A width is a number of bits, or `*` and a number of bits per axis.
     """
 
     top: str
@@ -53,7 +64,7 @@ class Part:
     outputs: Mapping[str, str]
 
     def width(self, text: str, parameters: Mapping[str, Any]) -> int:
-        """Bits of a port under these parameters."""
+        """Return the number of bits of a port with these parameters."""
         return int(text[1:]) * int(parameters["AXES"]) if text.startswith("*") else int(text)
 
 
@@ -81,13 +92,13 @@ PARTS = {
         {"s": "*5", "hold": "*1", "pout_n": "*1", "dir": "*1"},
     ),
 }
-"""Name -> what `add_part` can add. PHASE_IDLE: 0 if the drivers switch a coil on with H."""
+"""Name -> part for `add_part`. PHASE_IDLE: 0 if the drivers switch on a coil with H."""
 BRIDGE = "ppmc_wishbone"
 _BUILT_IN = re.compile(r"^//   (\w+) += (\S+)", re.M)
 
 
 def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
-    """SourcesError if a file of plain Verilog has other parameters than these."""
+    """Check the parameters of a file of plain Verilog. Raises SourcesError."""
     head = path.read_text(encoding="utf-8").partition("`default_nettype")[0]
     for name, value in _BUILT_IN.findall(head):
         has = re.sub(r"^\d+'[bd]", "", value)
@@ -99,7 +110,11 @@ def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
 
 
 def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapping[str, Any]) -> bool:
-    """Give the files to the platform, once each; whether their parameters are built in (plain Verilog)."""
+    """Add the files to the platform, each once.
+
+    Returns:
+        Whether their parameters are built in (plain Verilog).
+    """
     folder = Path(sources)
     listed = folder / "packages" / f"{part.files}.f"
     present = {entry[0] for entry in platform.sources}
@@ -127,11 +142,20 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
 
 
 class PpmcPart(LiteXModule):  # type: ignore[misc]
-    """A part and its Wishbone bridge: `bus`, `size` in bytes, the event `ev.finish` while int_n is low.
+    """A part and its Wishbone bridge.
 
-    platform: gets the sources. pads: a record whose fields are called as ports of the part; inputs without a
-    pad rest, outputs without one go nowhere. parameters: those of the part; CLK_HZ is the SoC's clock, 8 …
-    200 MHz. The register map is in docs/integration.md. Raises SourcesError and PadsError.
+    The module has `bus`, `size` in bytes, and the event `ev.finish` while `int_n` is low. The register map is
+    in docs/integration.md.
+
+    Args:
+        platform: receives the sources.
+        pads: record whose fields have the names of ports of the part. Inputs without a pad have their idle
+            level; outputs without a pad are open.
+        parameters: parameters of the part. CLK_HZ is the clock of the SoC, 8 to 200 MHz.
+
+    Raises:
+        SourcesError: sources are missing or have other parameters.
+        PadsError: a pad does not match the part.
     """
 
     def __init__(
@@ -199,7 +223,7 @@ class PpmcPart(LiteXModule):  # type: ignore[misc]
 
     @staticmethod
     def _pins(of: Part, pads: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Ports of the instance that go to pads, or rest."""
+        """Return the ports of the instance, connected to pads or to idle levels."""
         found = {}
         named = {} if pads is None else {field[0]: getattr(pads, field[0]) for field in pads.layout}
         for name, (text, level) in of.inputs.items():
@@ -230,10 +254,17 @@ def add_part(
     origin: int | None = None,
     **parameters: Any,
 ) -> PpmcPart:
-    """Put a part into a SoC with a Wishbone bus, with its interrupt if the CPU has interrupts; the module.
+    """Add a part to a SoC with a Wishbone bus, with its interrupt if the CPU has interrupts.
 
-    name: of the module, of its region (NAME_BASE in generated/mem.h) and its interrupt (NAME_INTERRUPT).
-    origin: its address, uncached; without it LiteX finds one. The rest as PpmcPart takes it.
+    Args:
+        name: name of the module, of its region (NAME_BASE in generated/mem.h) and of its interrupt
+            (NAME_INTERRUPT).
+        origin: address, not cached; without it LiteX selects one.
+
+    Other arguments are those of `PpmcPart`.
+
+    Returns:
+        The module.
     """
     module = PpmcPart(soc.platform, soc.sys_clk_freq, sources, part, pads, **parameters)
     soc.add_module(name, module)

@@ -1,4 +1,6 @@
-"""An axis of any part as a positioner of ophyd, for plans of bluesky. Needs the extra `ophyd`.
+"""An axis of any part as a positioner of ophyd, for plans of bluesky.
+
+Requires the extra `ophyd`.
 
 from openppmc.host import open_part
 from openppmc.ophyd import PpmcPositioner
@@ -29,24 +31,33 @@ needs("ophyd", "openppmc.ophyd", "ophyd")
 from ophyd import SoftPositioner  # noqa: E402
 
 POLL = 0.03
-"""Seconds of the board between two looks at a motion."""
+"""Time between two polls of a motion, in seconds of the board."""
 FREE = 0.01
-"""Seconds after each look for the other threads that want the port: locks serve nobody in turn."""
+"""Pause in seconds after each poll, so that other threads can use the port.
+
+A lock has no queue.
+"""
 
 _locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()
 
 
 class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
-    """One axis of a part, of a bank, or a station of a line.
+    """One axis of a part or of a bank, or a station of a line.
 
-    device: what holds the port, opened, its axis initialised; it must outlive the positioner. axis: its
-    number, from 1 on, or the station. pulses_per_unit: of `egu`, negative if CW counts down. limits: soft
-    limits in `egu`, (0, 0) for none; switches of the machine end a motion whatever these say. OutOfRange for
-    an axis that there is not, or a number that is none. Other arguments are those of ophyd.
+    `set` returns a Status immediately. The Status fails with the error of the driver: LimitReached,
+    AlarmStop, StoppedEarly, Disconnected and others. Positioners of one device can move at the same time, and
+    any thread can call them. Other code must not use the device during this time.
 
-    `set` returns a Status at once. It fails with what the driver raises: LimitReached, AlarmStop,
-    StoppedEarly, Disconnected … Positioners of one device may move at the same time and be asked from any
-    thread; nobody else may use the device meanwhile.
+    Args:
+        device: the opened device with the port, its axis initialised; it must exist as long as the
+            positioner.
+        axis: number of the axis from 1 on, or the station.
+        pulses_per_unit: pulses per `egu`, negative if the position decreases with CW.
+        limits: soft limits in `egu`, (0, 0) for none. Switches of the machine end a motion in any case.
+        others: arguments of ophyd.
+
+    Raises:
+        OutOfRange: the axis does not exist, or a number is not finite.
     """
 
     def __init__(
@@ -73,7 +84,10 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
 
     @property
     def position(self) -> float:
-        """Where the axis is, in `egu`: the part is asked. If the port has gone, where it was last."""
+        """Position of the axis in `egu`, read from the part.
+
+        If the port is lost, it is the last known position.
+        """
         try:
             return self._ask()
         except LinkError:
@@ -82,39 +96,47 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             return float(self._position)
 
     def read(self) -> Any:
-        """As ophyd's; the port has to be there."""
+        """Read as ophyd does; the port must be connected."""
         self._ask()
         return super().read()
 
     @property
     def moving(self) -> bool:
-        """Whether a motion of this positioner is under way."""
+        """Whether a motion of this positioner is in progress."""
         return bool(self._moving)
 
     def check_value(self, pos: float) -> None:
-        """OutOfRange for what is no finite number, ophyd's LimitError outside the soft limits."""
+        """Check a position.
+
+        Raises:
+            OutOfRange: it is not a finite number.
+            LimitError: it is outside the soft limits (error of ophyd).
+        """
         super().check_value(_number(pos, "position"))
 
     def move(
         self, position: float, wait: bool = True, timeout: float | None = None, moved_cb: Any = None
     ) -> Any:
-        """Move with ramps to the pulse nearest to a position in `egu`; ophyd's Status. NotWhileBusy while
-        another move of this positioner is under way."""
+        """Move with ramps to the pulse nearest to a position in `egu`; return a Status of ophyd.
+
+        Raises:
+            NotWhileBusy: another move of this positioner is in progress.
+        """
         if self._moving:
             raise NotWhileBusy(0, f"{self.name} is moving: wait for its Status, or stop it")
         return super().move(position, wait=wait, timeout=timeout, moved_cb=moved_cb)
 
     def stop(self, *, success: bool = False) -> None:
-        """Decelerate, if a move of this positioner is under way. success: its Status counts as done."""
+        """Decelerate, if a move of this positioner is in progress. success: its Status counts as done."""
         self._stopped_well = success
         with self._lock:
             if self._moving:
                 try:
                     self._axis.stop(wait=False)
                 except NothingToStop:
-                    pass  # it has just come to rest
+                    pass  # it has just stopped
 
-    # ------------------------------------------------------------------ inside
+    # ------------------------------------------------------------------ internal
 
     def _ask(self) -> float:
         with self._lock:
@@ -137,7 +159,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             threading.Thread(target=self._watch, args=(motion, status), name=self.name, daemon=True).start()
 
     def _watch(self, motion: AnyMotion, status: Any) -> None:
-        """Tell where it is until it has ended."""
+        """Report the position until the motion has ended."""
         try:
             while True:
                 with self._lock:
@@ -158,7 +180,10 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             self._over(status)
 
     def _over(self, status: Any, error: Exception | None = None) -> None:
-        """The move has ended, and its Status hears of it: last, since the next move may begin at once."""
+        """Finish the move.
+
+        The Status is set last, because the next move may begin immediately.
+        """
         self._reset_sub(self._SUB_REQ_DONE)
         if error is not None:
             self._moving = False
@@ -171,7 +196,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
 
 
 def _axis(device: Device, number: int) -> Any:
-    """An axis of a part by its number, or a station of a line."""
+    """Return an axis of a part by its number, or a station of a line."""
     station = getattr(device, "axis", None)
     if callable(station):
         return station(number)

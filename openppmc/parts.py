@@ -1,18 +1,17 @@
-"""The one table of parts: where the things of each are, never how they work. Source: docs/architecture.md.
+"""Table of all parts: the places of the modules and files of each part.
 
-Needs the standard library only and imports nothing of the project, so that `make` can ask it before there is
-an environment:
+Source: docs/architecture.md. This module needs only the standard library and imports nothing of the project,
+so that `make` can read the table before there is an environment:
 
-    python3 openppmc/parts.py names                      all parts; those …
-    python3 openppmc/parts.py names --with COLUMN …      … that have something in each of these columns
-    python3 openppmc/parts.py names --any COLUMN …       … in one of them at least
-    python3 openppmc/parts.py names --folders            … with folders of their own
-    python3 openppmc/parts.py names --tops               … with a top module of their own
-    python3 openppmc/parts.py show NAME                  one row, a column a line
+    python3 openppmc/parts.py names                      all parts
+    python3 openppmc/parts.py names --with COLUMN …      parts with an entry in each of these columns
+    python3 openppmc/parts.py names --any COLUMN …       parts with an entry in at least one of them
+    python3 openppmc/parts.py names --folders            parts with their own folders
+    python3 openppmc/parts.py names --tops               parts with their own top module
+    python3 openppmc/parts.py show NAME                  one row, one column per line
 
-Places in the columns of LAYER_OF are "module:name" below the part's folder in that layer, or ":name" if the
-part is a module there; `load` imports them
-when they are asked for. view: what it shows on the command line; words: those of its own in script files.
+A place in a column of LAYER_OF is "module:name" below the part's folder in that layer, or ":name" if the part
+is a module there. `load` imports it when a program calls it.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from typing import Any
 
 
 class UnknownPartError(ValueError):
-    """A name or number that is not in the table, or a part without what was asked for. One line."""
+    """A name or number is not in the table, or a part has no entry in a column. One line."""
 
 
 LAYER_OF = {
@@ -49,23 +48,33 @@ LAYER_OF = {
 
 @dataclass(frozen=True)
 class Row:
-    """One part, or another one in a frame (`of`), which lives in that one's folder.
+    """One part, or a variant of a part (`of`) with the folder of that part.
 
-    name: `PART=`, `--part`, `part=` and the folder in every layer. title: in messages, on pages and pictures.
-    of: the part whose folder it shares and whose columns it takes over where it has none of its own (but for
-    those in OWN). number: of the part behind the UART bridge (IDENT), 0: not behind it. axes: how many it has
-    there, at most. rules: prefixes of its rule IDs; the first has subjects (P104-CMD-07), another only
-    numbers (J105-07).
-    rtl: group in rtl/files.yml. top: its top module. families: FPGA families it is made for.
-    docs: pages of its folder in docs/ beside README.md and traceability.md. manual: what is drawn and
-    computed for them. selftest: what `openppmc selftest` makes its board do.
-    carrier: there is a <part>_carrier, so a virtual board and bitstreams. line: stations
-    on a serial line, with commands of its own.
-    decode: how captures of it are read.
-    demo: what `make demo` plays, or a function that plays it. bench: plays it for `make bench`, if not one
-    on the pins of a part. soak: who plays a seed for `make soak`.
-    gates: which tests `make test-gates` and `make test-verilog` run. crosses: what `make coverage`
-    counts in its golden model.
+    Attributes:
+        name: `PART=`, `--part`, `part=` and the folder in every layer.
+        title: name in messages, on pages and pictures.
+        of: part whose folder it shares. It also uses the entries of that part where its own are empty, except
+            those in OWN.
+        number: number of the part on the UART bridge (IDENT); 0 = not on the bridge.
+        axes: largest number of axes there.
+        rules: prefixes of its rule IDs. The first has subjects (P104-CMD-07); others have only numbers
+            (J105-07).
+        rtl: group in rtl/files.yml.
+        top: its top module.
+        families: FPGA families for which it is built.
+        view: its output on the command line.
+        words: its own words in script files.
+        docs: pages of its folder in docs/ in addition to README.md and traceability.md.
+        manual: drawings and calculations for these pages.
+        selftest: actions of its board in `openppmc selftest`.
+        carrier: there is a <part>_carrier, so there are a virtual board and bitstreams.
+        line: the part is a station on a serial line with commands of its own.
+        decode: decoder of its captures.
+        demo: content of `make demo`, or a function that runs it.
+        bench: function for `make bench`, for parts without a bench on pins.
+        soak: function that runs a seed for `make soak`.
+        gates: tests of `make test-gates` and `make test-verilog`.
+        crosses: crosses that `make coverage` counts in its golden model.
     """
 
     name: str
@@ -102,7 +111,7 @@ class Row:
         return self.of or self.name
 
     def load(self, column: str) -> Any:
-        """What the place in this column names; UnknownPartError if the part has none."""
+        """Return the object at the place in this column. Raises UnknownPartError if the part has none."""
         place: str = getattr(self, column)
         if not place:
             raise UnknownPartError(f"part {self.name} has no {column}")
@@ -280,11 +289,14 @@ OWN = (
     *("name", "of", "number", "rules", "docs", "manual", "carrier", "line", "selftest"),
     *("demo", "bench", "soak", "gates", "crosses", "decode"),
 )
-"""Columns that a row does not take from the one it is `of`."""
+"""Columns that a row does not use from the row in `of`."""
 
 
 def _filled(row: Row) -> Row:
-    """The row with what it takes from the part it is `of`, and group and top module by its name."""
+    """Return the row with the entries of the part in `of`.
+
+    Group and top module have the name of the row by default.
+    """
     if row.of:
         other = _filled(next(known for known in ROWS if known.name == row.of))
         empty = [f.name for f in fields(row) if f.name not in OWN and not getattr(row, f.name)]
@@ -293,18 +305,18 @@ def _filled(row: Row) -> Row:
 
 
 PARTS: dict[str, Row] = {row.name: _filled(row) for row in ROWS}
-"""Every row by its name, in the order in which parts are listed."""
+"""All rows by name, in the order in which parts are listed."""
 
 
 def part(name: str) -> Row:
-    """The row of this name; UnknownPartError lists the names that there are."""
+    """Return the row of this name. Raises UnknownPartError, which lists the names."""
     if name not in PARTS:
         raise UnknownPartError(f"part {name}: there is no such part (there are {', '.join(PARTS)})")
     return PARTS[name]
 
 
 def having(*columns: str) -> tuple[Row, ...]:
-    """The rows that have something in all of these columns. UnknownPartError for an unknown column."""
+    """Return the rows with entries in all of these columns. Raises UnknownPartError."""
     known = [f.name for f in fields(Row)]
     for column in columns:
         if column not in known:
@@ -313,22 +325,22 @@ def having(*columns: str) -> tuple[Row, ...]:
 
 
 def folders() -> tuple[Row, ...]:
-    """The parts with folders of their own."""
+    """Return the parts with their own folders."""
     return tuple(row for row in PARTS.values() if not row.of)
 
 
 def tops() -> tuple[Row, ...]:
-    """The parts with a top module of their own, those in another one's folder among them."""
+    """Return the parts with their own top module, including those in the folder of another part."""
     return tuple(row for row in PARTS.values() if not row.of or row.top != PARTS[row.of].top)
 
 
 def by_number(number: int) -> Row | None:
-    """The part that tells this number over the UART bridge, or None."""
+    """Return the part with this number on the UART bridge, or `None`."""
     return next((row for row in having("number") if row.number == number), None)
 
 
 def _chosen(options: list[str]) -> tuple[Row, ...] | None:
-    """The rows that the options of `names` choose; None for options that there are not."""
+    """Return the rows that the options of `names` select; `None` for unknown options."""
     if not options:
         return tuple(PARTS.values())
     if options in (["--folders"], ["--tops"]):
@@ -342,7 +354,7 @@ def _chosen(options: list[str]) -> tuple[Row, ...] | None:
 
 
 def main(arguments: list[str]) -> int:
-    """Command line, for make and shell scripts; returns the exit code."""
+    """Run the command line, for make and shell scripts; return the exit code."""
     try:
         rows = _chosen(arguments[1:]) if arguments[:1] == ["names"] else None
         if rows is not None:

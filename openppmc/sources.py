@@ -1,10 +1,10 @@
-"""Reads rtl/files.yml, the one list of RTL sources, for the virtual board without a YAML package.
+"""Reader of rtl/files.yml, the list of all RTL sources. It needs no YAML package.
 
-The file has one form only, and what is not in it is refused:
+The file has only this form; any other line is an error:
 
     group:
-      about: what it is, one line
-      needs: [groups whose modules and packages its files name]
+      about: description, one line
+      needs: [groups whose modules and packages its files use]
       files:
         - path below rtl/
 """
@@ -23,17 +23,20 @@ LIST = "rtl/files.yml"
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
 _OWN = re.compile(r"^\s*(?:module|package|interface)\s+(?:automatic\s+|static\s+)?(\w+)", re.M)
 
-# A package before `::`, a module before its parameters or its instance's name.
+# A package before `::`, a module before its parameters or before the name of its instance.
 _USED = re.compile(r"\b(\w+)(?=\s*::|\s*#\s*\(|\s+\w+\s*\()")
 
 
 class SourcesError(PpmcError):
-    """The list is missing or wrong, or names what is not there. One line."""
+    """The list is missing or wrong, or has a name that does not exist. One line."""
 
 
 @dataclass(frozen=True)
 class Group:
-    """One group of the list: what it is, the groups that its files name, its files in compile order."""
+    """One group of the list.
+
+    It has a description, the groups that its files use, and its files in compile order.
+    """
 
     name: str
     about: str
@@ -42,9 +45,10 @@ class Group:
 
 
 def groups(root: Path) -> dict[str, Group]:
-    """All groups of the checkout `root`, in compile order; paths are absolute.
+    """Return all groups of the checkout `root`, in compile order; paths are absolute.
 
-    SourcesError if the list is missing or a line of it has another form than it should.
+    Raises:
+        SourcesError: the list is missing, or a line has another form.
     """
     listing = root / LIST
     if not listing.is_file():
@@ -73,7 +77,7 @@ def groups(root: Path) -> dict[str, Group]:
 
 
 def needed(listed: Mapping[str, Group], *names: str) -> list[str]:
-    """These groups and all that they need, in compile order. SourcesError for a name that is no group."""
+    """Return these groups and all groups that they need, in compile order. Raises SourcesError."""
     found, todo = set[str](), list(names)
     while todo:
         name = todo.pop()
@@ -86,7 +90,11 @@ def needed(listed: Mapping[str, Group], *names: str) -> list[str]:
 
 
 def files(listed: Mapping[str, Group], *names: str) -> list[Path]:
-    """Files of these groups and of all that they need, in compile order. SourcesError if one is missing."""
+    """Return the files of these groups and of all groups that they need, in compile order.
+
+    Raises:
+        SourcesError: a file is missing.
+    """
     found = [path for name in needed(listed, *names) for path in listed[name].files]
     if missing := [path.name for path in found if not path.is_file()]:
         raise SourcesError(f"{LIST} lists files that do not exist: {', '.join(missing)}")
@@ -97,7 +105,11 @@ DIGEST_BYTES = 4
 
 
 def digest(root: Path, *names: str) -> bytes:
-    """What tells the sources of these groups and their needs from others: 4 bytes. SourcesError."""
+    """Return the digest (4 bytes) of the sources of these groups and their needs.
+
+    Raises:
+        SourcesError: a file is missing.
+    """
     sha = hashlib.sha256()
     for path in [*files(groups(root), *names), *sorted((root / "rtl/common").glob("*.svh"))]:
         sha.update(path.name.encode() + b"\0" + path.read_bytes().replace(b"\r", b"") + b"\0")
@@ -107,22 +119,29 @@ def digest(root: Path, *names: str) -> bytes:
 def build_id(
     version: str, source: bytes, commit: bytes = b"", changed: bool = False, board: str = ""
 ) -> bytes:
-    """What a bitstream tells of itself, 16 bytes (UB-VER-01). commit: its first bytes; board: 4 letters."""
+    """Return the build ID of a bitstream, 16 bytes (UB-VER-01).
+
+    Args:
+        source: digest of the sources.
+        commit: first bytes of the commit.
+        changed: the sources have uncommitted changes.
+        board: 4 letters.
+    """
     numbers = bytes(int(word) for word in version.split(".")[:3])
     words = (numbers + bytes([changed]), source, commit[:DIGEST_BYTES], board.encode("ascii"))
     return b"".join(word.ljust(4, b"\0")[:4] for word in words)
 
 
 def build_define(build: bytes) -> str:
-    """The macro that gives those bytes to the RTL (ppmc_build_pkg)."""
+    """Return the macro with these bytes for the RTL (ppmc_build_pkg)."""
     return f"PPMC_BUILD=128'h{int.from_bytes(build, 'little'):032x}"
 
 
 def walls(listed: Mapping[str, Group]) -> list[str]:
-    """What is wrong with `needs`, a line each.
+    """Return the errors in `needs`, one line each.
 
-    That is a module or package that a file names, of a group that its own does not need, and a group that is
-    needed for nothing.
+    An error is a module or package from a group that is not in `needs`, or a group in `needs` that is not
+    used.
     """
     texts = {
         path: _COMMENT.sub(" ", path.read_text(encoding="utf-8"))
@@ -153,6 +172,6 @@ def walls(listed: Mapping[str, Group]) -> list[str]:
 
 
 def _below(path: Path) -> str:
-    """The path as the list has it."""
+    """Return the path as in the list."""
     parts = path.parts
     return "/".join(parts[len(parts) - parts[::-1].index("rtl") :])

@@ -1,4 +1,7 @@
-"""stdout and stderr of programs: any encoding, closed, full, or with a reader that ends early."""
+"""Text on stdout and stderr with any encoding.
+
+The streams may be closed or full, and the reader may end early.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +17,12 @@ from shutil import get_terminal_size
 from typing import TextIO
 
 PIPE_CLOSED = 141
-"""Exit status if the reader of stdout has ended: 128 + SIGPIPE, as shells report it."""
+"""Exit status if the reader of stdout has ended: 128 + SIGPIPE, as in shells."""
 NARROW = 80
-"""Columns of a terminal below which a table that does not fit is printed as a list, and help as text."""
+"""Columns of a terminal below which a table that is too wide is printed as a list.
+
+Help is then plain text.
+"""
 
 ASCII = {
     **{chr(code): "*" for code in range(0x2800, 0x2900)},  # spinners
@@ -29,11 +35,11 @@ ASCII = {
     "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
     "%": "\u066a",  # cp864 has only the Arabic one
 }  # fmt: skip
-"""What replaces characters that an encoding lacks. Letters with accents lose them."""
+"""Replacement of characters that an encoding does not have. Letters lose their accents."""
 
 
 class StdoutLost(SystemExit):
-    """stdout cannot be written. The exit status is PIPE_CLOSED if its reader has ended, else 1."""
+    """Standard output cannot be written. The exit status is PIPE_CLOSED if its reader has ended, else 1."""
 
     def __init__(self, error: OSError) -> None:
         # Windows reports EINVAL for a pipe without a reader.
@@ -43,11 +49,11 @@ class StdoutLost(SystemExit):
         reason = "closed" if error.errno == errno.EBADF else error.strerror or str(error)
         self.reason = "the reader has ended" if ended else reason
         self.motors = ""
-        """How moving motors were stopped, empty if none moved."""
+        """How moving motors were stopped; empty if no motor moved."""
 
     @property
     def line(self) -> str:
-        """The line for the user, empty if the reader has ended and no motor was moving."""
+        """Line for the user; empty if the reader has ended and no motor was moving."""
         if self.status == PIPE_CLOSED and not self.motors:
             return ""
         line = f"error: stdout: cannot be written ({self.reason})"
@@ -55,8 +61,10 @@ class StdoutLost(SystemExit):
 
 
 def readable(text: str, encoding: str) -> str:
-    """Replace characters that an encoding lacks. Columns stay aligned: the next two or more spaces of the
-    line shrink by what a replacement is longer.
+    """Replace characters that an encoding does not have.
+
+    Columns remain aligned: if a replacement is longer, the next two or more spaces of the line become
+    shorter.
 
     >>> readable("a → b, 3 m/s², Zürich, 日", "ascii")
     'a -> b, 3 m/s^2, Zurich, \\\\u65e5'
@@ -91,8 +99,11 @@ def _ascii(character: str) -> str:
 
 
 class _Stream(io.TextIOWrapper):
-    """A standard stream in place of `stream`. failed: called once if it cannot be written; what follows is
-    dropped. Its exceptions are not OSError, which rich and click handle in their own ways."""
+    """Standard stream that replaces `stream`.
+
+    failed: function that is called once if the stream cannot be written; the rest of the text is discarded.
+    Its exceptions must not be OSError, because rich and click catch that.
+    """
 
     def __init__(self, stream: io.TextIOWrapper, failed: Callable[[OSError], None]) -> None:
         stream.flush()
@@ -119,7 +130,10 @@ class _Stream(io.TextIOWrapper):
             self._drop(error)
 
     def _drop(self, error: OSError) -> None:
-        """Send the rest nowhere: the interpreter writes at its end what is left, and complains."""
+        """Send the rest to the null device.
+
+        Otherwise the interpreter writes it at its end and reports an error.
+        """
         with suppress(OSError):
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, self.fileno())
@@ -128,18 +142,18 @@ class _Stream(io.TextIOWrapper):
 
 
 class Ended:
-    """How a block of `wrapped` ends. status: exit status, set by the block."""
+    """End of a block of `wrapped`. status: exit status, set by the block."""
 
     status = 0
 
 
 @contextmanager
 def wrapped() -> Iterator[Ended]:
-    """stdout and stderr accept any text inside the block.
+    """Accept any text on stdout and stderr in the block.
 
-    If stdout cannot be written, StdoutLost leaves the block, and one line on stderr states the reason. A
-    status other than 0 that the block has set remains: that error was reported. stderr drops what it cannot
-    write.
+    If stdout cannot be written, StdoutLost ends the block, and one line on stderr states the reason. A status
+    other than 0 that the block has set remains, because that error was reported. Text that stderr cannot
+    write is discarded.
     """
     lost: list[StdoutLost] = []
 
@@ -173,20 +187,24 @@ def wrapped() -> Iterator[Ended]:
 
 
 def guarded(run: Callable[[], int]) -> int:
-    """Call `run` inside `wrapped`; returns the exit status."""
+    """Call `run` in a block of `wrapped`; return the exit status."""
     with wrapped() as ended:
         ended.status = run()
     return ended.status
 
 
 def is_narrow() -> bool:
-    """Whether tables that do not fit become lists on this terminal, and help is text."""
+    """Return whether this terminal is so narrow that wide tables become lists and help is text."""
     return get_terminal_size().columns < NARROW
 
 
 def _opened(stream: TextIO | None, flags: int, mode: str = "w") -> TextIO:
-    """A stream, or one in place of a closed one, whose number the next opened port would get otherwise.
-    flags: with O_RDONLY a write fails, with O_WRONLY it is dropped."""
+    """Return a stream, or a replacement for a closed one.
+
+    Without the replacement the next opened port would get the number of the closed stream.
+
+    flags: with O_RDONLY a write fails, with O_WRONLY its text is discarded.
+    """
     if stream is not None:
         return stream
     return io.TextIOWrapper(open(os.open(os.devnull, flags), f"{mode}b", closefd=False), "utf-8")

@@ -1,4 +1,4 @@
-"""Text files as users have them: UTF-8 with or without a byte order mark, UTF-16, Latin-1."""
+"""Text files: UTF-8 with or without a byte order mark, UTF-16, Latin-1."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ _CONTROL = frozenset(range(32)) - frozenset(b"\t\n\r\f\v\x1a") | {127}
 
 
 class NotTextError(ValueError):
-    """The bytes are no text; the message names the line."""
+    """The bytes are not text; the message contains the line number."""
 
 
 def encoding_of(head: bytes) -> str:
-    """Return the encoding that the first bytes of a file show; `utf-8` if there is no mark."""
+    """Return the encoding that the first bytes of a file indicate; `utf-8` without a mark."""
     for mark, name in _MARKS:
         if head.startswith(mark):
             return name
-    # UTF-16 without a mark: every other byte of plain text is 0.
+    # UTF-16 without a mark: every second byte of plain text is 0.
     sample = head[: len(head) // 2 * 2]
     for name, zero, text in (("utf-16-le", 1, 0), ("utf-16-be", 0, 1)):
         if len(sample) > 3 and not any(sample[zero::2]) and all(sample[text::2]):
@@ -34,7 +34,10 @@ def encoding_of(head: bytes) -> str:
 
 
 def decode_text(data: bytes) -> str:
-    """Return the text in `data`. Bytes that are not UTF-8 are read as Latin-1. Raises NotTextError."""
+    """Return the text in `data`. Raises NotTextError.
+
+    Bytes that are not UTF-8 are read as Latin-1.
+    """
     encoding = encoding_of(data[:64])
     if encoding in ("utf-16", "utf-32") and len(data) <= 4:
         raise NotTextError("line 1: a byte order mark and no text; save it as UTF-8")
@@ -53,14 +56,16 @@ def decode_text(data: bytes) -> str:
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file. Raises OSError; NotTextError."""
+    """Return the text of a file. Raises OSError or NotTextError."""
     return decode_text(path.read_bytes())
 
 
 def chunks(path: Path, size: int = 1 << 19) -> Iterator[bytes]:
-    """Yield a text file as bytes in UTF-8, or as they are if the file has no byte order mark.
+    """Yield a text file as bytes in UTF-8, or unchanged if the file has no byte order mark.
 
-    Raises OSError; NotTextError if a file in UTF-16 or UTF-32 is damaged.
+    Raises:
+        OSError: the file cannot be read.
+        NotTextError: a file in UTF-16 or UTF-32 is damaged.
     """
     with path.open("rb") as file:
         data = file.read(size)

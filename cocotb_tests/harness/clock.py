@@ -1,4 +1,4 @@
-"""`Clockwork`: what a bench needs of the simulation a million times: clock, pins, levels, edges of outputs.
+"""`Clockwork`: the frequent operations of a bench: clock, pins, levels, edges of outputs.
 
 `clockwork()` returns `Native` on our own main program and `Stock` on that of cocotb (`build.MAINS`). Both
 record the same; `Native` is faster, `Stock` needs only cocotb.
@@ -24,7 +24,7 @@ PICOSECOND = -12
 
 
 class Stock:
-    """See `Clockwork`. Clock and recorder are tasks of the running test and end with it."""
+    """`Clockwork` with cocotb alone. Clock and recorder are tasks of the running test and end with it."""
 
     def __init__(self) -> None:
         if simtime.time_precision != PICOSECOND:
@@ -38,16 +38,16 @@ class Stock:
         self._rows: dict[tuple[int, int], int] = {}
 
     def port(self, name: str) -> int:
-        """As `Clockwork.port`."""
+        """See `Clockwork.port`."""
         if name not in self._numbers:
             self._handles.append(getattr(cocotb.top, name))
             self._numbers[name] = len(self._handles) - 1
         return self._numbers[name]
 
     def read(self, port: int) -> int:
-        """As `Clockwork.read`. AssertionError if a bit has no level (X), which some simulators can tell.
+        """See `Clockwork.read`. AssertionError if a bit has no level (X), which only some simulators report.
 
-        Data that are not driven, such as d_o with d_oe = 0, are not looked at: such bits read 0.
+        Undriven data, such as d_o with d_oe = 0, are not checked: such bits read as 0.
         """
         value = self._handles[port].value
         try:
@@ -60,11 +60,11 @@ class Stock:
             raise AssertionError(f"{name} = {value} at {self.now():.0f} ps: a bit without a level") from None
 
     def put(self, port: int, level: int) -> None:
-        """As `Clockwork.put`."""
+        """See `Clockwork.put`."""
         self._handles[port].value = level
 
     def clock(self, port: int, half: int) -> None:
-        """As `Clockwork.clock`."""
+        """See `Clockwork.clock`."""
         if self._clock is not None:
             self._clock.stop()
         self._clock = Clock(self._handles[port], 2 * half, impl="gpi")
@@ -72,14 +72,14 @@ class Stock:
         self.unwatch()
 
     def unwatch(self) -> None:
-        """Watch nothing any more."""
+        """Stop recording all ports."""
         for recorder in self._recorders.values():
             recorder.cancel()
         for record in (self._recorders, self._levels, self._rows):
             record.clear()
 
     def watch(self, port: int) -> None:
-        """As `Clockwork.watch`."""
+        """See `Clockwork.watch`."""
         self._levels[port] = self.read(port)
         if port not in self._recorders or self._recorders[port].done():
             self._recorders[port] = cocotb.start_soon(self._record(port))
@@ -94,7 +94,7 @@ class Stock:
         self._rows[self.now(), port] = self.read(port)
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
-        """As `Clockwork.seen`."""
+        """See `Clockwork.seen`."""
         # A change of this moment may not have woken its recorder yet.
         for port in self._recorders:
             self._note(port)
@@ -111,7 +111,7 @@ _ROW = struct.Struct("=QQQ")
 _WORD = 64
 _ONES = (1 << _WORD) - 1
 _OTHER = 1 << 20
-"""Added to the numbers of ports that are left to `Stock`."""
+"""Added to the numbers of ports that `Stock` handles."""
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:
@@ -121,7 +121,7 @@ def _function(name: str, result: Any, *arguments: Any) -> Any:
 
 
 class Native:
-    """See `Clockwork`. The clock goes on, and ports stay watched, until it is started again."""
+    """`Clockwork` with our main program. Clock and watches continue until the clock is started again."""
 
     def __init__(self) -> None:
         self._others = Stock()
@@ -131,7 +131,7 @@ class Native:
         self._levels: dict[int, int] = {}
         """Last levels of the wide ports that are watched."""
         self._part_of: dict[int, tuple[int, int]] = {}
-        """Number of a word -> its port, its place in bits."""
+        """Number of a word -> (its port, its bit position in the port)."""
         self.now = _function("openppmc_time", ctypes.c_uint64)
         self._port = _function("openppmc_port", ctypes.c_int, ctypes.c_char_p, ctypes.POINTER(ctypes.c_int))
         self._read = _function("openppmc_read", ctypes.c_uint64, ctypes.c_int)
@@ -142,11 +142,11 @@ class Native:
 
     @staticmethod
     def offered() -> bool:
-        """Whether this process is a simulation with our main program."""
+        """Return whether this process is a simulation with our main program."""
         return hasattr(ctypes.CDLL(None), "openppmc_time")
 
     def port(self, name: str) -> int:
-        """As `Clockwork.port`."""
+        """See `Clockwork.port`."""
         if name not in self._numbers:
             words = ctypes.c_int()
             number = self._port(name.encode(), ctypes.byref(words))
@@ -159,7 +159,7 @@ class Native:
         return self._numbers[name]
 
     def read(self, port: int) -> int:
-        """As `Clockwork.read`."""
+        """See `Clockwork.read`."""
         if port >= _OTHER:
             return self._others.read(port - _OTHER)
         if port not in self._words:
@@ -168,7 +168,7 @@ class Native:
         return sum(self._read(port + word) << _WORD * word for word in range(self._words[port]))
 
     def put(self, port: int, level: int) -> None:
-        """As `Clockwork.put`."""
+        """See `Clockwork.put`."""
         if port >= _OTHER:
             self._others.put(port - _OTHER, level)
             return
@@ -176,12 +176,12 @@ class Native:
             self._put(port + word, level >> _WORD * word & _ONES)
 
     def clock(self, port: int, half: int) -> None:
-        """As `Clockwork.clock`."""
+        """See `Clockwork.clock`."""
         self._clock(port, half)
         self._others.unwatch()
 
     def watch(self, port: int) -> None:
-        """As `Clockwork.watch`."""
+        """See `Clockwork.watch`."""
         if port >= _OTHER:
             self._others.watch(port - _OTHER)
             return
@@ -191,7 +191,7 @@ class Native:
             self._levels[port] = self.read(port)
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
-        """As `Clockwork.seen`."""
+        """See `Clockwork.seen`."""
         count = ctypes.c_uint64()
         rows = self._seen(ctypes.byref(count))
         found = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
@@ -199,7 +199,7 @@ class Native:
         return chain(self._whole(found) if self._levels else found, others)
 
     def _whole(self, rows: Iterable[tuple[int, int, int]]) -> Iterator[tuple[int, int, int]]:
-        """Rows with words put together to levels of their ports."""
+        """Yield rows in which the words of wide ports are combined to levels of these ports."""
         part_of, levels = self._part_of, self._levels
         for row in rows:
             time, number, value = row
@@ -213,42 +213,47 @@ class Native:
 
 
 def collect_seldom() -> None:
-    """Look for garbage in cycles less often: a run makes a million small tuples that live to its end."""
+    """Make garbage collections rarer: a run creates a million small tuples that live until its end."""
     gc.freeze()
     gc.set_threshold(100_000, 50, 50)
 
 
 class Clockwork(Protocol):
-    """Clock, pins and recorder. Times are steps of the simulation, which are ps; ports are those of the top
-    module, by the numbers that `port` gives them."""
+    """Clock, pins and recorder.
+
+    Times are steps of the simulation, that is, ps. Ports are those of the top module, by the numbers that
+    `port` returns.
+    """
 
     def port(self, name: str) -> int:
-        """Number of a port. Raises AttributeError if the top has none of this name."""
+        """Return the number of a port. Raises AttributeError if the top has no port of this name."""
 
     def now(self) -> int:
-        """Present time."""
+        """Return the present time."""
 
     def read(self, port: int) -> int:
-        """Present level of a port."""
+        """Return the present level of a port."""
 
     def put(self, port: int, level: int) -> None:
-        """Level for an input; the design sees it with its next evaluation, in this time step."""
+        """Set the level of an input; the next evaluation of the design, in this time step, samples it."""
 
     def clock(self, port: int, half: int) -> None:
-        """Start the clock (anew): low now, first rising edge after `half`. Nothing is watched yet."""
+        """Start or restart the clock: low now, first rising edge after `half`. It ends all watches."""
 
     def watch(self, port: int) -> None:
-        """Record the changes of a port from now on, until the clock is started anew or the test ends. Once is
-        enough for each port."""
+        """Record the changes of a port from now on, until the clock is started again or the test ends.
+
+        One call is enough for each port.
+        """
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
-        """(time, port, level) of all changes of watched ports since the last call, this moment's among them.
+        """Return (time, port, level) of all changes of watched ports since the last call, until now.
 
-        A port's changes are in order; of each time step it is the last level that counts.
+        The changes of a port are in order; only the last level of each time step counts.
         """
 
 
 @cache
 def clockwork() -> Clockwork:
-    """The one of this simulation."""
+    """Return the clockwork of this simulation."""
     return Native() if Native.offered() else Stock()

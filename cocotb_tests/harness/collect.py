@@ -33,14 +33,14 @@ from .paths import ROOT
 F = TypeVar("F")
 
 PREFIXES = {prefix: row.name for row in parts.folders() for prefix in row.rules}
-"""First word of a rule ID -> the part that it belongs to."""
+"""First word of a rule ID -> the device that the rule belongs to."""
 
-# A part's first prefix has subjects (P104-CMD-07), another one numbers alone (J105-07).
+# The first prefix of a device has subjects (P104-CMD-07), any other prefix only numbers (J105-07).
 _SUBJECTS = "|".join(row.rules[0] for row in parts.folders() if row.rules)
 _NUMBERS = "|".join(prefix for row in parts.folders() for prefix in row.rules[1:]) or "(?!)"
 RULE_ID = re.compile(
     rf"^(?:(?P<prefix>(?:{_SUBJECTS})(?=-[A-Z])|(?:{_NUMBERS})(?=-\d))(?:-[A-Z]+)?-\d\d"
-    # Rules about an instruction of the PPMC-312 have its code, those about free curves a number.
+    # Rules about an instruction of the PPMC-312 contain its code, those about free curves a number.
     r"|(?P<code>P312)-CMD-(?:(?!FC)[0-9A-F]{2}|8L|8V|FC-\d{1,2})|AC-\d\d)$"
 )
 _ID = r"[A-Z0-9]+(?:-[A-Z]+)?-\d\d|P312-CMD-[0-9A-Z]{2}(?:-\d{1,2})?"
@@ -50,8 +50,8 @@ _ROW = re.compile(rf"^\|\s*(?:\*\*|`)?(?P<id>{_ID})(?:\*\*|`)?\s*\|\s*(?P<text>.
 def verifies(*ids: str) -> Callable[[F], F]:
     """Mark a test as checking these rules.
 
-    Raises ValueError at import time for an ID that is not of the form P104-ABC-NN (or a sister part's
-    prefix), J105-NN or AC-NN.
+    Raises ValueError at import time for an ID that is not of the form P104-ABC-NN (or the prefix of a related
+    device), J105-NN or AC-NN.
     """
     if not ids:
         raise ValueError("verifies() needs at least one rule ID")
@@ -69,12 +69,12 @@ def verifies(*ids: str) -> Callable[[F], F]:
 
 
 def rules_of(test: Any) -> tuple[str, ...]:
-    """Rule IDs put on a test function (or cocotb test object) by `verifies`."""
+    """Return the rule IDs that `verifies` put on a test function (or cocotb test object)."""
     return tuple(getattr(getattr(test, "func", test), "_openppmc_rules", ()))
 
 
 def part_of_rule(rule: str) -> str | None:
-    """Part a rule ID belongs to; None for AC-NN, which every part numbers for itself."""
+    """Return the device that a rule ID belongs to; None for AC-NN, which every device numbers separately."""
     match = RULE_ID.match(rule)
     prefix = match and (match["prefix"] or match["code"])
     return PREFIXES[prefix] if prefix else None
@@ -82,9 +82,9 @@ def part_of_rule(rule: str) -> str | None:
 
 @cache
 def manual_rules(part: str) -> dict[str, str]:
-    """Rule ID -> short text, from the tables of docs/<part>/README.md (empty if there is no manual yet).
+    """Return rule ID -> short text, from the tables of docs/<part>/README.md (empty without a manual).
 
-    A rule is a table row of two cells whose first cell is an ID. Raises ValueError for a double ID.
+    A rule is a table row of two cells whose first cell is an ID. Raises ValueError if an ID occurs twice.
     """
     manual = ROOT / "docs" / part / "README.md"
     rules: dict[str, str] = {}
@@ -100,7 +100,7 @@ def manual_rules(part: str) -> dict[str, str]:
 
 
 def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
-    """IDs that the manual of their part does not list; nothing is unknown while a part has no manual."""
+    """Return the IDs that the manual of their device does not list; without a manual, no ID is unknown."""
     bad = []
     for rule in ids:
         known = manual_rules(part_of_rule(rule) or part)
@@ -110,9 +110,9 @@ def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
 
 
 def inside(*paths: str) -> Callable[[F], F]:
-    """Decorator of a cocotb test, above or below the others: these signals, as paths below `dut`.
+    """Mark a cocotb test as a reader of these inner signals, given as paths below `dut`.
 
-    Raises ValueError if there is none, or one that is no path.
+    The decorator may be above or below others. Raises ValueError without a path, or if one is not a path.
     """
     if not paths or not all(re.fullmatch(r"\w+(\[\d+\])?(\.\w+(\[\d+\])?)*", path) for path in paths):
         raise ValueError(f"inside(): expected paths such as 'u_axis.rate', got {paths}")
@@ -126,7 +126,7 @@ def inside(*paths: str) -> Callable[[F], F]:
 
 
 def inside_of(test: Any) -> tuple[str, ...]:
-    """What a test function (or cocotb test object) names."""
+    """Return the inner signals that a test function (or cocotb test object) names."""
     return tuple(getattr(getattr(test, "func", test), "_openppmc_inside", ()))
 
 
@@ -134,10 +134,10 @@ def inside_of(test: Any) -> tuple[str, ...]:
 class Item:
     """One simulation to run: a cocotb test of a module under one configuration.
 
-    `target` is the make target that runs it, for the line that repeats it. `inside`: inner signals that it
-    reads. `skipped`: why it does not run.
-    `uncompared`: why a directed test is not compared with the golden model ("" if it is), None for others.
-    `shared`: it may share a process with others of its module, though it is no directed test.
+    `target` is the make target of the command that repeats it. `inside`: inner signals that it reads.
+    `skipped`: the reason why it does not run. `uncompared`: the reason why a directed test is not compared
+    with the golden model ("" if it is), None for other tests. `shared`: it may share a process with other
+    tests of its module, although it is not a directed test.
     """
 
     module: str
@@ -155,7 +155,7 @@ class Item:
 
     @property
     def together(self) -> bool:
-        """Whether it may share a process with others of its build: directed tests begin with a reset."""
+        """Whether it may share a process with other tests of its build: directed tests begin with a reset."""
         return self.shared or self.uncompared is not None
 
     @property
@@ -165,20 +165,20 @@ class Item:
 
     @property
     def id(self) -> str:
-        """ID within the pytest parametrization; also what `make test T=` (pytest -k) takes."""
+        """ID within the pytest parametrization; also the word for `make test T=` (pytest -k)."""
         tag = f"-{self.tag}" if self.tag else ""
         return f"{self.test}-{self.config.name}{tag}".replace("/", ".").replace("=", ".")
 
     def with_seed(self, seed: int) -> Item:
-        """The same simulation under another seed."""
+        """Return the same simulation with another seed."""
         return replace(self, seed=seed)
 
 
 def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
-    """pytest.param list of every cocotb test in `package`'s modules, under the configs each one names.
+    """Return a pytest.param per cocotb test of `package`'s modules and configuration that it names.
 
-    shared: tests of a module run in one process for each build. Each must begin with a reset.
-    Raises ValueError if a module has no cocotb test or two tests share a name.
+    shared: tests of a module run in one process for each build. Each must begin with a reset. Raises
+    ValueError if a module has no cocotb test or two tests share a name.
     """
     params, seen = [], set()
     for name in modules:
@@ -205,7 +205,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
 
 
 def all_tests(module: ModuleType) -> list[Any]:
-    """The cocotb tests that a module defines, in order; ValueError if it has none."""
+    """Return the cocotb tests that a module defines, in order; ValueError if it has no test."""
     found = [
         obj
         for obj in vars(module).values()
@@ -217,6 +217,6 @@ def all_tests(module: ModuleType) -> list[Any]:
 
 
 def configs_of(test: Any) -> tuple[Config, ...]:
-    """The build configurations that a cocotb test names, or the default one."""
+    """Return the build configurations that a cocotb test names, or the default one."""
     wanted: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
     return wanted

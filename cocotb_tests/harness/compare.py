@@ -4,7 +4,8 @@ The pin changes of the run are replayed into the model; every output of both sid
 level on the same rising edges of `clk`. Only outputs forced by an asynchronous reset may differ by one cycle,
 because rst_n can fall between two edges. A difference produces a text report, a VCD and a PNG.
 
-If TALLY in the environment names a file, a simulation appends what it has compared, a JSON object per line.
+If TALLY in the environment names a file, a simulation appends the counts of its comparisons to it, one JSON
+object per line.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ def add_counts(**counts: int) -> None:
 
 
 def total_counts(file: Path) -> Counter[str]:
-    """The sums of all that a run has told; nothing if it has told nothing."""
+    """Return the sums of all counts in the tally of a run; empty if there are no counts."""
     sums: Counter[str] = Counter()
     if file.is_file():
         for line in file.read_text(encoding="ascii").splitlines():
@@ -44,12 +45,12 @@ def total_counts(file: Path) -> Counter[str]:
 
 
 def counts_text(sums: Counter[str]) -> str:
-    """Such as "12 seeds, 3,456 edges"; those that are 0 are left out."""
+    """Return a text such as "12 seeds, 3,456 edges"; counts that are 0 are omitted."""
     return ", ".join(f"{number:,} {name}" for name, number in sums.items() if number)
 
 
 DIGESTS = "OPENPPMC_DIGESTS"
-"""Tells a simulation to leave the digest of all that it compares, one a line, in DIGEST_FILE."""
+"""Environment variable: a simulation appends the digest of each compared recording to DIGEST_FILE."""
 DIGEST_FILE = "digests.txt"
 
 
@@ -63,7 +64,7 @@ def replay(recording: Recording, model: Any) -> list[Edge]:
 
 
 def compare_recording(recording: Recording, model: Any | None = None) -> Comparison:
-    """Replay a recording and compare every output of the part."""
+    """Replay a recording and compare every output of the device."""
     return _compare(recording, Follower(model or new_model(recording.part, recording.params)))
 
 
@@ -75,17 +76,17 @@ def _compare(recording: Recording, follower: Follower) -> Comparison:
 
 
 def leave_digest(recording: Recording, folder: Path) -> None:
-    """If DIGESTS asks for it."""
+    """Append the digest of a recording to the digest file if DIGESTS is set."""
     if os.environ.get(DIGESTS):
         with open(folder / DIGEST_FILE, "a", encoding="ascii") as file:
             file.write(recording.digest() + "\n")
 
 
 def check_against_model(bench: Any) -> Comparison:
-    """Compare all that a bench has seen so far; AssertionError with the report at a difference.
+    """Compare all changes that a bench has recorded so far; AssertionError with the report at a difference.
 
-    The golden model is the one that has followed the bench (`Side.golden`), if a test has asked for it. The
-    files of the report go to bench.out.
+    The golden model is the one that has followed the bench (`Side.golden`), if a test has used it. The files
+    of the report are written to bench.out.
     """
     recording = bench.recording()
     leave_digest(recording, bench.out)

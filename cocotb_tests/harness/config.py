@@ -16,7 +16,7 @@ F = TypeVar("F")
 
 @dataclass(frozen=True)
 class Config:
-    """Parameters of one build; `name` is what the test IDs show (no name is a prefix of another).
+    """Parameters of one build. `name` is part of the test IDs (no name is a prefix of another).
 
     clk_hz, xtal_hz in Hz; `extra` holds further top-level parameters as (name, value) pairs.
     """
@@ -30,12 +30,12 @@ class Config:
 
     @property
     def datasheet(self) -> bool:
-        """True for the DATASHEET timing model."""
+        """Whether the build has the DATASHEET timing model."""
         return self.timing == "DATASHEET"
 
     @property
     def params(self) -> dict[str, Any]:
-        """Parameters of the top module; a part that lacks some of them has its own choice (`Part.params`)."""
+        """Parameters of the top module; a device that lacks some of them selects its own (`Part.params`)."""
         return {
             "CLK_HZ": self.clk_hz,
             "XTAL_HZ": self.xtal_hz,
@@ -45,40 +45,40 @@ class Config:
         }
 
     def cyc(self, xtal_cycles: int) -> int:
-        """CYC(n): clk periods for n XTAL cycles, rounded up (P104-GEN-03)."""
+        """Return CYC(n): the number of cycles for n XTAL cycles, rounded up (P104-GEN-03)."""
         return -(-xtal_cycles * self.clk_hz // self.xtal_hz)
 
     @property
     def w(self) -> int:
-        """W = CYC(80), the 5 us pulse and set-up time, in clk (P104-GEN-03)."""
+        """W = CYC(80), the pulse and set-up time of 5 µs, in cycles (P104-GEN-03)."""
         return self.cyc(80)
 
     def quanta(self, n: int) -> int:
-        """clk edge of quantum tick n after its restart (P104-BCK-03)."""
+        """Return the edge of `clk` of quantum tick n after its restart (P104-BCK-03)."""
         return self.cyc(4 * n)
 
     def us(self, micros: float) -> int:
-        """CYC of a time in us at a 16 MHz crystal (P104-GEN-02)."""
+        """Return CYC of a time in µs at a 16 MHz crystal (P104-GEN-02)."""
         return self.cyc(round(micros * 16))
 
     @property
     def period_ps(self) -> int:
-        """clk period in ps, rounded to even so that both halves are whole time steps."""
+        """Period of `clk` in ps, rounded to even so that both halves are whole time steps."""
         return max(2, 2 * round(5e11 / self.clk_hz))
 
     def to_json(self) -> str:
-        """Text form handed to the simulator process."""
+        """Return the text form for the simulator process."""
         return json.dumps({**self.__dict__, "extra": list(map(list, self.extra))})
 
     @classmethod
     def from_json(cls, text: str) -> Config:
-        """Inverse of `to_json`."""
+        """Return the configuration of a text of `to_json`."""
         fields = json.loads(text)
         fields["extra"] = tuple((name, value) for name, value in fields["extra"])
         return cls(**fields)
 
 
-# The shared set. Each one costs a build of some 10 s: add one only if none of these will do.
+# The shared set. Each configuration costs a build of about 10 s: add one only if none of these is suitable.
 F16 = Config("f16")
 F8 = Config("f8m", clk_hz=8_000_000)
 F11 = Config("f11m", clk_hz=11_059_200)
@@ -97,7 +97,7 @@ CONFIGS: dict[str, Config] = {config.name: config for config in ALL_CONFIGS}
 
 
 def configs(*wanted: Config) -> Callable[[F], F]:
-    """Decorator: the build configurations a cocotb test runs under (default: only `F16`)."""
+    """Set the build configurations that a cocotb test runs under (decorator; default: only `F16`)."""
     if not wanted:
         raise ValueError("configs() needs at least one Config")
 
@@ -113,7 +113,7 @@ _ALONE = re.compile(r"seed -?\d+ alone: make .*")
 
 
 async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
-    """Play the seeds of the batch, or the one of the run; the log tells how to repeat each alone."""
+    """Play the seeds of the batch, or the seed of the run; log the command that repeats each seed alone."""
     seeds = os.environ.get(SEEDS, os.environ.get("OPENPPMC_SEED", "1")).split()
     for seed in map(int, seeds):
         if len(seeds) > 1:
@@ -122,5 +122,5 @@ async def each_seed(test: str, play: Callable[[int], Awaitable[Any]]) -> None:
 
 
 def last_seed(log: str) -> list[str]:
-    """What the log of a batch says of the seed that came last, if it is one."""
+    """Return the line of a batch's log about the seed played last; empty if the log is not one of a batch."""
     return _ALONE.findall(log)[-1:]

@@ -26,9 +26,9 @@ _hooked: set[str] = set()
 
 @dataclass(frozen=True)
 class Cross:
-    """A table with two axes. `rows` and `columns`: values as they are counted, all that the sheet knows.
+    """A table with two axes. `rows` and `columns`: all values of the data sheet, as they are counted.
 
-    never: (row, column) -> why it cannot happen; "*" stands for each row or each column.
+    never: (row, column) -> why the combination cannot occur; "*" represents every row or every column.
     """
 
     name: str
@@ -37,21 +37,21 @@ class Cross:
     never: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
     def why_never(self, row: str, column: str) -> str:
-        """Why this cannot happen; "" if it can."""
+        """Return why a combination cannot occur; "" if it can."""
         places = ((row, column), (row, "*"), ("*", column))
         return next((self.never[place] for place in places if place in self.never), "")
 
 
 @dataclass(frozen=True)
 class Crosses:
-    """Those of a part: `hook(count)` lets its golden model call count(cross, row, column)."""
+    """The crosses of a device. `hook(count)` makes its golden model call count(cross, row, column)."""
 
     tables: Sequence[Cross]
     hook: Callable[[Callable[[str, str, str], None]], None]
 
 
 def watch(part: str) -> None:
-    """Count from now on in each golden model of a part, if coverage is wanted and the part has crosses."""
+    """Count from now on in each golden model of a device, if coverage is requested and it has crosses."""
     if os.environ.get(COVERAGE) and part not in _hooked and parts.part(part).crosses:
         _hooked.add(part)
         found: Crosses = parts.part(part).load("crosses")
@@ -59,7 +59,7 @@ def watch(part: str) -> None:
 
 
 def before(owner: type, method: str, look: Callable[..., None]) -> None:
-    """Let `look(model, *arguments)` see each call of a golden model's method before it is carried out."""
+    """Call `look(model, *arguments)` before each call of a method of a golden model."""
     original: Any = getattr(owner, method)
 
     @functools.wraps(original)
@@ -71,7 +71,7 @@ def before(owner: type, method: str, look: Callable[..., None]) -> None:
 
 
 def after(owner: type, method: str, look: Callable[..., None]) -> None:
-    """As `before`, with `look(model, result, *arguments)` behind the call."""
+    """Do the same as `before`, but call `look(model, result, *arguments)` after the method."""
     original: Any = getattr(owner, method)
 
     @functools.wraps(original)
@@ -84,7 +84,7 @@ def after(owner: type, method: str, look: Callable[..., None]) -> None:
 
 
 def leave() -> None:
-    """Write down what was counted since the last call."""
+    """Write the counts since the last call to a file."""
     where = os.environ.get(COVERAGE)
     if where and _counts:
         Path(where).mkdir(parents=True, exist_ok=True)
@@ -115,9 +115,9 @@ PHASES = ("before the first pulse", "up", "top", "down", "constant")
 CLOCKS = ("internal", "internal, plain", "external", "external, plain")
 STATES = ("before initialisation", "at rest", "in motion", "decelerating")
 
-ENDLESS = "an endless operation has no count to come to its end"
+ENDLESS = "an endless operation has no count that can end"
 CONSTANT = "only operations with a ramp slow down"
-ORIGIN = "only an origin search looks at the origin"
+ORIGIN = "only an origin search samples the origin"
 ONE_PULSE = "a single step does not wait for the external clock, and is over with its pulse"
 NEVER_CAUSE = {
     **{(name, COUNT_DONE): ENDLESS for name in ("constant, endless", "ramp, endless", "origin search")},
@@ -129,7 +129,7 @@ NEVER_CAUSE = {
 }
 NEVER_PHASE = {
     ("slow-down limit", "constant"): CONSTANT,
-    ("slow-down limit", "down"): "the way down is not begun twice",
+    ("slow-down limit", "down"): "the deceleration is not started twice",
     **{(ORIGIN_FOUND, phase): ORIGIN for phase in ("up", "top", "down")},
 }
 NEVER_CLOCK = {("single step", clock): ONE_PULSE for clock in ("external", "external, plain")}
@@ -144,7 +144,7 @@ MOTION = (
 
 
 def without(crosses: Iterable[Cross], columns: Sequence[str], why: str) -> tuple[Cross, ...]:
-    """The crosses; some columns cannot happen in a part."""
+    """Return the crosses with the reason why some columns cannot occur in a device."""
     never = {("*", column): why for column in columns}
     return tuple(
         replace(cross, never={**cross.never, **never}) if set(columns) <= set(cross.columns) else cross
@@ -169,7 +169,7 @@ ERRORS = Cross("error and state", tuple(error.name for error in Error), STATES, 
 
 
 def phase(motion: Any) -> str:
-    """Where an operation is."""
+    """Return the phase of an operation."""
     if not motion.done:
         return "before the first pulse"
     if not motion.is_ramp:
@@ -185,7 +185,10 @@ def _clock(motion: Any) -> str:
 
 
 def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
-    """Count what ends in any axis. own: classes of the part that decide an end without the family's."""
+    """Count the end of each operation of any axis.
+
+    own: classes of the device that decide an end without calling the method of `Motion`.
+    """
     came: dict[int, str] = {}
 
     def begin(motion: Any, t: int) -> None:
@@ -216,7 +219,7 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
 
 
 def hook_errors(count: Count) -> None:
-    """Count each byte's error, by the state it came in."""
+    """Count the error of each byte, by the state in which the byte was received."""
 
     def taken(unit: Any, result: Any, t: int, *rest: Any) -> None:
         if unit.error is not None:

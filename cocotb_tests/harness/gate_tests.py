@@ -1,4 +1,4 @@
-"""`PartTests`: which tests of a part run on netlists, and why others do not; see each part's `gates.py`."""
+"""`PartTests`: which tests of a device run on netlists, and why others do not (`gates.py` of the device)."""
 
 from __future__ import annotations
 
@@ -20,17 +20,20 @@ GENERATOR = "checks the generator of the random hosts; no simulation"
 
 @dataclass(frozen=True)
 class PartTests:
-    """The tests of one part: its directed and random test modules, of which netlists run the ITEMS.
+    """Directed and random test modules of one device. Netlists run the ITEMS of the directed module.
 
-    sample: of its random tests, what makes the item of a seed, and the seeds. Together the hosts of a sample
-    use every configuration they choose from. builds: names of the configurations that netlists are made of,
-    for the reason in `why`; none: all. simulating: test functions that run simulations. not_applicable: those
-    that do not, with what a netlist has to do with them. too_long: directed tests, or modules of them, that a
-    netlist would take far too long for, with the reason. quick: those of the quick sample, which runs in the
-    build `quick_build`; four_state: those of them that a simulator a hundred times as slow runs. netlists: it
-    has any; without, its tests run on plain Verilog alone. pins: of its top, if its folder's `bench.py` does
-    not tell. params: of its top, beside those of a configuration. inside: signals of the top that the tests
-    read, beside its ports.
+    sample: functions that make the item of a random seed, each with its seeds. The hosts of a sample together
+        use every configuration that random hosts choose from.
+    builds: names of the configurations that have netlists, for the reason in `why`; empty: all.
+    simulating: test functions that run simulations.
+    not_applicable: test functions that do not, each with its relation to a netlist.
+    too_long: directed tests, or modules of them, that would take far too long on a netlist, with the reason.
+    quick: tests of the quick sample, which runs in the build `quick_build`.
+    four_state: tests that also run on a simulator with X, which is a hundred times as slow.
+    netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
+    pins: pins of the top, if the `bench.py` of the folder does not list them.
+    params: parameters of the top in addition to those of a configuration.
+    inside: signals of the top that the tests read, in addition to its ports.
     """
 
     directed: ModuleType
@@ -51,7 +54,7 @@ class PartTests:
 
     @property
     def name(self) -> str:
-        """The part's name."""
+        """Name of the device."""
         return str(self._directed[0].part)
 
     @property
@@ -64,19 +67,19 @@ class PartTests:
         return [item for item in self._directed if not self.is_too_long(item) and self.built(item)]
 
     def built(self, item: Item) -> bool:
-        """Whether there are netlists of its configuration."""
+        """Return whether the configuration of a test has netlists."""
         return not self.builds or item.config.name in self.builds
 
     def is_quick(self, item: Item) -> bool:
-        """Whether a directed test is in the quick sample."""
+        """Return whether a directed test is in the quick sample."""
         return not self.quick.isdisjoint(names(item)) and item.config.name == self.quick_build
 
     def is_four_state(self, item: Item) -> bool:
-        """Whether a directed test is in the sample for a simulator with X."""
+        """Return whether a directed test is in the sample for a simulator with X."""
         return item.test in self.four_state and item.config.name == self.quick_build
 
     def is_too_long(self, item: Item) -> bool:
-        """Whether a directed test would take a netlist far too long."""
+        """Return whether a directed test would take far too long on a netlist."""
         return not self.too_long.keys().isdisjoint(names(item))
 
     @property
@@ -92,5 +95,5 @@ class PartTests:
 
 
 def names(item: Item) -> tuple[str, str]:
-    """How a part's `gates.py` may name a test: by its module or by itself."""
+    """Return the names by which `gates.py` can refer to a test: its module and the test itself."""
     return item.module.rpartition(".")[2], item.test

@@ -1,4 +1,4 @@
-"""Reads the parameters of a module from its header, the one place where they are listed."""
+"""Reads the parameters of a module from its header, the only place where they are listed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RADIX = {"h": 16, "d": 10, "b": 2, None: 10}
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter: type ("": none, a text), default, and the comment on its line ("": none)."""
+    """One parameter: type ("": no type, a text), default, and the comment on its line ("": no comment)."""
 
     name: str
     type: str
@@ -27,12 +27,12 @@ class Parameter:
 
     @property
     def is_text(self) -> bool:
-        """A string, not a number."""
+        """Whether the value is a string, not a number."""
         return self.value.startswith('"')
 
     @property
     def default(self) -> int | str:
-        """The default as a value. ValueError if it is no plain literal."""
+        """The default as a value. ValueError if it is not a plain literal."""
         if self.is_text:
             return self.value.strip('"')
         literal = _NUMBER.fullmatch(self.value.replace("_", ""))
@@ -42,7 +42,7 @@ class Parameter:
 
 
 def parameters(path: Path) -> dict[str, Parameter]:
-    """The parameters of the module in a file, in its order; none if it has none."""
+    """Return the parameters of the module in a file, in order; empty if it has no parameters."""
     match = _HEADER.search(path.read_text(encoding="utf-8"))
     if not match:
         return {}

@@ -23,10 +23,10 @@ STROBES_ISA = BusStyle(
 
 @dataclass(frozen=True)
 class Times:
-    """An 8-bit I/O cycle in ns: the shortest that a bus clock of 8.33 MHz allows, wait states as usual.
+    """An 8-bit I/O access in ns: the shortest at a bus clock of 8.33 MHz, with the usual wait states.
 
     `setup`: address before the command; `command`: IOR or IOW low; `late`: write data after the fall of IOW;
-    `hold`: address and write data after its rise; `gap`: to the next cycle.
+    `hold`: address and write data after its rise; `gap`: to the next access.
     """
 
     setup: int = 91
@@ -37,7 +37,7 @@ class Times:
 
 
 class IsaMaster:
-    """The only one that drives the bus; a cycle waits until the one before is over."""
+    """The only driver of the bus; an access waits until the previous one is over."""
 
     def __init__(self, bench: Bench, times: Times | None = None) -> None:
         self.bench = bench
@@ -45,14 +45,14 @@ class IsaMaster:
         self._lock = Lock()
 
     async def wait(self, ns: float) -> None:
-        """Let so many ns pass, and a little more if an edge of clk lies right there."""
+        """Wait `ns` nanoseconds, and slightly longer if an edge of `clk` coincides with the end."""
         if ns > 0:
             await Timer(round(ns * 500) * 2, "ps")
         if (self.bench.sim_time() - self.bench.edge_time(0)) % self.bench.period == 0:
             await Timer(2, "ps")
 
     async def write(self, address: int, byte: int, aen: int = 0, command: float | None = None) -> int:
-        """One write cycle; returns the first edge that samples IOW high again."""
+        """Perform one write access; return the first edge that samples IOW high again."""
         async with self._lock:
             bench, t = self.bench, self.times
             length = t.command if command is None else command
@@ -69,9 +69,9 @@ class IsaMaster:
             return edge0
 
     async def read(self, address: int, aen: int = 0, command: float | None = None) -> tuple[int, int, int]:
-        """One read cycle; returns (sd_oe, sd_o) as IOR rises, and the first edge with IOR low.
+        """Perform one read access; return (sd_oe, sd_o) when IOR rises, and the first edge with IOR low.
 
-        Checks that nobody drives before IOR falls and that the bus is free as soon as it has risen.
+        Checks that the data bus is not driven before IOR falls and is released as soon as IOR has risen.
         """
         async with self._lock:
             bench, t = self.bench, self.times
@@ -89,14 +89,14 @@ class IsaMaster:
             return *sample, edge0
 
     async def _release(self, data: int) -> None:
-        """Address and data go, the bus rests."""
+        """Remove address and data, then leave the bus idle."""
         await self.wait(self.times.hold)
         self.bench.set_between_edges(sa=(self.bench.pins["sa"] + 0x155) & 0x3FF, aen=0, sd_i=data)
         await self.wait(self.times.gap)
 
 
 class IsaHost(HostBus):
-    """`HostBus` of the part whose data register is at `base`."""
+    """`HostBus` of the device whose data register is at `base`."""
 
     def __init__(self, master: IsaMaster, base: int) -> None:
         super().__init__(master.bench)
@@ -104,13 +104,13 @@ class IsaHost(HostBus):
         self.base = base
 
     async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
-        """One write cycle; the lengths are those of the bus."""
+        """Perform one write access with the times of the ISA bus."""
         edge0 = await self.master.write(self.base + reg, byte)
         self.bench.accesses.append(Access(edge0, "write", reg, byte))
         return edge0
 
     async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
-        """One read cycle; AssertionError if the module does not drive."""
+        """Perform one read access; AssertionError if the module does not drive the bus."""
         driven, byte, edge0 = await self.master.read(self.base + reg)
         self.bench.check("ISA-05", f"sd_oe at the end of a read of {self.base + reg:#x}", driven, 1)
         self.bench.accesses.append(Access(edge0, "read", reg, byte))

@@ -1,4 +1,4 @@
-"""A serial line on two pins: `Wire` computes levels of characters, `SerialLine` sends and receives them."""
+"""A serial line on two pins: `Wire` with a simulator's pins, `SerialLine` on a `Side`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BITS = 8
 
 
 class Wire:
-    """8N1: `rxd` is the pin that the board listens to, `txd` the one it speaks on.
+    """An 8N1 line: `rxd` is the receive pin of the board, `txd` its transmit pin.
 
     `rate` in baud may be changed between characters.
     """
@@ -28,7 +28,7 @@ class Wire:
         self._out.value = 1
 
     def listen(self) -> None:
-        """Begin to receive; after the reset, when txd is idle."""
+        """Begin to receive; to be called after the reset, when txd is idle."""
         cocotb.start_soon(self._receive())
 
     def _time(self, bits: float) -> Timer:
@@ -58,7 +58,7 @@ class Wire:
             self.came(byte)
 
     def came(self, byte: int) -> None:
-        """What to do with a character, in the middle of its stop bit."""
+        """Process a received character; called in the middle of its stop bit."""
         raise NotImplementedError
 
 
@@ -67,11 +67,11 @@ Changes = list[tuple[int, int]]
 
 
 class LineTimes:
-    """Where the levels of characters belong.
+    """Times of the level changes of characters.
 
-    t: the next free edge. bit: bit time of the line in clk. error: of the host's own, 0.02 = 2 % too long.
-    middle: the middle of the last stop bit as a receiver with the right bit time has it, from the pin's
-    change on.
+    t: the next free edge. bit: bit time of the line in cycles. error: relative error of the host's bit time,
+    0.02 = 2 % too long. middle: the middle of the last stop bit for a receiver with the correct bit time,
+    counted from the change of the pin.
     """
 
     t: int
@@ -81,16 +81,16 @@ class LineTimes:
     _free: Fraction
 
     def open_line(self, bit: Fraction, error: float | Fraction = 0) -> None:
-        """The line is idle."""
+        """Set the bit time and its error; the line is idle."""
         self.bit, self.error = bit, Fraction(error)
         self.middle = self._free = Fraction(0)
 
     def back_to(self, t: int) -> None:
-        """The next character begins on edge t, which may lie before the end of the last stop bit's rest."""
+        """Let the next character begin on edge t, which may lie before the end of the last stop bit."""
         self.t, self._free = t, Fraction(0)
 
     def _character(self, byte: int, stop: int, spikes: Sequence[tuple[float, int]], bits: float) -> Changes:
-        """The changes of one character; `t` is behind it then."""
+        """Return the changes of one character; after the call, `t` is the edge after the character."""
         bit = self.bit * (1 + self.error)
         start = max(self._free, Fraction(self.t))
         levels = [0, *(byte >> place & 1 for place in range(8)), stop]
@@ -109,11 +109,11 @@ class LineTimes:
         return [(ceil(at), level) for at, level in changes]
 
     def _rest(self, gap: float) -> None:
-        """Leave the line idle for so many bits."""
+        """Leave the line idle for `gap` bits."""
         self._free += Fraction(gap) * self.bit
 
     def _low(self, bits: float) -> Changes:
-        """The changes of a break, and a bit time of rest."""
+        """Return the changes of a break, followed by one bit time of idle line."""
         begin, self.t = self.t, self.t + ceil(Fraction(bits) * self.bit)
         changes = [(begin, 0), (self.t, 1)]
         self.t += ceil(self.bit)
@@ -121,16 +121,22 @@ class LineTimes:
 
 
 class SerialLine(LineTimes):
-    """For hosts on a `Side`, beside them. After each method the next one goes on at `t`; the side itself
-    stands at the last change of the pin, so that something else can be done within the stop bit."""
+    """A sender for hosts on a `Side`.
+
+    After each method, the next one continues at `t`. The side itself is then at the last change of the pin,
+    so that the test can do something else within the stop bit.
+    """
 
     side: Side
 
     async def character(
         self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
     ) -> None:
-        """One character; stop: level of its stop bit. spikes: (place in bits, clk) where the line has the
-        wrong level. bits: how many of it are sent before the line rests."""
+        """Send one character.
+
+        stop: level of its stop bit. spikes: (place in bits, cycles) where the line has the wrong level. bits:
+        number of its bits that are sent before the line becomes idle.
+        """
         await self._drive(self._character(byte, stop, spikes, bits))
 
     async def _drive(self, changes: Changes) -> None:
@@ -140,34 +146,34 @@ class SerialLine(LineTimes):
                 self.side.set(rxd=level)
 
     async def send(self, line: Iterable[int], gap: float = 0) -> None:
-        """Characters as they are; gap: idle time behind each of them in bits."""
+        """Send characters without errors; gap: idle time after each of them in bits."""
         for byte in line:
             await self.character(byte)
             self._rest(gap)
         self.t = ceil(self._free)
 
     async def raw(self, text: str) -> None:
-        """The same from hexadecimal text."""
+        """Send the characters of a hexadecimal text."""
         await self.send(bytes.fromhex(text))
 
     async def low(self, bits: float) -> None:
-        """Break: the line is low for so long, then high for a bit time."""
+        """Send a break: the line is low for `bits` bit times, then high for one bit time."""
         await self._drive(self._low(bits))
 
 
 def characters(
     edges: Sequence[tuple[int, int]], start: Fraction, bit: Fraction, count: int, within: int = 0
 ) -> bytes:
-    """The bytes that a transmitter sends without a gap, the first start bit from `start` on.
+    """Return the bytes that a transmitter sends without a gap, the first start bit beginning at `start`.
 
-    edges: changes (t, level) of the line since then, which is high before. AssertionError where one is not
-    within so many clk behind the place where it belongs (or before it, too, if `within` is not 0), or where a
-    start or stop bit is missing.
+    edges: changes (t, level) of the line since then; the line is high before. AssertionError if a change
+    occurs more than `within` cycles after its place, or before it (more than `within` cycles, if that is not
+    0), or if a start or stop bit is missing.
     """
     for t, _ in edges:
         number = round((t - start) / bit)
         late = t - ceil(start + number * bit)
-        assert -within <= late <= within, f"edge {t} is {late} clk away from its place"
+        assert -within <= late <= within, f"edge {t} is {late} cycles from its expected time"
 
     def level(number: int) -> int:
         middle = floor(start + (number + Fraction(1, 2)) * bit)

@@ -1,7 +1,7 @@
 """`ModelBench`: the golden model in place of the RTL: the same `async def` tests without a simulator.
 
-Nothing suspends here: `until` and `edge` run the model as far as it has to go, so `on_model` can run a whole
-coroutine with one `send(None)`. What changes pins beside the test waits in a queue of due times.
+No call suspends: `until` and `edge` run the model up to the requested edge, so `on_model` can run a whole
+coroutine with one `send(None)`. Scheduled pin changes wait in a queue sorted by time.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ F = TypeVar("F")
 
 @dataclass(frozen=True)
 class OnModel:
-    """Given to a test in place of the simulator's `dut`: the golden model in this build, please."""
+    """Passed to a test in place of the simulator's `dut`: selects the golden model in this build."""
 
     config: Config = F16
     seed: int = 1
 
 
 class _Later:
-    """Pin changes to come, in order of time; `step` goes to the next change of any pin."""
+    """Future pin changes, in order of time; `step` advances to the next change of any pin."""
 
     def __init__(self, changes: Iterator[PinChange], step: Callable[[], None]) -> None:
         self.changes = changes
@@ -39,20 +39,20 @@ class _Later:
         self._step = step
 
     def cancel(self) -> None:
-        """Let the pins rest from now on."""
+        """Stop changing the pins."""
         self.over = True
 
     def __await__(self) -> Generator[Any, Any, None]:
-        """Let time pass until the last change; nothing suspends."""
+        """Advance the time to the last change; no call suspends."""
         while not self.over:
             self._step()
         yield from ()
 
 
 class ModelBench(Side):
-    """A golden model just out of reset; `now` = `settle`, 0 or more; `pins` as those of `Bench.start`.
+    """A golden model just out of reset; `now` = `settle`, 0 or more; `pins` as for `Bench.start`.
 
-    Its time begins with edge 0: of the first reset there is nothing to be seen.
+    Its time begins with edge 0: the first reset itself is not visible.
     """
 
     simulated = False
@@ -77,27 +77,27 @@ class ModelBench(Side):
 
     @property
     def golden(self) -> Any:
-        """As `Side.golden`: it is this side."""
+        """See `Side.golden`: here it is the model of this side."""
         return self.model
 
     @property
     def now(self) -> int:
-        """Index of the next rising clk edge; the model has run all those before it."""
+        """Index of the next rising edge of `clk`; the model has run all edges before it."""
         return self._now
 
     async def until(self, edge: int) -> int:
-        """As `Side.until`; returns at once."""
+        """See `Side.until`. It never suspends."""
         if edge < self._now:
             raise ValueError(f"until({edge}): it is already edge {self._now}")
         self._go(edge)
         return edge
 
     async def align(self) -> int:
-        """It is always the falling edge before `now`."""
+        """Return `now`: the time is always the falling edge before `now`."""
         return self._now
 
     def _go(self, edge: int) -> None:
-        """Let time pass, with all that is due on the pins up to then."""
+        """Advance the time to an edge, with all pin changes scheduled up to then."""
         while self._due and self._due[0][0] <= edge:
             self._now, _, levels, later = heapq.heappop(self._due)
             if not later.over:
@@ -110,7 +110,7 @@ class ModelBench(Side):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """As `Side.set`; any moment will do."""
+        """See `Side.set`. It may be called at any moment."""
         for pin, level in levels.items():
             if self.pin(pin) == level:
                 continue
@@ -121,11 +121,11 @@ class ModelBench(Side):
         return self._now
 
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """As `Side.set_between`; there is no time between two edges here."""
+        """See `Side.set_between`. There is no time between two edges here."""
         return self.set(**levels)
 
     def drive(self, changes: Iterable[PinChange]) -> _Later:
-        """As `Side.drive`."""
+        """See `Side.drive`."""
         later = _Later(iter(changes), lambda: self._go(self._due[0][0]))
         self._later.append(later)
         self._schedule(later)
@@ -141,7 +141,7 @@ class ModelBench(Side):
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """As `Side.outputs`."""
+        """See `Side.outputs`."""
         return tuple(self.model.outputs)
 
     def _port_level(self, port: str) -> int:
@@ -149,7 +149,7 @@ class ModelBench(Side):
         return level
 
     def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """As `Side._seen`; what an asynchronous reset does at `now` is taken over with the next edge."""
+        """See `Side._seen`. The effect of an asynchronous reset at `now` is added with the next edge."""
         edges = self.model.edges
         while self._taken < len(edges) and edges[self._taken].t < self._now:
             t, signal, value = edges[self._taken]
@@ -158,7 +158,7 @@ class ModelBench(Side):
         return self._edges
 
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """As `Side.edge`."""
+        """See `Side.edge`."""
         end, before = self._now + timeout, self.level(output)
         edges: Sequence[Any] = self.model.edges
         last = edges[-1] if edges else None
@@ -173,11 +173,11 @@ class ModelBench(Side):
             if before != was and level in (None, before):
                 return self._now - 1
         want = "a change" if level is None else f"level {level}"
-        raise TimeoutError(f"no {want} of {output} within {timeout} clk\n{self.context()}")
+        raise TimeoutError(f"no {want} of {output} within {timeout} cycles\n{self.context()}")
 
 
 def on_model(test: Coroutine[Any, Any, T]) -> T:
-    """Run a coroutine that works on a `ModelBench` to its end; what it returns.
+    """Run a coroutine that works on a `ModelBench` to its end; return its result.
 
     Raises RuntimeError if it waits for something that only a simulator has.
     """
@@ -191,7 +191,7 @@ def on_model(test: Coroutine[Any, Any, T]) -> T:
 
 
 def rtl_only(why: str) -> Callable[[F], F]:
-    """Mark a cocotb test (above its other decorators) that the golden model cannot run, and say why."""
+    """Mark a cocotb test (above its other decorators) that the golden model cannot run, with the reason."""
 
     def mark(test: F) -> F:
         test.func._openppmc_rtl_only = why  # type: ignore[attr-defined]

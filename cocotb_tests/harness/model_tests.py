@@ -3,8 +3,8 @@
     # tests/ppmc104/model/test_acceptance.py
     globals().update(model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves"))
 
-`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. So one
-check holds for both sides, to the cycle.
+`p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. Thus one
+check applies to both sides, to the cycle.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from .model_bench import OnModel, on_model
 
 @cache
 def _cases(module: str) -> dict[str, Any]:
-    """Name -> cocotb test of a module, each case of a parametrized one."""
+    """Return name -> cocotb test of a module, with each case of a parametrized one."""
     tests = all_tests(importlib.import_module(module))
     return {case.name: case for test in tests for case in test.generate_tests()}
 
 
 def run_on_model(item: Item, seed: int | None) -> None:
-    """Run one directed test; skips it with the reason if it is for the RTL alone."""
+    """Run one directed test; skip it with the reason if it is for the RTL only."""
     case = _cases(item.module)[item.test]
     if item.skipped:
         pytest.skip(item.skipped)
@@ -50,9 +50,9 @@ def run_on_model(item: Item, seed: int | None) -> None:
 
 
 def model_tests(module: str, package: str, *names: str, builds: Sequence[Config] = ()) -> dict[str, Any]:
-    """The tests of `package`'s modules on the golden model, by name, as globals of the module `module`.
+    """Return the tests of `package`'s modules on the golden model, by name, for the globals of `module`.
 
-    builds: instead of those that the tests name. Raises ValueError if two tests share a name.
+    builds: used in place of the builds that the tests name. Raises ValueError if two tests share a name.
     """
     made: dict[str, Any] = {}
     for name in names:

@@ -1,7 +1,7 @@
-"""`Part`: the pins of a part as benches see them, and where to find those of each.
+"""`Part`: the pins of a device as test benches see them; `PARTS`: the devices by name.
 
-A port of several bits is one number, as in the simulator. One bit of it has a name of its own: "pout_n[2]"
-is bit 2 of a port declared `[2:1]`, whose lowest bit is number 1.
+A port of several bits is one number, as in the simulator. One bit of it has its own name: "pout_n[2]" is bit
+2 of a port declared `[2:1]`, whose lowest bit is number 1.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class BusStyle:
 
     @property
     def off(self) -> dict[str, int]:
-        """Levels with both strobes off."""
+        """Levels with both strobes deasserted."""
         return {**self.write_off, **self.read_off}
 
 
@@ -46,7 +46,7 @@ STROBES_RD_WR = BusStyle(
 
 
 class PinTable(Protocol):
-    """Pins as a golden model names them: idle levels, levels in reset, bits where not 1."""
+    """Pins as a golden model names them: idle levels, levels in reset, and widths other than 1 bit."""
 
     @property
     def INPUTS(self) -> Mapping[str, int]: ...  # noqa: N802
@@ -60,19 +60,24 @@ class PinTable(Protocol):
 
 @dataclass(frozen=True)
 class Part:
-    """One part.
+    """One device.
 
-    `name` is that in the table of parts and of the top module. `inputs` maps every input pin except clk/rst_n
-    to its idle level; `outputs` maps every output to (width, reset level). `widths` are those of inputs wider
-    than one bit. `lowest` names ports whose lowest bit is not number 0. `parameters` are those of the top
-    module. `styles` are the styles of the host bus by the level of `style_pin`; a part with one style has no
-    such pin, one without a bus has none at all. `clock` is the external base clock. `unwatched` outputs run
-    freely all the time: only tests that ask for them record their edges. `defaults` are the parameters of a
-    build that names none. `idle`: parameters of one bit that choose the level of an output in reset.
-    `shape`: the pins under parameters that decide how wide ports are (`built`).
+    name: its name in the table of parts; also the name of the top module.
+    inputs: every input pin except clk and rst_n -> its idle level.
+    outputs: every output -> (width, reset level).
+    widths: widths of the inputs wider than one bit.
+    lowest: ports whose lowest bit is not number 0, with that number.
+    parameters: parameters of the top module.
+    styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin, and
+        a device without a bus has no style.
+    clock: the external base clock.
+    unwatched: free-running outputs; only tests that request them record their edges.
+    defaults: parameters of a build that names no parameters.
+    idle: one-bit parameters that select the level of an output in reset.
+    shape: the pins under parameters that determine the widths of ports (see `built`).
 
-    Of a bench's top with something beside the part: `fed` are inputs of the part that the top makes, which
-    are outputs here; `aside` are inputs of the top alone.
+    If the top of a bench contains more than the device: `fed` are inputs of the device that the top drives,
+    which are outputs here; `aside` are inputs of the top only.
     """
 
     name: str
@@ -95,17 +100,17 @@ class Part:
     def of_model(
         cls, name: str, pins: PinTable, more: Mapping[str, tuple[int, int]] | None = None, **rest: Any
     ) -> Part:
-        """A part with the pins of its golden model (and `more` outputs that this leaves out)."""
+        """Return a device with the pins of its golden model (and `more` outputs that the model omits)."""
         inputs, outputs, widths = _pins_of(pins)
         return cls(name, inputs, {**outputs, **(more or {})}, widths, **rest)
 
     @classmethod
     def of_shape(cls, name: str, shape: Callable[[Mapping[str, object]], PinTable], **rest: Any) -> Part:
-        """A part whose ports are as wide as its parameters say; this one is that of its `defaults`."""
+        """Return a device whose port widths depend on its parameters, with the ports of its `defaults`."""
         return cls.of_model(name, shape(rest["defaults"]), shape=shape, **rest)
 
     def built(self, params: Mapping[str, object]) -> Part:
-        """The part with the ports that these parameters of the top module make."""
+        """Return the device with the ports that these parameters of the top module select."""
         if self.shape is None:
             return self
         inputs, outputs, widths = _pins_of(self.shape({**self.defaults, **params}))
@@ -113,16 +118,16 @@ class Part:
 
     @property
     def watched(self) -> tuple[str, ...]:
-        """Outputs whose every edge a bench records, and that are compared with the golden model."""
+        """Outputs whose every edge a bench records and compares with the golden model."""
         return tuple(name for name in self.outputs if name not in self.unwatched)
 
     def params(self, config: Config) -> dict[str, Any]:
-        """Parameters of the top module in a build configuration: its own, and whatever that one adds."""
+        """Return the parameters of the top module in a build configuration, including its `extra` ones."""
         added = dict(config.extra)
         return {name: v for name, v in config.params.items() if name in self.parameters or name in added}
 
     def reset_levels(self, params: Mapping[str, object] | None = None) -> dict[str, int]:
-        """Output levels during reset under the given parameters (P104-PORT-01, P104-PHS-02)."""
+        """Return the output levels during reset under the given parameters (P104-PORT-01, P104-PHS-02)."""
         levels = {name: level for name, (_, level) in self.outputs.items()}
         for parameter, name in self.idle.items():
             if params and parameter in params:
@@ -130,11 +135,11 @@ class Part:
         return levels
 
     def width(self, pin: str) -> int:
-        """Width of an input or output in bits."""
+        """Return the width of an input or output in bits."""
         return self.outputs[pin][0] if pin in self.outputs else self.widths.get(pin, 1)
 
     def locate(self, pin: str) -> tuple[str, int | None]:
-        """Port of a pin name, and the place of the bit in it; None for the port as a whole.
+        """Return the port of a pin name and the position of the bit in it; None for the port as a whole.
 
         Raises KeyError for a bit that the port does not have.
         """
@@ -149,19 +154,19 @@ class Part:
         return port, place
 
     def style(self, pins: Mapping[str, int]) -> BusStyle:
-        """Style of the host bus at these input levels."""
+        """Return the style of the host bus at these input levels."""
         return self.styles[pins[self.style_pin] if self.style_pin else 0]
 
     @cached_property
     def bus_pins(self) -> frozenset[str]:
-        """Input pins of the host bus; on a part with none its serial line."""
+        """Input pins of the host bus; for a device without a bus, its serial line."""
         used = {pin for style in self.styles for pin in (*style.write_on, *style.read_on, style.address)}
         data = ("d_i", "sd_i") if self.styles else ("rxd",)
         return frozenset(used | {pin for pin in data if pin in self.inputs})
 
 
 def _pins_of(pins: PinTable) -> tuple[dict[str, int], dict[str, tuple[int, int]], dict[str, int]]:
-    """Inputs, outputs and widths of inputs as a `Part` has them."""
+    """Return inputs, outputs and widths of inputs in the form of `Part`."""
     widths = pins.WIDTHS
     inputs = {pin: level for pin, level in pins.INPUTS.items() if pin != "rst_n"}
     outputs = {pin: (widths.get(pin, 1), level) for pin, level in pins.OUTPUTS.items()}
@@ -169,9 +174,9 @@ def _pins_of(pins: PinTable) -> tuple[dict[str, int], dict[str, tuple[int, int]]
 
 
 class _Benches(Mapping[str, Part]):
-    """The parts with a `bench.py` of their own, loaded when they are asked for.
+    """The devices that have a `bench.py`, loaded on request.
 
-    That module, in the part's folder below cocotb_tests, lists in PARTS what stands in the folder.
+    That module, in the device's folder below cocotb_tests, lists the devices of the folder in PARTS.
     """
 
     def __getitem__(self, name: str) -> Part:
@@ -193,5 +198,5 @@ PARTS: Mapping[str, Part] = _Benches()
 
 
 def recorded(name: str, params: Mapping[str, object]) -> Part:
-    """The part of this name in a build with these parameters, as recordings have both."""
+    """Return the device with this name in a build with these parameters, as recordings store both."""
     return PARTS[name].built(params)

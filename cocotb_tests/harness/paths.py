@@ -1,4 +1,4 @@
-"""Where things are, relative to the project root (no absolute path is ever written down)."""
+"""Folders of the project, as paths below its root (no absolute path is ever written to a file)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TRACE = BUILD / "trace"
 
 
 def relative(path: Path | str) -> str:
-    """Path as shown to the user: relative to the project root where possible."""
+    """Return a path as shown to the user: relative to the project root where possible."""
     path = Path(path)
     try:
         return str(path.resolve().relative_to(ROOT))

@@ -1,19 +1,19 @@
-"""Carries out a random host's action list on a bench: what the parts have in common.
+"""Executes the action list of a random host on a bench: the actions that all devices share.
 
-Actions are tuples, first the kind:
+Actions are tuples; the first element is the kind:
 
-    ("write", reg, byte, strobe, gap)     one write cycle, not polled
+    ("write", reg, byte, strobe, gap)     one write access, not polled
     ("send", code, [data])                code and data, each polled until IBF = 0
     ("status", n)                         n status reads
-    ("read",)                             one data read, whatever OBF says
+    ("read",)                             one data read, regardless of OBF
     ("fetch", code, count)                read code, then count data reads (OBF polled, with a limit)
-    ("wait", clk)                         nothing
+    ("wait", clk)                         wait for clk cycles
     ("pins", {pin: level})                set pins
-    ("blip", pin, level, clk)             set a pin for some clk, then the idle level again
-    ("raw", [({pin: level}, clk), ...])   illegal bus cycles
-    ("reset", clk)                        rst_n low for some clk
+    ("blip", pin, level, clk)             set a pin for clk cycles, then restore the idle level
+    ("raw", [({pin: level}, clk), ...])   illegal bus accesses
+    ("reset", clk)                        rst_n low for clk cycles
 
-The player of a part adds ("finish", ...): wait for the end of motion, and stop it if that takes too long.
+The player of a device adds ("finish", ...): wait for the end of motion, and stop it if that takes too long.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ SETTING_CLK_DATASHEET = 1_300_000
 
 @dataclass(frozen=True)
 class ExternalClock:
-    """Programme of a clock pin: segments of (periods, period, jitter, high, pause after), in clk."""
+    """Programme of a clock pin: segments of (periods, period, jitter, high, pause after), times in cycles."""
 
     segments: tuple[tuple[int, int, int, int, int], ...] = ()
 
     def changes(self, pin: str, start: int, rng: random.Random) -> Iterator[PinChange]:
-        """Those of the pin from edge `start` on; its jitter is drawn from `rng`."""
+        """Yield the changes of the pin from edge `start` on; the jitter is drawn from `rng`."""
         t = start
         for count, period, jitter, high, pause in self.segments:
             for _ in range(count):
@@ -51,9 +51,9 @@ class ExternalClock:
 
 
 def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
-    """Steady, jittering, stopping and changing clocks; every period is at least 16 clk.
+    """Return a clock that is steady, jitters, pauses or changes; every period is at least 16 cycles.
 
-    near: favourite periods in XTAL cycles; scale: clk per XTAL cycle.
+    near: preferred periods in XTAL cycles; scale: clk cycles per XTAL cycle.
     """
     segments, total = [], 0
     while total < 250_000:
@@ -69,7 +69,7 @@ def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> Ext
 
 
 def pauses(rng: random.Random) -> Callable[[], int]:
-    """Idle clk before an access: mostly none, sometimes up to 60."""
+    """Return a function that draws the idle cycles before an access: mostly 0, sometimes up to 60."""
 
     def pause() -> int:
         return 0 if rng.random() < 0.7 else rng.randint(1, rng.choice((3, 12, 60)))
@@ -79,7 +79,7 @@ def pauses(rng: random.Random) -> Callable[[], int]:
 
 @dataclass(frozen=True)
 class Scenario:
-    """One random host: build, initial pin levels, actions, programme of each clock pin, bus manners."""
+    """One random host: build, initial pin levels, actions, programme of each clock pin, bus behaviour."""
 
     seed: int
     config: Config
@@ -96,7 +96,7 @@ class Scenario:
 
 
 class Player:
-    """Plays a scenario on a side. Polls have a limit and go on: a host that gave up is a legal host, too."""
+    """Plays a scenario on a side. After the time limit of a poll it continues: such a host is legal, too."""
 
     def __init__(self, bench: Side, scenario: Scenario) -> None:
         self.bench = bench
@@ -105,7 +105,7 @@ class Player:
         self.host = HostBus(bench, pause=pauses(self.rng) if scenario.pauses else None, timeout=400_000)
 
     async def run(self) -> None:
-        """All actions in order, the external clocks beside them."""
+        """Execute all actions in order while the external clocks run."""
         bench, clocks = self.bench, self.scenario.clocks
         running = []
         for number, clock in enumerate(clocks, 1):
@@ -122,7 +122,7 @@ class Player:
             handle.cancel()
 
     async def polled(self, mask: int, value: int, limit: int) -> bool:
-        """Whether the status showed it within so many clk."""
+        """Return whether the status had this value within `limit` cycles."""
         try:
             await self.host.poll(mask, value, limit)
         except TimeoutError:
@@ -176,14 +176,15 @@ class Player:
 
 
 def describe(actions: list[Action]) -> str:
-    """The action list as text, one action a line."""
+    """Return the action list as text, one action per line."""
     return "\n".join(" ".join(str(part) for part in action) for action in actions)
 
 
 class SinglePlayer(Player):
     """Plays one scenario: `await SinglePlayer(bench, scenario, rule).run()`.
 
-    Adds ("finish", clk): poll until BUSY = 0; after clk give up and send 0x40, which the rule says must help.
+    Adds ("finish", clk): poll until BUSY = 0; after clk cycles send 0x40, which must clear BUSY according to
+    the rule.
     """
 
     def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:

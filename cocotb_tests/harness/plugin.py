@@ -1,6 +1,6 @@
 """pytest side of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
 
-Loaded by the conftest.py at the project root, so it also sees the plain Python tests below tests/.
+The conftest.py at the project root loads it, so it also handles the plain Python tests below tests/.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _GROUPS = pytest.StashKey[Groups]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """What `make test` takes as SEED, CLK_HZ, WAVES, INSIDE and MODEL."""
+    """Add the options of `make test`: SEED, CLK_HZ, WAVES, INSIDE and MODEL."""
     group = parser.getgroup("openppmc")
     group.addoption("--seed", type=int, default=None, help="seed of all simulations and random tests")
     group.addoption("--clk-hz", type=int, default=None, help="run only simulations with this CLK_HZ")
@@ -36,7 +36,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture
 def sim_options(request: pytest.FixtureRequest) -> SimOptions:
-    """Options for `run_item`."""
+    """Return the options for `run_item`."""
     groups: Groups = request.config.stash[_GROUPS]
     return groups.options(request.node)
 
@@ -51,7 +51,7 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """--clk-hz leaves out plain Python tests and other clocks, --model all but directed tests."""
+    """Deselect plain Python tests and other clocks (--clk-hz); all except directed tests (--model)."""
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
     keep = [test for test in items if _wanted(item_of(test), clk_hz, model)]
     if len(keep) < len(items):
@@ -60,7 +60,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def _wanted(item: Item | None, clk_hz: int | None, model: bool) -> bool:
-    """Whether a test runs at this clock, and on the golden model."""
+    """Return whether a test runs at this clock, and on the golden model."""
     if item is None:
         return clk_hz is None and not model
     return clk_hz in (None, item.config.clk_hz) and not (model and item.uncompared is None)
@@ -68,7 +68,7 @@ def _wanted(item: Item | None, clk_hz: int | None, model: bool) -> bool:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """--model: a directed test runs on the golden model in place of its simulation."""
+    """Run a directed test on the golden model in place of its simulation (--model)."""
     item = item_of(pyfuncitem)
     if item is None or not pyfuncitem.config.getoption("--model"):
         return None
@@ -78,7 +78,7 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    """Note the rules of the test for the report; a rule the manual does not list fails it."""
+    """Record the rules of the test for the report; fail it if the manual does not list a rule."""
     rules, part = _rules_and_part(item)
     sim = item_of(item)
     item.user_properties.append(("rules", list(rules)))
@@ -124,7 +124,7 @@ class _Recorder:
             record["ran"] = True
 
     def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
-        """Merge into build/trace/results.jsonl; files that ran as a whole replace their old records."""
+        """Merge into build/trace/results.jsonl; files that ran completely replace their old records."""
         for record in self.records.values():
             if not record.pop("ran", False) and record["outcome"] == "passed":
                 record["outcome"] = "failed"
@@ -147,7 +147,10 @@ class _Recorder:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Groups belong to who collects; only the controller records; xdist workers have `workerinput`."""
+    """Register the groups where tests are collected, and the recorder only in the controller.
+
+    xdist workers have `workerinput`.
+    """
     collect_seldom()
     options = SimOptions(
         seed=config.getoption("--seed"),

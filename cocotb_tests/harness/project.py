@@ -1,4 +1,4 @@
-"""What every script needs to know of the project: folders, parts, the RTL source list, the console."""
+"""Facts about the project for all scripts: folders, devices, the RTL source list, the console."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ RTL = ROOT / "rtl"
 BUILD = ROOT / "build"
 DOCS = ROOT / "docs"
 
-# Logs get lines as long as they are; tables in them are not squeezed.
+# Lines in logs are not wrapped; tables in them are not narrowed.
 console = Console(highlight=False, width=None if sys.stdout and sys.stdout.isatty() else 160)
 
 
 class ProjectError(Exception):
-    """A mistake of the user or of the set-up; its text is the one line that is shown."""
+    """A mistake of the user or of the set-up; its text is the line that the user sees."""
 
 
 def part(name: str) -> Row:
-    """The part called `name`, from the table of parts; ProjectError lists those that there are."""
+    """Return the device called `name` from the table of parts; ProjectError lists the existing ones."""
     if name not in PARTS:
         raise ProjectError(f"PART={name}: no such part (known: {', '.join(PARTS)})")
     return PARTS[name]
 
 
 def listed() -> dict[str, Group]:
-    """rtl/files.yml: the groups of RTL sources, in compile order, with absolute paths."""
+    """Return the groups of RTL sources in rtl/files.yml, in compile order, with absolute paths."""
     try:
         return rtl_list.groups(ROOT)
     except rtl_list.SourcesError as error:
@@ -44,7 +44,10 @@ def listed() -> dict[str, Group]:
 
 
 def files(*groups: str) -> list[Path]:
-    """The RTL of these groups and of what they need, in compile order; ProjectError for a missing file."""
+    """Return the RTL of these groups and their dependencies, in compile order.
+
+    ProjectError if a listed file is missing.
+    """
     try:
         return rtl_list.files(listed(), *groups)
     except rtl_list.SourcesError as error:
@@ -52,12 +55,12 @@ def files(*groups: str) -> list[Path]:
 
 
 def sources(of: Row) -> list[Path]:
-    """The RTL of a part in compile order; ProjectError when a listed file is not there."""
+    """Return the RTL of a device in compile order; ProjectError if a listed file is missing."""
     return files(of.rtl)
 
 
 def board_files(part_name: str) -> list[Path]:
-    """What a part's carrier is made of besides the part, in compile order; none if it has no carrier."""
+    """Return the files of a carrier without its device, in compile order; empty without a carrier."""
     of = part(part_name)
     if not of.carrier:
         return []
@@ -66,7 +69,7 @@ def board_files(part_name: str) -> list[Path]:
 
 
 def top_file(of: Row) -> Path:
-    """The file of a part's top module; ProjectError when it is not in rtl/files.yml."""
+    """Return the file of a device's top module; ProjectError if it is not in rtl/files.yml."""
     found = next((path for path in sources(of) if path.stem == of.top), None)
     if found is None:
         raise ProjectError(f"rtl/files.yml: the files of {of.name} lack its top, {of.top}")
@@ -74,18 +77,18 @@ def top_file(of: Row) -> Path:
 
 
 def include_dirs() -> list[Path]:
-    """Folders searched for `include files."""
+    """Return the folders that are searched for `include files."""
     return [RTL / "common"]
 
 
 def relative(path: Path) -> str:
-    """`path` as seen from the project's root, for messages and for tools that start there."""
+    """Return `path` relative to the project's root, for messages and for tools that start there."""
     resolved = path.resolve()
     return resolved.relative_to(ROOT).as_posix() if resolved.is_relative_to(ROOT) else str(path)
 
 
 def tool(name: str) -> str:
-    """Path of a program of this Python environment, which PATH may lack; the name if it has none such."""
+    """Return the path of a program of this Python environment, which PATH may lack; else the name."""
     return shutil.which(name, path=str(Path(sys.executable).parent)) or name
 
 
@@ -96,7 +99,7 @@ def fail(message: str) -> int:
 
 
 def run(main: Callable[[], int]) -> int:
-    """Run a script's `main`: a ProjectError and Ctrl-C become one line and a non-zero exit code.
+    """Run a script's `main`: a ProjectError or Ctrl-C becomes one line and a non-zero exit code.
 
     Its stdout may have any encoding, be closed, or lose its reader (`openppmc.streams`).
     """
@@ -114,7 +117,7 @@ def _run(main: Callable[[], int]) -> int:
 
 
 def replace_between(text: str, marker: str, body: str) -> str:
-    """Put `body` between ``<!-- marker -->`` and ``<!-- /marker -->``; append the block if there is none."""
+    """Replace the text between ``<!-- marker -->`` and ``<!-- /marker -->``, or append the block."""
     start, end = f"<!-- {marker} -->", f"<!-- /{marker} -->"
     block = f"{start}\n{body.strip()}\n{end}"
     if start in text and end in text:
@@ -124,7 +127,7 @@ def replace_between(text: str, marker: str, body: str) -> str:
 
 
 def update_benchmarks(marker: str, body: str) -> None:
-    """Renew one generated block of docs/benchmarks.md, which is made when it is not there."""
+    """Replace one generated block of docs/benchmarks.md; create the page if it is missing."""
     page = DOCS / "benchmarks.md"
     page.parent.mkdir(exist_ok=True)
     text = page.read_text() if page.is_file() else "# Benchmarks\n"

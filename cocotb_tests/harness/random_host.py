@@ -1,4 +1,4 @@
-"""Parts of random hosts: seed and weights, random pin changes, noise on the bus, a writer of commands."""
+"""Building blocks of random hosts: seed and weights, random pin changes, bus noise, a writer of commands."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from .side import Handle, PinChange, Side
 
 
 class MovingPins:
-    """Schedules pin changes on a side; one that is asked for too late comes at once.
+    """Schedules pin changes on a side; a change in the past is made immediately.
 
-    kept: pins that `stop` leaves alone, beside those of the bus, rst_n and rxd. clock: the external clock.
+    kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd. clock: the
+    external clock.
     """
 
     def __init__(self, side: Side, kept: Sequence[str] = (), clock: str = "extck") -> None:
@@ -29,16 +30,16 @@ class MovingPins:
         self._level = 0
 
     def add(self, t: int, **levels: int) -> None:
-        """Levels from edge t on."""
+        """Set levels from edge t on."""
         self._later.append(self._side.at(max(t, self._side.now), **levels))
 
     def blip(self, t: int, pin: str, level: int, clk: int) -> None:
-        """A pin at `level` for some clk, then at the other one."""
+        """Hold a pin at `level` for `clk` cycles, then set the opposite level."""
         self.add(t, **{pin: level})
         self.add(t + clk, **{pin: 1 - level})
 
     def external(self, t: int, on: bool, rng: random.Random) -> None:
-        """The external clock from edge t on: runs with a period of its own, with pauses, or stands."""
+        """Start or stop the external clock at edge t; when running it has a random period, with pauses."""
         if self._clock:
             self._clock.cancel()
         draw = random.Random(rng.random()) if on else None
@@ -55,22 +56,22 @@ class MovingPins:
                 t += draw.choice((50, 3_000))
 
     def stop(self) -> None:
-        """Nothing moves any more; everything is at its idle level now."""
+        """Stop all changes and set all pins to their idle levels."""
         for handle in (*self._later, *([self._clock] if self._clock else [])):
             handle.cancel()
         side = self._side
         side.set(**{pin: level for pin, level in side.part.inputs.items() if pin not in self._kept})
 
 
-UNCOMPARED = "levels change between two edges of clk, where either of the two may see them first"
-"""Why runs with this noise are not compared with the golden model."""
+UNCOMPARED = "levels change between two edges of clk, and either edge may sample them first"
+"""Reason why runs with this noise are not compared with the golden model."""
 
 
 class Noise:
-    """Drives random levels; each call of `make` goes on where the last one ended.
+    """Drives random levels; each call of `make` continues where the previous one ended.
 
-    strobes: active-low bus pins, each named as often as it shall be drawn. codes: bytes that shall come
-    often. switches: all other pins; still: pins that keep their level.
+    strobes: active-low bus pins, each repeated according to its frequency. codes: bytes that are drawn often.
+    still: pins that keep their level. All other pins are drawn as switches.
     """
 
     def __init__(
@@ -86,7 +87,7 @@ class Noise:
         self._switches = tuple(others)
 
     def _levels(self) -> dict[str, int]:
-        """A few pins with new levels; mostly bus pins, so that many bytes come through."""
+        """Draw new levels for a few pins; mostly bus pins, so that many bytes are accepted."""
         rng, part = self.rng, self.bench.part
         kind = rng.random()
         if kind < 0.75:
@@ -102,19 +103,19 @@ class Noise:
         return {pin: sum((rng.random() < 0.7) << place for place in range(width))}
 
     async def make(self, clocks: int) -> None:
-        """Noise for about `clocks` clk: changes 0.1 to 60 clk apart, at any moment between edges."""
+        """Drive noise for about `clocks` cycles: changes 0.1 to 60 cycles apart, anywhere between edges."""
         rng, bench = self.rng, self.bench
         end = bench.now + clocks
         while bench.now < end:
             bench.set_between_edges(**self._levels())
             gap = rng.choice((0.1, 0.4, 1, 1, 2, 2, 3, 7, 20, 60))
             steps = max(2, int(gap * bench.period * rng.random()))
-            # Never on a clk edge itself: which side of it a change falls on would be a race.
+            # Never on an edge of `clk` itself: it would be a race whether the edge samples the change.
             offset = (bench.sim_time() + steps - bench.edge_time(0)) % bench.period
             await Timer(steps + (2 if offset < 2 or offset == bench.period - 1 else 0), "ps")
 
     async def stop(self) -> None:
-        """All inputs to their idle levels; 20 clk for the last byte."""
+        """Set all inputs to their idle levels; wait 20 cycles for the last byte."""
         await self.bench.align()
         self.bench.set(**{**self.bench.part.inputs, **self.still})
         await self.bench.clocks(20)
@@ -125,47 +126,48 @@ Weights = Sequence[tuple[Config, int]]
 
 
 def weighted(rng: random.Random, table: Iterable[tuple[T, float]]) -> T:
-    """One of a table of (thing, weight)."""
+    """Return a random thing of a table of (thing, weight)."""
     things, weights = zip(*table, strict=True)
     return rng.choices(things, weights)[0]
 
 
 class Builds:
-    """Which build the host of a seed plays on, where it does not matter for what it does.
+    """The build on which the host of a seed plays, where the build does not influence what the host does.
 
-    name: of the part in the text of its seeds, as "p312". weights: (build, weight).
+    name: name of the device in the text of its seeds, such as "p312". weights: (build, weight).
     """
 
     def __init__(self, name: str, weights: Weights) -> None:
         self.name, self.weights = name, tuple(weights)
 
     def __call__(self, seed: int) -> Config:
-        """Build of a seed (any int)."""
+        """Return the build of a seed (any int)."""
         return weighted(random.Random(f"{self.name} build {seed}"), self.weights)
 
     @property
     def names(self) -> set[str]:
-        """All of them."""
+        """Names of all builds."""
         return {config.name for config, _ in self.weights}
 
 
 def in_turn(*builds: Config) -> Callable[[int], Config]:
-    """One build after the other, seed by seed."""
+    """Return a function that assigns one build after the other, seed by seed."""
     return lambda seed: builds[seed % len(builds)]
 
 
 class OnSide(Protocol):
-    """The host of a part that a random one speaks through."""
+    """The host of a device that a random host uses."""
 
     @property
     def side(self) -> Side:
-        """What it works on."""
+        """The side that the host works on."""
 
 
 class RandomHost:
-    """`rng` is that of a seed; `name` begins the seed's text.
+    """A host with the random numbers `rng` of a seed; `name` is the first word of the seed's text.
 
-    One that acts on what it is answered has a `host`, and a `background` of pins that move by themselves.
+    A host that reacts to the responses has a `host` (for its accesses) and a `background` of pins that move
+    independently.
     """
 
     host: OnSide
@@ -177,19 +179,22 @@ class RandomHost:
 
     @property
     def model(self) -> Any:
-        """The golden model beside the part: it tells when to do something, not what was answered."""
+        """Golden model of the device: used to decide when to act, not for the responses."""
         return self.host.side.golden
 
     def pick(self, acts: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
-        """One of a table of (what to do, weight)."""
+        """Draw a function of a table of (function, weight)."""
         return weighted(self.rng, acts)
 
 
 class HostWriter(RandomHost, ABC):
-    """rng, config, scale (clk per XTAL cycle), externals (clock pins in use), limit_clk, actions so far.
+    """Writes action lists.
 
-    name: begins the seed text. weights: builds of FAST and of DATASHEET, which one host in ten has. external:
-    how probable it is that a clock pin is used, one number a pin.
+    Attributes: rng, config, scale (clk cycles per XTAL cycle), externals (clock pins in use), limit_clk,
+    actions (so far).
+
+    name: first word of the seed text. weights: FAST builds; datasheet: DATASHEET builds, for one host in ten.
+    external: probability that a clock pin is used, one number per pin.
     """
 
     def __init__(
@@ -210,19 +215,19 @@ class HostWriter(RandomHost, ABC):
 
     @abstractmethod
     def random_write(self) -> tuple[int, int]:
-        """A register and a byte for it, at random, sensible ones often."""
+        """Draw a register and a byte for it, often sensible ones."""
 
     def add(self, *action: Any) -> None:
-        """One more action."""
+        """Append an action."""
         self.actions.append(action)
 
     def clk(self, low: int, high: int) -> int:
-        """A time given in XTAL cycles, as a random count of clk (log-like: short ones are frequent)."""
+        """Draw a time between two numbers of XTAL cycles; return it in cycles. Short times are frequent."""
         spread = self.rng.random() ** 2
         return max(1, round((low + (high - low) * spread) * self.scale))
 
     def any_bytes(self) -> None:
-        """A few bytes of any kind, slowly."""
+        """Write a few arbitrary bytes, slowly."""
         rng = self.rng
         for _ in range(rng.randint(1, 4)):
             reg, byte = self.random_write()
@@ -231,24 +236,24 @@ class HostWriter(RandomHost, ABC):
                 self.add("status", 1)
 
     def blind(self, writes: list[tuple[int, int]]) -> None:
-        """Writes without polling, sometimes too fast for the mailbox."""
+        """Write without polling, sometimes too fast for the mailbox."""
         gap = self.rng.choice((2, 3, 4, 8, 12))
         for reg, byte in writes:
             self.add("write", reg, byte, self.rng.randint(2, 3), gap)
 
     def told(self, code: int, data: list[int], polled: float) -> None:
-        """A command with its data bytes, polled with that probability, else blind."""
+        """Send a command with its data bytes, polled with the probability `polled`, else without polling."""
         if self.rng.random() < polled:
             self.add("send", code, data)
         else:
             self.blind([(1, code), *((0, byte) for byte in data)])
 
     def overrun(self) -> None:
-        """Bytes of any kind, as fast as it goes."""
+        """Write arbitrary bytes as fast as possible."""
         self.blind([self.random_write() for _ in range(self.rng.randint(2, 5))])
 
     def bad_bus(self, codes: tuple[int, ...]) -> None:
-        """Both strobes together, a strobe cut by cs_n or by the other strobe (P104-BAD-08, STMC-BAD-12)."""
+        """Assert both strobes, or end a strobe by cs_n or the other strobe (P104-BAD-08, STMC-BAD-12)."""
         rng = self.rng
         byte, reg = rng.choice(codes), rng.getrandbits(1)
         on = {"cs_n": 0, "a0": reg, "d_i": byte}

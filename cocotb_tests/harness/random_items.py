@@ -45,7 +45,10 @@ def attempt_random(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> str:
-    """As `attempt`; the message of a failing run ends with its short list, found on the part alone."""
+    """Do the same as `attempt`; the message of a failing run ends with its shortest list of acts.
+
+    That list is found on the device alone.
+    """
     message = attempt(item, options, env, design)
     if not message or mutant_present():
         return message
@@ -54,7 +57,7 @@ def attempt_random(
 
 
 def replay_item(recording: Recording, test: str = "replay") -> Item:
-    """The simulation that carries out a recording, in the build that it was made in."""
+    """Return the simulation that replays a recording, in the build of the recording."""
     known = {"clk_hz", "xtal_hz", "timing", "phase_idle"}
     params = {name.lower(): value for name, value in recording.params.items()}
     given = {name: value for name, value in params.items() if name in known}
@@ -64,14 +67,14 @@ def replay_item(recording: Recording, test: str = "replay") -> Item:
 
 
 def replay_line(file: Path) -> str:
-    """The line that carries out a recording again."""
+    """Return the command that replays a recording."""
     return f"make replay FILE={relative(file)}"
 
 
 def shortened(folder: Path, design: Design | None = None) -> str:
-    """The short list in words, from the recording that a failing run has left in its folder.
+    """Shrink the recording that a failing run left in its folder; return the shortest list of acts as text.
 
-    `design` (default: the recorded part) is what is simulated. The files are in the folder `short` of it.
+    `design` (default: the recorded device) is simulated. The files are in its subfolder `short`.
     """
     file, short = folder / "recording.json", folder / "short"
     if not file.is_file():
@@ -82,7 +85,7 @@ def shortened(folder: Path, design: Design | None = None) -> str:
     try:
         design = design or part_design(item.part, item.config)
         run_sim(design, item, item.seed, env={REPLAY: str(file.resolve())}, folder=short, repro=line)
-    except SimError as error:  # an assertion of the RTL, the limit of time: the best so far is on file
+    except SimError as error:  # an assertion of the RTL, or the time limit: the best list is on file
         trouble = str(error).splitlines()[0]
     words = short / WORDS
     if not words.is_file():
@@ -104,12 +107,12 @@ def _items(part: str, module: str) -> dict[str, Item]:
 
 
 def seed_item(part: str, module: str, test: str, seed: int, config: Config) -> Item:
-    """A test of a part's random hosts in the build of a seed."""
+    """Return a test of a device's random hosts in the build of a seed."""
     return replace(_items(part, module)[test], config=config, seed=seed, tag=f"r{seed:04d}")
 
 
 def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
-    """(first item, all seeds) of each simulation: at most `size` items of one build each."""
+    """Return (first item, all seeds) of each simulation: at most `size` items of one build each."""
     builds: dict[str, list[Item]] = {}
     for item in items:
         builds.setdefault(item.config.name, []).append(item)
@@ -123,13 +126,13 @@ def batches(items: Sequence[Item], size: int = BATCH) -> list[tuple[Item, str]]:
 def parametrize(
     metafunc: pytest.Metafunc, make: Callable[[int], Item], seeds: Iterable[int], size: int = BATCH
 ) -> None:
-    """One pytest item (`item`, `seeds`) a batch of the seeds."""
+    """Make one pytest item (`item`, `seeds`) per batch of the seeds."""
     sets = batches([make(seed) for seed in seeds], size)
     metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
 
 
 def run_batch(item: Item, seeds: str, options: SimOptions, design: Design | None = None) -> None:
-    """The seeds of a batch in one simulation, as a pytest test."""
+    """Run the seeds of a batch in one simulation, as a pytest test."""
     __tracebackhide__ = True
     print(f"seeds {seeds}")
     whole = {REPRO: f"make {item.target} T={item.id}"} if " " in seeds else {}
@@ -138,7 +141,7 @@ def run_batch(item: Item, seeds: str, options: SimOptions, design: Design | None
 
 
 def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:
-    """All seeds of the batches, rising."""
+    """Return all seeds of the batches in ascending order."""
     return sorted(int(word) for _, seeds in batches([make(seed) for seed in fixed]) for word in seeds.split())
 
 
@@ -148,19 +151,19 @@ Failure = tuple[int, str, str]
 
 @dataclass
 class Played:
-    """What came of some seeds; `compared` counts what was compared with the golden model, by its name."""
+    """Result of some seeds; `compared` counts what was compared with the golden model, by name."""
 
     failures: list[Failure] = field(default_factory=list)
     compared: Counter[str] = field(default_factory=Counter)
 
     def add(self, other: Played) -> None:
-        """Those of `other` as well."""
+        """Add the results of `other`."""
         self.failures += other.failures
         self.compared.update(other.compared)
 
 
 def play(items: Sequence[Item], design: Callable[[Item], Design | None], size: int = BATCH) -> Played:
-    """One item a seed. Of a simulation in which a seed fails each seed is played again alone."""
+    """Play one item per seed. If a seed of a simulation fails, play each seed of it again alone."""
     played = Played()
     alone = {item.seed: item for item in items}
     for first, seeds in batches(items, size):
@@ -191,7 +194,7 @@ def _attempt(played: Played, item: Item, env: dict[str, str], design: Design | N
 
 
 def all_of(parts: Iterable[Played]) -> Played:
-    """The sum."""
+    """Return the sum of several results."""
     played = Played()
     for part in parts:
         played.add(part)
@@ -200,10 +203,10 @@ def all_of(parts: Iterable[Played]) -> Played:
 
 @dataclass(frozen=True, eq=False)
 class RandomItems:
-    """`random_item(seed)` is the simulation of a seed of any number.
+    """`random_item(seed)` is the simulation of any seed.
 
-    seeds: those that `make test` plays, `batch` of one build in a simulation. build: that of a seed. design:
-    what is simulated, if that is not the part alone. takes: whether a seed is of this kind.
+    seeds: seeds that `make test` plays, up to `batch` of one build in a simulation. build: build of a seed.
+    design: the simulated design, if it is not the device alone. takes: whether a seed is of this kind.
     """
 
     part: str
@@ -216,28 +219,28 @@ class RandomItems:
     takes: Callable[[int], bool] = lambda seed: True
 
     def __call__(self, seed: int) -> Item:
-        """The simulation of a seed."""
+        """Return the simulation of a seed."""
         return seed_item(self.part, self.module, self.test, seed, self.build(seed))
 
     @property
     def complete(self) -> bool:
-        """Whether each seed is played, once."""
+        """Whether each seed is played exactly once."""
         return played(self, self.seeds) == list(self.seeds)
 
     def _design(self, item: Item) -> Design | None:
         return self.design(item.config) if self.design else None
 
     def run(self, item: Item, seeds: str, options: SimOptions) -> None:
-        """The seeds of a batch in one simulation, as a pytest test."""
+        """Run the seeds of a batch in one simulation, as a pytest test."""
         __tracebackhide__ = True
         run_batch(item, seeds, options, self._design(item))
 
     def some(self, seeds: Sequence[int]) -> Played:
-        """Some seeds in this process, for `make soak`."""
+        """Run some seeds in this process, for `make soak`."""
         return play([self(seed) for seed in seeds], self._design, self.batch)
 
     def pins(self, seed: int) -> tuple[str, str]:
-        """What stands for all pin changes of a seed, played on the RTL and on the golden model alone."""
+        """Return the digest of all pin changes of a seed on the RTL, and that on the golden model alone."""
         item = self(seed)
         folder = run_sim(self._design(item) or part_design(item.part, item.config), item, seed)
         found = re.search(r"edges compared, pins (\w+)", (folder / "log.txt").read_text(encoding="utf-8"))
@@ -247,7 +250,7 @@ class RandomItems:
 
 
 def generating(**kinds: RandomItems) -> Callable[[pytest.Metafunc], None]:
-    """`pytest_generate_tests` of a module: one pytest item a batch for each test function named."""
+    """Return the `pytest_generate_tests` of a module: one item per batch for each named test function."""
 
     def generate(metafunc: pytest.Metafunc) -> None:
         kind = kinds.get(metafunc.function.__name__)

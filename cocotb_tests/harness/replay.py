@@ -20,7 +20,10 @@ from .shrink import Act, Shrinker, acts_of, changes_of, told
 
 
 async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]:
-    """Reset the part and make the changes; all output edges, times counted as in `changes`, to edge `end`."""
+    """Reset the device and make the changes; return all output edges up to edge `end`.
+
+    Times are counted as in `changes`.
+    """
     await bench.align()
     bench.set(rst_n=0)
     await bench.clocks(1)
@@ -30,7 +33,7 @@ async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]
     bench.forget()
     driven = bench.drive((base + t, {pin: value}) for t, pin, value in changes)
     await bench.until(base + end + 1)
-    driven.cancel()  # what is beyond the end belongs to no other run
+    driven.cancel()  # changes after the end must not affect the next run
     return [edge._replace(t=edge.t - base) for edge in bench.recording().edges]
 
 
@@ -38,19 +41,19 @@ REPLAY = "OPENPPMC_REPLAY"
 SECONDS = "OPENPPMC_SHRINK_S"
 WORDS = "short.txt"
 ROWS = 40
-"""Lines of acts that the message shows at most."""
+"""Maximum number of lines of acts in the message."""
 
 
 async def compared(bench: Bench, recording: Recording) -> Comparison:
-    """The recording's pin changes on the RTL and on a golden model, each fresh out of reset."""
+    """Compare the RTL with a golden model under a recording's pin changes, each just after a reset."""
     edges = await rerun(bench, recording.stimulus, recording.end)
     return compare_recording(replace(recording, edges=edges))
 
 
 class Search:
-    """For a short list of acts that shows the difference `first` of a recording on the same output.
+    """Search for a short list of acts that causes the difference `first` of a recording on the same output.
 
-    The best one so far is in recording.json and short.txt of the bench's folder at any time.
+    The best list so far is always in recording.json and short.txt of the bench's folder.
     """
 
     def __init__(self, bench: Bench, first: Comparison) -> None:
@@ -65,7 +68,7 @@ class Search:
         self.shrinker = Shrinker(acts, self.fails, seconds=seconds, kept=self.keep)
 
     async def run(self) -> bool:
-        """Search; whether the acts show the difference at all."""
+        """Search; return whether the acts cause the difference at all."""
         if await self.fails(self.shrinker.acts) is None:
             return False
         self.keep()
@@ -75,13 +78,13 @@ class Search:
         return True
 
     def see(self, found: Comparison) -> None:
-        """Note the best so far; a shorter list may show the difference a little later, but not much."""
+        """Store the best result so far; a shorter list may show the difference slightly later."""
         assert found.mismatch is not None
         self.last, t = found, found.mismatch.t
         self.end = min(self.end, t + t // 8 + 2_000)
 
     async def fails(self, acts: Sequence[Act]) -> int | None:
-        """Edge at which the output differs, if these acts alone do that, and no other one before it."""
+        """Return the edge of the difference if these acts cause it and no other output differs before."""
         recording = replace(
             self.last.recording,
             end=self.end,
@@ -90,7 +93,7 @@ class Search:
         )
         try:
             found = await compared(self.bench, recording)
-        except (AssertionError, ValueError):  # nothing that the golden model can be asked to do
+        except (AssertionError, ValueError):  # not a legal stimulus for the golden model
             return None
         if found.mismatch is None or found.mismatch.signal != self.signal:
             return None
@@ -127,7 +130,7 @@ async def _begun() -> tuple[Bench, Comparison]:
 
 @cocotb.test()
 async def replay(dut: Any) -> None:
-    """Given a recording, when the RTL gets its pins, then all outputs change as in the golden model."""
+    """All outputs change as in the golden model when the RTL receives the pins of a recording."""
     bench, comparison = await _begun()
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))
@@ -135,7 +138,7 @@ async def replay(dut: Any) -> None:
 
 @cocotb.test()
 async def shrink(dut: Any) -> None:
-    """Given a recording with a difference, when acts are left out, then a short list is on file."""
+    """Omitting acts from a recording with a difference leaves a short list in a file."""
     bench, first = await _begun()
     if first.mismatch is None:
         why = "its pins show no difference from another reset"

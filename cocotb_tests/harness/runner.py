@@ -1,8 +1,8 @@
-"""Runs cocotb tests: directed ones of a build together in one process, all others in one of their own.
+"""Runs cocotb tests: directed tests of a build share one process, each other test has its own.
 
-All simulations of the project go through here. results.xml must hold exactly the requested tests (otherwise
-nothing ran), exit codes count, and a fired assertion of the RTL is an error of the test in whose part of the
-log it is printed (`simulate`).
+All simulations of the project use this module. results.xml must hold exactly the requested tests (otherwise
+no test counts as run), exit codes count, and a fired assertion of the RTL is an error of the test in whose
+part of the log it is printed (`simulate`).
 """
 
 from __future__ import annotations
@@ -46,19 +46,19 @@ HINT = "hidden in this build: @inside(…) or INSIDE=1"
 
 
 def seen(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
-    """The design with these inner signals visible, or with everything."""
+    """Return the design with these inner signals visible, or with all signals visible."""
     if everything:
         return replace(design, ports=())
     return replace(design, inside=paths) if paths and design.ports else design
 
 
 def hint(text: str, design: Design) -> str:
-    """What to do if a failure says that a name is unknown, and the design has hidden ones; else nothing."""
+    """Return a hint if a failure names an unknown signal and the design has hidden signals; otherwise ""."""
     return HINT if design.ports and _UNKNOWN.search(text) else ""
 
 
 def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int]:
-    """(scope, name with range, width) of the signals of the top, its ports if known; the last time."""
+    """Return (scope, name with range, width) of the top's signals (its ports if known), and the last time."""
     scopes: list[str] = []
     found: list[tuple[str, str, int]] = []
     with vcd.open("rb") as file:
@@ -80,12 +80,12 @@ def _signals(vcd: Path, design: Design) -> tuple[list[tuple[str, str, int]], int
 
 
 def write_views(vcd: Path, design: Design) -> list[Path]:
-    """Write a GTKWave save file and a Surfer command file beside a VCD; [] without a VCD."""
+    """Write a GTKWave save file and a Surfer command file next to a VCD; return all three, if it exists."""
     if not vcd.is_file():
         return []
     signals, end = _signals(vcd, design)
     gtkw, sucl = vcd.with_suffix(".gtkw"), vcd.with_suffix(".sucl")
-    # The zoom is minus log2 of the time between two grid lines, of which the window shows some five.
+    # The zoom is minus log2 of the time between two grid lines; the window shows about five of them.
     lines = [f'[dumpfile] "{vcd.name}"', "[timestart] 0", "[size] 1500 900"]
     lines += [f"*-{math.log2(max(5, end) / 5):.6f} -1", "[sst_width] 200", "[signals_width] 180"]
     for scope, name, width in signals:
@@ -97,13 +97,13 @@ def write_views(vcd: Path, design: Design) -> list[Path]:
 
 
 MOST = 40
-"""Tests in one process: two workers stay busy, and importing cocotb and pytest no longer counts."""
+"""Tests in one process: two workers stay busy, and the imports of cocotb and pytest are negligible."""
 
 T = TypeVar("T")
 
 
 def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
-    """Those with the same key, at most MOST together, in their order; who has the key None is alone."""
+    """Group things with the same key, at most MOST per group, in order; each thing with key None is alone."""
     found: dict[Hashable, list[T]] = {}
     for number, thing in enumerate(things):
         found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)
@@ -116,10 +116,10 @@ def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T
 
 
 def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
-    """Outcome of each item of a job, and the process that it comes from.
+    """Return the outcome of each item of a job, and the process in which it ran.
 
-    What a crash keeps from running has a new process, without the test that crashed; but one failure says all
-    of a mutant.
+    The items that a crash prevented from running get a new process, without the test that crashed. For a
+    mutant, one failure is enough.
     """
     found: dict[Item, tuple[Outcome, Job]] = {}
     left: Sequence[Item] = job.items
@@ -135,13 +135,16 @@ def run_group(job: Job) -> dict[Item, tuple[Outcome, Job]]:
 
 
 def fails(job: Job, items: Sequence[Item]) -> bool:
-    """Whether the last of these items fails in a process of them."""
+    """Return whether the last of these items fails in a process with all of them."""
     outcome = tried(replace(job, items=tuple(items)))[items[-1]]
     return not outcome.good
 
 
 def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
-    """The fewest of the tests `before` that `item` fails behind, halving them while one half will do."""
+    """Return the smallest list of the tests `before` after which `item` fails.
+
+    The list is halved as long as one half is sufficient.
+    """
     culprits = list(before)
     while len(culprits) > 1:
         middle = len(culprits) // 2
@@ -155,7 +158,10 @@ def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
 
 
 def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
-    """Message about an item that failed in `job`; log, and with `waves` a VCD, stay in build/failures/."""
+    """Return the message about an item that failed in `job`.
+
+    The log, and with `waves` a VCD, stay in build/failures/.
+    """
     if mutant_present():
         return first.text
     kept = FAILURES / f"{safe(item.id)}-s{job.seed}"
@@ -174,7 +180,7 @@ def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
 def _message(
     item: Item, outcome: Outcome, job: Job, said: Sequence[str] = (), kept: Path | None = None
 ) -> str:
-    """What is shown of a failure: what failed, what the other runs `said`, where its files are."""
+    """Return the message about a failure: what failed, the results `said` of the other runs, the files."""
     lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in said)]
     lines.append(f"seed {job.seed}" + (f", log {relative(kept / 'log.txt')}" if kept else ""))
     if kept and (kept / "waves" / VCD).is_file():
@@ -183,7 +189,7 @@ def _message(
 
 
 def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> str:
-    """Of a failure that `job` shows each time; the items before `item` are what it needs."""
+    """Return the message about a failure that `job` reproduces; it needs all items before `item`."""
     said = [f"fails only behind {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
     if told := hint(outcome.text, job.design):
         return _message(item, outcome, job, [*said, told], kept)
@@ -202,7 +208,7 @@ def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> s
 
 
 def _behind(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
-    """Of a test that passes alone but failed in a process with others."""
+    """Return the message about a test that passes alone but failed in a process with others."""
     again = tried(job)[item]
     if again.good:
         said = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
@@ -219,11 +225,11 @@ def _names(items: Sequence[Item]) -> str:
 
 
 WAVES_IN = "waves in "
-"""Begins the line that a simulation with waves prints."""
+"""First words of the line that a simulation with waves prints."""
 
 
 def notes(item: Item | None) -> list[tuple[str, Any]]:
-    """What the summary has to know of a test, as user properties of its report."""
+    """Return the user properties that the summary needs, for the report of a test."""
     if item is None or item.uncompared is None:
         return []
     return [("directed", item.test), ("uncompared", item.uncompared)]
@@ -237,7 +243,7 @@ class Summary:
         self._waves: list[str] = []
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Keep what the report of a test that ran says."""
+        """Keep the properties of a test that ran."""
         known = dict(report.user_properties)
         if report.when == "call" and report.outcome != "skipped" and "directed" in known:
             self._seen[report.nodeid] = known
@@ -245,7 +251,7 @@ class Summary:
             self._waves += [line for line in report.capstdout.splitlines() if line.startswith(WAVES_IN)]
 
     def pytest_terminal_summary(self, terminalreporter: Any) -> None:
-        """Write the counts, each reason once, and the waves."""
+        """Write the counts, each reason once, and the waveform files."""
         if self._waves:
             terminalreporter.section("waves")
             for line in sorted(self._waves):
@@ -266,10 +272,10 @@ class Summary:
 
 @dataclass(frozen=True)
 class SimOptions:
-    """What the user asked for on the command line; seed None = the fixed default of each test.
+    """Options of the user on the command line; seed None = the fixed default of each test.
 
-    waves: keep a VCD of each test, passing ones too. inside: every signal is visible. group: the items that
-    share a simulator process, in order; `done` has the outcomes of those that ran.
+    waves: keep a VCD of each test, also of passing ones. inside: every signal is visible. group: the items
+    that share a simulator process, in order. `done` holds the outcomes of the groups that have run.
     """
 
     seed: int | None = None
@@ -289,10 +295,10 @@ def run_sim(
     folder: Path | None = None,
     repro: str | None = None,
 ) -> Path:
-    """Build if needed and run one cocotb test in one process; returns the folder of the run.
+    """Build if needed and run one cocotb test in one process; return the folder of the run.
 
-    `folder` (default below build/runs/) receives log.txt, results.xml and what the test writes.
-    Raises SimError unless exactly this test ran and passed, and the process ended well.
+    `folder` (default below build/runs/) receives log.txt, results.xml and the files of the test. Raises
+    SimError unless exactly this test ran and passed, and the process ended well.
     """
     job = Job(design, (item,), seed, waves, {**(env or {}), **({REPRO: repro} if repro else {})})
     folder = folder or job.folder
@@ -313,9 +319,9 @@ def _job(item: Item, options: SimOptions, env: Mapping[str, str], design: Design
 
 
 def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Outcome:
-    """What became of an item; the text of one that failed is the whole message.
+    """Return the outcome of an item; the text of a failed one is the whole message.
 
-    The first item of a group that is asked for runs the group.
+    The first item of a group that is requested runs the whole group.
     """
     try:
         job = _job(item, options, env, design)
@@ -333,7 +339,7 @@ def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: 
 
 
 def _with_waves(item: Item, job: Job) -> Outcome:
-    """Run one item with traces, which stay in build/waves/ with their views."""
+    """Run one item with waveforms, which stay in build/waves/ with their views."""
     folder = WAVES / safe(item.id)
     outcome = simulate(job, folder)[item]
     views = write_views(folder / VCD, job.design)
@@ -350,9 +356,9 @@ def attempt(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> str:
-    """Run one item; "" if it passed, else a short message with the repro line.
+    """Run one item; return "" if it passed, otherwise a short message with the command that repeats it.
 
-    `design` (default: the part of the item) is what is simulated.
+    `design` (default: the device of the item) is simulated.
     """
     outcome = outcome_of(item, options or SimOptions(), env or {}, design)
     return "" if outcome.good else outcome.text
@@ -364,7 +370,7 @@ def run_item(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> None:
-    """Run one collected item as a pytest test, which ends as the cocotb test did."""
+    """Run one collected item as a pytest test with the same result as the cocotb test."""
     __tracebackhide__ = True
     if item.skipped:
         pytest.skip(item.skipped)
@@ -378,9 +384,9 @@ def run_item(
 
 
 def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> list[str]:
-    """Digests of what the test compares with the golden model, in order: pins, host's accesses, output edges.
+    """Return the digests of the test's comparisons with the golden model, in order.
 
-    Raises SimError if the test does not pass.
+    A digest covers pins, host accesses and output edges. Raises SimError if the test does not pass.
     """
     folder = RUNS / f"{safe(item.id)}-{main}.{os.getpid()}"
     run_sim(replace(design, main=main), item, item.seed, env={**env, DIGESTS: "1"}, folder=folder)
@@ -391,7 +397,7 @@ def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> l
 
 
 def check_mains(item: Item, env: Mapping[str, str] | None = None, design: Design | None = None) -> int:
-    """Number of recordings that the test makes; AssertionError if they are not the same on both mains."""
+    """Return the number of recordings of the test; AssertionError if the main programs differ."""
     design = design or part_design(item.part, item.config)
     own, cocotb = (recorded(item, main, env or {}, design) for main in MAINS)
     assert own and own == cocotb, f"{item.id}: {own} with our main program, {cocotb} with cocotb's"

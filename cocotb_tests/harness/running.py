@@ -7,7 +7,7 @@
 
     @random_test("P312-GEN-01", least=200)
     async def p312_random_host(dut, seed):
-        "All outputs change as in the golden model, whatever a random host sends."
+        "All outputs change as in the golden model for every random host."
         await Lively(await Host.start(dut), seed).play()
 
 Both are `cocotb.test()`, so `cocotb.parametrize`, `skip` and `xfail` work with them. The golden model gets
@@ -35,15 +35,15 @@ from .part import Part
 from .side import Side
 
 TAIL = 24
-"""clk for which a side goes on before it is judged: what was done last has its effects by then."""
+"""Cycles for which a side continues before the comparison, so that the last action has its effects."""
 Judge = Callable[[Any], Any]
-"""Compares what a side has seen with the golden model; raises AssertionError at a difference."""
+"""Compares the recording of a side with the golden model; raises AssertionError at a difference."""
 
 
 class Running:
-    """One test: the side that it works on now, if any, and who judges it (None: nobody).
+    """One running test: its present side, if any, and the function that compares it (None: no comparison).
 
-    `differs`: a comparison has failed. `seed`: that of its sides, if not the one of the run.
+    `differs`: a comparison has failed. `seed`: seed of its sides, if it is not that of the run.
     """
 
     def __init__(self, judge: Judge | None, seed: int | None = None) -> None:
@@ -53,7 +53,7 @@ class Running:
         self.differs = False
 
     async def judge(self) -> None:
-        """Compare what the present side has seen; AssertionError at a difference."""
+        """Compare the recording of the present side; AssertionError at a difference."""
         if self._judge and self.side and self.side.simulated:
             await self.side.align()
             await self.side.clocks(TAIL)
@@ -62,17 +62,17 @@ class Running:
             self.differs = False
 
     async def opinion(self) -> str:
-        """What the golden model says of a run that has failed a check of its test."""
+        """Return the result of the golden model for a run in which a check of the test has failed."""
         if not (self._judge and self.side and self.side.simulated):
-            return "nothing is compared with the golden model here"
+            return "the outputs of this test are not compared with the golden model"
         try:
             await self.judge()
-        except Exception as other:  # whatever the model does, the failed check is what counts
+        except Exception as other:  # any error of the model is secondary: the failed check counts
             return f"the golden model differs: {other}"
         return "up to here the golden model shows the same edges"
 
     async def put_away(self) -> None:
-        """Judge the present side, if there is one, and let its pins rest: another one is to start."""
+        """Compare the present side, if any, and stop its pin changes: another side is about to start."""
         if self.side:
             await self.judge()
             self.side.close()
@@ -84,13 +84,13 @@ _ended: list[Running] = []
 
 
 def present() -> Running | None:
-    """The directed or random test that is running; None outside of one."""
+    """Return the directed or random test that is running; None outside of one."""
     return _now[-1] if _now else None
 
 
 @contextmanager
 def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Running]:
-    """Inside, a test runs whose sides `judge` compares; see `Running`."""
+    """Provide the context of a test whose sides `judge` compares; see `Running`."""
     _now.append(Running(judge, seed))
     try:
         yield _now[-1]
@@ -99,15 +99,15 @@ def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Runni
 
 
 def ended() -> Running | None:
-    """The directed or random test that has ended last, with the side that it worked on; None before one."""
+    """Return the directed or random test that ended last, with its side; None before the first."""
     return _ended[-1] if _ended else None
 
 
 async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Side:
-    """A `Bench` on the simulator's `dut`, a `ModelBench` if this is `OnModel`; both with `now` = `settle`.
+    """Return a `Bench` on the simulator's `dut`, or a `ModelBench` for `OnModel`; both with `now` = `settle`.
 
-    In a directed test it may be called again: what the side has seen so far is compared with the golden
-    model, nothing drives its pins any more, and the part starts anew from a reset.
+    A directed test may call it again: the recording of the previous side is compared with the golden model,
+    its scheduled pin changes stop, and the device starts again from a reset.
     """
     test = present()
     if test:
@@ -123,10 +123,10 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
 
 
 def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
-    """A cocotb test that verifies `rules` (none: sessions of a manual) in the build configurations `builds`.
+    """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in these builds.
 
-    `uncompared`: why the outputs are not compared with the golden model; the run lists such tests. Raises
-    ValueError for an ID that is none.
+    `uncompared`: the reason why the outputs are not compared with the golden model; the run lists such tests.
+    Raises ValueError for an invalid rule ID.
     """
 
     def mark(test: Any) -> Any:
@@ -151,7 +151,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
 
 
 async def judged(running: Running, test: Any) -> None:
-    """Run the test, then compare; a failed check says whether the golden model shows the same edges."""
+    """Run the test, then compare; after a failed check, add whether the golden model shows the same edges."""
     try:
         await test
     except (AssertionError, TimeoutError) as error:
@@ -165,9 +165,10 @@ RandomTest = Callable[[Any, int], Awaitable[None]]
 
 
 def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[RandomTest], Any]:
-    """A cocotb test that verifies `rules`, of a coroutine that plays one seed on one side.
+    """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one side.
 
-    least: output edges that a seed must have made, all compared. uncompared: why they are not.
+    least: minimum number of output edges that a seed must make; all are compared. uncompared: the reason why
+    they are not compared.
     """
 
     def mark(test: RandomTest) -> Any:
@@ -186,7 +187,9 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
                 await judged(running, test(dut, seed))
                 digest = pins_digest(running.side) if running.side else ""
                 if running.side and running.side.simulated:
-                    assert compared >= least, f"seed {seed} did next to nothing ({compared} edges)"
+                    assert compared >= least, (
+                        f"seed {seed}: {compared} output edges, expected {least} or more"
+                    )
                     cocotb.log.info("seed %d: %d edges compared, pins %s", seed, compared, digest)
                     add_counts(seeds=1)
                 return digest
@@ -207,11 +210,11 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
 
 
 def pins_digest(side: Side) -> str:
-    """Stands for all pin changes that a side has seen: the same host did the same on RTL and golden model."""
+    """Return a digest of all pin changes of a side: equal for the same host on RTL and golden model."""
     return sha256(repr(sorted(map(tuple, side.stimulus))).encode()).hexdigest()[:12]
 
 
 def note(side: Side, text: str) -> None:
-    """Leave in the folder of the run what its host is going to do."""
+    """Write the plan of the host to the folder of the run."""
     if side.simulated:
         (cast(Bench, side).out / "plan.txt").write_text(text + "\n", encoding="utf-8")

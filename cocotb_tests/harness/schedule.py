@@ -1,9 +1,9 @@
-"""Which pytest items share a simulator process, and that xdist sends such a group to one worker.
+"""Decides which pytest items share a simulator process, and makes xdist send such a group to one worker.
 
-Tests marked with the same `xdist_group` go to one worker, too, which shares what they make once.
-Groups are made of what is left to run (`-k`, a node's id, --lf), in its order. Each worker knows them from
-its own collection; the controller, which collects nothing, gets them in a file, whose path it gives to its
-workers.
+Tests marked with the same `xdist_group` also run in one worker, which shares what they build once. Groups are
+formed from the tests that remain to run (`-k`, a node's id, --lf), in their order. Each worker knows them
+from its own collection. The controller, which collects nothing, reads them from a file whose path it passes
+to its workers.
 """
 
 from __future__ import annotations
@@ -25,21 +25,22 @@ _SCOPES = "openppmc_scopes"
 
 
 def params_of(test: pytest.Item) -> dict[str, Any]:
-    """Parameters of a pytest item."""
+    """Return the parameters of a pytest item."""
     callspec = getattr(test, "callspec", None)
     return callspec.params if callspec else {}
 
 
 def item_of(test: pytest.Item) -> Item | None:
-    """The simulation that a pytest item is, if it is one."""
+    """Return the simulation of a pytest item; None if it is not a simulation."""
     item = params_of(test).get("item")
     return item if isinstance(item, Item) else None
 
 
 def group_key(test: pytest.Item) -> Hashable:
-    """The same for those that may share a process: one test function, which knows the design, one build.
+    """Return a key that is equal for tests that may share a process: same test function, same build.
 
-    The design of tests that are not directed may depend on their module.
+    The test function determines the design. The design of tests that are not directed may depend on their
+    module.
     """
     item = item_of(test)
     if item is None or not item.together or len(params_of(test)) > 1:
@@ -49,18 +50,18 @@ def group_key(test: pytest.Item) -> Hashable:
 
 
 class Groups:
-    """The groups of a session, in a worker or where there are none."""
+    """The groups of a session, in a worker or in a session without workers."""
 
     def __init__(self, options: SimOptions) -> None:
         self._options = options
         self._group: dict[str, tuple[Item, ...]] = {}
 
     def options(self, test: pytest.Item) -> SimOptions:
-        """Options for `run_item` of a test."""
+        """Return the options for `run_item` of a test."""
         return replace(self._options, group=self._group.get(test.nodeid, ()))
 
     def pytest_collection_finish(self, session: pytest.Session) -> None:
-        """Make the groups; with waves each test is alone."""
+        """Form the groups; with waves each test is alone."""
         key = (lambda test: None) if self._options.waves else group_key
         scopes = {}
         for tests in groups_of(session.items, key):
@@ -78,18 +79,18 @@ class Groups:
 
 
 class Sender:
-    """xdist's controller: whole groups to one worker each, all other tests one by one."""
+    """xdist's controller: sends each group as a whole to one worker, all other tests one by one."""
 
     def __init__(self) -> None:
         self._file = BUILD / f"scopes-{os.getpid()}.json"
 
     def pytest_configure_node(self, node: Any) -> None:
-        """Tell a worker where to write its groups."""
+        """Pass a worker the file for its groups."""
         self._file.parent.mkdir(parents=True, exist_ok=True)
         node.workerinput[_SCOPES] = str(self._file)
 
     def pytest_xdist_make_scheduler(self, config: pytest.Config, log: Any) -> Any:
-        """xdist's scheduler for scopes, with the groups as scopes; if the user asks for one, that."""
+        """Return xdist's scheduler for scopes, with the groups as scopes; None if the user selects one."""
         from xdist.scheduler import LoadScopeScheduling
 
         if config.getoption("dist") != "load":

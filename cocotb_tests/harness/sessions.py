@@ -1,13 +1,13 @@
-"""Plays the host sessions printed in docs/<part>/examples.md: every byte must be the printed one.
+"""Plays the host sessions printed in docs/<part>/examples.md: every byte must equal the printed one.
 
-A chapter is "## <number> title"; its code blocks hold one access a line:
+A chapter is "## <number> title"; its code blocks hold one access per line:
 
     c 43    st 10    code byte, then the status register
     d E7    st 10    data byte, then the status register
     w 42    st 1A    code byte written without waiting for IBF = 0, then the status register
     r 83             data read after OBF = 1
             st 00    status register
-    p       st 00    poll until the status register is this
+    p       st 00    poll until the status register has this value
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ LINE = re.compile(r"^(?:(c|d|w) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|
 
 @dataclass(frozen=True)
 class Step:
-    """One line: c/d/w byte with status, r with its byte, s a status alone, p one that is waited for."""
+    """One line: c, d or w byte with status, r with its byte, s a status read, p a polled status."""
 
     kind: str
     byte: int
@@ -36,14 +36,14 @@ class Step:
 
 
 class Sessions:
-    """The sessions of one part. `brief`: codes of operations that may be over before a slow host looks."""
+    """The sessions of one device. `brief`: codes of operations that may end before the status is read."""
 
     def __init__(self, part: str, brief: Collection[int]) -> None:
         self.page = ROOT / "docs" / part / "examples.md"
         self.brief = brief
 
     def blocks(self, chapter: int) -> list[list[Step]]:
-        """The code blocks of one chapter; ValueError names a line that is no access."""
+        """Return the code blocks of one chapter; ValueError names a line that is not an access."""
         parts = re.split(r"^## ", self.page.read_text(encoding="utf-8"), flags=re.M)
         body = next(part for part in parts if part.startswith(f"{chapter} "))
         found = []
@@ -64,7 +64,7 @@ class Sessions:
         return found
 
     async def play(self, bench: Bench, host: HostBus, steps: list[Step], where: str) -> None:
-        """One block on the bench."""
+        """Play one block on the bench."""
         for number, step in enumerate(steps, 1):
             at = f"{where} line {number}: {step.kind} {step.byte:02X}"
             if step.kind == "r":
@@ -86,10 +86,10 @@ class Sessions:
 
 
 class Story:
-    """Chapters of the run: what happened between which clk edges.
+    """Chapters of the run, with the edges of `clk` at which each begins and ends.
 
-    The running one is the last line of the file `progress`; `save` leaves story.json (the chapters) and
-    recording.json (all pin changes and output edges) in the run's folder.
+    The running chapter is the last line of the file `progress`; `save` writes story.json (the chapters) and
+    recording.json (all pin changes and output edges) to the run's folder.
     """
 
     def __init__(self, bench: Bench) -> None:
@@ -98,7 +98,7 @@ class Story:
 
     @contextmanager
     def chapter(self, key: str, title: str) -> Iterator[None]:
-        """Everything that the block does belongs to this chapter."""
+        """Assign all actions of the block to this chapter."""
         with (self.bench.out / "progress").open("a") as file:
             file.write(title + "\n")
         begin = self.bench.now

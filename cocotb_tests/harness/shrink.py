@@ -1,4 +1,4 @@
-"""Shortens a failing stimulus to few acts: whole bus accesses and pin changes, as text and as pin changes."""
+"""Shortens a failing stimulus to a few acts (whole bus accesses, pin changes), as text and as pin changes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .part import Part, recorded
 
 LINE = "rxd"
 BUSY = 64
-"""A pin that changes more often is a clock; its periods are acts in groups, about so many in all."""
+"""A pin that changes more often is a clock; its periods are acts in groups, about this number of groups."""
 
 
 class Step(NamedTuple):
-    """From edge `t` on the bits of `mask` of a port have the levels of `value`."""
+    """From edge `t` on, the bits of `mask` of a port have the levels of `value`."""
 
     t: int
     port: str
@@ -29,7 +29,7 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Act:
-    """`what` says it in words, without the time. access: what the host's log says of it, if it is one."""
+    """One act. `what` describes it without the time. access: its entry in the host's log, if it has one."""
 
     what: str
     steps: tuple[Step, ...]
@@ -52,11 +52,11 @@ class Act:
 
     @property
     def end(self) -> int:
-        """Edge of its last one."""
+        """Edge of its last pin change."""
         return self.steps[-1].t
 
     def moved(self, clk: int) -> Act:
-        """The same so many clk later."""
+        """Return the same act `clk` cycles later."""
         access = self.access and self.access._replace(t=self.access.t + clk)
         return Act(self.what, tuple(step._replace(t=step.t + clk) for step in self.steps), access)
 
@@ -65,7 +65,7 @@ class Act:
 
 
 def acts_of(recording: Recording) -> list[Act]:
-    """All that was done, in order of time."""
+    """Return all acts of a recording, in order of time."""
     part = recorded(recording.part, recording.params)
     bus = part.bus_pins - {LINE}
     changes = recording.stimulus
@@ -85,7 +85,7 @@ def acts_of(recording: Recording) -> list[Act]:
 
 
 def changes_of(part: Part, acts: Iterable[Act]) -> list[Change]:
-    """The pin changes of some acts; none that changes nothing."""
+    """Return the pin changes of some acts, without those that change no level."""
     levels, changes = {**part.inputs, "rst_n": 1}, []
     for t, port, mask, value in sorted((step for act in acts for step in act.steps), key=lambda step: step.t):
         level = levels[port] & ~mask | value
@@ -101,7 +101,7 @@ def changes_of(part: Part, acts: Iterable[Act]) -> list[Change]:
 def _on_the_bus(
     part: Part, bus: Iterable[str], changes: Sequence[Change], accesses: Iterable[Access]
 ) -> Iterator[Act]:
-    """Accesses, good and bad ones: each ends when all strobes are off."""
+    """Yield valid and invalid accesses: each ends when all strobes are deasserted."""
     strobes = {pin for pin in bus if part.inputs[pin] and part.width(pin) == 1 and pin != "cs_n"}
     levels = {pin: part.inputs[pin] for pin in sorted(bus)}
     done = {access.t: access for access in accesses}
@@ -146,7 +146,7 @@ def _access(steps: list[Step], done: dict[int, Access]) -> Act:
 
 
 def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
-    """Runs of characters: the line rests behind each, for longer than a character of ones lasts."""
+    """Yield runs of characters: after each run, the line is idle for longer than a character of ones."""
     bit = _bit(rows)
     run: list[tuple[int, int]] = []
     for t, level in rows:
@@ -159,7 +159,7 @@ def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
 
 
 def _bit(rows: Sequence[tuple[int, int]]) -> int:
-    """clk of a bit: the longest time between two changes of which most others are multiples, nearly."""
+    """Return the cycles per bit: the longest time between changes of which most others are near multiples."""
     lengths = Counter(b - a for (a, _), (b, _) in pairwise(rows))
 
     def fitting(bit: int) -> int:
@@ -176,7 +176,7 @@ def _frame(run: Sequence[tuple[int, int]], bit: int) -> Act:
 
 
 def _characters(run: Sequence[tuple[int, int]], bit: int) -> str:
-    """The bytes as a receiver would read them in the middle of their bits."""
+    """Return the bytes as a receiver would sample them in the middle of their bits."""
     found, free = [], 0
     for start, level in run:
         if level or start < free:
@@ -192,14 +192,14 @@ def _characters(run: Sequence[tuple[int, int]], bit: int) -> str:
 
 
 def _resets(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
-    """rst_n low, and high again."""
+    """Yield the resets: rst_n low, and high again."""
     for (t, level), (end, _) in pairwise([*rows, (rows[-1][0], 1)]):
         if not level:
             yield Act(f"reset for {end - t} clk", (Step(t, "rst_n", 1, 0), Step(end, "rst_n", 1, 1)))
 
 
 def _on_a_port(part: Part, port: str, rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
-    """Changes of the pins of a port; those of a wide one as a whole."""
+    """Yield the changes of the pins of a port; a wide port changes as a whole."""
     width, idle = part.width(port), part.inputs[port]
     if width > 2:
         yield from _on_a_pin(port, (1 << width) - 1, 0, rows)
@@ -216,7 +216,7 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
             shown = level if mask == 1 << place else f"{level:#x}"
             yield Act(f"{name} = {shown}", (Step(t, port, mask, level << place),))
         return
-    # A group begins with a rise, so that what is left of a clock has longer periods, not shorter ones.
+    # A group begins with a rise, so that the rest of a clock has longer periods, not shorter ones.
     size = -(-len(rows) // 2 // BUSY)
     rises = [number for number, (_, level) in enumerate(rows) if level]
     starts = [0, *rises[:: max(1, size)][1:], len(rows)]
@@ -228,13 +228,13 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
 
 
 PAUSE = 20
-"""clk between two acts whose pause is closed; every bus of ours has room in it."""
+"""Cycles between two acts whose pause is closed; this is enough for every bus of the project."""
 
 
 def messages(acts: Iterable[Act]) -> list[list[Act]]:
-    """Runs of writes, or of reads, and bursts of other pins.
+    """Return runs of writes or of reads, and bursts of other pins.
 
-    A run ends where the direction changes, or where the register it began with comes again after others: a
+    A run ends when the direction changes, or when the register it began with occurs again after others: a
     command and its data, all registers of a block, a response, polls.
     """
     found: list[list[Act]] = []
@@ -253,7 +253,7 @@ def messages(acts: Iterable[Act]) -> list[list[Act]]:
 
 
 def exchanges(acts: Iterable[Act]) -> list[list[Act]]:
-    """Messages to the part, each with all that is read before the next one; bursts of other pins."""
+    """Return the messages to the device, each with the reads that follow it, and bursts of other pins."""
     found: list[list[Act]] = []
     exchange: list[Act] = []
     for message in messages(acts):
@@ -267,12 +267,12 @@ def exchanges(acts: Iterable[Act]) -> list[list[Act]]:
 
 
 def together(runs: Iterable[Sequence[Act]]) -> list[Act]:
-    """The acts of some runs in order of time."""
+    """Return the acts of some runs in order of time."""
     return sorted((act for run in runs for act in run), key=lambda act: (act.begin, act.end))
 
 
 def told(acts: Iterable[Act]) -> list[str]:
-    """A line for each message whose acts follow each other at once."""
+    """Return one line for each message whose acts follow each other without a pause."""
     lines: list[list[Act]] = []
     for act in acts:
         last = lines[-1] if lines else []
@@ -284,7 +284,7 @@ def told(acts: Iterable[Act]) -> list[str]:
 
 
 def _goes_on(run: Sequence[Act], act: Act) -> bool:
-    """Whether an access belongs to a run of them."""
+    """Return whether an access belongs to a run of accesses."""
     if not run or not run[-1].access or run[-1].reads != act.reads:
         return False
     return act.kind != run[0].kind or act.kind == run[-1].kind
@@ -300,10 +300,10 @@ def _words(line: Sequence[Act]) -> Iterator[str]:
 
 
 Fails = Callable[[Sequence[Act]], Awaitable[int | None]]
-"""Edge of the first difference, None if there is no such one."""
+"""Returns the edge of the first difference, or None without such a difference."""
 
 CAPS = (PAUSE, 10 * PAUSE, 100 * PAUSE, 1000 * PAUSE)
-"""clk that no pause shall be longer than, tried in turn."""
+"""Maximum length of a pause in cycles; the values are tried in turn."""
 
 
 class _EnoughError(Exception):
@@ -312,10 +312,10 @@ class _EnoughError(Exception):
 
 @dataclass
 class Shrinker:
-    """`acts` is the shortest list so far, `trials` how often one was carried out.
+    """Shrinks a list: `acts` is the shortest list so far, `trials` the number of lists tried.
 
-    trials_at_most, seconds (of this process on the processor): limits. kept: called with each list that is
-    shorter than the ones before it.
+    trials_at_most, seconds (CPU time of this process): limits. kept: called with each list that is shorter
+    than those before it.
     """
 
     acts: list[Act]
@@ -328,7 +328,7 @@ class Shrinker:
     _tried: set[tuple[Act, ...]] = field(default_factory=set)
 
     async def run(self) -> None:
-        """Shrink; `stopped` says which limit ended it before nothing could be left out any more."""
+        """Shrink; `stopped` names the limit that ended the search before all acts were necessary."""
         self._end = time.process_time() + self.seconds
         try:
             await self._keep_the_end()
@@ -345,7 +345,7 @@ class Shrinker:
             self.stopped = str(limit)
 
     async def _try(self, acts: Sequence[Act]) -> bool:
-        """Whether this list fails as well; then it is the one to go on with, up to the difference."""
+        """Return whether this list fails as well; if so, continue with it, up to the difference."""
         if tuple(acts) in self._tried:
             return False
         if self.trials >= self.trials_at_most:
@@ -362,9 +362,9 @@ class Shrinker:
         return True
 
     async def _keep_the_end(self) -> None:
-        """Only the last exchanges, soon after the reset: ever more of them until they are enough.
+        """Try only the last exchanges, soon after the reset: more and more of them until they are enough.
 
-        A part left out further on shifts what is read later; and short lists are cheap to try.
+        An omission further on would shift what is read later; and short lists are quick to try.
         """
         runs, count = exchanges(self.acts), 1
         head = [act for act in self.acts if act.begin < PAUSE]
@@ -378,9 +378,10 @@ class Shrinker:
             count += 1 + count // 4
 
     async def _leave_out_kinds(self) -> None:
-        """Without all acts of a kind, the most frequent first: polls, clocks, what other pins do.
+        """Omit all acts of a kind, the most frequent kind first: polls, clocks, changes of other pins.
 
-        Rare ones can wait. The last message stays: it may be the poll that shows the difference.
+        Rare kinds are left to later steps. The last message stays: it may be the poll that shows the
+        difference.
         """
         for kind, count in Counter(act.kind for act in self.acts).most_common():
             if count < len(self.acts) // 20:
@@ -389,7 +390,7 @@ class Shrinker:
             await self._try([act for act in self.acts if act.kind != kind or act in last])
 
     async def _leave_out(self, runs: list[list[Act]]) -> None:
-        """Without halves, quarters, …, single ones of the runs."""
+        """Omit halves, quarters, …, single runs."""
         size = max(1, len(runs) // 2)
         while size:
             first = 0
@@ -402,7 +403,7 @@ class Shrinker:
             size //= 2
 
     async def _cap_pauses(self) -> None:
-        """No pause longer than it must be, all of them at once."""
+        """Limit all pauses to the smallest value of CAPS with which the list still fails."""
         for longest in CAPS:
             acts: list[Act] = []
             saved = last = 0
@@ -414,7 +415,7 @@ class Shrinker:
                 return
 
     async def _close_pauses(self) -> None:
-        """What follows a pause comes sooner: at once, or after half of it, or a quarter of it is saved."""
+        """Shorten each pause: completely, by half, or by a quarter."""
         place = 0
         while place < len(self.acts):
             last = max((act.end for act in self.acts[:place]), default=0)

@@ -1,8 +1,9 @@
-"""`Side`: what a test, a lab or a host knows of the part it works on; the RTL and the golden model are two.
+"""`Side`: the interface of a test, lab or host to the device under test: the RTL or the golden model.
 
-Time is the index of rising clk edges; edge 0 is the first one that sees rst_n = 1 after the first reset. A
-pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising edge
-that made it. Most here follows from a few primitives: those of `Bench` (RTL) and `ModelBench` (golden model).
+Time is the index of rising edges of `clk`; edge 0 is the first one that samples rst_n = 1 after the first
+reset. A pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising
+edge that caused it. Most methods use a few primitives, which `Bench` (RTL) and `ModelBench` (golden model)
+define.
 """
 
 from __future__ import annotations
@@ -23,25 +24,25 @@ from .part import Part
 
 
 def new_model(part: str, params: Mapping[str, object]) -> Any:
-    """As `openppmc.check.replay.new_model`."""
+    """See `openppmc.check.replay.new_model`."""
     watch(part)
     return replay.new_model(part, params)
 
 
 class Given:
-    """`changes`: in order of time, whatever comes later stands behind what has been there before."""
+    """Collects pin changes. `changes` is in order of time; later additions follow the earlier ones."""
 
     def __init__(self) -> None:
         self.changes: list[Change] = []
         self._driven = 0
         self._made: dict[str, tuple[int, tuple[int, int]]] = {}
-        """Name -> how many of its rows are in the list, and the last of these."""
+        """Name -> number of its rows in the list, and the last of these rows."""
 
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
-        """What is new of both, which grow from call to call; the whole list.
+        """Append the new rows of both, which grow from call to call; return the whole list.
 
-        made: name -> (edge, level), first sampled by the edge behind it. The last level of the last edge may
-        have changed since it was seen.
+        made: name -> (edge, level), first sampled by the next edge. The last level of the last edge may have
+        changed since the previous call.
         """
         new, self._driven = list(driven[self._driven :]), len(driven)
         for name, rows in made.items():
@@ -57,32 +58,33 @@ class Given:
 
 
 TIMEOUT = 1_000_000
-"""clk that a wait lasts at most, if nobody says otherwise."""
+"""Default time limit of a wait in cycles."""
 
 
 PinChange = tuple[int, Mapping[str, int]]
-"""Edge that is the first to sample these levels."""
+"""Edge that is the first to sample these levels, and the levels."""
 
 
 class Handle(Protocol):
-    """Something that changes pins later; `await` it: until it has made its last change."""
+    """A series of scheduled pin changes; `await` it to wait until its last change."""
 
     def __await__(self) -> Generator[Any, Any, Any]: ...
 
     def cancel(self) -> Any:
-        """Let it rest from now on."""
+        """Stop the changes."""
 
 
 class Side(ABC):
-    """A part under test.
+    """A device under test.
 
     `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of each input and
-    of rst_n), `stimulus` (list[Change]: what was driven), `accesses` (list[Access]: what a host did),
-    `initial` (level of each recorded output before its first edge), `follower` (of `golden`, once asked for).
+    of rst_n), `stimulus` (list[Change]: driven changes), `accesses` (list[Access]: accesses of a host),
+    `initial` (level of each recorded output before its first edge), `follower` (of `golden`, after its first
+    use).
     """
 
     simulated: ClassVar[bool] = True
-    """Whether this is the RTL, whose edges can be compared with the golden model's."""
+    """Whether this is the RTL, whose edges can be compared with those of the golden model."""
 
     def __init__(self, part: Part, config: Config, seed: int) -> None:
         self.part = part.built(part.params(config))
@@ -102,74 +104,79 @@ class Side(ABC):
     @property
     @abstractmethod
     def now(self) -> int:
-        """Index of the next rising clk edge: the stamp of a pin change made at this moment."""
+        """Index of the next rising edge of `clk`: the stamp of a pin change made at this moment."""
 
     @abstractmethod
     async def until(self, edge: int) -> int:
-        """Go to the falling clk edge before rising edge `edge` (then now == edge).
+        """Advance to the falling edge of `clk` before rising edge `edge` (then now == edge).
 
         Raises ValueError if that moment has passed.
         """
 
     @abstractmethod
     async def align(self) -> int:
-        """Go to the next falling edge if just after a rising one; returns `now`."""
+        """Advance to the next falling edge if the last edge was a rising one; return `now`."""
 
     @abstractmethod
     def set(self, **levels: int) -> int:
-        """Drive input pins now (falling-edge half only) and log them; returns the stamp.
+        """Drive input pins now (only in the low half of `clk`) and record them; return the stamp.
 
-        A name such as "fl_n[2]" drives one bit of a port. Raises RuntimeError in the high half of clk,
-        KeyError for an unknown pin. Unchanged levels are neither driven nor logged.
+        A name such as "fl_n[2]" drives one bit of a port. Raises RuntimeError in the high half of `clk`,
+        KeyError for an unknown pin. Unchanged levels are neither driven nor recorded.
         """
 
     @abstractmethod
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """As `set`, but at a moment between two edges, for a reset; returns just after it, with its stamp.
+        """Do the same as `set`, but between two edges, for a reset; return the stamp of the change.
 
-        `share` of the low half of clk is over then (0 to 1).
+        The change is made when `share` (0 to 1) of the low half of `clk` has passed; the method returns just
+        after it.
         """
 
     @abstractmethod
     def drive(self, changes: Iterable[PinChange]) -> Handle:
-        """Make pin changes beside the test, in order of time, none in the past; read one by one as time goes.
+        """Schedule pin changes in order of time, none in the past; the iterable is read as time advances.
 
-        cancel() of what is returned stops it, and awaiting it waits for the last change.
+        The test continues meanwhile. cancel() of the result stops the changes, awaiting it waits for the last
+        change.
         """
 
     @abstractmethod
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """Wait for the next change (to `level` if given); returns its edge, aligned so that set() works.
+        """Wait for the next change (to `level` if given); return its edge, aligned so that set() works.
 
-        Raises TimeoutError after `timeout` clk.
+        Raises TimeoutError after `timeout` cycles.
         """
 
     @property
     @abstractmethod
     def outputs(self) -> tuple[str, ...]:
-        """Names of the outputs whose levels there are to see."""
+        """Names of the outputs whose levels are visible."""
 
     @abstractmethod
     def _port_level(self, port: str) -> int:
-        """Present level of an output."""
+        """Return the present level of an output."""
 
     @abstractmethod
     def _seen(self) -> Mapping[str, list[tuple[int, int]]]:
-        """Changes (edge, level) of all recorded outputs up to now, the last one of each edge."""
+        """Return the changes (edge, level) of all recorded outputs up to now; of each edge only the last."""
 
     @property
     def golden(self) -> Any:
-        """The golden model at edge `now` - 1, with the pin changes seen so far; never ahead of this side.
+        """The golden model at edge `now` - 1, with the pin changes so far; never ahead of this side.
 
-        For aiming only (its `next_event`, position, state): what a test checks comes from the side itself.
+        Use it only to choose moments (its `next_event`, position, state): a test checks values of the side
+        itself.
         """
         if self.follower is None:
             self.follower = Follower(new_model(self.part.name, self.part.params(self.config)))
         return self.follower.catch_up(self.pin_changes(), self.now - 1)
 
     def pin_changes(self) -> list[Change]:
-        """What the part has got on its inputs: as driven, and as the bench's top has made them (what changes
-        at edge t is first sampled by t + 1)."""
+        """Return the changes at the inputs of the device: driven ones, and those made by the bench's top.
+
+        A change that the top makes at edge t is first sampled by edge t + 1.
+        """
         part = self.part
         if not part.fed:
             return self.stimulus
@@ -178,11 +185,11 @@ class Side(ABC):
         return self._given.add(driven, {name: seen[name] for name in part.fed})
 
     def close(self) -> None:
-        """Let the pins rest: whatever was to change them later no longer does."""
+        """Stop all scheduled pin changes."""
         for handle in self._later:
             handle.cancel()
 
-    # ---------------------------------------------------------------- pins that move beside the test
+    # ---------------------------------------------------------------- pins that move while the test runs
 
     def at(self, edge: int, **levels: int) -> Handle:
         """Schedule pin levels so that rising edge `edge` is the first to sample them.
@@ -194,10 +201,10 @@ class Side(ABC):
         return self.drive([(edge, levels)])
 
     def external_clock(self, intervals: Iterable[int], pin: str = "", high: int = 2) -> Handle:
-        """Run the external clock: each item is the clk count from one rising edge to the next.
+        """Run the external clock: each item is the number of cycles from one rising edge to the next.
 
-        `pin` (default: the clock pin of a part with one axis). The first rising edge comes at once; it ends
-        with the iterable. Each high time is `high` clk. What is returned: see `drive`.
+        `pin` (default: the clock pin of a device with one axis). The first rising edge occurs immediately;
+        the clock ends with the iterable. Each high time is `high` cycles. For the result see `drive`.
         """
         name, start = pin or self.part.clock, self.now
 
@@ -213,13 +220,13 @@ class Side(ABC):
     # ---------------------------------------------------------------- time, reset
 
     async def clocks(self, n: int) -> int:
-        """Wait n clk; returns `now`."""
+        """Wait n cycles; return `now`."""
         return await self.until(self.now + n)
 
     async def reset(self, clocks: int = 4, settle: int = 4) -> int:
-        """Pulse rst_n low for some clk; returns the stamp of the release (first edge that sees 1).
+        """Pulse rst_n low for `clocks` cycles; return the stamp of the release (first edge that samples 1).
 
-        Time goes on for `settle` clk after it (P104-PORT-03: bytes are taken from then on).
+        Waits `settle` cycles after the release (P104-PORT-03: bytes are accepted from then on).
         """
         await self.align()
         self.set(rst_n=0)
@@ -233,23 +240,23 @@ class Side(ABC):
     # ---------------------------------------------------------------- pins
 
     def pin(self, name: str) -> int:
-        """Level of an input as driven last, of a whole port or of one bit."""
+        """Return the level of an input as driven last, of a whole port or of one bit."""
         port, place = self.part.locate(name)
         return self.pins[port] if place is None else self.pins[port] >> place & 1
 
     def pin_rises(self, pin: str, since: int = 0) -> list[int]:
-        """Stamps of the rising edges driven on an input of one bit from edge `since` on."""
+        """Return the stamps of the rising edges driven on an input of one bit from edge `since` on."""
         port, place = self.part.locate(pin)
         changes = [(c.t, c.value) for c in self.stimulus if c.pin == port]
         return [t for t, v in bit_changes(changes, place or 0, self.part.inputs[port]) if v and t >= since]
 
     def _levelled(self, pin: str, level: int) -> tuple[str, int]:
-        """Port of a pin and the port's level with the pin at `level`."""
+        """Return the port of a pin, and the port's level with the pin at `level`."""
         port, place = self.part.locate(pin)
         return port, level if place is None else self.pins[port] & ~(1 << place) | level << place
 
     async def pulse_pin(self, pin: str, level: int, clocks: int) -> int:
-        """Hold a pin at `level` for some clk, then put the old level back; returns the first stamp."""
+        """Hold a pin at `level` for `clocks` cycles, then restore the old level; return the first stamp."""
         await self.align()
         before, stamp = self.pin(pin), self.now
         self.set(**{pin: level})
@@ -260,13 +267,13 @@ class Side(ABC):
     # ---------------------------------------------------------------- outputs
 
     def level(self, output: str) -> int:
-        """Present level of an output, or of one bit of it ("pout_n[2]")."""
+        """Return the present level of an output, or of one bit of it ("pout_n[2]")."""
         port, place = self.part.locate(output)
         level = self._port_level(port)
         return level if place is None else level >> place & 1
 
     def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
+        """Return the changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
         port, place = self.part.locate(output)
         changes = self._seen()[port]
         if place is not None:
@@ -274,31 +281,31 @@ class Side(ABC):
         return changes[bisect_left(changes, (since, 0)) :]
 
     def falls(self, output: str, since: int = 0) -> list[int]:
-        """Edges on which an output of one bit fell."""
+        """Return the edges on which an output of one bit fell."""
         return [t for t, value in self.edges(output, since) if value == 0]
 
     def rises(self, output: str, since: int = 0) -> list[int]:
-        """Edges on which an output of one bit rose."""
+        """Return the edges on which an output of one bit rose."""
         return [t for t, value in self.edges(output, since) if value == 1]
 
     def pulses(self, since: int = 0, pin: str = "pout_n") -> list[int]:
-        """Pulses (P104-GEN-05): falling edges of pout_n."""
+        """Return the pulses (P104-GEN-05): falling edges of pout_n."""
         return self.falls(pin, since)
 
     def intervals(self, since: int = 0, pin: str = "pout_n") -> list[int]:
-        """Distances of successive pulses in clk."""
+        """Return the distances of successive pulses in cycles."""
         pulses = self.pulses(since, pin)
         return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
 
     def low_times(self, since: int = 0, pin: str = "pout_n") -> list[int]:
-        """Low time of each complete pulse in clk."""
+        """Return the low time of each complete pulse in cycles."""
         changes = self.edges(pin, since)
         return [
             b - a for (a, low), (b, high) in zip(changes, changes[1:], strict=False) if low == 0 and high == 1
         ]
 
     def level_at(self, output: str, edge: int) -> int:
-        """Level of an output just after rising edge `edge`."""
+        """Return the level of an output just after rising edge `edge`."""
         port, place = self.part.locate(output)
         level = level_at(self._seen()[port], edge, self.initial[port])
         return level if place is None else level >> place & 1
@@ -306,7 +313,7 @@ class Side(ABC):
     # ---------------------------------------------------------------- waiting for outputs
 
     async def nth_fall(self, n: int, since: int = 0, pin: str = "pout_n", timeout: int = TIMEOUT) -> int:
-        """Wait until `pin` has fallen n times from edge `since` on; returns the edge of the n-th fall."""
+        """Wait until `pin` has fallen n times from edge `since` on; return the edge of the n-th fall."""
         end = self.now + timeout
         while len(self.falls(pin, since)) < n:
             await self.edge(pin, 0, max(1, end - self.now))
@@ -314,7 +321,7 @@ class Side(ABC):
         return self.falls(pin, since)[n - 1]
 
     async def level_is(self, output: str, level: int, timeout: int = TIMEOUT) -> int:
-        """Wait until an output has this level (returns at once if it has); returns `now`."""
+        """Wait until an output has this level (no wait if it already has); return `now`."""
         if self.level(output) != level:
             await self.edge(output, level, timeout)
         return await self.align()
@@ -322,7 +329,7 @@ class Side(ABC):
     # ---------------------------------------------------------------- checking and reporting
 
     def context(self, last: int = 8) -> str:
-        """The last output edges, pin changes and host accesses, for messages."""
+        """Return the last output edges, pin changes and host accesses, for messages."""
         usual = {*self.part.bus_pins, self.part.clock}
         pins = [c for c in self.stimulus if c.pin not in usual]
         shown = [edge for edge in self._all_edges() if edge.signal not in ("d_o", "d_oe")]
@@ -333,17 +340,17 @@ class Side(ABC):
         return "\n".join(lines)
 
     def check(self, rule: str, what: str, got: Any, expected: Any) -> None:
-        """Assert got == expected; the message carries rule, edge and context."""
+        """Assert got == expected; the message contains rule, edge and context."""
         assert got == expected, (
             f"{rule}: {what}: expected {_show(expected)}, got {_show(got)}\n{self.context()}"
         )
 
     def check_window(self, rule: str, what: str, got: int, low: int, high: int) -> None:
-        """Assert low <= got <= high; the message carries rule, edge and context."""
+        """Assert low <= got <= high; the message contains rule, edge and context."""
         assert low <= got <= high, f"{rule}: {what}: expected {low}..{high}, got {got}\n{self.context()}"
 
     def recording(self) -> Recording:
-        """Everything up to now, for `compare`; the last complete clk edge is `now` - 1."""
+        """Return all changes up to now, for `compare`; the last complete edge of `clk` is `now` - 1."""
         return Recording(
             part=self.part.name,
             params=self.part.params(self.config),

@@ -1,4 +1,4 @@
-"""Runs one simulator process for one or more tests of one build, and reads what became of each test."""
+"""Runs one simulator process for one or more tests of one build, and reads the outcome of each test."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PASSED, FAILED, SKIPPED, XFAILED = "passed", "failed", "skipped", "xfailed"
 CRASHED = "crashed"
 """The process ended within this test: crash, $fatal, or the wall-clock limit."""
 MISSING = "did not run"
-TIMEOUT = "no end within the wall-clock limit"
+TIMEOUT = "not finished within the wall-clock limit"
 
 _SAID = re.compile(r"^ *[-\d.]+ns [A-Z]+ +cocotb\.regression +(?P<text>.*)$", re.MULTILINE)
 _FAILED_LINE = re.compile(r"\s*(\w+\.)*\w*(Error|Exception|Failed)\b")
@@ -33,39 +33,39 @@ _TABLE = re.compile(r"^[^\n]*\*{20,}", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Outcome:
-    """One test's: `kind`, and in `text` what failed, or the reason of a skip or an expected failure."""
+    """Outcome of one test: `kind`, and in `text` the failure, or the reason of a skip or expected failure."""
 
     kind: str
     text: str = ""
 
     @property
     def good(self) -> bool:
-        """Whether the run goes on without a word: passed, skipped or failed as expected."""
+        """Whether nothing has to be reported: passed, skipped or failed as expected."""
         return self.kind in (PASSED, SKIPPED, XFAILED)
 
     @property
     def headline(self) -> str:
-        """The last line that is not indented of an exception, or the first one: what failed."""
+        """The failure in one line: the first line that names an exception, else the first line."""
         rows = [row for row in self.text.splitlines() if row.strip()]
         errors = [row.strip() for row in rows if _FAILED_LINE.match(row)]
         return (errors or [row.strip() for row in rows] or [self.kind])[0]
 
 
 def read_log(log: Path) -> str:
-    """A log as text, with the project's files named from its root."""
+    """Return a log as text, with the project's files named relative to its root."""
     if not log.is_file():
         return ""
     return from_root(re.sub(r"\x1b\[[0-9;]*m", "", log.read_text(encoding="utf-8", errors="replace")))
 
 
 def failure_text(text: str, lines: int = 100) -> str:
-    """The exception or the error of the RTL in a test's part of the log, else the end of that part."""
+    """Return the exception or the RTL error in a test's part of the log, else the end of that part."""
     found = [text.find(word) for word in ("%Error", "%Fatal", "Fatal Python error", "Timeout (")]
     start = min((place for place in found if place >= 0), default=-1)
     if start < 0:
         start = text.rfind("Traceback (most recent call last)")
     chosen = text[max(0, text.rfind("\n", 0, start) + 1) :] if start >= 0 else text
-    # The summary table of cocotb says nothing that the message does not.
+    # The summary table of cocotb repeats what the message states.
     chosen = _TABLE.split(chosen)[0]
     if chosen.lstrip().startswith("Traceback"):
         chosen = chosen.split("\n", 1)[-1]
@@ -74,7 +74,7 @@ def failure_text(text: str, lines: int = 100) -> str:
 
 
 def _shortened(rows: list[str], lines: int) -> list[str]:
-    """About so many lines: begin, what failed, end."""
+    """Return about `lines` rows: the begin, the failure, the end."""
     what = next((n for n, row in enumerate(rows) if _FAILED_LINE.match(row)), 0)
     middle = range(max(6, what), min(max(6, what) + lines // 3, len(rows)))
     end = range(max(middle.stop, len(rows) - lines + lines // 3 + 8), len(rows))
@@ -83,7 +83,10 @@ def _shortened(rows: list[str], lines: int) -> list[str]:
 
 
 def _parts(text: str) -> Iterator[tuple[str, str]]:
-    """(full name, its part of the log) of each test that was begun; what came before is the first one's."""
+    """Yield (full name, its part of the log) of each test that was started.
+
+    The text before the first start belongs to the first test.
+    """
     begins = [
         (name.group(1), said.start())
         for said in _SAID.finditer(text)
@@ -95,7 +98,10 @@ def _parts(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _outcome(name: str, part: str, end: str) -> Outcome:
-    """Outcome of a test by its part of the log; `end`: what ended the process, if that was within a test."""
+    """Return the outcome of a test from its part of the log.
+
+    `end`: the cause of the end of the process, if it ended within a test.
+    """
     if "%Error" in part:
         return Outcome(FAILED, failure_text(part))
     for said in _SAID.finditer(part):
@@ -109,7 +115,7 @@ def _outcome(name: str, part: str, end: str) -> Outcome:
 
 
 def named_in(results: Path) -> list[str] | None:
-    """Full names of the tests in results.xml, sorted; None if there is none."""
+    """Return the full names of the tests in results.xml, sorted; None if the file does not exist."""
     if not results.is_file():
         return None
     cases = ElementTree.parse(results).getroot().iter("testcase")
@@ -117,9 +123,10 @@ def named_in(results: Path) -> list[str] | None:
 
 
 def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> dict[Item, Outcome]:
-    """Outcome of each item of a process that has ended.
+    """Return the outcome of each item of a process that has ended.
 
-    `trouble`: how, if not well. A process that came to its end must have run exactly these items.
+    `trouble`: how the process ended, if not normally. A process that ended normally must have run exactly
+    these items.
     """
     text, names = read_log(log), named_in(results)
     wanted = sorted(item.full_name for item in items)
@@ -138,16 +145,16 @@ def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> d
 
 
 REPRO = "OPENPPMC_REPRO"
-"""Tells a simulation the command that repeats it, for its messages."""
+"""Environment variable: command that repeats the simulation, for its messages."""
 VCD = "dump.vcd"
-"""Waveforms, in the folder of a run."""
+"""Waveform file in the folder of a run."""
 ERRORS = 1_000_000
-"""%Error lines, such as assertions of the RTL that fire, before Verilator ends the process."""
+"""Number of %Error lines, such as fired assertions of the RTL, after which Verilator ends the process."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """What a simulator process is to do; run again, it does the same. `env` goes to the simulation."""
+    """One run of a simulator process, which can be repeated. `env` is the environment of the simulation."""
 
     design: Design
     items: tuple[Item, ...]
@@ -157,23 +164,23 @@ class Job:
 
     @property
     def repro(self) -> str:
-        """The line that repeats it."""
+        """Command that repeats the job."""
         return self.env.get(REPRO) or repro_line(self.items, self.seed)
 
     @property
     def folder(self) -> Path:
-        """Scratch folder; the process number keeps parallel sessions apart."""
+        """Scratch folder; the process number separates parallel sessions."""
         more = f"+{len(self.items) - 1}" if len(self.items) > 1 else ""
         return RUNS / f"{safe(self.items[0].id)}{more}-s{self.seed}.{os.getpid()}"
 
 
 def safe(name: str) -> str:
-    """A name that can be a folder's."""
+    """Return a name that is valid for a folder."""
     return re.sub(r"[^\w.=-]+", "_", name)
 
 
 def repro_line(items: Sequence[Item], seed: int) -> str:
-    """The line that repeats these tests, in one process if there are several."""
+    """Return the command that repeats these tests, in one process if there are several."""
     names = ",".join(item.id for item in items)
     main = {"own": "", ICARUS: " SIM=icarus"}.get(sim_main(), f" SIM_MAIN={sim_main()}")
     if items[0].target != "test":
@@ -182,7 +189,7 @@ def repro_line(items: Sequence[Item], seed: int) -> str:
 
 
 def tried(job: Job) -> dict[Item, Outcome]:
-    """As `simulate`; nothing of it is left."""
+    """Do the same as `simulate`, but remove the files of the run."""
     try:
         return simulate(job)
     finally:
@@ -190,9 +197,9 @@ def tried(job: Job) -> dict[Item, Outcome]:
 
 
 def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
-    """Build if needed and run; the outcome of each item. SimError only if the build fails.
+    """Build if needed and run; return the outcome of each item. SimError only if the build fails.
 
-    `folder` (default: the job's) receives log.txt, results.xml and what the tests write.
+    `folder` (default: the job's) receives log.txt, results.xml and the files of the tests.
     """
     built = build(job.design, job.waves)
     folder = folder or job.folder
@@ -228,9 +235,9 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
                 "COCOTB_LOG_LEVEL": "INFO",
                 "COCOTB_ANSI_OUTPUT": "0",
                 "COCOTB_REWRITE_ASSERTION_FILES": "*.py",
-                # cocotb makes a configuration of pytest for that, which would import every installed plugin.
+                # For that, cocotb creates a pytest configuration, which would import every installed plugin.
                 "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
-                # Without it an expected failure looks like a pass.
+                # Without it, an expected failure would look like a pass.
                 "COCOTB_PREVIEW": "xfail_in_results",
                 **job.env,
             },
@@ -238,6 +245,6 @@ def simulate(job: Job, folder: Path | None = None) -> dict[Item, Outcome]:
     except RuntimeError as error:
         trouble = f"the simulator ended: {error}"
     except SystemExit:
-        pass  # some test failed, as its outcome says
+        pass  # a test failed, as its outcome states
     keep_counts(folder)
     return outcomes(job.items, log, results, trouble)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a design adds to verilated_sim.cpp, which is compiled once for all of them: the calls of its own class.
+// The calls of a design's own class; verilated_sim.cpp is compiled once for all designs.
 #include "Vtop.h"
 #if VM_TRACE
 #include "verilated_vcd_c.h"

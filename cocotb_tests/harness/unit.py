@@ -1,6 +1,6 @@
 """Drives one block instance of a generated wrapper, cycle by cycle.
 
-The wrapper is one top module of many instances; its ports are called <instance>_<port>.
+The wrapper is one top module with many instances; its ports are called <instance>_<port>.
 """
 
 from __future__ import annotations
@@ -42,13 +42,17 @@ class Block:
 
 
 def is_input(port: str) -> bool:
-    """True for a port that the test drives."""
+    """Return whether the test drives this port."""
     return port.endswith(("_i", "_ni"))
 
 
 def wrapper_text(top: str, blocks: Mapping[str, Block]) -> str:
-    """SystemVerilog of the top module; `chosen` is the number, from 1, of the instance that is clocked."""
-    # Inputs start at random levels: only the chosen instance has a clock, so no other one can complain.
+    """Return the SystemVerilog of the top module.
+
+    Its signal `chosen` is the number (from 1) of the instance that is clocked.
+    """
+    # Inputs start at random levels. Only the chosen instance is clocked, so no assertion of another one
+    # fires.
     pins, body = [], ["  logic [7:0] chosen = 8'd0;"]
     for number, (name, block) in enumerate(blocks.items(), 1):
         links = []
@@ -68,17 +72,17 @@ FOLDER = Path(__file__).resolve().parents[1]
 
 
 def rng() -> random.Random:
-    """Random source of the running test; the seed is in the failure message and in --seed."""
+    """Return the random source of the running test; the seed is in the failure message and in --seed."""
     return random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
 
 
 def same(what: str, got: object, want: object) -> None:
-    """Assertion with both values in the message."""
+    """Assert that both values are equal, with both in the message."""
     assert got == want, f"{what}: got {got}, want {want}"
 
 
 def _test_frame() -> FrameType:
-    """Frame of the running test: the outermost one of this project's tests."""
+    """Return the frame of the running test: the outermost one of this project's tests."""
     frame = sys._getframe(1)
     while frame.f_back is not None and FOLDER in Path(frame.f_back.f_code.co_filename).parents:
         frame = frame.f_back
@@ -86,29 +90,34 @@ def _test_frame() -> FrameType:
 
 
 async def _end(test: FrameType, clk: int) -> None:
-    """Fails the running test after so many clk, a clk being two steps; names the line that it waits in."""
+    """Fail the running test after `clk` cycles of two steps each; name the line in which it waits."""
     await Timer(2 * clk, "step")
     file, line = test.f_code.co_filename, test.f_lineno
     waiting = linecache.getline(file, line).strip()
-    raise AssertionError(f"no end within {clk} clk, the test waits in {Path(file).name}:{line}: {waiting}")
+    place = f"{Path(file).name}:{line}: {waiting}"
+    raise AssertionError(f"not finished within {clk} cycles; the test waits in {place}")
 
 
 class Unit:
-    """One instance. `edges` counts the rising clk edges since reset.
+    """One instance. `edges` counts the rising edges of `clk` since reset.
 
-    The first one of a test limits the whole test, for a block that does not answer would hold it up for
-    minutes: to LIMIT clk, or to FREE if it has a clock that runs by itself, which is thirty times as fast.
+    The first unit of a test limits the whole test, because a block that does not respond would stall it for
+    minutes. The limit is LIMIT cycles, or FREE if the clock runs freely, which is thirty times as fast.
     """
 
     LIMIT, FREE = 250_000, 1_500_000
-    """About twice what the longest tests take, or 30 s."""
+    """About twice the time of the longest tests, or 30 s."""
     _limited: FrameType | None = None
-    """Frame of the test that has its limit."""
+    """Frame of the test that already has a limit."""
 
     def __init__(
         self, dut: Any, name: str, blocks: Mapping[str, Block], watch: str = "", limit: int = LIMIT
     ) -> None:
-        """watch: outputs that `clk` returns, in this order. limit: of the test, in clk of all its units."""
+        """Connect to an instance.
+
+        watch: outputs that `clk` returns, in this order. limit: limit of the test, in cycles of all its
+        units.
+        """
         block = blocks[name]
         self.chosen, self.number = dut.chosen, list(blocks).index(name) + 1
         self.pins = {port: getattr(dut, f"{name}_{port}") for port, _, _ in block.ports}
@@ -120,21 +129,21 @@ class Unit:
             cocotb.start_soon(_end(test, limit))
 
     def get(self, port: str) -> int:
-        """Level of a port now."""
+        """Return the present level of a port."""
         return int(self.pins[port].value)
 
     def put(self, **inputs: int) -> None:
-        """Set inputs; they stand from the next wait on."""
+        """Set inputs; they are valid from the next wait on."""
         for port, value in inputs.items():
             self.pins[port].value = int(value)
 
     def choose(self) -> None:
-        """Give the clock to this instance."""
+        """Select this instance for the clock."""
         self.pins["clk_i"].value = 0
         self.chosen.value = self.number
 
     async def reset(self, **inputs: int) -> None:
-        """All inputs 0 but the given ones, three clk of reset, release."""
+        """Reset for three cycles with all inputs 0 except the given ones, then release the reset."""
         self.put(**{port: 0 for port in self.inputs})
         self.put(**inputs)
         self.choose()
@@ -145,14 +154,14 @@ class Unit:
         self.edges = 0
 
     async def settle(self, **inputs: int) -> Any:
-        """Set inputs and let the logic follow; no clk edge. Returns the watched outputs."""
+        """Set inputs and let the logic follow, without an edge of `clk`. Return the watched outputs."""
         self.put(**inputs)
         await Timer(1, "step")
         values = [int(pin.value) for pin in self.watch]
         return values[0] if len(values) == 1 else tuple(values)
 
     async def clk(self, **inputs: int) -> Any:
-        """One rising edge that samples these inputs; returns the watched outputs as they stood before it."""
+        """Make one rising edge that samples these inputs; return the watched outputs before the edge."""
         values = await self.settle(**inputs)
         self.pins["clk_i"].value = 1
         await Timer(1, "step")
@@ -161,11 +170,11 @@ class Unit:
         return values
 
     async def run_until(self, port: str, level: int) -> int:
-        """Let the clock run by itself until an output gets this level; returns its edges, at least one.
+        """Run the clock freely until an output has this level; return the number of edges, at least one.
 
         For long waits: thirty times as fast as `clk`.
         """
-        await self.settle()  # the clk of before has gone low
+        await self.settle()  # makes the low level of the previous cycle effective
         clock = Clock(self.pins["clk_i"], 2, "step", impl="gpi")
         clock.start()
         since = get_sim_time("step")

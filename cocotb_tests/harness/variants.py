@@ -2,7 +2,8 @@
 
 MUTANT in the environment holds "FILE NUMBER COPY": the file relative to the project's root, the number of the
 mutant in its copy, and the copy. A failure is then not repeated, shrunk or recorded for traceability.
-COVERAGE names a folder: each simulation leaves a file with Verilator's counts there (`make coverage`).
+
+COVERAGE names a folder: each simulation writes a file with Verilator's counts to it (`make coverage`).
 """
 
 from __future__ import annotations
@@ -16,16 +17,16 @@ from .paths import ROOT
 
 MUTANT = "OPENPPMC_MUTANT"
 MUTANT_WARNINGS = ("-Wno-lint", "-Wno-style", "-Wno-LATCH")
-"""What Verilator need not say of a copy: a fault may well look like one."""
+"""Warnings of Verilator that are disabled for a copy: a mutant may well look like a mistake."""
 
 
 def mutant_present() -> bool:
-    """Whether a mutant is tried."""
+    """Return whether a mutant is being tested."""
     return bool(os.environ.get(MUTANT))
 
 
 def with_mutant(sources: Sequence[Path]) -> list[Path] | None:
-    """Sources of a design with the copy in place of the file; None if they do not have it."""
+    """Return the sources of a design with the mutated copy in place of the file; None without that file."""
     if not mutant_present():
         return None
     file, _, copy = os.environ[MUTANT].split(" ", 2)
@@ -34,29 +35,29 @@ def with_mutant(sources: Sequence[Path]) -> list[Path] | None:
 
 
 def mutant_plusargs() -> list[str]:
-    """What tells the simulation which mutant it has."""
+    """Return the arguments that select the mutant in the simulation."""
     return [f"+mutant={os.environ[MUTANT].split(' ', 2)[1]}"] if mutant_present() else []
 
 
 COVERAGE = "OPENPPMC_COVERAGE"
 COVERAGE_COPIES = "OPENPPMC_COUNTED"
-"""Names a folder with copies of rtl/ that Verilator counts right (`scripts.measure.coverage.counted`)."""
+"""Folder with copies of rtl/ that Verilator counts correctly (`scripts.measure.coverage.counted`)."""
 COVERAGE_FILE = "coverage.dat"
-"""In the folder of a run."""
+"""Name of the file in the folder of a run."""
 
 
 def counts_coverage() -> bool:
-    """Whether simulations count."""
+    """Return whether simulations count coverage."""
     return bool(os.environ.get(COVERAGE))
 
 
 def coverage_args() -> list[str]:
-    """What Verilator is told beside all else."""
+    """Return the additional arguments of Verilator for coverage."""
     return ["--coverage-line", "--coverage-toggle"] if counts_coverage() else []
 
 
 def with_counters(sources: Sequence[Path]) -> list[Path]:
-    """Sources of a design, the copies in place of what has one."""
+    """Return the sources of a design, with the copy in place of each file that has a copy."""
     folder = os.environ.get(COVERAGE_COPIES)
     if not folder:
         return list(sources)
@@ -65,7 +66,7 @@ def with_counters(sources: Sequence[Path]) -> list[Path]:
 
 
 def keep_counts(folder: Path) -> None:
-    """Put away what the simulation in this folder has counted."""
+    """Move the counts of the simulation in this folder to the coverage folder."""
     if (where := os.environ.get(COVERAGE)) and (folder / COVERAGE_FILE).is_file():
         Path(where).mkdir(parents=True, exist_ok=True)
         (folder / COVERAGE_FILE).replace(Path(where) / f"{uuid4().hex}.dat")

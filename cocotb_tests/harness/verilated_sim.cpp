@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Main program of all simulations under cocotb. Beside the callbacks of VPI it has a clock and a recorder of
-// output levels that run without them: a clk costs two evaluations of the design and nothing else. `native.py` is
-// the other side. Compiled once for all designs: `top.cpp` is what a design adds.
-// The makefile wants small code.
+// Main program of all simulations under cocotb. In addition to the callbacks of VPI it has a clock and a recorder
+// of output levels that need no callbacks: a cycle costs only two evaluations of the design. `Native` in clock.py
+// calls it. Compiled once for all designs: `top.cpp` contains the calls of one design.
+// The makefile optimises for size.
 #pragma GCC optimize("O2")
 
 #include <cstdint>
@@ -52,7 +52,7 @@ struct Port {
     }
     void store(std::uint64_t value) const { std::memcpy(data, &value, bytes); }
 };
-// Layouts that native.py reads and writes.
+// Layouts that clock.py reads and writes.
 struct Row {
     std::uint64_t time, port, value;
 };
@@ -104,8 +104,8 @@ void record() {
     }
 }
 
-// An edge of the clock. Assertions begin behind the first rising one: before it registers hold anything, and a reset
-// that such a register says has begun already has no edge.
+// An edge of the clock. Assertions are enabled after the first rising edge. Before it, registers hold random
+// values, and a reset that such a register already asserts has no edge.
 void tick() {
     clock_level ^= 1;
     if (!clock_level) Verilated::assertOn(true);
@@ -114,7 +114,7 @@ void tick() {
     dirty = true;
 }
 
-// Evaluate until nothing changes any more, with all callbacks of the time step.
+// Evaluate until all signals are stable, with all callbacks of the time step.
 void settle() {
     do {
         do {
@@ -158,22 +158,23 @@ int port_of(const char* name, int* words) {
 
 double sc_time_stamp() { return static_cast<double>(main_time); }
 
-// What native.py calls. Times are steps of the simulation, ports the numbers that openppmc_port() gave.
+// Functions that clock.py calls. Times are steps of the simulation, ports are numbers from openppmc_port().
 extern "C" {
 
-// Number of a port, and how many words of 64 bits it has, with numbers one behind the other; -1 if there is none.
+// Returns the number of a port, or -1 if there is no such port. *words: number of its 64-bit words, which have
+// consecutive numbers.
 int openppmc_port(const char* name, int* words) { return port_of(name, words); }
 
 std::uint64_t openppmc_read(int port) { return ports[port].load(); }
 
 std::uint64_t openppmc_time() { return main_time; }
 
-// As a deposit of cocotb: the level comes with the next evaluation of this time step.
+// Like a deposit of cocotb: the level is valid with the next evaluation of this time step.
 void openppmc_put(int port, std::uint64_t value) {
     deposits.push_back({main_time, static_cast<std::uint64_t>(port), value});
 }
 
-// Low now, first rising edge after `half`. Whoever starts the clock begins anew: nothing is watched yet.
+// Sets the clock low now; its first rising edge follows after `half`. A start of the clock ends all watches.
 void openppmc_clock(int port, std::uint64_t half) {
     watched.clear();
     clock_port = port;
@@ -184,7 +185,7 @@ void openppmc_clock(int port, std::uint64_t half) {
     openppmc_put(port, 0);
 }
 
-// A port that is watched already stays the one entry that it is: a process may make many benches.
+// A port that is already watched keeps its single entry: a process may create many benches.
 void openppmc_watch(int port) {
     for (Watched& watch : watched) {
         if (watch.port != static_cast<std::uint32_t>(port)) continue;
@@ -194,7 +195,7 @@ void openppmc_watch(int port) {
     watched.push_back({static_cast<std::uint32_t>(port), ports[port].load()});
 }
 
-// Changes of watched ports since the last call; they stay in place until the next one.
+// Returns the changes of watched ports since the last call; they are valid until the next call.
 const Row* openppmc_seen(std::uint64_t* count) {
     record();
     taken.swap(seen);
@@ -237,7 +238,7 @@ int main(int argc, char** argv) {
 #endif
         const bool waiting = woken;  // callbacks may wait for the next time step
         woken = false;
-        // What is due may have been cancelled.
+        // A scheduled callback may have been cancelled.
         if (waiting || deadline <= main_time) deadline = VerilatedVpi::cbNextDeadline();
         const std::uint64_t timing = top_next_time();
         std::uint64_t next = clock_next < timing ? clock_next : timing;
@@ -249,7 +250,7 @@ int main(int argc, char** argv) {
             value_callbacks();
             callbacks(cbAfterDelay);
             value_callbacks();
-            // Levels put without delay are seen before all others.
+            // Levels put without delay take effect before all others.
             if (eval_needed()) evaluate();
             do_puts();
         }

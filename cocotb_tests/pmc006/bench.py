@@ -1,4 +1,4 @@
-"""The PMC006B4 on a bench: its build defaults. Pins and levels are those of the golden model."""
+"""Test bench of the PMC006B4: its build defaults. Pins and levels are those of the golden model."""
 
 from __future__ import annotations
 
@@ -37,5 +37,5 @@ WITH_EEPROM = replace(
     fed=LINES,
     aside=frozenset({"ee_on"}),
 )
-"""The part and its EEPROM in one top (eeprom_bench.sv), which makes the levels of the lines."""
+"""The part and its EEPROM in one top (eeprom_bench.sv), which drives the levels of the lines."""
 PARTS = (PMC006,)

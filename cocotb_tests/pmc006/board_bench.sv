@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_board_bench: a board with a PMC006B4 and its EEPROM; the open-drain lines meet here.
+// pmc006_board_bench: a board with a PMC006B4 and its EEPROM, which share open-drain lines.
 `default_nettype none
 
 module pmc006_board_bench (

@@ -1,7 +1,7 @@
-"""The builds in which the tests of the PMC006B4 run, and `directed` with the usual one.
+"""Builds in which the tests of the PMC006B4 run, and `directed` with the usual build.
 
-Most run at 8 MHz and 115200 baud, where they need the fewest clk; a few at the defaults, at a clock that is
-no multiple of 1 MHz, and in the other timing mode with the other reply to s.
+Most tests run at 8 MHz and 115200 baud, where they need the fewest cycles. A few run at the defaults, at a
+clock that is not a multiple of 1 MHz, and in the other timing mode with the other reply to s.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ ODD = Config(
     extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
 )
 BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900), ("T_BLANK_NS", 3_600)))
-"""The blanking is longer than half the off time: so long is FAST at most (P006-CHP-03)."""
+"""The blanking is longer than half the off time, which is the longest allowed with FAST (P006-CHP-03)."""
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 
 directed = partial(directed, builds=(F8B,))
-"""As `harness.running.directed`, in this build unless told otherwise."""
+"""`harness.running.directed` with this build as the default."""

@@ -1,6 +1,6 @@
-"""The EEPROM of a PMC006 under test: the device in the bench's top, or the Python one on the golden model.
+"""EEPROM of a PMC006 under test: the device in the bench's top, or the Python model on the golden model.
 
-Tests describe it (`Chip`), load it, look at its bytes and at what was written, and put faults on it.
+Tests describe it (`Chip`), load it, read its bytes and its log of writes, and inject faults.
 """
 
 from __future__ import annotations
@@ -17,11 +17,12 @@ from .i2c_bus import I2cBus
 
 @dataclass(frozen=True)
 class Chip:
-    """A device, just powered up.
+    """A device that was just powered up.
 
-    content: bytes from address 0 on, the rest is FF. write_us: time of a write cycle. stretch_us: how long
-    SCL is held low behind each acknowledge. missing: nothing is there. other: it has another address than the
-    part calls. stuck: "scl" or "sda", a line that is held low. busy_us: a write cycle is under way.
+    content: bytes from address 0 on, the rest is FF. write_us: time of a write cycle. stretch_us: time for
+    which SCL is held low after each acknowledge. missing: no device responds. other: its address differs from
+    the one that the part uses. stuck: "scl" or "sda", a line that is held low. busy_us: a write cycle is in
+    progress for this time.
     """
 
     content: bytes = b""
@@ -34,14 +35,14 @@ class Chip:
 
 
 class Written(NamedTuple):
-    """A page write: address of its first byte, the bytes in the order they came."""
+    """A page write: address of its first byte, the bytes in the order of arrival."""
 
     address: int
     data: bytes
 
 
 class Eeprom(ABC):
-    """The device of a test. Faults count from the present edge on."""
+    """Device of a test. Faults take effect from the current edge on."""
 
     @property
     @abstractmethod
@@ -51,23 +52,23 @@ class Eeprom(ABC):
     @property
     @abstractmethod
     def memory(self) -> bytes:
-        """What it holds."""
+        """Content of the memory."""
 
     @abstractmethod
     def missing(self, on: bool) -> None:
-        """Whether the device is deaf and dumb."""
+        """Set whether the device ignores the bus and does not respond."""
 
     @abstractmethod
     def stuck(self, line: str, on: bool) -> None:
-        """Whether it holds a line low."""
+        """Set whether the device holds a line low."""
 
     @abstractmethod
     def stretch(self, clk: int) -> None:
-        """How long it holds SCL low behind each acknowledge."""
+        """Set for how many cycles the device holds SCL low after each acknowledge."""
 
 
 def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
-    """The device on a part just out of reset, before its edge 0; `device`: address that the part calls."""
+    """Connect a device to a part just out of reset, before edge 0; `device`: address that the part uses."""
     wanted = device ^ chip.other
     if isinstance(side, ModelBench):
         return _OnModel(side, chip, clk_hz, wanted)
@@ -76,7 +77,7 @@ def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
 
 
 class _Bussed:
-    """The golden model and what hangs on its lines, as one."""
+    """The golden model and the devices on its lines as one object."""
 
     def __init__(self, model: Any, bus: I2cBus) -> None:
         self._model, self._bus = model, bus
@@ -86,7 +87,7 @@ class _Bussed:
 
     @property
     def next_event(self) -> int | None:
-        """The next edge on which anything happens by itself."""
+        """The next edge with an event of the model or of the bus."""
         return min((t for t in (self._model.next_event, self._bus.due) if t is not None), default=None)
 
 
@@ -105,32 +106,32 @@ class _OnModel(Eeprom):
 
     @property
     def writes(self) -> list[Written]:
-        """As `Eeprom.writes`."""
+        """All page writes so far."""
         return [Written(one.address, one.data) for one in self._chip.writes]
 
     @property
     def memory(self) -> bytes:
-        """As `Eeprom.memory`."""
+        """Content of the memory."""
         return bytes(self._chip.memory)
 
     def missing(self, on: bool) -> None:
-        """As `Eeprom.missing`."""
+        """Set whether the device ignores the bus and does not respond."""
         self._chip.missing = on
         if on:
             self._chip.sda = self._chip.scl = 0
 
     def stuck(self, line: str, on: bool) -> None:
-        """As `Eeprom.stuck`."""
+        """Set whether the device holds a line low."""
         setattr(self._chip, f"stuck_{line}", on)
         self._bus.again(self._side.now)
 
     def stretch(self, clk: int) -> None:
-        """As `Eeprom.stretch`."""
+        """Set for how many cycles the device holds SCL low after each acknowledge."""
         self._chip.stretch_clk = clk
 
 
 class _OnBench(Eeprom):
-    """The device in the bench's top, by names: see tb/pmc006/eeprom_24c32.sv."""
+    """The device in the bench's top, accessed by names: see tb/pmc006/eeprom_24c32.sv."""
 
     def __init__(self, bench: Bench, chip: Chip, clk_hz: int, device: int) -> None:
         self._device = bench.dut.u_eeprom
@@ -154,7 +155,7 @@ class _OnBench(Eeprom):
 
     @property
     def writes(self) -> list[Written]:
-        """As `Eeprom.writes`."""
+        """All page writes so far."""
         one, log = self._device, self._log
         for n in range(len(log), int(one.writes.value)):
             count = int(one.log_count[n].value)
@@ -164,17 +165,17 @@ class _OnBench(Eeprom):
 
     @property
     def memory(self) -> bytes:
-        """As `Eeprom.memory`."""
+        """Content of the memory."""
         return bytes(int(self._device.memory[place].value) for place in range(SIZE))
 
     def missing(self, on: bool) -> None:
-        """As `Eeprom.missing`."""
+        """Set whether the device ignores the bus and does not respond."""
         self._set(missing=on)
 
     def stuck(self, line: str, on: bool) -> None:
-        """As `Eeprom.stuck`."""
+        """Set whether the device holds a line low."""
         self._set(**{f"stuck_{line}": on})
 
     def stretch(self, clk: int) -> None:
-        """As `Eeprom.stretch`."""
+        """Set for how many cycles the device holds SCL low after each acknowledge."""
         self._set(stretch_clk=clk)

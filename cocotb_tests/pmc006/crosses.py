@@ -1,5 +1,4 @@
-"""What the sheet crosses: the instruction of a frame and the state that it meets. Counted in the golden
-model."""
+"""Coverage crosses of the data sheet: instruction of a frame × state, counted in the golden model."""
 
 from __future__ import annotations
 

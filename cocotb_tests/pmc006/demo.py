@@ -1,4 +1,4 @@
-"""What `make demo PART=pmc006` plays on the RTL."""
+"""Program of `make demo PART=pmc006` on the RTL."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .story import tell
 
 @cocotb.test()
 async def demo_program(dut: Any) -> None:
-    """Given a part just powered up, when a host moves a motor and loads a program, then all is recorded."""
+    """A host moves a motor and loads a program on a part just powered up, and the run is recorded."""
     host = await MotorHost.start(dut)
     assert isinstance(host.side, Bench)
     story = Story(host.side)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_eeprom_bench: a PMC006B4 and its EEPROM on two open-drain lines. Ports and parameters are those of pmc006, but
-//                      that the lines are outputs; ee_on is the power of the device.
+// pmc006_eeprom_bench: a PMC006B4 and its EEPROM on two open-drain lines. Ports and parameters are those of
+//         pmc006, except that the lines are outputs; ee_on is the power of the device.
 `default_nettype none
 
 module pmc006_eeprom_bench #(
@@ -48,7 +48,7 @@ module pmc006_eeprom_bench #(
     output logic            m11,
     output logic            m20,
     output logic            m21,
-    // EEPROM: the lines as part and device make them, and whether there is a device
+    // EEPROM: levels of the lines, driven by part and device; ee_on = 1: the device has power
     input  wire logic       ee_on,
     output logic            scl_i,
     output logic            scl_o,
@@ -56,7 +56,7 @@ module pmc006_eeprom_bench #(
     output logic            sda_i,
     output logic            sda_o,
     output logic            sda_oe,
-    // what happens
+    // monitoring
     output logic            mon_step,
     output logic            mon_dir,
     output logic            mon_busy

@@ -1,4 +1,4 @@
-"""Frames of the PMC006 (chapters 2.2, 2.3), as the host of the tests makes and reads them."""
+"""Frames of the PMC006 (chapters 2.2, 2.3) as sent and received by the host of the tests."""
 
 from __future__ import annotations
 
@@ -6,32 +6,32 @@ HEAD, REPLY = 0xA5, 0x7A
 
 
 def number(code: str | int) -> int:
-    """Code of an instruction given as letter or number."""
+    """Return the code of an instruction given as letter or number."""
     return ord(code) if isinstance(code, str) else code
 
 
 def checked(*content: int) -> bytes:
-    """These bytes and their check."""
+    """Return these bytes and their check byte."""
     return bytes([*content, sum(content) & 0xFF])
 
 
 def command(address: int, code: str | int, data: int = 0) -> bytes:
-    """A command frame; data of 32 bits, signed or not."""
+    """Return a command frame; `data` has 32 bits, signed or not."""
     return checked(HEAD, address, number(code), *(data & 0xFFFFFFFF).to_bytes(4, "little"))
 
 
 def of_reply(frame: bytes) -> tuple[int, int]:
-    """Address and data of a reply; AssertionError if it is none."""
+    """Return address and data of a reply; AssertionError if the frame is not a reply."""
     assert len(frame) == 8 and frame[:2] == bytes([HEAD, REPLY]), f"{frame.hex(' ')} is no reply"
     assert frame == checked(*frame[:7]), f"{frame.hex(' ')}: wrong check"
     return frame[2], int.from_bytes(frame[3:7], "little")
 
 
 def reply(address: int, data: int) -> bytes:
-    """The reply of a node."""
+    """Return the reply of a node."""
     return checked(HEAD, REPLY, address, *(data & 0xFFFFFFFF).to_bytes(4, "little"))
 
 
 def signed(value: int) -> int:
-    """32-bit data as a signed number."""
+    """Return 32-bit data as a signed number."""
     return value - (1 << 32) if value >> 31 else value

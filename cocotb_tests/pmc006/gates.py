@@ -1,4 +1,4 @@
-"""What `make test-gates` runs of the PMC006B4, and what it leaves out and why."""
+"""Selection of the PMC006B4 tests that `make test-gates` runs; each omission has its reason."""
 
 from __future__ import annotations
 

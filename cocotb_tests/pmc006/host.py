@@ -1,6 +1,7 @@
-"""A host on the link of a PMC006, which acts on what the part answers.
+"""Host on the link of a PMC006, which acts on the replies of the part.
 
-Its UART is its own: replies are read from the levels of txd and de, and every edge is checked (chapter 2.4).
+It has its own UART model: replies are decoded from the levels of txd and de, and every edge is
+checked (chapter 2.4).
 """
 
 from __future__ import annotations
@@ -22,24 +23,24 @@ from .view import View
 H = TypeVar("H", bound="Host")
 
 SYNC = 2
-"""clk from a level of a pin to what the part makes of it."""
+"""Cycles from a level of a pin to its effect in the part."""
 STARTS = tuple(b"szN")
 NEAR = 8
-"""Tolerance of chapter 2.4 in clk."""
+"""Tolerance of chapter 2.4 in cycles."""
 ACT = 4
-"""clk from e to the effect of a frame that finds nobody at work."""
+"""Cycles from e to the effect of a frame if no other instruction is in progress."""
 EXECUTE = 64
-"""clk from the end of a frame to the effect."""
+"""Cycles from the end of a frame to the effect."""
 START = 1024
-"""clk from the end of a frame to t = 0 of a motion, beside 1 us."""
+"""Cycles from the end of a frame to t = 0 of a motion, in addition to 1 us."""
 
 
 class Host(View, SerialLine):
-    """The host of one part. Make one with `await Host.start(dut)`.
+    """Host of one part; create it with `await Host.start(dut)`.
 
-    `t` is the next free edge; every method moves it on. Codes are given as letters or numbers. Data and
-    answers are numbers; an answer is the 32-bit reply data, unsigned. `wire` is the last reply as it was on
-    the line, `said` the edge on which the last frame began. `params`: parameters of the part.
+    `t` is the next free edge; every method advances it. Codes are letters or numbers. Data and answers are
+    numbers; an answer is the 32-bit reply data, unsigned. `wire` is the last reply as received from the line,
+    `said` the edge at which the last frame began. `params`: parameters of the part.
     """
 
     def __init__(self, side: Side, address: int = 0xFF, error: float = 0) -> None:
@@ -64,11 +65,11 @@ class Host(View, SerialLine):
         error: float = 0,
         chip: Chip | None = None,
     ) -> H:
-        """A host on a part just out of reset, and booted unless told otherwise.
+        """Return a host with a part just out of reset, and booted unless `boot` is false.
 
-        address: of the part, as the host knows it. levels: of input pins from edge 0 on. error: of the host's
-        bit time. chip: the EEPROM, for tests in the bench that has one (test_eeproms.py); without one SDA is
-        held low, so that the part boots at once, unless `levels` say sda_i=1.
+        address: address of the part that the host uses. levels: of input pins from edge 0 on. error: of the
+        bit time of the host. chip: the EEPROM, for tests in the bench that has one (test_memory.py). Without
+        a chip, SDA is held low, so that the part boots immediately, unless `levels` contains sda_i=1.
         """
         idle = {} if chip else {"sda_i": 0}
         side = await start_bench(dut, WITH_EEPROM if chip else PMC006, settle=0, **{**idle, **(levels or {})})
@@ -83,12 +84,12 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ time
 
     def pick(self, literal: int, short: int) -> int:
-        """A count or time for the golden model, or the short one for the RTL."""
+        """Return a count or time for the golden model, or the short one for the RTL."""
         return literal if self.literal else short
 
     @property
     def eeprom(self) -> Eeprom:
-        """The EEPROM of a host that was given one."""
+        """The EEPROM that `start` received."""
         assert self.plugged is not None, "there is no EEPROM"
         return self.plugged
 
@@ -98,36 +99,36 @@ class Host(View, SerialLine):
         return not self.side.simulated
 
     async def sync(self) -> None:
-        """Let the part come to the present."""
+        """Run the part to the present edge."""
         await self._to(max(self.side.now, self.t))
 
     async def _to(self, edge: int) -> None:
-        """Let the part come to the moment before an edge."""
+        """Run the part to just before an edge."""
         await self.side.until(edge)
 
     async def go(self, t: int) -> None:
-        """Run to just before edge t; the next access or pin change is there."""
+        """Run to just before edge t; the next access or pin change is at this edge."""
         self.t = t
         await self.sync()
 
     async def pause(self, clk: int) -> None:
-        """Let time pass."""
+        """Wait for this number of cycles."""
         await self.go(self.t + clk)
 
     async def wait_us(self, micros: float) -> None:
-        """Let time pass."""
+        """Wait for this time in microseconds."""
         await self.pause(self.us(micros))
 
     async def ms(self, millis: float) -> None:
-        """Let time pass."""
+        """Wait for this time in milliseconds."""
         await self.pause(self.us(Fraction(millis) * 1000))
 
     async def boot(self) -> int:
-        """Run to the end of BOOT; returns its edge."""
+        """Run to the end of BOOT; return its edge."""
         return await self.until("bridge_a_en", 1)
 
     async def reset(self, clk: int = 12, **levels: int) -> None:
-        """A pulse on rst_n, with whose end levels come; then BOOT, for which nobody waits here."""
+        """Apply a pulse on rst_n; `levels` change at its end. Return before BOOT ends."""
         await self.pins(rst_n=0)
         await self.pause(clk)
         await self.pins(rst_n=1, **levels)
@@ -137,18 +138,18 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ pins
 
     async def pins(self, **levels: int) -> None:
-        """Pin levels from edge t on."""
+        """Set pin levels from edge t on."""
         await self.sync()
         self.side.set(**levels)
         self.t += 1
 
     async def at(self, t: int, **levels: int) -> None:
-        """Pin levels from edge t on, which may lie before the end of the last stop bit; `t` stays."""
+        """Set pin levels from edge t on, also before the end of the last stop bit; `t` does not change."""
         await self._to(t)
         self.side.set(**levels)
 
     async def strobe(self, **levels: int) -> None:
-        """adc_data or bemf_level with its valid for one clk."""
+        """Apply adc_data or bemf_level with its valid for one cycle."""
         valid = {("adc_valid" if "adc_data" in levels else "bemf_valid"): 1}
         await self.pins(**levels, **valid)
         await self.pins(**dict.fromkeys(valid, 0))
@@ -156,7 +157,7 @@ class Host(View, SerialLine):
     # ------------------------------------------------------------------ frames
 
     async def say(self, code: str | int, data: int = 0, address: int | None = None) -> None:
-        """A good frame. Steps count from an s, N 1 or z on."""
+        """Send a valid frame. Steps are counted from an s, N 1 or z on."""
         self._begin(number(code), data)
         address = self.address if address is None else address
         self.side.accesses.append(Access(self.t, f"{code!r} to {address:02X}, data", 0, data & 0xFFFFFFFF))
@@ -169,16 +170,16 @@ class Host(View, SerialLine):
 
     @property
     def e(self) -> int:
-        """Edge of the stop-bit sample of the last byte sent (chapter 2.4), to the nearest clk."""
+        """Edge of the stop-bit sample of the last byte sent (chapter 2.4), to the nearest cycle."""
         return round(self.middle) + SYNC
 
     async def rise(self) -> int | None:
-        """Edge of the next rise of de that no `hear` has had, if there is one."""
+        """Return the edge of the next rise of de that `hear` has not used, None if there is no such edge."""
         await self.sync()
         return next((t for t, level in self.edges("de", self._heard) if level), None)
 
     async def hear(self) -> int:
-        """The reply to the frame that has just been sent; returns its data. Every edge is checked."""
+        """Return the data of the reply to the frame that was just sent. Every edge is checked."""
         e, bit = self.e, self.bit
         await self.go(max(self.t, e + ceil(bit) + NEAR + 1))
         rise = await self.rise()
@@ -197,7 +198,7 @@ class Host(View, SerialLine):
         return data
 
     async def ask(self, code: str | int, data: int = 0) -> int:
-        """A frame to this part and its reply data."""
+        """Send a frame to this part and return its reply data."""
         await self.say(code, data)
         answer = await self.hear()
         if code in ("w", 0x77):
@@ -206,7 +207,7 @@ class Host(View, SerialLine):
         return answer
 
     async def swap(self, text: str) -> str:
-        """A whole frame and the whole reply, as texts of hexadecimal bytes."""
+        """Send a whole frame and return the whole reply, as texts of hexadecimal bytes."""
         frame = bytes.fromhex(text)
         self._begin(frame[2], frame[3])
         await self.send(frame)
@@ -214,16 +215,16 @@ class Host(View, SerialLine):
         return self.wire.hex(" ").upper()
 
     async def silent(self, clk: int) -> bool:
-        """Whether nothing is sent for so long: de = 0 and txd = 1."""
+        """Return whether nothing is sent for this number of cycles: de = 0 and txd = 1."""
         await self.pause(clk)
         return await self.rise() is None and not await self.out("de") and bool(await self.out("txd"))
 
     async def forget(self) -> None:
-        """Nobody has listened so far; what is being sent is waited for."""
+        """Ignore all replies up to now; a reply in progress is waited for."""
         await self.sync()
         self.t = max(self.t, await self.side.level_is("de", 0))
         self._heard = self.t
 
     def accepted(self, count: int) -> int:
-        """Reply data of an accepted s."""
+        """Return the reply data of an accepted s."""
         return count if self.echo else 3

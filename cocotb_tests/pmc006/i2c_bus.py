@@ -1,4 +1,4 @@
-"""The two lines between the golden model of the PMC006 and its EEPROM: what both pull, seen by both."""
+"""The two open-drain lines between the golden model of the PMC006 and its EEPROM."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 
 
 class I2cBus:
-    """Takes the place of `model.run_until`: what the part pulls at edge t is on the lines from edge t + 1 on.
+    """Replacement of `model.run_until` that adds the EEPROM.
 
-    So is what the device pulls. The pin changes go through `model.pins`.
+    A level that the part or the device pulls at edge t is on the lines from edge t + 1 on. The pin changes
+    go through `model.pins`.
     """
 
     def __init__(self, model: Any, device: Eeprom24C32) -> None:
@@ -22,19 +23,19 @@ class I2cBus:
         model.run_until = self.run_until
 
     def again(self, t: int) -> None:
-        """Something outside has changed what the device pulls: look at edge t."""
+        """Evaluate the lines at edge t, because the device was changed from outside."""
         self._look = t if self._look is None else min(t, self._look)
 
     @property
     def due(self) -> int | None:
-        """The next edge on which a line may change or the device does something by itself."""
+        """The next edge at which a line may change or the device has an event."""
         levels, own = self.model.log.levels, self._look
         if (levels["scl_oe"], levels["sda_oe"]) != self._pulled:
             own = min(self.model.now + 1, own or self.model.now + 1)
         return min((t for t in (own, self.device.due) if t is not None), default=None)
 
     def run_until(self, t: int) -> None:
-        """As that of the model; the lines follow."""
+        """Run the model to edge t and update the lines."""
         model, device, levels, run = self.model, self.device, self.model.log.levels, self._run
         while True:
             pulled = levels["scl_oe"], levels["sda_oe"]
@@ -56,7 +57,7 @@ class I2cBus:
             run(t)
 
     def _settle(self, t: int) -> None:
-        """Levels of the lines at edge t."""
+        """Evaluate the levels of the lines at edge t."""
         device = self.device
         scl, sda = (
             int(not mine and not its)

@@ -1,6 +1,6 @@
 """Two PMC006 on one pair of wires: rxd of both is the AND of the host's level and of every txd.
 
-One is the part under test; the other one is a golden model beside it.
+One is the part under test; the other is a golden model.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .stepping import Stepping
 
 
 class Line:
-    """Common time of the parts, and what is on the wires. What a part drives at edge t is there at t + 1."""
+    """Common time and wires of the parts. A level that a part drives at edge t is on the wires at t + 1."""
 
     def __init__(self, *sides: Side) -> None:
         self.sides = sides
@@ -24,7 +24,7 @@ class Line:
 
     @classmethod
     async def start(cls, dut: Any, first: bool) -> tuple[Node, Node]:
-        """Two nodes just out of reset; `first`: whether the first one is the part under test."""
+        """Return two nodes just out of reset; `first`: whether the first one is the part under test."""
         part = await start_bench(dut, PMC006, settle=0, sda_i=0)
         other = ModelBench(PMC006, OnModel(part.config), 0, sda_i=0)
         line = cls(*((part, other) if first else (other, part)))
@@ -32,17 +32,17 @@ class Line:
 
     @property
     def now(self) -> int:
-        """The next edge, of all parts."""
+        """The next edge of all parts."""
         return self.sides[0].now
 
     async def drive(self, t: int, level: int) -> None:
-        """The host's level from edge t on."""
+        """Set the level of the host from edge t on."""
         await self.until(max(t, self.now))
         self._host = level
         self._settle()
 
     async def until(self, t: int) -> None:
-        """All parts up to edge t. Whatever a part sends begins with an event of its model."""
+        """Run all parts to edge t. Each transmission of a part begins with an event of its model."""
         while self.now < t:
             events = [side.golden.next_event for side in self.sides]
             edge = min([t, *(event + 1 for event in events if event is not None)])
@@ -57,7 +57,7 @@ class Line:
 
 
 class Node(Stepping):
-    """The host, talking to one of the parts on the line."""
+    """The host, connected to one of the parts on the line."""
 
     def __init__(self, line: Line, number: int) -> None:
         self.line = line
@@ -66,7 +66,7 @@ class Node(Stepping):
 
     @property
     def t(self) -> int:  # type: ignore[override]
-        """The next free edge, of all nodes."""
+        """The next free edge of all nodes."""
         return self.line.t
 
     @t.setter
@@ -81,6 +81,6 @@ class Node(Stepping):
             await self.line.drive(edge, level)
 
     async def ask_other(self, other: Node, code: str, data: int = 0) -> int:
-        """The same for another node on the line."""
+        """Send a frame to another node on the line after the last frame; return its reply data."""
         other.middle, other._free = self.middle, self._free
         return await other.ask(code, data)

@@ -1,4 +1,4 @@
-"""User programs of the PMC006, and what its EEPROM holds (chapters 12 and 13.1)."""
+"""User programs of the PMC006, and the content of its EEPROM (chapters 12 and 13.1)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ FACTORY_PAGE = bytes.fromhex("503601FF1000000001010000580258022C01E2042003") + b
 
 
 class Op(NamedTuple):
-    """One instruction of a user program: opcode, option, operand (12.2)."""
+    """Instruction of a user program: opcode, option, operand (12.2)."""
 
     code: int
     option: int = 0
@@ -26,17 +26,17 @@ WAIT_REST = Op(0x10, 8, 0)
 
 
 def rot(count: int) -> Op:
-    """ROT."""
+    """Return a ROT."""
     return Op(0x01, 0, count)
 
 
 def out(number: int, level: int) -> Op:
-    """OUT on GPO `number`."""
+    """Return an OUT to GPO `number`."""
     return Op(0x11, number, level)
 
 
 def goto(target: int, code: int = 0x0D) -> Op:
-    """JMP, or JNE 0x0E, JEQ 0x0F."""
+    """Return a JMP, or a JNE (0x0E) or JEQ (0x0F)."""
     return Op(code, 0, target)
 
 
@@ -56,18 +56,18 @@ P1 = (
 
 
 def words(program: Iterable[Op]) -> list[int]:
-    """All words of a program."""
+    """Return all words of a program."""
     return [word for op in program for word in op.words]
 
 
 def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x5A) -> bytes:
-    """Content of an EEPROM with a parameter page and a program (13.1)."""
+    """Return the content of an EEPROM with a parameter page and a program (13.1)."""
     code = b"".join(word.to_bytes(4, "little") for word in words(program)).ljust(800, b"\0")
     return page + code + (sum(code) & 0xFFFF).to_bytes(2, "little") + bytes([mark])
 
 
 def page(**changes: int) -> bytes:
-    """The factory page with other bytes at the addresses given as a00..a1e; its sum is right."""
+    """Return the factory page with other bytes at the addresses given as a00..a1e; its sum is correct."""
     content = bytearray(FACTORY_PAGE)
     for name, value in changes.items():
         content[int(name[1:], 16)] = value

@@ -1,4 +1,4 @@
-"""What goes wrong on the line of random hosts of the PMC006, and resets."""
+"""Line faults and resets of random hosts of the PMC006."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from .random_frames import Frames
 
 
 class Faults(Frames):
-    """Bad input, and silence."""
+    """Invalid input and silence."""
 
     async def bad_frame(self) -> None:
-        """Wrong check, too short, too long, a byte of noise, wrong head."""
+        """Send an invalid frame: wrong check, too short, too long, random bytes, wrong head."""
         rng, host = self.rng, self.host
         self.left -= 1
         good = command(host.address, rng.choice("ysivI"), rng.choice((0xF8, 3, 0xA5A5A5A5)))
@@ -34,7 +34,7 @@ class Faults(Frames):
         await self.await_reply()
 
     async def foreign(self) -> None:
-        """Traffic of other nodes."""
+        """Send traffic of other nodes."""
         rng = self.rng
         self.left -= 1
         other = rng.choice((1, 5, 0x78, 0, 0x7A))
@@ -43,7 +43,7 @@ class Faults(Frames):
         await self.await_reply()
 
     async def talk_out_of_turn(self) -> None:
-        """Another frame while the reply to one is on its way."""
+        """Send another frame while the reply to a frame is in progress."""
         rng, host = self.rng, self.host
         self.left -= 2
         await host.say(rng.choice("cjy"), 0)
@@ -54,7 +54,7 @@ class Faults(Frames):
             await host.pause(ceil(200 * host.bit))
 
     async def noise(self) -> None:
-        """Levels on an idle line, breaks."""
+        """Apply short low levels and breaks on an idle line."""
         rng, host = self.rng, self.host
         for _ in range(rng.randint(1, 5)):
             await host.low(rng.choice((0.01, 0.1, 0.48, 0.5, 0.52, 1, 3, 9.3, 9.6, 12, 30)))
@@ -62,12 +62,12 @@ class Faults(Frames):
         await self.await_reply()
 
     async def pause(self) -> None:
-        """Nothing, for a while."""
+        """Send nothing for a while."""
         await self.host.pause(self.rng.choice((100, 3_000, 9_000)))
         self.left -= 0.5
 
     async def reset(self) -> None:
-        """rst_n in the middle of anything."""
+        """Reset the part with rst_n at any time."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
             await host.say("s", 100)

@@ -1,4 +1,4 @@
-"""What random hosts of the PMC006 say, and how they wait for the answer; registers and reads."""
+"""Frames of random hosts of the PMC006, and the wait for their replies; registers and reads."""
 
 from __future__ import annotations
 
@@ -39,7 +39,10 @@ READS = "cjOxXKRknqrhU"
 
 
 class Frames(RandomHost):
-    """A random host's mouth. `seen` counts what it did and found, `left` is how much it has still to do."""
+    """Random host that sends frames.
+
+    `seen` counts its actions and results, `left` is the work that remains.
+    """
 
     host: Host
     seen: Counter[str]
@@ -47,7 +50,7 @@ class Frames(RandomHost):
     noisy: bool
 
     async def frame(self, code: str | int, data: int = 0) -> None:
-        """A good frame, in a noisy place with wrong levels somewhere; then its reply."""
+        """Send a valid frame, with wrong levels if the host is noisy; then wait for its reply."""
         rng, host = self.rng, self.host
         self.left -= 1
         if rng.random() < 0.5:
@@ -57,7 +60,7 @@ class Frames(RandomHost):
         await self.await_reply()
 
     async def put(self, line: bytes) -> None:
-        """Bytes, sometimes with spikes or gaps."""
+        """Send bytes, in some cases with spikes or gaps."""
         rng, host = self.rng, self.host
         for byte in line:
             spikes = []
@@ -68,7 +71,7 @@ class Frames(RandomHost):
                 await host.pause(rng.choice((5, 70, 900)))
 
     async def await_reply(self) -> None:
-        """Wait for the reply if one comes; now and then do not, but then know nothing of the line."""
+        """Wait for the reply if there is one; in a few cases do not wait, and leave its end unknown."""
         host = self.host
         await host.go(max(host.t, host.e + ceil(host.bit) + 9))
         if await host.out("de"):
@@ -78,23 +81,23 @@ class Frames(RandomHost):
         host.address = self.model.desk.settings.addr
 
     async def setting(self) -> None:
-        """A register, mostly with legal data."""
+        """Write a register, mostly with legal data."""
         code = self.rng.choice(list(DATA))
         data = self.rng.choice(DATA[code]) if self.rng.random() < 0.93 else self.rng.choice(EDGES)
         await self.frame(code, data)
 
     async def read(self) -> None:
-        """Something that has no effect."""
+        """Send an instruction without effect."""
         await self.frame(self.rng.choice(READS), self.rng.choice((0, 0, -1)))
 
     async def unknown(self) -> None:
-        """Any code."""
+        """Send any code."""
         await self.frame(self.rng.choice((0, 0x40, 0x48, 0x5B, 0x7B, 0xA5, 0xFF, self.rng.randrange(256))), 1)
 
     async def outputs(self) -> None:
-        """GPO."""
+        """Write GPO."""
         await self.frame("y", self.rng.choice((0x08, 0xF8, 0x50, 0x87, 0, -1)))
 
     async def save(self) -> None:
-        """t or B."""
+        """Send t or B."""
         await self.frame(self.rng.choice("ttB"))

@@ -1,6 +1,6 @@
-"""Random hosts of the PMC006: frames good and bad, motions, stops, programs, pins that move by themselves.
+"""Random hosts of the PMC006: valid and invalid frames, motions, stops, programs, changing pins.
 
-A seed decides all of it, `build` the build; `play(dut, seed)` plays.
+A seed decides all of it; `build` returns the build, `play(dut, seed)` plays the seed.
 """
 
 from __future__ import annotations
@@ -24,7 +24,10 @@ build = Builds("p006", ((F8B, 80), (ODD, 12), (D8E, 8)))
 
 
 async def play(dut: Any, seed: int) -> Counter[str]:
-    """Play one seed; what the host did and found. AssertionError if the part hangs or answers nonsense."""
+    """Play one seed; return the counts of the host's actions and results.
+
+    AssertionError if the part hangs or sends an invalid reply.
+    """
     talker = Talker(seed)
     await talker.begin(dut)
     await talker.play()
@@ -32,12 +35,12 @@ async def play(dut: Any, seed: int) -> Counter[str]:
 
 
 def with_chip(seed: int) -> bool:
-    """Whether the host of a seed has an EEPROM (or its address, and nobody there)."""
+    """Return whether the host of a seed has an EEPROM (or an EEPROM that does not respond)."""
     return Talker(seed).chip is not None
 
 
 class Talker(Meetings, Pins, Faults):
-    """One random host. It acts on what it hears; the golden model only tells it when to do something."""
+    """One random host. It acts on received data; the golden model only decides when it acts."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("p006", seed)
@@ -49,7 +52,7 @@ class Talker(Meetings, Pins, Faults):
             self.chip = Chip(missing=True)
 
     async def begin(self, dut: Any) -> None:
-        """A part that boots."""
+        """Start a part and let it boot."""
         rng = self.rng
         levels: dict[str, int] = {}
         if rng.random() < 0.2:
@@ -63,7 +66,7 @@ class Talker(Meetings, Pins, Faults):
         self.noisy = rng.random() < 0.25
 
     def _content(self) -> bytes:
-        """What an EEPROM may hold: programs that start, damaged pages."""
+        """Return a content of the EEPROM: programs that start automatically, damaged pages."""
         rng = self.rng
         params = page(a0B=rng.getrandbits(1), a04=rng.choice((4, 16, 3)), a0A=rng.randrange(4), a06=5, a07=5)
         content = bytearray(image(params, some_program(rng), mark=rng.choice((0x5A, 0x5A, 0x5A, 0))))
@@ -72,7 +75,7 @@ class Talker(Meetings, Pins, Faults):
         return bytes(content)
 
     async def play(self) -> None:
-        """Actions of all kinds; then a good frame is answered, whatever has been."""
+        """Perform actions of all kinds; after any of them a valid frame is answered."""
         rng = self.rng
         for code, value in (("L", 3000), ("S", 3000), ("v", 3000), ("u", 5), ("o", 5)):
             if rng.random() < 0.9:
@@ -111,7 +114,7 @@ class Talker(Meetings, Pins, Faults):
         await self.recover()
 
     async def recover(self) -> None:
-        """A host that keeps silent for a while is understood again."""
+        """Check that a host is received again after it has sent nothing for a while."""
         host = self.host
         await host.pause(1)
         self.background.stop()

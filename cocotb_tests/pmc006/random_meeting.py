@@ -1,4 +1,4 @@
-"""Random hosts of the PMC006 whose frames and pins come about the clk on which something happens."""
+"""Random hosts of the PMC006 whose frames and pins arrive near the cycle of an event."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from .random_frames import DATA
 from .random_motion import Motions
 
 LIMIT_US = 6_000
-"""So long a motion is watched for something to meet."""
+"""Time for which a motion is observed for events, in microseconds."""
 NEAR = 4
-"""How far frame and event are apart at most, in clk."""
+"""Greatest distance of frame and event, in cycles."""
 SIGNALS = ("mon_busy", "mon_busy", "mon_step", "m10")
 EASY = (("I", 0), ("g", 0), ("b", 0), ("l", 0), ("o", 5))
 MOVE = (("v", 3000), ("L", 3000), ("S", 3000))
 RUN = (("v", 300), ("L", 300), ("S", 65))
-"""Settings with which most motions are accepted and soon over, of any kind, moves and speed runs."""
+"""Settings with which most motions of all kinds are accepted and end soon: moves and speed runs."""
 
 Course = tuple[tuple[str, int], ...]
 
 
 class Meetings(Motions):
-    """Two things at a time."""
+    """Random host that makes two things coincide."""
 
     async def meeting(self) -> None:
-        """A short motion, then the same where something comes about an edge that the first has shown."""
+        """Make a short motion, then repeat it with a frame or pin edge near an edge of the first one."""
         rng, host = self.rng, self.host
         course: Course = (("s", rng.choice((5, 6, 8, 12))),)
         if rng.random() < 0.5:
@@ -36,13 +36,13 @@ class Meetings(Motions):
                 await self.frame(code, data)
         await host.forget()
         begin, e = await self._start(course)
-        # Behind the reply a whole frame must have room.
+        # A whole frame must fit in after the reply.
         least = e + ceil(82 * host.bit) + e - host.said + 2 * NEAR
         with suppress(TimeoutError):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.side.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
-        period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # of the clk on which µs begin
+        period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # of the cycles in which microseconds begin
         for _ in range(4):
             if await host.busy() or not found["mon_busy"]:
                 return
@@ -52,7 +52,7 @@ class Meetings(Motions):
             await self._meet(course, rng.choice(times))
 
     async def _meet(self, course: Course, after: int) -> None:
-        """The motion again, and what comes so many clk after the end of its last frame, more or less."""
+        """Repeat the motion with a frame about `after` cycles after the end of its last frame."""
         rng, host = self.rng, self.host
         _, e = await self._start(course)
         at = e + after + rng.randint(-NEAR, NEAR)
@@ -70,7 +70,7 @@ class Meetings(Motions):
             await self.frame("I")
 
     async def _start(self, course: Course) -> tuple[int, int]:
-        """A motion, and the replies; returns the edges of the first frame's begin and the last one's end."""
+        """Start a motion and wait for the replies; return begin of the first frame, end of the last."""
         host, begin = self.host, self.host.t
         for place, (code, data) in enumerate(course):
             await host.go(begin + place * ceil(175 * host.bit))
@@ -80,7 +80,7 @@ class Meetings(Motions):
         return begin, host.e
 
     def _pins(self, t: int) -> None:
-        """What comes from the machine at edge t."""
+        """Add a pin change of the machine at edge t."""
         pin = self.rng.choice(("ext1", "ext2", "cmp_a", "bemf_valid"))
         level = 1 - self.host.side.pin(pin)
         self.background.add(t, **{pin: level})

@@ -10,10 +10,10 @@ COUNTS = (1, 2, 3, 5, 12, 60, 255, 256, 260, 300, 1000, 0x7FFFFFFF, 0, -1)
 
 
 class Motions(Frames):
-    """What moves the motor."""
+    """Random host that starts motions and programs."""
 
     async def start(self) -> None:
-        """A motion, if there can be one."""
+        """Start a motion, if the state allows one."""
         rng = self.rng
         if rng.random() < 0.3:
             await self.frame("N", rng.choice((1, 1, 1, 0, 2)))
@@ -23,7 +23,7 @@ class Motions(Frames):
             await self.host.pause(rng.choice((500, 4_000, 12_000)))
 
     async def meddle(self) -> None:
-        """What hosts do while something moves."""
+        """Send an instruction that a host may send during a motion."""
         rng = self.rng
         code = rng.choice("vvvvINNNgissecbbllpmdu")
         data = rng.choice(DATA.get(code, (0, 1, 1))) if code != "s" else rng.choice(COUNTS)
@@ -32,7 +32,7 @@ class Motions(Frames):
             await self.frame("g", 0)
 
     async def single(self) -> None:
-        """One instruction by E."""
+        """Execute one instruction by E."""
         rng = self.rng
         place = rng.randrange(100)
         await self.frame("A", 2 * place)
@@ -44,7 +44,7 @@ class Motions(Frames):
         self.left += 3
 
     async def program(self) -> None:
-        """A program, from the host or, quicker, from one that is already there; then life goes on."""
+        """Load and start a program, in some cases from instruction 1 on."""
         rng = self.rng
         program = some_program(rng)[: rng.choice((3, 5))]
         await self.frame("A", 0)
@@ -57,7 +57,7 @@ class Motions(Frames):
             await self.host.pause(rng.choice((2_000, 9_000)))
 
     async def analog(self) -> None:
-        """A voltage on GPI1; a motion that follows it is started by E."""
+        """Set a voltage on GPI1; a motion that follows it is started by E."""
         rng = self.rng
         t = self.host.t + 1
         self.background.add(t, adc_data=rng.choice((0, 1, 300, 512, 1023)), adc_valid=1)

@@ -1,4 +1,4 @@
-"""Pins of random hosts of the PMC006, which move while it talks."""
+"""Pins of random hosts of the PMC006 that change while it sends frames."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from .random_frames import Frames
 
 
 class Pins(Frames):
-    """What comes from the machine."""
+    """Random host with changing input pins."""
 
     async def ext(self) -> None:
-        """Emergency switches: a press, chatter, an edge near the end of a frame; often cleared afterwards."""
+        """Operate emergency switches: press, bounces, an edge near the end of a frame; mostly clear them."""
         rng, t = self.rng, self.host.t
         pin = rng.choice(("ext1", "ext2"))
         level = self.host.side.pin(pin)
@@ -26,7 +26,7 @@ class Pins(Frames):
             await self.frame("l")
 
     async def stall(self) -> None:
-        """Samples of the back EMF while, perhaps, something moves."""
+        """Apply samples of the back EMF, in some cases during a motion."""
         rng = self.rng
         if rng.random() < 0.6:
             await self.frame("Y", rng.choice((1, 3, 5, 7)))
@@ -43,7 +43,7 @@ class Pins(Frames):
         await self.frame(rng.choice("jXpI"))
 
     async def keys(self) -> None:
-        """GPI pins: short and long presses."""
+        """Press keys at the GPI pins, briefly or long."""
         rng, t = self.rng, self.host.t + 1
         for number in range(rng.randint(1, 3)):
             low = rng.choice((0b11110, 0b11101, 0b11100, rng.randrange(32)))
@@ -54,7 +54,7 @@ class Pins(Frames):
         await self.frame("x")
 
     async def chopper(self) -> None:
-        """Comparators for a while."""
+        """Toggle the comparators for a while."""
         rng, t = self.rng, self.host.t + 1
         for _ in range(rng.randint(5, 60)):
             self.background.add(t, **{rng.choice(("cmp_a", "cmp_b")): rng.getrandbits(1)})

@@ -1,4 +1,4 @@
-"""Random user programs for the PMC006: sense and nonsense, loops, waits, keys, illegal instructions."""
+"""Random user programs for the PMC006: legal and illegal instructions, loops, waits, keys."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SPEEDS = (3000, 3000, 2999, 5000, 9000, 16_000, 1, 0, 500, 16_001, -5)
 
 
 def some_op(rng: random.Random, size: int) -> Op:
-    """One instruction of a program of `size`; one in ten is illegal somewhere."""
+    """Return one instruction of a program of `size`; one in ten has an illegal part."""
     target = rng.randrange(size) if rng.random() < 0.9 else rng.choice((99, 100, -1, 200))
     bit = rng.choice((0, 1, 1, 0, rng.randrange(-3, 9)))
     source = rng.choice((*range(1, 10), 8, 8, 0, 10, 255))
@@ -41,10 +41,10 @@ def some_op(rng: random.Random, size: int) -> Op:
 
 
 def some_program(rng: random.Random) -> list[Op]:
-    """Three to ten instructions; most end with a jump back or END."""
+    """Return a program of three to ten instructions; most end with a jump back or END."""
     size = rng.randint(3, 10)
     program = [some_op(rng, size) for _ in range(size - 1)]
     if rng.random() < 0.4:
-        # A loop that is left after a few turns, as programs of the manual are.
+        # A loop that ends after a few turns, as in the programs of the manual.
         program[-2:] = [Op(0x0B), Op(0x12, 8, rng.randint(1, 3)), goto(rng.randrange(size), 0x0E)]
     return [*program, rng.choice((END, goto(0), goto(rng.randrange(size)), some_op(rng, size)))]

@@ -1,4 +1,4 @@
-"""Currents as the rules of chapter 6 say, from the sine itself: what tests compare references with."""
+"""Phase currents according to the rules of chapter 6, calculated from the sine; tests compare with them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ HOME = 64
 
 
 def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
-    """Reference and sign of phase A, of phase B, at an angle of 512 units (P006-EXC-10..12)."""
+    """Return reference and sign of phase A, then of phase B, at an angle of 512 units (P006-EXC-10..12)."""
 
     def one(units: int) -> tuple[int, int]:
         value = sin(tau * (units % 512) / 512)
@@ -22,21 +22,21 @@ def sines(angle: int, peak: int) -> tuple[int, int, int, int]:
 
 
 def code(current: int) -> int:
-    """Peak code of a setting in mA: the nearest of 400 + 150 k, half-way cases up (P006-EXC-20)."""
+    """Return the peak code of a setting in mA: the nearest of 400 + 150 k, ties up (P006-EXC-20)."""
     nearest = min(range(400, 4001, 150), key=lambda drive: (abs(drive - current), -drive))
     return floor(255 * nearest / 4000 + 0.5)
 
 
 def increment(microstepping: int) -> int:
-    """Angle units of a step (P006-EXC-01)."""
+    """Return the angle units of a step (P006-EXC-01)."""
     return FULL_STEP // max(1, microstepping)
 
 
 def boost(current: int, speed: int, microstepping: int, factor: int) -> int:
-    """B of P006-EXC-22."""
+    """Return B of P006-EXC-22."""
     return code(current) * factor * (speed // max(1, microstepping)) // 2**22
 
 
 def lead(speed: int, microstepping: int, factor: int) -> int:
-    """W of P006-EXC-23."""
+    """Return W of P006-EXC-23."""
     return min(64, factor * (speed // max(1, microstepping)) // 2**16)

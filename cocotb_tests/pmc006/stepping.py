@@ -1,4 +1,4 @@
-"""Hosts with something beside the part that has to move with it: other parts on the line, a motor."""
+"""Hosts with models that run together with the part: other parts on the line, a motor."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .host import Host
 
 
 class Stepping(Host):
-    """Its time passes from event to event of the golden model; what is beside the part is looked at there."""
+    """Host that advances from event to event of the golden model and updates the other models there."""
 
     @abstractmethod
     async def _to(self, edge: int) -> None:
-        """As `Side.until`."""
+        """Run to just before an edge."""
 
     async def _drive(self, changes: Changes) -> None:
         for edge, level in changes:
@@ -26,7 +26,7 @@ class Stepping(Host):
                 self.side.set(rxd=level)
 
     async def until(self, signal: str, level: int, limit_us: float = 1_000_000) -> int:
-        """As `View.until`."""
+        """Run until a signal has this level; return the edge of its last change."""
         end = self.t + self.us(limit_us)
         await self.sync()
         while self.side.level(signal) != level:
@@ -37,7 +37,7 @@ class Stepping(Host):
 
 
 class _Seen:
-    """The part as the motor sees it: its outputs on the side, and when they may change."""
+    """The part as seen by the motor: its outputs, and when they may change."""
 
     def __init__(self, side: Side) -> None:
         self._side = side
@@ -50,21 +50,21 @@ class _Seen:
 
     @property
     def next_event(self) -> int | None:
-        """The next edge on which anything happens by itself."""
+        """The next edge with an event of the part."""
         event: int | None = self._side.golden.next_event
         return event
 
     def run_until(self, t: int) -> None:
-        """The host does that."""
+        """Not implemented: the host runs the part."""
         raise NotImplementedError
 
     def pins(self, t: int, **levels: int) -> None:
-        """The host does that."""
+        """Not implemented: the host sets the pins."""
         raise NotImplementedError
 
 
 class _Levels(dict[str, int]):
-    """Present levels of the outputs."""
+    """Current levels of the outputs."""
 
     def __init__(self, side: Side) -> None:
         super().__init__()
@@ -75,17 +75,17 @@ class _Levels(dict[str, int]):
 
 
 class MotorHost(Stepping):
-    """A host of a part whose bridges drive a motor, once `attach` has been called."""
+    """Host of a part whose bridges drive a motor after `attach` has been called."""
 
     plant: Plant | None = None
 
     def attach(self, motor: Motor | None = None) -> Plant:
-        """A motor from now on."""
+        """Connect a motor from now on."""
         self.plant = Plant(_Seen(self.side), self.clk_hz, motor)
         return self.plant
 
     def detach(self) -> None:
-        """No motor any more; the comparators stay as they are."""
+        """Disconnect the motor; the comparators keep their levels."""
         self.plant = None
 
     async def _to(self, edge: int) -> None:

@@ -1,7 +1,8 @@
-"""What `make demo PART=pmc006` plays: a host, and a motor on the bridges of the part.
+"""Program of `make demo PART=pmc006`: a host, and a motor on the bridges of the part.
 
-Three moves of the same way with finer and finer steps; then a program, loaded over the line, homes on a
-switch and shuttles without a host. The motor is there for the moves only: its comparators change often.
+The host makes three moves of the same distance with finer and finer steps. Then a program that is loaded
+over the line homes to a switch and shuttles without a host. The motor is connected for the moves only,
+because its comparators change often.
 """
 
 from __future__ import annotations
@@ -19,13 +20,13 @@ CURRENT = 1500
 WAY = 64
 """Full steps of a move."""
 SPEED, START, LEAD = 300, 75, 20
-"""Full steps a second, at the most and at both ends; full steps behind the start where the switch is."""
+"""Full steps per second: maximum, start and end; full steps from the start back to the switch."""
 MOVES = ((4, 2), (16, 4), (32, 5))
-"""Microsteps, and the coefficient that makes 1700 full steps/s^2 of them."""
+"""Microsteps, and the coefficient with which they accelerate at 1700 full steps/s^2."""
 FINE = 8
 """Microsteps of the program."""
 LONG = 2_000_000
-"""us; nothing that is waited for lasts longer."""
+"""Longest wait in microseconds."""
 PROGRAM = f"""\
         MIC   {FINE}
         ACC   5
@@ -56,7 +57,7 @@ again:  ROT   {50 * FINE}
 
 
 async def tell(host: MotorHost, story: Story) -> None:
-    """All of it, on a part just booted."""
+    """Run the whole program on a part that has just booted."""
     host.attach(MOTOR)
     with story.chapter("set", "settings"):
         await host.ask("j")
@@ -80,7 +81,7 @@ async def tell(host: MotorHost, story: Story) -> None:
 
 
 async def move(host: MotorHost, fine: int, coefficient: int, forward: bool) -> None:
-    """A move with this number of microsteps, polled to its end."""
+    """Make a move with this number of microsteps, polled to its end."""
     await host.ok(
         m=fine,
         v=SPEED * fine,
@@ -97,7 +98,7 @@ async def move(host: MotorHost, fine: int, coefficient: int, forward: bool) -> N
 
 
 async def homing(host: MotorHost) -> None:
-    """The switch, which is closed behind its place, until the program has switched GPO1 on."""
+    """Drive the switch, which is closed beyond its position, until the program has set GPO1."""
     side, steps = host.side, host.steps()
     place = (len(MOVES) % 2) * WAY * FINE
     while not side.level("gpo[0]"):

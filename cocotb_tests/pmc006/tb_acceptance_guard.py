@@ -24,16 +24,16 @@ from .moves import (
 )
 
 STOP = 5
-"""clk from an edge of EXT to no further step."""
+"""Cycles from an edge of EXT to the last possible step."""
 
 
 async def stopped(host: Host, edge: int) -> bool:
-    """Whether no step came later than 5 clk after this edge, and none comes."""
+    """Return whether no step is made later than 5 cycles after this edge."""
     return await still(host, host.us(5_000)) and not host.steps(edge + STOP + 1)
 
 
 async def fall(host: Host, pin: str = "ext1") -> int:
-    """A pin goes low; returns the edge."""
+    """Drive a pin low; return the edge."""
     await host.pins(**{pin: 0})
     return host.t - 1
 
@@ -106,7 +106,7 @@ async def p006_ac_30(dut: Any) -> None:
 
 
 async def to_cruise(host: Host, y: int) -> None:
-    """Z 256, T 5, N 1, until the speed is constant."""
+    """Write Z 256, T 5, N 1, and wait until the speed is constant."""
     await host.ok(Z=256, T=5, Y=y)
     if not host.literal:
         await brisk(host, 2900)
@@ -117,7 +117,7 @@ async def to_cruise(host: Host, y: int) -> None:
 
 
 async def samples(host: Host, *levels: int) -> None:
-    """Strobes of the BEMF, 20 us apart."""
+    """Apply samples of the BEMF, 20 us apart."""
     for level in levels:
         await host.strobe(bemf_level=level)
         await host.wait_us(20)
@@ -191,7 +191,7 @@ async def p006_ac_55(dut: Any) -> None:
 
 
 async def towards_the_switch(host: Host, count: int) -> int:
-    """AC-56 up to the second b; returns the steps made."""
+    """Run AC-56 up to the second b; return the number of steps."""
     await brisk(host, 2500, f=1, d=0)
     assert (await host.swap("A5 FF 73 FF FF FF 7F 93"))[9:20] == f"{host.accepted(0x7FFFFFFF) & 255:02X}" + (
         " FF FF 7F" if host.echo else " 00 00 00"

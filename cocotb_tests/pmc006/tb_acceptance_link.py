@@ -89,7 +89,7 @@ async def p006_ac_09(dut: Any) -> None:
 
 @directed("P006-AC-10", "P006-UART-05")
 async def p006_ac_10(dut: Any) -> None:
-    """`hear` looks at every edge of de and txd."""
+    """de and txd frame the reply: `hear` checks every edge."""
     host = await ready(dut)
     assert await host.ask("j") == 8
     (up, _), (down, _) = host.edges("de", host.said)
@@ -183,11 +183,11 @@ async def p006_ac_54(dut: Any) -> None:
 @cocotb.parametrize(first=[True, False])
 @directed("P006-AC-61", "P006-FRM-10", "P006-FRM-06")
 async def p006_ac_61(dut: Any, first: bool) -> None:
-    """Two parts on one bus, of which either the first or the second is the one under test."""
+    """Two parts on one bus answer only their own frames; the DUT is the first or the second of them."""
     ten, twenty = await Line.start(dut, first)
     for host in (ten, twenty):
         await host.boot()
-    # One address after the other: at first both have FF, and the second one is held in reset.
+    # Set one address after the other: both have FF at first, and the second part is held in reset.
     await twenty.pins(rst_n=0)
     assert await ten.ask("w", 10) == 10
     await twenty.pins(rst_n=1)

@@ -1,4 +1,4 @@
-"""Acceptance checks that last seconds: for the model alone. Others have the same rules in short."""
+"""Acceptance checks that last seconds, on the model alone. Other modules check the same rules in short."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ F12 = Config("f12m", clk_hz=12_000_000)
 
 
 def hexed(frame: bytes) -> str:
-    """Text of a frame, as `Host.swap` has it."""
+    """Return the text of a frame in the format of `Host.swap`."""
     return frame.hex(" ").upper()
 
 

@@ -1,4 +1,4 @@
-"""Acceptance checks under other parameters: the other reply to s."""
+"""Acceptance checks with other parameters: the other reply to s."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ from .reference import sines
 
 
 def hexed(frame: bytes) -> str:
-    """Text of a frame, as `Host.swap` has it."""
+    """Return the text of a frame in the format of `Host.swap`."""
     return frame.hex(" ").upper()
 
 
@@ -194,7 +194,7 @@ async def p006_ac_67(dut: Any) -> None:
         length = (3200 - low) * 1_000_000 // slope
         off = host.e
         if late:
-            # The frame ends some 60 us before the STOP ramp does.
+            # The frame ends about 60 us before the STOP ramp.
             frame = int(80 * host.bit)
             await host.go(off + host.us(length + 40) - frame)
         else:

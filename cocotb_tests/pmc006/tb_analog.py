@@ -1,4 +1,4 @@
-"""The speed that follows the voltage on GPI1, and the clocks behind all times."""
+"""The speed that follows the voltage on GPI1, and the time bases."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .programs import END, Op, rot
 
 
 async def regulated(dut: Any, full: int, value: int) -> Host:
-    """A host on a part with ANALOG = 1, made so by E; `value` is the last sample."""
+    """Return a host of a part with ANALOG = 1, set by E; `value` is the last sample."""
     host = await quick(dut)
     await host.ok(u=5, o=5)
     await download(host, [Op(0x08, 1, full)])
@@ -23,14 +23,14 @@ async def regulated(dut: Any, full: int, value: int) -> Host:
 
 
 def target(full: int, value: int) -> int:
-    """The live target (P006-MOT-51)."""
+    """Return the live target (P006-MOT-51)."""
     return full * (value + (value >> 9)) // 1024
 
 
 @cocotb.parametrize(value=[1023, 511, 512, 700])
 @directed("P006-MOT-51", "P006-MOT-50", "P006-STA-02", "P006-STA-04")
 async def p006_targets(dut: Any, value: int) -> None:
-    """Below VSTART the motion runs at the target from its first step on."""
+    """With a target below VSTART the motion runs at the target from its first step on."""
     assert [target(8000, h) for h in (0, 1, 511, 512, 1023)] == [0, 7, 3992, 4007, 8000]
     host = await regulated(dut, 3000, value)
     await run(host)
@@ -43,7 +43,10 @@ async def p006_targets(dut: Any, value: int) -> None:
 
 @directed("P006-MOT-21", "P006-STA-04", "P006-MOT-20", "P006-MOT-52")
 async def p006_move_below_its_start_speed(dut: Any) -> None:
-    """No planning and no deceleration; exactly N steps at the target. Acceptance looks at VMAX."""
+    """A move below the start speed has no acceleration or deceleration: exactly N steps at the target.
+
+    The check of s uses VMAX.
+    """
     host = await regulated(dut, 3000, 990)
     await start(host, 256)
     mark = host.mark
@@ -56,7 +59,10 @@ async def p006_move_below_its_start_speed(dut: Any) -> None:
 
 @directed("P006-MOT-31", "P006-MOT-51", "P006-STA-10", "P006-BAD-20")
 async def p006_voltage_of_zero(dut: Any) -> None:
-    """No steps, BUSY stays; the copy of the voltage is renewed every 10 ms; I ends it all."""
+    """At a voltage of 0 no steps are made, and BUSY stays set.
+
+    The voltage is sampled every 10 ms, and I ends the motion.
+    """
     host = await regulated(dut, 3000, 0)
     await start(host, 400)
     mark = host.mark
@@ -75,7 +81,7 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     assert await host.busy()
     assert await host.ask("I") == 0
     assert not await host.busy()
-    # A short move does not look at the voltage, and one without samples since the reset has none.
+    # A short move does not use the voltage, and without samples since the reset there is no voltage.
     await start(host, 5)
     await rest(host)
     assert host.made() == 5

@@ -12,12 +12,12 @@ from .moves import after_steps, brisk, move, quick, rest, run, start
 from .reference import HOME, boost, code, increment, lead, sines
 
 REFS = 64
-"""clk from a cause to the references."""
+"""Cycles from a cause to the references."""
 NAMES = ("phase_a_ref", "phase_a_sign", "phase_b_ref", "phase_b_sign")
 
 
 def shown(host: Host, t: int) -> tuple[int, ...]:
-    """References after edge t."""
+    """Return the references after edge t."""
     return tuple(host.level_at(name, t) for name in NAMES)
 
 
@@ -26,7 +26,10 @@ def shown(host: Host, t: int) -> tuple[int, ...]:
     "P006-EXC-01", "P006-EXC-02", "P006-EXC-10", "P006-EXC-11", "P006-EXC-12", "P006-EXC-13", "P006-EXC-15"
 )
 async def p006_angle_of_every_step(dut: Any, m: int) -> None:
-    """A full step at least, both ways, with all four outputs within 64 clk of the step and in one clk."""
+    """The references follow each step within 64 cycles, and all four outputs change in the same cycle.
+
+    At least a full step is made in both directions.
+    """
     host = await brisk(await Host.start(dut), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300)
     angle = HOME
     for direction in (1, 0):
@@ -74,7 +77,7 @@ async def p006_table_of_angles(dut: Any) -> None:
 
 @directed("P006-EXC-03", "P006-CMD-54")
 async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
-    """From fine to coarse the grid is the angle's own; settings and stops leave it."""
+    """Only steps move the angle: it keeps its grid with a coarser MSTEP, and settings and stops keep it."""
     host = await brisk(await Host.start(dut), 3000, m=128, a=0)
     await move(host, 5)
     await host.pause(REFS)
@@ -94,7 +97,7 @@ async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
 
 @directed("P006-EXC-20", "P006-CMD-26", "P006-CMD-35")
 async def p006_currents(dut: Any) -> None:
-    """Both sides of borders between drive indices, the ends included."""
+    """Each current selects the drive index of its range; both ends of several ranges are tested."""
     host = await Host.start(dut)
     await host.ok(a=0)
     printed = (26, 35, 45, 54, 64, 73, 83, 92, 102, 112, 121, 131, 140, 150, 159, 169, 179, 188, 198, 207)
@@ -119,7 +122,7 @@ async def p006_currents(dut: Any) -> None:
 )
 @directed("P006-EXC-21", "P006-EXC-22", "P006-EXC-23", "P006-EXC-24", "P006-CMD-10", "P006-CMD-13")
 async def p006_compensation(dut: Any, case: Any) -> None:
-    """0 up to the first update tick, then that of the speed in force, 0 again at rest."""
+    """Compensation is 0 up to the first update tick, then that of the active speed, 0 at standstill."""
     m, e, ccomp, scomp, speed, forward = case
     host = await brisk(await Host.start(dut), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
     await run(host)
@@ -140,7 +143,7 @@ async def p006_compensation(dut: Any, case: Any) -> None:
 
 @directed("P006-EXC-22", "P006-EXC-23", "P006-CMD-54", "P006-CMD-10", "P006-CMD-13")
 async def p006_factors_act_at_once(dut: Any) -> None:
-    """CCOMP, SCOMP, CUR of a running motion; MSTEP is its own."""
+    """CCOMP, SCOMP and CUR act on a running motion; MSTEP does not."""
     host = await brisk(await Host.start(dut), 2000, m=0, a=0, e=1000)
     await run(host)
     mark = host.mark
@@ -158,7 +161,10 @@ async def p006_factors_act_at_once(dut: Any) -> None:
 
 @directed("P006-EXC-30", "P006-EXC-31", "P006-EXC-32", "P006-CMD-14", "P006-CMD-22", "P006-STA-03")
 async def p006_decay(dut: Any) -> None:
-    """100 ms behind the fall of BUSY; all coefficients; what acts at once, and what does not."""
+    """The current is reduced 100 ms after the fall of BUSY by the selected coefficient.
+
+    a, Q and an accepted motion act immediately, a rejected s has no effect.
+    """
     host = await quick(dut)
     await start(host, 1)
     fall = await rest(host)
@@ -188,7 +194,7 @@ async def p006_decay(dut: Any) -> None:
 
 @directed("P006-STA-12", "P006-EXC-30", "P006-CMD-28")
 async def p006_free(dut: Any) -> None:
-    """Everything off at once; the hold current comes back at the kept angle."""
+    """g 1 switches everything off immediately; g 0 restores the hold current at the kept angle."""
     host = await quick(dut)
     await host.ok(e=2000)
     await start(host, 500)

@@ -1,4 +1,4 @@
-"""A board with a PMC006B4: both lines, the converter's strobes, lamps, the button, what the EEPROM keeps."""
+"""A board with a PMC006B4: both lines, strobes of the converter, LEDs, the button, content of the EEPROM."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BAUD, ADDRESS = 115_200, 255
 ACCEPTED = 3  # reply to s
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "cmp": 0, "ext1": 1, "ext2": 1, "gpi": 31}
 INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
-LINE, MOVING, SWITCH, RUNNING = range(4)  # lamps
+LINE, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
 class Host(Wire):
@@ -30,19 +30,19 @@ class Host(Wire):
         self._whole = Event()
 
     def came(self, byte: int) -> None:
-        """Collect a reply; DE must be on."""
+        """Collect a reply; DE must be asserted."""
         same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
         if len(self.bytes) == 8:
             self._whole.set()
 
     async def ask(self, code: str, data: int = 0) -> int:
-        """Data of the reply, which must come on this line; ends when the line is free again."""
+        """Send a frame; wait for its reply on this line and until the line is free; return the data."""
         self.bytes.clear()
         self._whole.clear()
         await self.send(command(ADDRESS, code, data))
         await with_timeout(self._whole.wait(), 10, "ms")
-        await self._time(1)  # it came in the middle of its stop bit
+        await self._time(1)  # the byte was received in the middle of its stop bit
         address, value = of_reply(bytes(self.bytes))
         same("address", address, ADDRESS)
         return value
@@ -60,16 +60,16 @@ class Board:
         self.rs485 = Host(dut.rs485_rxd, dut.rs485_txd, dut.rs485_de)
 
     def lamp(self, which: int) -> int:
-        """A lamp, 1 = on."""
+        """Return the state of an LED, 1 = on."""
         return int(self.dut.lamps.value) >> which & 1
 
     async def boot(self) -> None:
-        """Until the bridges are on, which ends the boot; the lamp "running" is lit before."""
+        """Wait until the bridges are on, which ends the boot; the LED "running" is on before."""
         await with_timeout(RisingEdge(self.dut.bridge_a_en), 60, "ms")
         same("running", self.lamp(RUNNING), 1)
 
     async def strobe(self, name: str, level: int) -> None:
-        """One conversion on the converter's bus, as short as it may be, then another level."""
+        """Make one conversion on the bus of the converter, as short as allowed, then apply another level."""
         pin = getattr(self.dut, name)
         self.dut.conv.value, pin.value = level, 1
         await ClockCycles(self.dut.clk, 4)
@@ -78,7 +78,7 @@ class Board:
 
 
 async def start(dut: Any) -> Board:
-    """Power-on and boot; both lines are listened to from then on."""
+    """Power on and boot the board; both lines are recorded from then on."""
     board = Board(dut)
     await board.boot()
     await ClockCycles(dut.clk, 10)
@@ -89,7 +89,7 @@ async def start(dut: Any) -> Board:
 
 @cocotb.test()
 async def board006_both_lines(dut: Any) -> None:
-    """Either host is answered, on both lines; DE frames the reply, and the lamp of the line shows it."""
+    """Either host receives its reply on both lines; DE frames the reply, and the LED of the line is on."""
     board = await start(dut)
     same("lamp before", board.lamp(LINE), 0)
     for host, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
@@ -103,7 +103,7 @@ async def board006_both_lines(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_motion_and_lamps(dut: Any) -> None:
-    """A move lights its lamp and ends on its step; a switch has its own; the outputs follow."""
+    """A move lights its LED until its last step; the switches have an LED, and the outputs follow y."""
     board = await start(dut)
     usb, steps = board.usb, 0
     same("y", await usb.ask("y", 0b10110 << 3), 0b10110 << 3)
@@ -128,10 +128,10 @@ async def board006_motion_and_lamps(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_converter(dut: Any) -> None:
-    """One bus, two strobes: the speed follows only the one, the stall detector only the other."""
+    """On one bus with two strobes, the speed uses only the first, the stall detector only the second."""
     board = await start(dut)
     usb = board.usb
-    # VSET 1198 analog; half of it is the start-up rate, so the move has that rate throughout.
+    # VSET 1198 analog; half of it is the start-up rate, so the move has this rate throughout.
     for code, data in (("A", 0), ("W", 0x0108), ("W", 1198), ("A", 0), ("E", 0)):
         await usb.ask(code, data)
     same("VMAX", await usb.ask("q"), 1198)
@@ -159,12 +159,12 @@ async def board006_converter(dut: Any) -> None:
 
 @cocotb.test()
 async def board006_button_and_eeprom(dut: Any) -> None:
-    """The button resets part and bridges at once; what was saved is there again, the rest is not."""
+    """The button resets part and bridges immediately; saved settings are restored, others are not."""
     board = await start(dut)
     rs485 = board.rs485
     for code, data in (("m", 32), ("v", 2000), ("t", 0)):
         await rs485.ask(code, data)
-    await Timer(4, "ms")  # a page at 400 kHz and the device's write time
+    await Timer(4, "ms")  # a page at 400 kHz and the write time of the device
     dut.btn_n.value = 0
     await with_timeout(FallingEdge(dut.bridge_a_en), 1, "us")
     same("bridges", int(dut.bridge_b_en.value), 0)

@@ -1,4 +1,4 @@
-"""Boot from an EEPROM: what is valid, what is not; a device that is missing, busy, stuck (13.2)."""
+"""Boot from an EEPROM: valid and invalid content; a device that is missing, busy or stuck (13.2)."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ SAVED = page(
 VALUES = {"k": 0, "r": 5, "h": 4, 0x55: 4, "K": 3, "L": 3000, "S": 65, "M": 1200, "P": 2000, "n": 4000}
 FACTORY = {"k": 16, "r": 0, "h": 0, 0x55: 1, "K": 0, "L": 600, "S": 600, "M": 300, "P": 1250, "n": 800}
 BLINK = (out(1, 1), goto(1))
-"""A program that shows itself and does not end."""
+"""A program that sets an output and does not end."""
 
 
 async def values(host: Host) -> dict[str | int, int]:
-    """Registers that are saved."""
+    """Return the registers that are saved."""
     return {code: await host.ask(code) for code in FACTORY}
 
 
 async def booted(dut: Any, content: bytes, address: int = 0xFF, **more: Any) -> Host:
-    """A host on a part with that EEPROM."""
+    """Return a host of a part with this EEPROM."""
     return await Host.start(dut, address=address, chip=Chip(content, write_us=500, **more))
 
 
 async def unread(host: Host) -> bool:
-    """Whether nothing has been written, and the page is not in force."""
+    """Return whether nothing was written and the values of the page are not used."""
     return not host.eeprom.writes and await host.ask("k") == 16 and host.replied == 0xFF
 
 
@@ -46,12 +46,12 @@ async def p006_all_registers_of_the_page(dut: Any) -> None:
 
 
 ILLEGAL = ({"a03": 121}, {"a04": 6}, {"a08": 2}, {"a0C": 64, "a0D": 0}, {"a13": 8}, {"a15": 0x10}, {"a02": 2})
-"""A byte or field of a good block changed; the sum is right."""
+"""One byte or field of a valid block changed; the sum is correct."""
 
 
 @directed("P006-BAD-14", "P006-EEP-01")
 async def p006_one_bad_field_makes_the_block_bad(dut: Any) -> None:
-    """Factory values, and nothing is written. The program is not touched by that."""
+    """One invalid field makes the block invalid: factory values apply, no write, the program is kept."""
     for changes in ILLEGAL:
         host = await booted(dut, image(page(a06=3, a07=4, **changes), BLINK))
         assert await unread(host), changes
@@ -62,7 +62,7 @@ async def p006_one_bad_field_makes_the_block_bad(dut: Any) -> None:
 
 @directed("P006-BAD-14", "P006-EEP-01")
 async def p006_sum_and_unused_bytes_of_the_block(dut: Any) -> None:
-    """Those that nobody looks at may be anything, as long as the sum is right."""
+    """Unused bytes of the block may have any value if the sum is correct."""
     unused = {f"a{place:02X}": 0xA0 + place for place in (0x05, *range(0x16, 0x1F))}
     assert await (await booted(dut, image(page(a04=8, **unused)))).ask("k") == 8
     for place in (0x05, 0x1F):
@@ -73,8 +73,11 @@ async def p006_sum_and_unused_bytes_of_the_block(dut: Any) -> None:
 
 @directed("P006-BAD-14", "P006-EEP-10", "P006-EEP-01", "P006-PRG-11")
 async def p006_a_copy_stands_in_for_a_bad_block(dut: Any) -> None:
-    """Sum, head or field: the copy is judged likewise, and nothing is written. A good block leaves it alone.
-    The program counts by itself."""
+    """A valid copy replaces a block with an invalid sum, head or field.
+
+    The copy is checked in the same way, and nothing is written. With a valid block the copy is not used. The
+    program is checked independently.
+    """
     old, new = page(a04=4, a03=7), page(a04=32, a03=9, a0B=1)
     torn, wild, short = bytearray(old), page(a04=6), page(a02=2)
     torn[3] ^= 1
@@ -103,7 +106,10 @@ async def p006_a_copy_stands_in_for_a_bad_block(dut: Any) -> None:
 
 @directed("P006-BAD-15", "P006-PRG-11", "P006-PRG-01", "P006-EEP-11")
 async def p006_which_programs_count(dut: Any) -> None:
-    """Sum over the program alone, end mark; a bad one leaves 200 words of zero and starts nothing."""
+    """A program is valid if its own sum and its end mark are correct.
+
+    An invalid one leaves 200 words of 0 and is not started.
+    """
     good = image(page(a0B=1, a04=4), BLINK)
     host = await booted(dut, good)
     assert await host.ask("k") == 4 and await host.out("gpo") == 1 and await host.ask("W") == 0
@@ -121,7 +127,7 @@ async def p006_which_programs_count(dut: Any) -> None:
 
 @directed("P006-PRG-11", "P006-PRG-01")
 async def p006_a_good_program_without_a_good_block(dut: Any) -> None:
-    """It is there, but the factory's OFFLINE does not start it."""
+    """A valid program without a valid block is loaded, but the OFFLINE of the factory does not start it."""
     host = await booted(dut, image(b"\xff" * 32, BLINK))
     assert await unread(host) and await host.out("gpo") == 0 and await host.ask("G") == words(BLINK)[0]
     await host.ok(A=0)
@@ -139,7 +145,10 @@ async def p006_last_instruction_and_high_bytes_are_loaded(dut: Any) -> None:
 @cocotb.parametrize(fault=["missing", "other", "scl"])
 @directed("P006-BAD-13", "P006-EEP-01", "P006-BAD-12")
 async def p006_without_a_device(dut: Any, fault: str) -> None:
-    """10 ms of calls, or 1 ms of a clock held low; then all works, saving too, but without effect."""
+    """Without a device the part works after 10 ms of calls, or 1 ms with the clock held low.
+
+    Save instructions are accepted without effect.
+    """
     faults: dict[str, Any] = {"stuck": "scl"} if fault == "scl" else {fault: True}
     chip = Chip(image(SAVED), **faults)
     host = await Host.start(dut, chip=chip)
@@ -157,7 +166,10 @@ async def p006_without_a_device(dut: Any, fault: str) -> None:
 
 @directed("P006-BAD-24", "P006-BAD-13", "P006-EEP-01")
 async def p006_a_device_that_holds_sda(dut: Any) -> None:
-    """A reset in the middle of a read: up to 9 pulses free it; one that never lets go is absent at once."""
+    """A device that holds SDA after a reset during a read is released with up to 9 pulses.
+
+    If it never releases SDA, it is absent immediately.
+    """
     host = await booted(dut, image(SAVED), 120)
     for clk in range(0, 80, 23):
         await host.pins(rst_n=0)

@@ -15,7 +15,7 @@ BUILDS = (F8B, ODD, BLANK)
 
 
 class Times:
-    """TOFF, BL, TF of chapter 6.6 in clk."""
+    """TOFF, BL and TF of chapter 6.6 in cycles."""
 
     def __init__(self, host: Host) -> None:
         params = host.params
@@ -27,14 +27,14 @@ class Times:
 
 
 async def ready(dut: Any) -> tuple[Host, Times]:
-    """A part that holds its full current."""
+    """Return a part that holds its full current."""
     host = await Host.start(dut)
     await host.ok(a=0, e=4000)
     return host, Times(host)
 
 
 def never_both(host: Host) -> bool:
-    """Whether the two halves of a bridge are never high together."""
+    """Return whether the two halves of a bridge are never high together."""
     for pair in (("m10", "m11"), ("m20", "m21")):
         times = sorted({t for name in pair for t, _ in host.edges(name)})
         if any(all(host.level_at(name, t) for name in pair) for t in times[:400]):
@@ -44,7 +44,10 @@ def never_both(host: Host) -> bool:
 
 @directed("P006-CHP-02", "P006-CHP-03", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20", builds=BUILDS)
 async def p006_stuck_comparators(dut: Any) -> None:
-    """At 1: OFF and FAST alternate; at 0: ON for ever; each phase by itself."""
+    """A comparator stuck at 1 alternates OFF and FAST, one stuck at 0 stays ON indefinitely.
+
+    The phases are independent.
+    """
     host, times = await ready(dut)
     assert (await host.out("m10"), await host.out("m11"), await host.out("m20"), await host.out("m21")) == (
         1,
@@ -73,11 +76,14 @@ async def p006_stuck_comparators(dut: Any) -> None:
 
 @directed("P006-CHP-03", "P006-CHP-05", builds=BUILDS)
 async def p006_lengths_of_the_pulses(dut: Any) -> None:
-    """ON: the blanking at least, then until the comparator; FAST ends with it, or after TF."""
+    """ON lasts at least the blanking time, then until the comparator rises.
+
+    FAST ends when the comparator falls, or after TF.
+    """
     host, times = await ready(dut)
 
     async def cycle(rise: int, fall: int) -> tuple[int, int]:
-        """cmp_a rises `rise` clk after an ON begins; it falls `fall` clk after the next pulse begins."""
+        """Raise cmp_a `rise` cycles after an ON begins, lower it `fall` cycles after the next pulse."""
         await host.pins(cmp_a=1)
         await host.pause(2 * times.off + 2 * times.fast)
         await host.pins(cmp_a=0)
@@ -111,7 +117,10 @@ async def p006_lengths_of_the_pulses(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-02", "P006-CHP-06", builds=BUILDS)
 async def p006_reversals(dut: Any) -> None:
-    """A new sign is an OFF of TOFF; with a reference of 0 nothing is switched on; never a direct reversal."""
+    """A change of sign causes an OFF of TOFF; no bridge reverses directly.
+
+    With a reference of 0 nothing is switched on.
+    """
     host, times = await ready(dut)
     await brisk(host, 500, m=2, P=300)
     for direction in (1, 0):
@@ -136,14 +145,17 @@ async def p006_reversals(dut: Any) -> None:
 
 @directed("P006-CHP-04", "P006-CHP-03", builds=BUILDS)
 async def p006_reference_of_0(dut: Any) -> None:
-    """FAST takes what is left to 0; then OFF follows OFF, to the clk, until there is a reference again."""
+    """At a reference of 0, FAST reduces the remaining current to 0.
+
+    Then OFF follows OFF, exact to the cycle, until the reference is not 0.
+    """
     host, times = await ready(dut)
     await brisk(host, 500, m=2)
     await start(host, 3)
     await rest(host)
     await host.pause(64)
     assert not await host.out("phase_b_ref") and not await host.out("phase_b_sign")
-    # The ON of before ends with the comparator; that falls in the middle of the second FAST.
+    # The previous ON ends with the comparator, which falls in the middle of the second FAST.
     await host.pins(cmp_b=1)
     since = host.t
     await host.pause(2 * times.off + times.fast + times.blank)
@@ -186,7 +198,7 @@ async def p006_bridges_off(dut: Any) -> None:
 
 @directed("P006-CHP-03", "P006-CHP-04", "P006-CHP-05", "P006-CHP-06", "P006-BAD-20", builds=BUILDS)
 async def p006_restless_comparators(dut: Any) -> None:
-    """Comparators at any moment while the motor turns."""
+    """With comparator edges at any time during a motion, the outputs equal the model and never overlap."""
     host, times = await ready(dut)
     await brisk(host, 2500, m=4)
     await run(host)

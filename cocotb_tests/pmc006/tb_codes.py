@@ -1,4 +1,4 @@
-"""Every instruction code with data inside and outside of its range, and what it replies."""
+"""Every instruction code with data inside and outside of its range, and its replies."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ from .moves import (
 from .programs import END, Op, out, rot
 
 BEYOND = (0x7FFFFFFF, -0x80000000, -1, 0x10000, 0x100)
-"""Data that few registers take; their low bytes would be legal in many."""
+"""Data that few registers accept; their low bytes would be legal for many."""
 
 
 class Row(NamedTuple):
-    """A register: code, factory value, data that it takes, data that it does not take, code that reads it."""
+    """Register: code, factory value, accepted data, rejected data, code that reads it."""
 
     code: str
     factory: int
@@ -72,7 +72,7 @@ IDS += tuple(f"P006-CMD-{n:02}" for n in (30, 32, 34, 35, 36, 38, 39, 42, 43, 49
 @cocotb.parametrize(row=REGISTERS)
 @directed(*IDS, "P006-BAD-08", "P006-BAD-09")
 async def p006_register(dut: Any, row: Row) -> None:
-    """What is taken is echoed; what is not leaves the register and shows it; the reads show the same."""
+    """Accepted data is echoed; rejected data does not change the register, whose value is the reply."""
     host = await Host.start(dut)
 
     async def shown(value: int) -> None:
@@ -95,7 +95,7 @@ async def p006_register(dut: Any, row: Row) -> None:
 
 @directed("P006-CMD-48", "P006-BAD-07", "P006-FRM-03")
 async def p006_unknown_codes(dut: Any) -> None:
-    """All codes that mean nothing, with data that would be legal for many: one reply each, no effect."""
+    """Each undefined code, with data that would be legal for many codes, has one reply and no effect."""
     known = {ord(letter) for letter in "ABEFGIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"}
     host = await Host.start(dut)
     unknown = [code for code in range(256) if code not in known]
@@ -187,7 +187,7 @@ async def p006_speed_mode(dut: Any) -> None:
     assert await host.ask("N", 0) == 0 and not await host.ask("O") & SPEED_MODE
     await rest(host)
     assert set(host.intervals(mark)) <= {333, 334}
-    # A displacement is no speed mode: N 1 is refused, N 0 is nothing to it.
+    # A displacement is not the speed mode: N 1 is rejected, N 0 has no effect.
     await start(host, 40)
     mark = host.mark
     assert await host.ask("N", 1) == 0 and await host.ask("N", 0) == 0
@@ -264,7 +264,7 @@ async def p006_position(dut: Any) -> None:
 
 @directed("P006-CMD-54", "P006-CMD-34", "P006-CMD-25", "P006-STA-04")
 async def p006_values_of_the_next_motion(dut: Any) -> None:
-    """MSTEP, DIR, VSTART, VSTOP of a running motion are its own; VMAX is not used by a short one."""
+    """MSTEP, DIR, VSTART and VSTOP do not change during a motion; a short motion does not use VMAX."""
     host = await quick(dut)
     await start(host, 60)
     mark = host.mark

@@ -1,4 +1,4 @@
-"""The EEPROM of the benches in both languages, side by side: same lines, same pulls on every clk."""
+"""The EEPROM of the benches in both languages: with equal lines, both pull equally in every cycle."""
 
 from __future__ import annotations
 
@@ -17,39 +17,39 @@ Levels = tuple[int, int]
 
 
 class Master:
-    """Yields (clk, SCL, SDA) as a master pulls them: good transfers, and ones cut short."""
+    """Source of (cycles, SCL, SDA) as a master pulls them: valid transfers, and incomplete ones."""
 
     def __init__(self, rng: random.Random, device: int) -> None:
         self.rng, self.device = rng, device
         self.sda = 1
 
     def hold(self, scl: int, sda: int) -> tuple[int, int, int]:
-        """So much time between two changes."""
+        """Return the levels and a random time between two changes."""
         self.sda = sda
         return self.rng.choice((2, 3, 5, 9)), scl, sda
 
     def start(self) -> Iterator[tuple[int, int, int]]:
-        """START, repeated or not."""
+        """Yield a START, repeated or not."""
         yield self.hold(0, 1)
         yield self.hold(1, 1)
         yield self.hold(1, 0)
         yield self.hold(0, 0)
 
     def stop(self) -> Iterator[tuple[int, int, int]]:
-        """STOP."""
+        """Yield a STOP."""
         yield self.hold(0, 0)
         yield self.hold(1, 0)
         yield self.hold(1, 1)
 
     def bits(self, byte: int, acknowledge: int, count: int = 9) -> Iterator[tuple[int, int, int]]:
-        """A byte and its acknowledge bit, or the first bits of it."""
+        """Yield a byte and its acknowledge bit, or its first bits."""
         for level in [*(byte >> place & 1 for place in reversed(range(8))), acknowledge][:count]:
             yield self.hold(0, level)
             yield self.hold(1, level)
         yield self.hold(0, self.sda)
 
     def transfer(self) -> Iterator[tuple[int, int, int]]:
-        """A write, a read, or part of one."""
+        """Yield a write, a read, or a part of one."""
         rng = self.rng
         kind = rng.choice(("write", "write", "read", "read", "here", "poll", "cut"))
         address = rng.choice((0, 31, 32, 0x33F, 0xFFE, rng.randrange(0x10000)))
@@ -81,7 +81,7 @@ class Master:
 
 @cocotb.test()
 async def p006_eeprom_device(dut: Any) -> None:
-    """Given random traffic, when both devices see it, then both pull the lines on the same clk."""
+    """With random traffic, both devices pull the lines in the same cycles."""
     rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
     stretch = int(dut.StretchClk.value)
     model = Eeprom24C32(CLK_HZ, device=int(dut.Device.value), write_us=WRITE_CLK, stretch_us=stretch)

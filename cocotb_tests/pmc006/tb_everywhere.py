@@ -1,4 +1,4 @@
-"""Every instruction code wherever it may come: in each state of the motion, beside a program or a save."""
+"""Every instruction code in each state of the motion, and during a program or a save."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from .programs import goto, out
 
 FLAT = {"v": 600, "L": 600, "S": 600, "u": 0}
 STEEP = {"v": 16_000, "L": 65, "S": 65, "u": 5}
-"""Speeds of a motion at one rate, and of one whose rate changes for long."""
+"""Speeds of a motion at one rate, and of one whose rate changes for a long time."""
 LONG = 1_000_000
 LOOP, OUT = 0, 2
-"""Places in the program: a jump to itself, and an instruction that the host may have done."""
+"""Places in the program: a jump to itself, and an instruction that the host may execute."""
 PROGRAM = (goto(0), out(1, 1))
 
 
 class State(NamedTuple):
-    """speeds: settings in force. begun: frames that lead from rest into it, and the program's place."""
+    """speeds: active settings. begun: frames that lead from standstill into the state."""
 
     begun: str = ""
     speeds: dict[str, int] = FLAT
@@ -45,19 +45,19 @@ REPLIES: dict[str, int | None] = {
     **{"P": 1250, "Q": 1, "R": 0x123, "T": 64, "U": 1, "V": 0, "W": PROGRAM[1].words[0], "X": 0, "Y": 0},
     **{"Z": 0, "a": 1, "b": 0, "d": 1, "e": 800, "f": 0, "g": 0, "h": 0, "i": 5, "k": 16, "l": 0, "m": 16},
     **{"n": 800, "o": 0, "p": 0, "t": 1, "w": 0xFF, "y": 0, "z": 1, "H": 0},
-    # What runs shows in these; the golden model knows it.
+    # These depend on the state; the golden model checks them.
     **dict.fromkeys("OcjxLSuvqrs"),
 }
-"""Code -> reply at rest to its data. H is a code that is none."""
+"""Code -> reply to its data at standstill. H is an undefined code."""
 UNLIKE = {"R": 1, "T": -1, "y": 7, "w": 0, "H": 1}
-"""Data that is not the reply."""
+"""Data that differs from the reply."""
 AT = {"E": OUT, "G": OUT, "W": OUT, "z": LOOP}
-"""PP that a code needs."""
+"""PP that a code requires."""
 DISTURBS = "BEFINgstz"
 
 
 def reply(code: str, name: str, speeds: dict[str, int], accepted: int) -> int | None:
-    """What the rules say to a code in a state."""
+    """Return the reply that the rules require for a code in a state."""
     if name == "program" and code in "EWz":
         return 0
     if name == "save" and code in "BtV":
@@ -68,7 +68,7 @@ def reply(code: str, name: str, speeds: dict[str, int], accepted: int) -> int | 
 
 
 async def enter(host: Host, state: State) -> None:
-    """From whatever is."""
+    """Enter a state from any other."""
     assert await host.ask("I", 1) == 1
     await host.ok(F=0, g=0, A=LOOP)
     while await host.ask("V"):
@@ -82,7 +82,7 @@ async def enter(host: Host, state: State) -> None:
     "P006-CMD-02", "P006-CMD-06", "P006-CMD-18", "P006-CMD-41", "P006-CMD-53", "P006-CMD-56", "P006-BAD-07"
 )
 async def p006_every_code(dut: Any, name: str) -> None:
-    """Each is answered as its row says, and only what ends a motion ends it."""
+    """Each code has the reply that the rules require, and only codes that end a motion end it."""
     host = await Host.start(dut, chip=Chip(write_us=4_000))
     state = STATES[name]
     await download(host, PROGRAM)

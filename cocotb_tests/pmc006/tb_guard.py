@@ -1,4 +1,4 @@
-"""Emergency stops, port word; what meets in one clk."""
+"""Emergency stops, port word; events in the same cycle."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ CLEAR = {"ext1": "b", "ext2": "l"}
     "P006-EXT-01", "P006-EXT-02", "P006-EXT-05", "P006-EXT-06", "P006-EXT-08", "P006-STA-10", "P006-STA-18"
 )
 async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
-    """The selected edge stops within 5 clk, also speed mode; the other edge and the other pin do nothing."""
+    """The selected edge stops any motion within 5 cycles; the other edge and the other pin have no effect."""
     other = "ext2" if pin == "ext1" else "ext1"
     host = await quick(dut, levels={"sda_i": 0, pin: 1 - rising})
     mask = 1 if pin == "ext1" else 2
@@ -62,7 +62,7 @@ async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
 
 @directed("P006-EXT-02", "P006-EXT-03", "P006-EXT-04", "P006-EXT-07", "P006-EXT-09", "P006-BAD-26")
 async def p006_levels_never_stop(dut: Any) -> None:
-    """Enabling with an active switch, changing the mode at an active level: no flag, no stop."""
+    """A switch that is active when it is enabled or when the mode changes sets no flag and stops nothing."""
     for level in (0, 1):
         host = await quick(dut, levels={"sda_i": 0, "ext1": level, "ext2": level})
         await start(host, 2_000)
@@ -85,7 +85,7 @@ async def p006_edges_with_the_enable_off_are_forgotten(dut: Any) -> None:
     await host.pause(10)
     await host.pins(ext1=0)
     assert await host.status() == DECAY | EXT1
-    # f 0 does not clear it; b does.
+    # f 0 does not clear the flag; b clears it.
     await host.ok(f=0)
     assert await host.status() == DECAY | EXT1 and await host.ask("s", 1) == 0
     assert await host.ask("b") == 0 and len(await move(host, 2)) == 1
@@ -122,7 +122,7 @@ async def p006_locked_part_answers_everything_else(dut: Any) -> None:
 
 @directed("P006-EXT-10", "P006-EXT-08", "P006-EXT-07")
 async def p006_homing(dut: Any) -> None:
-    """Towards the switch, clear, off it by a fixed count: settings and position are exact."""
+    """After homing to the switch and a fixed count off it, settings and position are exact."""
     host = await quick(dut)
     await host.ok(f=1, d=0)
     await start(host, 0x7FFFFFFF)
@@ -142,7 +142,7 @@ async def p006_homing(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-EXT-02", "P006-STA-18")
 async def p006_ext_around_the_last_step(dut: Any) -> None:
-    """The edge walks over the clk of the last step: the flag is set, the count is what was made."""
+    """An edge of EXT near the last step always sets the flag; the position is the number of steps made."""
     for offset in range(-5, 4):
         host = await quick(dut)
         await host.ok(f=1)
@@ -157,7 +157,7 @@ async def p006_ext_around_the_last_step(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-17", "P006-EXT-02")
 async def p006_flag_set_and_cleared_in_one_clk(dut: Any) -> None:
-    """Setting wins; b that is executed later clears."""
+    """If the flag is set and cleared in the same cycle, it is set; a b that is executed later clears it."""
     host = await quick(dut)
     await host.ok(f=1)
     outcomes = set()
@@ -198,7 +198,7 @@ async def p006_port_word(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-15", "P006-STA-10")
 async def p006_frames_executed_around_a_step(dut: Any) -> None:
-    """i, I, g walk over the clk of a step: no step is lost or doubled, none follows a stop."""
+    """i, I and g near a step neither lose nor double a step, and no step follows a stop."""
     for code, data in (("i", 500), ("I", 0), ("g", 1)):
         for offset in range(-2, 5):
             host = await quick(dut)

@@ -1,4 +1,4 @@
-"""The keys of a user program on GPI1 and GPI2, their filters, what they do in each state (12.7)."""
+"""The keys of a user program on GPI1 and GPI2, their filters, their effect in each state (12.7)."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from .programs import END, Op, out, rot
 RESET_TO = 3
 HIGH, KEY1, KEY2, BOTH = 0x1F, 0x1E, 0x1D, 0x1C
 FILTER = 1000
-"""us of a key's filter; the event comes 0 .. 2 us later."""
+"""Filter time of a key in us; the event follows 0 .. 2 us later."""
 LATE = 60
-"""clk from an event to the effect of the instruction that it lets start."""
+"""Cycles from an event to the effect of the instruction that it starts."""
 
 
 def reset_en(target: int, on: int = 1) -> Op:
-    """RESET_EN."""
+    """Return a RESET_EN."""
     return Op(0x13, on, target)
 
 
@@ -29,13 +29,13 @@ WAIT_GPI3 = Op(0x10, 3, 0)
 
 
 async def level(host: Host, gpi: int) -> int:
-    """Set the inputs; returns the edge that samples them."""
+    """Set the inputs; return the edge that samples them."""
     await host.pins(gpi=gpi)
     return host.t - 1
 
 
 async def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
-    """Press for so long, then release and let the filter see that; returns the edge of the fall."""
+    """Press a key for `us`, then release it and wait for the filter; return the edge of the fall."""
     edge = await level(host, gpi)
     await host.wait_us(us)
     await level(host, HIGH)
@@ -44,7 +44,7 @@ async def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
 
 
 async def armed(dut: Any, **given: Any) -> Host:
-    """A host whose keys are armed by now."""
+    """Return a host whose keys are armed."""
     host = await quick(dut, 2500, **given)
     await host.wait_us(FILTER + 10)
     return host
@@ -52,7 +52,7 @@ async def armed(dut: Any, **given: Any) -> Host:
 
 @directed("P006-PRG-30", "P006-PRG-31")
 async def p006_length_of_the_filter(dut: Any) -> None:
-    """999 us are none, however often; 1000 us and 3 more are one, and the stop comes on its edge."""
+    """Presses of 999 us are no event; one of 1003 us is one event, and the motion stops at its edge."""
     host = await armed(dut)
     await load(host, reset_en(RESET_TO), rot(100_000), END, out(1, 1), END)
     await after_steps(host, 2)
@@ -80,7 +80,7 @@ async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
     edge = await level(host, KEY1)
     await host.wait_us(5 * FILTER)
     assert not await host.busy() and await still(host, 100) and not await host.out("gpo")
-    # Bounces while it is released.
+    # Bounces during the release.
     for us in (300, FILTER - 1):
         await level(host, HIGH)
         await host.wait_us(us)
@@ -97,7 +97,7 @@ async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
 
 @directed("P006-PRG-31")
 async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
-    """The second round finds the counter at 1 and FLAG set by the first."""
+    """After a RESET the second round finds the counter at 1, and FLAG set by the first round."""
     program = (
         reset_en(4),
         Op(0x0B),
@@ -118,13 +118,13 @@ async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
     await press(host, KEY1)
     assert await host.out("gpo") == 0b11 and await host.busy()
     await press(host, KEY1)
-    # CNTI makes it 3 now, and CMP clears FLAG.
+    # CNTI increments the counter to 3 now, and CMP clears FLAG.
     assert await host.out("gpo") == 0b11 and not await host.busy() and await host.ask("z") == 1
 
 
 @directed("P006-PRG-30")
 async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> None:
-    """At reset, and when it is enabled; it has to be released first."""
+    """A key that is held at reset or when it is enabled has no effect until it has been released."""
     host = await quick(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
     await host.wait_us(3 * FILTER)
     await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)
@@ -132,7 +132,7 @@ async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> Non
     assert await host.busy()
     await level(host, HIGH)
     await host.wait_us(FILTER - 2)
-    # Not armed by less than 1 ms either.
+    # A release of less than 1 ms does not arm the key, either.
     await press(host, KEY1, 2 * FILTER)
     assert await host.busy() and not await host.out("gpo")
     await press(host, KEY1)
@@ -142,7 +142,7 @@ async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> Non
 @cocotb.parametrize(held=[False, True])
 @directed("P006-PRG-30")
 async def p006_enabling_behind_the_event(dut: Any, held: bool) -> None:
-    """The event was before RESET_EN: nothing, though the key is still down."""
+    """An event before RESET_EN has no effect, though the key is still pressed."""
     host = await armed(dut)
     await level(host, KEY1)
     await host.wait_us(2 * FILTER)
@@ -155,7 +155,7 @@ async def p006_enabling_behind_the_event(dut: Any, held: bool) -> None:
 
 @directed("P006-PRG-32", "P006-PRG-14")
 async def p006_pause(dut: Any) -> None:
-    """It toggles; a motion goes on, no WAIT ends, no instruction starts."""
+    """PAUSE toggles; during a pause a motion continues, no WAIT ends, and no instruction starts."""
     host = await armed(dut)
     await load(host, PAUSE_EN, rot(30), Op(0x10, 8, 0), out(1, 1), Op(0x10, 3, 0), out(2, 1), END)
     edge = await press(host, KEY2)
@@ -163,7 +163,7 @@ async def p006_pause(dut: Any) -> None:
     assert len(host.steps()) == 30
     await host.wait_us(FILTER)
     assert not await host.out("gpo")
-    # The second press lets it go on.
+    # The second press continues the program.
     await level(host, KEY2)
     await host.wait_us(FILTER + 20)
     assert await host.out("gpo") == 1
@@ -184,7 +184,10 @@ async def p006_pause(dut: Any) -> None:
 
 @directed("P006-PRG-32", "P006-PRG-12", "P006-CMD-04")
 async def p006_frames_while_paused(dut: Any) -> None:
-    """The program is not halted: z, E, W are refused; F 0 ends it, and a new start is not paused."""
+    """While paused the program is not halted: z, E and W are rejected.
+
+    F 0 ends the program, and a new start is not paused.
+    """
     host = await armed(dut)
     await load(host, PAUSE_EN, WAIT_GPI3, out(1, 1), END)
     await press(host, KEY2)
@@ -200,7 +203,7 @@ async def p006_frames_while_paused(dut: Any) -> None:
 
 @directed("P006-PRG-32", "P006-BAD-23", "P006-PRG-31")
 async def p006_both_keys(dut: Any) -> None:
-    """RESET wins, the other event is gone; while RESET is held PAUSE does nothing."""
+    """RESET has priority and discards the event of PAUSE; while RESET is held, PAUSE is ignored."""
     host = await armed(dut)
     await load(host, reset_en(4), PAUSE_EN, rot(100_000), WAIT_GPI3, out(1, 1), END)
     edge = await level(host, BOTH)
@@ -225,7 +228,10 @@ async def p006_reset_ends_a_pause(dut: Any) -> None:
 
 @directed("P006-PRG-31", "P006-PRG-14")
 async def p006_reset_in_halt_stops_every_motion(dut: Any) -> None:
-    """Also one that the host has started; the program stays where it is until F 0 disarms the key."""
+    """RESET in HALT stops every motion, also one that the host has started.
+
+    The program stays at its place. F 0 disarms the key.
+    """
     host = await armed(dut)
     await load(host, reset_en(2), END, out(1, 1), END)
     await start(host, 100_000)
@@ -264,7 +270,7 @@ async def p006_keys_are_off_after_a_start_and_when_switched_off(dut: Any) -> Non
 
 @directed("P006-PRG-33", "P006-PRG-30")
 async def p006_key_pins_are_inputs_as_before(dut: Any) -> None:
-    """WAIT, CMP and x see them at once, without the filter."""
+    """WAIT, CMP and x sample the key pins immediately, without the filter."""
     host = await armed(dut)
     await load(
         host, reset_en(0), PAUSE_EN, Op(0x10, 1, 0), out(1, 1), Op(0x10, 2, 0), out(2, 1), Op(0x12, 9, BOTH)

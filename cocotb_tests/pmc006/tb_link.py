@@ -1,4 +1,4 @@
-"""Bytes and frames on the link, good and bad; when replies come, and when none does."""
+"""Bytes and frames on the link, valid and invalid; the times of replies, and frames without a reply."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ J = command(0xFF, "j")
 
 
 async def echo(host: Host, *values: int) -> None:
-    """Set the position, which takes any 32 bits, and read it back."""
+    """Set the position, which accepts any 32 bits, and read it back."""
     for value in values or PATTERNS:
         assert await host.ask("i", value) == value and await host.ask("c") == value
 
@@ -38,7 +38,10 @@ async def p006_all_levels_of_all_bits(dut: Any) -> None:
 @cocotb.parametrize(error=[0.025, -0.025, 0.012, -0.012])
 @directed("P006-UART-04", builds=BUILDS)
 async def p006_wrong_bit_rate(dut: Any, error: float) -> None:
-    """2.5 % either way, without gaps; the last sample of a frame shows the sum of it all."""
+    """Frames without gaps are received with a bit rate that is 2.5 % too high or too low.
+
+    The last sample of a frame has the accumulated error.
+    """
     await echo(await Host.start(dut, error=error), *PATTERNS[:3])
 
 
@@ -53,7 +56,7 @@ async def p006_gaps_between_bytes(dut: Any) -> None:
 
 @directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
 async def p006_spikes_on_an_idle_line(dut: Any) -> None:
-    """Shorter than half a bit: nothing has been."""
+    """Spikes shorter than half a bit on an idle line have no effect."""
     host = await Host.start(dut)
     half = host.bit / 2
     for clk in (1, 2, 3, int(half) - 2):
@@ -73,7 +76,7 @@ async def p006_spikes_on_an_idle_line(dut: Any) -> None:
 
 @directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
 async def p006_noise_away_from_the_samples(dut: Any) -> None:
-    """Levels are wrong for a fifth of a bit, but not where they are looked at."""
+    """Wrong levels for a fifth of a bit have no effect if they are not at the sampling times."""
     host = await Host.start(dut)
     clk = int(host.bit / 5)
     for byte in command(0xFF, "i", 0x0FF0A55A):
@@ -85,7 +88,7 @@ async def p006_noise_away_from_the_samples(dut: Any) -> None:
 @cocotb.parametrize(place=range(8))
 @directed("P006-UART-03", "P006-BAD-05", builds=BUILDS)
 async def p006_framing_error_in_each_byte(dut: Any, place: int) -> None:
-    """The frame is gone; the rest of it begins nothing."""
+    """A framing error in any byte discards the frame; the rest of the frame does not start another one."""
     host = await Host.start(dut)
     for number, byte in enumerate(command(0xFF, "i", 0xA5A5)):
         await host.character(byte, stop=int(number != place))
@@ -97,12 +100,12 @@ async def p006_framing_error_in_each_byte(dut: Any, place: int) -> None:
 @cocotb.parametrize(bits=[9.3, 9.7, 12, 60, 2000])
 @directed("P006-UART-03", "P006-BAD-05", builds=BUILDS)
 async def p006_breaks(dut: Any, bits: float) -> None:
-    """However long it is, no more than the frame it is in is lost; the next one needs no pause."""
+    """A break of any length discards at most the frame that it disturbs; the next frame needs no pause."""
     host = await Host.start(dut)
     await host.send(J[:4])
     await host.low(bits)
     if bits < 9.5:
-        # A good byte of zeros: the frame goes on.
+        # A valid byte 0: the frame continues.
         await host.send(J[5:])
         assert await host.hear() == DECAY
     assert await host.ask("j") == DECAY
@@ -110,7 +113,7 @@ async def p006_breaks(dut: Any, bits: float) -> None:
 
 @directed("P006-UART-03", "P006-BAD-24", builds=BUILDS)
 async def p006_line_low_during_reset(dut: Any) -> None:
-    """No byte begins before the line has been high."""
+    """No byte begins before the line has been high after a reset."""
     host = await Host.start(dut, levels={"sda_i": 0, "rxd": 0}, boot=False)
     await host.boot()
     await host.pause(ceil(30 * host.bit))
@@ -132,7 +135,7 @@ async def p006_bytes_before_a_frame(dut: Any) -> None:
 
 @directed("P006-FRM-02", "P006-FRM-08", "P006-BAD-02", builds=BUILDS)
 async def p006_every_wrong_bit_of_a_frame(dut: Any) -> None:
-    """One wrong bit is never executed; all eight bytes are gone, and no others."""
+    """A frame with one wrong bit is never executed; its eight bytes are discarded, and no others."""
     host = await Host.start(dut)
     good = command(0xFF, "y", 0xF8)
     for place in range(1, 8):
@@ -158,7 +161,7 @@ async def p006_own_address_only(dut: Any) -> None:
 
 @directed("P006-FRM-06", "P006-FRM-10", "P006-BAD-03", builds=BUILDS)
 async def p006_traffic_of_other_nodes(dut: Any) -> None:
-    """Commands to others, their replies, whatever they hold; then at once a frame to this one."""
+    """Commands to other nodes and their replies have no effect with any data; a frame may follow at once."""
     host = await Host.start(dut)
     assert await host.ask("w", 5) == 5
     for data in (0, 0xA505A505, 0x050505A5):
@@ -169,7 +172,7 @@ async def p006_traffic_of_other_nodes(dut: Any) -> None:
 
 @directed("P006-UART-02", "P006-UART-05", "P006-FRM-04", builds=BUILDS)
 async def p006_start_bits_about_the_middle_of_a_stop_bit(dut: Any) -> None:
-    """A stop bit may be cut short behind its middle; the next character counts from its own edge."""
+    """A stop bit may end after its middle; the next character is sampled relative to its own start edge."""
     host = await Host.start(dut)
     data, heard = 0x55AA33CC, []
     *first, last = command(0xFF, "i", data)
@@ -188,10 +191,13 @@ async def p006_start_bits_about_the_middle_of_a_stop_bit(dut: Any) -> None:
 
 @directed("P006-FRM-04", "P006-BAD-04", builds=BUILDS)
 async def p006_silence_within_a_frame(dut: Any) -> None:
-    """Less than 192 bit times between the stop-bit sample and the next start bit are nothing; more end it."""
+    """A silence of less than 192 bit times within a frame has no effect; a longer one ends the frame.
+
+    It is counted from the stop-bit sample to the next start bit.
+    """
     host = await Host.start(dut)
     for after, answered in ((-12, True), (-5, True), (6, False), (40, False)):
-        # From the middle of the stop bit, where the line has half a bit to go.
+        # From the middle of the stop bit, when half a bit remains.
         gap = ceil(192 * host.bit) - int(host.bit / 2) + after
         await host.send(command(0xFF, "i", 0x77)[:4])
         await host.pause(gap)
@@ -206,7 +212,7 @@ async def p006_silence_within_a_frame(dut: Any) -> None:
 
 @directed("P006-FRM-04", builds=BUILDS)
 async def p006_the_very_end_of_the_silence(dut: Any) -> None:
-    """Around the last clk either may be; model and RTL agree about it."""
+    """Within a few cycles of the end of the silence, model and RTL agree; both results are allowed."""
     host = await Host.start(dut)
     for after in range(-4, 5):
         await host.send(J[:4])
@@ -229,7 +235,7 @@ async def p006_frames_cut_short(dut: Any, count: int) -> None:
 
 @directed("P006-FRM-07", "P006-BAD-06", builds=BUILDS)
 async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
-    """Nothing of it is heard, not even the rest of a frame that ends after the reply."""
+    """A frame sent during a reply is ignored, also its rest after the reply."""
     for start in (0, 0.4, 1.2, 5, 40):
         host = await Host.start(dut)
         await host.say("c")
@@ -245,7 +251,7 @@ async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-UART-02", "P006-BAD-06", builds=BUILDS)
 async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
-    """No byte begins before the line has been high; what follows soon afterwards is heard."""
+    """After a reply no byte begins before the line has been high; a frame soon afterwards is received."""
     for gap in (2, 4, 8):
         host = await Host.start(dut)
         await host.say("c")
@@ -260,7 +266,7 @@ async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-BAD-06", builds=BUILDS)
 async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
-    """A host has a reply in the middle of its last stop bit; a frame that begins there or later is heard."""
+    """A frame that begins in or after the middle of the last stop bit of a reply is received."""
     for late in (-1, 0, 1, 9, 25, 33):
         host = await Host.start(dut)
         await host.say("c")
@@ -279,7 +285,7 @@ async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-UART-05", builds=BUILDS)
 async def p006_line_that_echoes(dut: Any) -> None:
-    """A transceiver that lets the node hear itself: the assembler is empty afterwards."""
+    """A node that receives the echo of its own reply answers the next frame."""
     host = await Host.start(dut)
     await host.say("c")
     start = host.e + ceil(2 * host.bit)
@@ -291,7 +297,7 @@ async def p006_line_that_echoes(dut: Any) -> None:
 
 @directed("P006-FRM-03", "P006-CMD-52", "P006-CMD-53", builds=BUILDS)
 async def p006_reply_shows_the_moment_of_execution(dut: Any) -> None:
-    """Steps go on while a position is being sent."""
+    """The reply returns the position at the time of execution; steps continue while it is sent."""
     host = await quick(dut)
     await host.ask("s", 200)
     await host.wait_us(3_000)
@@ -303,7 +309,7 @@ async def p006_reply_shows_the_moment_of_execution(dut: Any) -> None:
 
 @directed("P006-FRM-09", "P006-CMD-40", builds=BUILDS)
 async def p006_worked_frames(dut: Any) -> None:
-    """F1..F6 of chapter 2.5."""
+    """Frames F1..F6 of chapter 2.5 have the replies stated there."""
     host = await Host.start(dut)
     assert await host.ask("w", 1) == 1
     await host.ok(v=3000, L=3000, S=3000)
@@ -316,7 +322,7 @@ async def p006_worked_frames(dut: Any) -> None:
 
 @directed("P006-UART-03", "P006-FRM-02", "P006-BAD-24", builds=BUILDS)
 async def p006_reset_in_the_middle_of_a_reply(dut: Any) -> None:
-    """Outputs are at their reset levels at once; afterwards a frame is answered."""
+    """A reset during a reply sets the outputs to their reset levels at once; the next frame is answered."""
     for bits in (0.5, 1.5, 2.5, 30):
         host = await Host.start(dut)
         await host.say("j")

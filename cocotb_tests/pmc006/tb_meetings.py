@@ -1,4 +1,4 @@
-"""Two things in the same clk, or some clk apart: stops, starts, flags, keys, frames, the program."""
+"""Two events in the same cycle or some cycles apart: stops, starts, flags, keys, frames, the program."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from .moves import DECAY, EXT1, after_steps, brisk, download, load, quick, run, 
 from .programs import Op, goto, out
 
 NEAR = range(-3, 4)
-"""Distances in clk."""
+"""Distances in cycles."""
 TICKS = 1001
-"""µs ticks of a filter."""
+"""Microsecond ticks of a filter."""
 HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
 
 
 async def meet(host: Host, code: str, data: int, shift: int, **levels: int) -> int:
-    """A frame, and pins whose effect inside is so many clk behind that of the frame. Returns the reply."""
+    """Send a frame; the pins take effect inside `shift` cycles after the frame. Return the reply."""
     begin = host.t
     await host.say(code, data)
     await host.at(begin + frame_clk(host) + ACT + shift - 2, **levels)
@@ -27,26 +27,29 @@ async def meet(host: Host, code: str, data: int, shift: int, **levels: int) -> i
 
 
 def frame_clk(host: Host) -> int:
-    """clk from the begin of a frame to its e: the start of the last byte is seen, then its stop bit."""
+    """Return the cycles from the begin of a frame to its e, including the synchronisers."""
     return 7 * ceil(10 * host.bit) + 2 + ceil(9.5 * host.bit) - 1
 
 
 async def say_at(host: Host, t: int, code: str, data: int = 0) -> int:
-    """A frame whose effect would be at edge t, if nothing is under way. Returns the reply."""
+    """Send a frame that takes effect at edge t if nothing is in progress. Return the reply."""
     await host.go(t - ACT - frame_clk(host))
     await host.say(code, data)
     return await host.hear()
 
 
 def key_event(host: Host, edge: int) -> int:
-    """Edge of the event of a key that edge `edge` has sampled low."""
+    """Return the edge of the event of a key that edge `edge` has sampled low."""
     first = -(-(edge + 2 - 1) * 1_000_000 // host.clk_hz)
     return 1 - (-(first + TICKS - 1) * host.clk_hz // 1_000_000)
 
 
 @directed("P006-STA-14", "P006-STA-10", "P006-EXT-02", "P006-STA-01", "P006-STA-18")
 async def p006_start_and_emergency_stop(dut: Any) -> None:
-    """Wherever the edge falls: flag set, motor at rest, and a reply of 0 or of an accepted start."""
+    """An emergency stop near a start always sets the flag and stops the motor.
+
+    The reply is 0 or that of an accepted start.
+    """
     host = await quick(dut)
     await host.ok(f=1)
     replies = []
@@ -56,7 +59,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
             assert not await host.busy() and reply in (0, good) and await host.status() == DECAY | EXT1
             replies.append(bool(reply))
             assert await host.ask("b") == 0
-            # The level of one pin and a change of another are no edge.
+            # The level of one pin and a change of another are not an edge.
             await host.pins(gpi=KEY1)
             await host.pins(gpi=HIGH)
             assert await host.status() == DECAY
@@ -67,7 +70,10 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-EXT-08", "P006-CMD-23", "P006-CMD-27")
 async def p006_flag_and_its_clearing(dut: Any) -> None:
-    """Setting wins in the same clk; so does the enable of the clk itself."""
+    """If the flag is set and cleared in the same cycle, it is set.
+
+    An edge in the cycle of its own enable is detected, too.
+    """
     host = await Host.start(dut)
     await host.ok(f=1)
     left = []
@@ -81,7 +87,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         await host.ok(f=int(code == "J"), J=0)
         seen = []
         for shift in NEAR:
-            # Enabled, or changed to the rising edge, about the time of a falling one.
+            # Enabled, or changed to the rising edge, near a falling edge.
             assert await meet(host, code, data, shift, ext1=0) == data
             seen.append(bool(await host.status() & EXT1))
             assert await host.ask("f", 0) == 0
@@ -93,7 +99,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
 
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-52")
 async def p006_position_and_step(dut: Any) -> None:
-    """It is set a clk before, with, or behind a step: none is lost."""
+    """No step is lost if the position is set a few cycles before, at or after a step."""
     host = await quick(dut, 2500)
     await run(host)
     await after_steps(host, 3)
@@ -110,7 +116,7 @@ async def p006_position_and_step(dut: Any) -> None:
 
 @directed("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
 async def p006_speed_mode_taken_up_again_at_its_end(dut: Any) -> None:
-    """Up to the edge on which it would end N=1 prolongs the motion; behind it a new one begins."""
+    """N 1 up to the edge at which the motion would end prolongs it; after this edge it starts another."""
     host = await Host.start(dut)
     await host.ok(v=300, L=300, S=65, o=5)
     length = 0
@@ -128,7 +134,7 @@ async def p006_speed_mode_taken_up_again_at_its_end(dut: Any) -> None:
 
 
 async def ready_for_reset(host: Host) -> int:
-    """Run the program from its begin, press GPI1; returns the edge of the event to come."""
+    """Run the program from its begin and press GPI1; return the edge of the event."""
     await host.ok(A=0)
     assert await host.ask("z") == 1
     await host.pins(gpi=KEY1)
@@ -137,7 +143,7 @@ async def ready_for_reset(host: Host) -> int:
 
 @directed("P006-PRG-31", "P006-STA-14", "P006-PRG-15", "P006-BAD-23")
 async def p006_reset_key_and_frames(dut: Any) -> None:
-    """Starts, F 0 and z about the edge of the event."""
+    """Starts, F 0 and z near the event of the RESET key have valid replies, and RESET is executed."""
     host = await quick(dut, 2500)
     await host.wait_us(1_010)
     await download(host, [Op(0x13, 1, 3), Op(0x10, 3, 0), goto(1), out(1, 1), goto(4)])
@@ -157,7 +163,7 @@ async def p006_reset_key_and_frames(dut: Any) -> None:
 
 @directed("P006-PRG-31", "P006-PRG-15", "P006-PRG-16", "P006-PRG-32")
 async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
-    """RESET cancels the instruction under way or comes behind it, PAUSE lets it end."""
+    """RESET cancels the instruction in progress or follows it; PAUSE lets it end."""
     host = await quick(dut, 2500)
     await host.wait_us(1_010)
     loop = (Op(0x13, 1, 5), Op(0x14, 1, 0), out(1, 1), out(1, 0), goto(2), goto(5))
@@ -179,7 +185,7 @@ async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
 
 @directed("P006-PRG-15", "P006-PRG-16", "P006-FRM-03", "P006-CMD-46")
 async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
-    """y between two OUTs: the pins are what the last one of them said."""
+    """A y between two OUTs sets the pins, and the last instruction determines their levels."""
     host = await Host.start(dut)
     await load(host, out(1, 1), out(2, 1), out(1, 0), out(2, 0), goto(0))
     begin = host.t + frame_clk(host) + 100
@@ -193,7 +199,7 @@ async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
 
 @directed("P006-PRG-20", "P006-CMD-03", "P006-STA-14")
 async def p006_single_try_and_emergency_stop(dut: Any) -> None:
-    """ROT by E is executed some clk behind E; a stop before it refuses it, one behind it ends it."""
+    """A stop before the ROT of E rejects it, a stop after it ends it: no step is made."""
     host = await quick(dut)
     await host.ok(f=1)
     await download(host, [Op(1, 0, 50)])
@@ -206,7 +212,7 @@ async def p006_single_try_and_emergency_stop(dut: Any) -> None:
 
 @directed("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
 async def p006_restore_and_save(dut: Any) -> None:
-    """The event of FSET about the edge of t: one of them goes first, both are done or t is refused."""
+    """If the FSET event is near t, one of them is first: both are executed, or t is rejected."""
     host = await Host.start(dut)
     await host.wait_us(100)
     replies = []
@@ -224,8 +230,10 @@ async def p006_restore_and_save(dut: Any) -> None:
 
 @directed("P006-FRM-07", "P006-BAD-06", "P006-FRM-10")
 async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
-    """A byte that begins before the middle of its last stop bit is not heard, one behind it is; the line need
-    not rest."""
+    """A byte that begins before the middle of the last stop bit of a reply is ignored, a later one is not.
+
+    The line need not be idle.
+    """
     host = await Host.start(dut)
     heard = []
     for shift in range(-4, 9):
@@ -245,7 +253,7 @@ async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
 
 @directed("P006-STA-10", "P006-MOT-05", "P006-EXT-02", "P006-STA-14")
 async def p006_emergency_stop_and_step(dut: Any) -> None:
-    """The edge falls some clk before or behind a step, the last of the move among them."""
+    """An emergency stop some cycles before or after a step, also the last one, keeps the position exact."""
     host = await Host.start(dut)
     await brisk(host, 3000, f=1)
     for count in (1, 3):

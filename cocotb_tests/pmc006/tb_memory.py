@@ -15,7 +15,10 @@ from .programs import image, page
 
 @directed("P006-FRM-07", "P006-EEP-01", "P006-BAD-06", builds=(F8B, ODD))
 async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
-    """Deaf until then, with an EEPROM or without one: such a frame is lost, and so is one that ends later."""
+    """The part ignores frames until the end of the boot, with or without an EEPROM.
+
+    A frame that begins before this end is discarded, too.
+    """
     for chip, longest in ((Chip(image(), write_us=500), 60_000), (Chip(missing=True), 15_000)):
         up = (await Host.start(dut, chip=chip)).t
         chip = Chip(image(), missing=chip.missing)
@@ -31,7 +34,7 @@ async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
 
 @directed("P006-CMD-02", "P006-CMD-41", "P006-CMD-53", "P006-BAD-12")
 async def p006_eeprom_codes(dut: Any) -> None:
-    """t and B reply at once and work in the background; a second one is refused meanwhile."""
+    """t and B reply immediately and are executed in the background; another one is rejected until then."""
     host = await Host.start(dut, chip=Chip(write_us=6_000))
     assert await host.ask("t", -1) == 1 and await host.ask("t") == 0 and await host.ask("B") == 0
     await host.ms(14)
@@ -50,7 +53,7 @@ async def p006_eeprom_codes(dut: Any) -> None:
 
 @directed("P006-PAR-01", "P006-EEP-01", "P006-EEP-10", builds=(ODD,))
 async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
-    """SCL keeps its rate over the whole transfer, within a clk of its quarter ticks."""
+    """SCL keeps its rate during the whole transfer, within one cycle of its quarter ticks."""
     host = await Host.start(dut, chip=Chip(image(page(a04=32)), write_us=300))
     assert await host.ask("k") == 32
     hz = int(str(host.params["I2C_HZ"]))

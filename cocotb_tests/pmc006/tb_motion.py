@@ -1,4 +1,4 @@
-"""Moves and speed mode: intervals, planning, retargets, the ends of motion."""
+"""Moves and speed mode: intervals, planning, changes of the target, ends of motions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .moves import DECAY, after_steps, brisk, cruise, move, quick, rest, run, st
 
 
 class Move(NamedTuple):
-    """A row of chapter 14.2: count, settings, time of the last step, first and last intervals in us."""
+    """Row of chapter 14.2: count, settings, time of the last step, first and last intervals in us."""
 
     count: int
     settings: tuple[int, int, int, int, int]
@@ -54,7 +54,7 @@ async def p006_moves_of_the_table(dut: Any, row: Move) -> None:
 
 @directed("P006-MOT-04", "P006-STA-18", "P006-CMD-53")
 async def p006_when_a_motion_begins(dut: Any) -> None:
-    """BUSY is up before the reply; the first interval counts from t = 0, which comes within 1024 clk."""
+    """BUSY is set before the reply; the first interval counts from t = 0, at most 1024 cycles later."""
     for count, speed in ((1, 3000), (255, 3000), (256, 3000), (100_000, 16_000), (0x7FFFFFFF, 16_000)):
         host = await Host.start(dut)
         await host.ok(L=3000, S=3000, v=speed, u=5, o=5)
@@ -68,7 +68,7 @@ async def p006_when_a_motion_begins(dut: Any) -> None:
 
 @directed("P006-MOT-03", "P006-MOT-40", "P006-MOT-01")
 async def p006_constant_speeds_have_no_jitter(dut: Any) -> None:
-    """Each step is at the next whole us after its exact time."""
+    """At a constant speed, each step is at the next whole us after its exact time."""
     for speed in (2999, 1601, 700):
         host = await quick(dut, speed)
         await run(host)
@@ -93,7 +93,7 @@ async def p006_the_highest_speed(dut: Any) -> None:
 
 @directed("P006-MOT-40", "P006-MOT-41", "P006-MOT-15", "P006-STA-13")
 async def p006_stop_in_the_middle_of_the_ramp(dut: Any) -> None:
-    """W10: N 0 is seen at t = 100,000."""
+    """W10: with an N 0 that is effective at t = 100,000, the speed mode stops as calculated."""
     host = await Host.start(dut)
     await host.ok(e=1000, u=3, o=3, v=3200)
     await run(host)
@@ -111,7 +111,7 @@ async def p006_stop_in_the_middle_of_the_ramp(dut: Any) -> None:
 
 @directed("P006-MOT-41", "P006-MOT-40", "P006-STA-02")
 async def p006_stop_when_already_slow(dut: Any) -> None:
-    """W8 and W14: without a ramp the end is the next update tick."""
+    """W8 and W14: without a ramp the motion ends at the next update tick."""
     for speed, stop in ((50, 600), (2500, 2500)):
         host = await Host.start(dut)
         await host.ok(v=speed, S=stop, L=max(65, speed))
@@ -126,7 +126,7 @@ async def p006_stop_when_already_slow(dut: Any) -> None:
 
 @directed("P006-MOT-30", "P006-MOT-50", "P006-CMD-43", "P006-CMD-54")
 async def p006_retargets(dut: Any) -> None:
-    """A new VMAX is the new goal from the next update on, up and down, in the ramp as in cruise."""
+    """A new VMAX is the target from the next update on, higher or lower, in a ramp and at constant speed."""
     host = await Host.start(dut)
     await host.ok(L=2000, S=2000, v=2200, u=5, o=5)
     await run(host)
@@ -146,7 +146,10 @@ async def p006_retargets(dut: Any) -> None:
 
 @directed("P006-MOT-30", "P006-MOT-15", "P006-MOT-20")
 async def p006_retargets_of_a_move(dut: Any) -> None:
-    """Exactly N steps, whatever VMAX does; below VSTOP the motion keeps the target to its last step."""
+    """A move makes exactly N steps with any changes of VMAX.
+
+    With a target below VSTOP the motion keeps the target to its last step.
+    """
     host = await Host.start(dut)
     await host.ok(L=2000, S=2000, v=2600, u=5, o=5)
     await start(host, 300)
@@ -170,7 +173,7 @@ async def p006_retargets_of_a_move(dut: Any) -> None:
 
 @directed("P006-MOT-30", "P006-MOT-23")
 async def p006_motions_that_ignore_a_retarget(dut: Any) -> None:
-    """A short move, and the last deceleration of a long one."""
+    """A short move and the last deceleration of a long one ignore a new VMAX."""
     host = await quick(dut, 2500)
     await start(host, 60)
     mark = host.mark
@@ -190,7 +193,7 @@ async def p006_motions_that_ignore_a_retarget(dut: Any) -> None:
 
 @directed("P006-MOT-42", "P006-STA-16", "P006-CMD-11")
 async def p006_speed_mode_switched_on_again(dut: Any) -> None:
-    """N 1 in STOPPING goes back to the target, once in the ramp and once behind its end."""
+    """N 1 in STOPPING returns to the target, during the ramp and after its end."""
     host = await Host.start(dut)
     await host.ok(L=2800, S=2800, v=3000, u=5, o=5)
     await run(host)
@@ -226,7 +229,7 @@ async def p006_position_wraps_and_long_moves(dut: Any) -> None:
 
 @directed("P006-MOT-23", "P006-MOT-20", "P006-STA-01", "P006-STA-04")
 async def p006_the_border_of_short_moves(dut: Any) -> None:
-    """255 steps do without VMAX, 256 do not."""
+    """A move of 255 steps does not use VMAX, a move of 256 steps does."""
     host = await Host.start(dut)
     await host.ok(L=3000, S=3000, v=3300, u=5, o=5)
     await start(host, 255)
@@ -244,7 +247,7 @@ async def p006_the_border_of_short_moves(dut: Any) -> None:
 
 @directed("P006-STA-14", "P006-STA-10", "P006-MOT-04")
 async def p006_stop_before_the_first_step(dut: Any) -> None:
-    """Cancelled between acceptance and t = 0, or in the first interval: no step."""
+    """A stop between acceptance and t = 0 or in the first interval cancels the motion without a step."""
     host = await brisk(await Host.start(dut), 3000, f=1)
     for after in (1, 20, 300, 1000, 2000):
         await host.say("s", 1000)

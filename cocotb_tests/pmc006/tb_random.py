@@ -1,4 +1,4 @@
-"""Random hosts, compared with the golden model on every clk."""
+"""Random hosts, compared with the golden model in every cycle."""
 
 from __future__ import annotations
 
@@ -34,5 +34,5 @@ from . import random_host
     least=200,
 )
 async def p006_random_host(dut: Any, seed: int) -> None:
-    """Given random hosts, when the RTL gets their pins, then all outputs change as in the golden model."""
+    """With the pins of random hosts, all outputs change as in the golden model."""
     await random_host.play(dut, seed)

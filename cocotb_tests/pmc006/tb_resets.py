@@ -1,4 +1,4 @@
-"""A reset in the middle of everything, and a factory restore, of a part without an EEPROM."""
+"""A reset in any activity, and a factory restore, of a part without an EEPROM."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .tb_save import FSET_US
 
 @directed("P006-BAD-24", "P006-PORT-01", "P006-PRG-01", "P006-IO-03")
 async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
-    """Outputs are at their reset levels at once; registers, flags and words start anew."""
+    """A reset sets all outputs to their reset levels immediately and restores registers, flags and words."""
     host = await quick(dut)
     await host.ok(f=3, y=0xF8)
     await host.ok(A=0)
@@ -44,7 +44,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 @directed("P006-BAD-24", "P006-CMD-15")
 @inside("u_control.u_settings.u_values.count_q")
 async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
-    """Replies are right also if the copies of the registers begin with anything at power-up."""
+    """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)
     if host.side.simulated:
         for state in range(64):
@@ -62,14 +62,14 @@ async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
 
 @directed("P006-EEP-21", "P006-EEP-22")
 async def p006_restore_without_a_device(dut: Any) -> None:
-    """Nothing lasts, nothing hangs."""
+    """A factory restore without a device ends and has no permanent effect."""
     host = await Host.start(dut, levels={"sda_i": 0, "fset_n": 0}, boot=False)
     await host.boot()
     assert host.us(FSET_US) <= host.t <= host.us(FSET_US + 2_500)
     await host.pins(fset_n=1)
     assert await values(host) == FACTORY and await host.status() == DECAY
     host = await quick(dut)
-    # What the line says now is no acknowledge.
+    # The level of the line is no acknowledge now.
     await host.pins(fset_n=0, sda_i=1)
     await host.wait_us(FSET_US + 100)
     assert await host.ask("V") == 2 and await host.ask("t") == 1

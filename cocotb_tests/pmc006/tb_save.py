@@ -1,4 +1,4 @@
-"""What is written into the EEPROM: save, burn, factory restore; and when nothing is (13.3..13.5)."""
+"""Writes to the EEPROM: save, burn, factory restore; and their rejection (13.3..13.5)."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ FSET_US = 20_000
 
 
 def written(host: Host) -> list[tuple[int, bytes]]:
-    """Address and bytes of all writes."""
+    """Return address and bytes of all writes."""
     return [(write.address, write.data) for write in host.eeprom.writes]
 
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-BAD-12")
 async def p006_save(dut: Any) -> None:
-    """Two writes of a page with everything that is saved, the copy first, and nothing else."""
+    """t writes two pages with all saved registers, the copy first, and nothing else."""
     host = await Host.start(dut, chip=Chip(write_us=3_000))
     await host.ok(m=0, u=5, o=4, a=0, Q=4, J=3, L=3000, S=65, M=1200, P=2000, e=4000, w=120)
     await host.ok(v=5, d=0, f=3, y=0xF8, T=3, Y=7, Z=99, i=12, A=7)
@@ -45,18 +45,18 @@ async def p006_save(dut: Any) -> None:
 
 @directed("P006-EEP-10", "P006-CMD-54")
 async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
-    """VSTART changes before, between and behind its two bytes: old or new, never half; the sum is right. Each
-    of the two pages takes it anew.
+    """A save contains the old or the new VSTART, never a mix of both, and its sum is correct.
 
-    The device stretches the clock, so that a byte lasts longer than a frame.
+    VSTART changes before, between and after its two bytes; each of the two pages reads it again. The device
+    stretches the clock, so that a byte lasts longer than a frame.
     """
     host = await Host.start(dut, chip=Chip(write_us=100))
     host.eeprom.stretch(host.us(900))
     old, seen = 600, []
     for place, new in ((13.4, 0x0A0B), (14.3, 0x0201), (14.8, 0x0A0B), (15.6, 0x0201)):
         assert await host.ask("t") == 1
-        # Three bytes come before those of the page; one lasts 22.5 us more than it is stretched, and is taken
-        # as soon as the one before has been acknowledged, before the stretch.
+        # Three bytes precede those of the page. Each lasts 22.5 us longer than the stretch and is read
+        # when the previous one has been acknowledged, before the stretch.
         await host.go(host.e + host.us(922.5 * place) - int(79.5 * host.bit))
         assert await host.ask("L", new) == new
         await host.ms(58)
@@ -72,7 +72,10 @@ async def p006_registers_go_whole_into_a_save(dut: Any) -> None:
 
 @directed("P006-EEP-11", "P006-CMD-02", "P006-BAD-12", "P006-BAD-11", "P006-PRG-02")
 async def p006_burn(dut: Any) -> None:
-    """Mark away, 25 pages, sum and mark; W is refused meanwhile, a program runs, the buffer stays."""
+    """B clears the mark and writes 25 pages, then sum and mark.
+
+    During this time W is rejected, a program runs, and the buffer does not change.
+    """
     host = await booted(dut, image(SAVED, BLINK), 120)
     await download(host, P1)
     assert await host.ask("B") == 1
@@ -91,7 +94,7 @@ async def p006_burn(dut: Any) -> None:
 @cocotb.parametrize(count=[1, 26, 27])
 @directed("P006-EEP-11", "P006-BAD-15", "P006-BAD-13")
 async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
-    """The job ends within 10 ms of calls; without its last write the mark stays away."""
+    """If the device fails, the job ends within 10 ms of calls; without its last write no mark is set."""
     host = await booted(dut, image(SAVED, BLINK), 120)
     assert await host.ask("B") == 1
     while len(host.eeprom.writes) < count:
@@ -106,7 +109,10 @@ async def p006_a_device_that_dies_while_burning(dut: Any, count: int) -> None:
 
 @directed("P006-BAD-13", "P006-BAD-12", "P006-EEP-10")
 async def p006_lines_that_stick_while_saving(dut: Any) -> None:
-    """SCL low: over after 1 ms; SDA low looks like acknowledges that write nothing; SDA high like none."""
+    """With SCL held low a job ends after 1 ms and reports an error.
+
+    SDA held low looks like acknowledges: the job ends without an error, and nothing is written.
+    """
     host = await Host.start(dut, chip=Chip(write_us=100))
     chip = host.eeprom
     for line, jobs in (("scl", "tB"), ("sda", "t")):
@@ -127,7 +133,7 @@ async def p006_lines_that_stick_while_saving(dut: Any) -> None:
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-CMD-48")
 async def p006_a_save_that_fails_is_told(dut: Any) -> None:
-    """V: 1 while the EEPROM is at work, 2 if it did not answer, 0 if all went well."""
+    """V returns 1 while the EEPROM is in use, 2 if it did not respond, 0 after success."""
     host = await Host.start(dut, chip=Chip(write_us=2_000))
     chip = host.eeprom
     assert await host.ask("V") == 0
@@ -167,14 +173,14 @@ NEW = {
 
 
 BOOTED = {"k": 4, "r": 1, "h": 2, 0x55: 2, "K": 1, "L": 0x145, "S": 0x246, "M": 300, "P": 1250, "n": 0x3E8}
-"""What replaces SAVED, and its read-outs."""
+"""Read-outs after the new settings have replaced SAVED."""
 
 
 PLACES = 7
 
 
 async def answering(host: Host) -> int:
-    """Address that the part has after a boot."""
+    """Return the address of the part after a boot."""
     for address in (120, 5, 0xFF):
         await host.say("k", address=address)
         await host.pause(int(3 * host.bit))
@@ -186,8 +192,10 @@ async def answering(host: Host) -> int:
 
 @directed("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
 async def p006_reset_while_settings_are_saved(dut: Any) -> None:
-    """Wherever a reset cuts t off, the next boot has the old settings or the new ones, all of them. Here some
-    places, each through the whole part; tests/pmc006/model/test_cuts.py has every edge of the lines."""
+    """After a reset at any time of t, the next boot has either all old or all new settings.
+
+    This test cuts at some places, each with the whole part; tests/pmc006/model/test_cuts.py tests every edge.
+    """
     seen: list[bool] = []
     for number in range(PLACES):
         host = await booted(dut, image(SAVED) + bytes(0x1D) + SAVED, 120)
@@ -205,7 +213,7 @@ async def p006_reset_while_settings_are_saved(dut: Any) -> None:
 
 @directed("P006-EEP-20", "P006-EEP-21", "P006-EEP-22", "P006-BAD-22")
 async def p006_restore_in_operation(dut: Any) -> None:
-    """20 ms low without interruption are one event, however long it lasts; nothing in force changes."""
+    """FSET low for 20 ms without interruption is one event of any length; active settings do not change."""
     host = await booted(dut, image(SAVED, BLINK), 120)
     await host.ok(v=3000)
     await start(host, 100_000)
@@ -231,7 +239,7 @@ async def p006_restore_in_operation(dut: Any) -> None:
 
 @directed("P006-EEP-22", "P006-BAD-12")
 async def p006_restore_waits_for_a_job(dut: Any) -> None:
-    """Burn first, then the factory page; t and B are refused until both are done."""
+    """A factory restore waits for the end of a burn; t and B are rejected until both are done."""
     host = await booted(dut, image(SAVED, BLINK), 120)
     await host.pins(fset_n=0)
     await host.wait_us(FSET_US - 5_000)
@@ -248,7 +256,7 @@ async def p006_restore_waits_for_a_job(dut: Any) -> None:
 @cocotb.parametrize(low_us=[FSET_US - 100, FSET_US + 100, 60_000])
 @directed("P006-EEP-21", "P006-EEP-20", "P006-BAD-22")
 async def p006_restore_at_power_up(dut: Any, low_us: int) -> None:
-    """Held for ever it delays the boot by 20 ms and no more; the program is kept but not started."""
+    """FSET held low delays the boot by at most 20 ms; the program is kept but not started."""
     host = await Host.start(
         dut, chip=Chip(image(page(a0B=1, a04=4), BLINK), write_us=500), levels={"fset_n": 0}, boot=False
     )
@@ -263,7 +271,7 @@ async def p006_restore_at_power_up(dut: Any, low_us: int) -> None:
 
 @directed("P006-EEP-21", "P006-EEP-20")
 async def p006_restore_at_the_end_of_power_up(dut: Any) -> None:
-    """Whenever the event comes, during BOOT factory values are in force, and behind it the saved ones."""
+    """If the FSET event occurs during BOOT, factory values are active; after it the saved ones are."""
     late_us = 6_000
     saved = image(SAVED, BLINK)
     chip = Chip(saved, busy_us=late_us)

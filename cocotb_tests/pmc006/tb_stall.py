@@ -1,4 +1,4 @@
-"""The stall detector: what counts as a stall, and what it does."""
+"""The stall detector: conditions of a stall and its effects."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .moves import (
 )
 
 STOP = 5
-"""clk from a cause to no further step."""
+"""Cycles from a cause to the last possible step."""
 
 
 async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> Host:
-    """A host on a part in speed mode at constant speed, with the stall detector on."""
+    """Return a host of a part in speed mode at constant speed, with the stall detector on."""
     host = await quick(dut)
     await host.ok(Z=level, T=length, Y=y)
     await run(host)
@@ -33,7 +33,7 @@ async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> H
 
 
 async def samples(host: Host, *levels: int) -> None:
-    """Strobes of the BEMF."""
+    """Apply samples of the BEMF."""
     for level in levels:
         await host.strobe(bemf_level=level)
         await host.pause(30)
@@ -53,7 +53,7 @@ async def p006_stall_length(dut: Any, case: Any) -> None:
 
 @directed("P006-STL-06", "P006-STL-05", "P006-STL-01", "P006-CMD-20", "P006-CMD-21")
 async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
-    """Length 64 after reset; at level 0 nothing is below; without Y bit 0 nothing is looked at."""
+    """The length is 64 after reset; at level 0 no sample is below it; without Y bit 0 samples are ignored."""
     host = await quick(dut)
     await host.ok(Z=511, Y=1)
     await run(host)
@@ -76,7 +76,10 @@ async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
 
 @directed("P006-STL-01", "P006-STL-02", "P006-BAD-20")
 async def p006_samples_off_constant_speed(dut: Any) -> None:
-    """In a ramp nothing counts, and the count begins anew; a strobe that stays is a sample every clk."""
+    """In a ramp no sample is counted, and the count restarts.
+
+    A strobe that stays asserted is a sample in each cycle.
+    """
     host = await Host.start(dut)
     await host.ok(L=1000, S=1000, v=1500, u=5, o=5, Z=100, T=3, Y=1)
     await run(host)
@@ -100,7 +103,7 @@ async def p006_samples_off_constant_speed(dut: Any) -> None:
 
 @directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
 async def p006_the_count_of_low_samples_begins_anew(dut: Any) -> None:
-    """With each start, though no sample came between; and with a sample at rest, low as it is."""
+    """The count restarts with each start, also without samples in between, and with any idle sample."""
     host = await quick(dut, 2500)
     await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
     for between in ((), (1,)):
@@ -131,7 +134,7 @@ async def p006_what_a_stall_does(dut: Any) -> None:
     assert await host.ask("y", 0x10) == 0x10
     assert await host.out("gpo") == 0x12
     stalled_at = await host.ask("X")
-    # Bit 1 set behind the stall stops the motion, too.
+    # Bit 1 set after the stall stops the motion, too.
     await host.ok(Y=7)
     assert not await host.busy() and await host.out("gpo") == 0x12
     await host.ok(Y=3)

@@ -1,4 +1,4 @@
-"""Which instruction is accepted in which state, and what it makes of the motion (4.1, 4.2, 4.3)."""
+"""The acceptance of each instruction in each state, and its effect on the motion (4.1, 4.2, 4.3)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ EXTS = {"ext1": EXT1, "ext2": EXT2}
 
 
 class State(NamedTuple):
-    """What tells a state: motion ("", "move", "speed", "stopping"), FREE, EXT flags as in status 1."""
+    """State: motion ("", "move", "speed", "stopping"), FREE, EXT flags as in status 1."""
 
     motion: str = ""
     free: bool = False
@@ -53,7 +53,7 @@ STATES = {
 
 
 async def enter(host: Host, state: State) -> None:
-    """From whatever state."""
+    """Enter a state from any other."""
     for code in "Ibl":
         await host.ask(code)
     await host.ok(g=0)
@@ -73,17 +73,17 @@ async def enter(host: Host, state: State) -> None:
 
 
 async def seen(host: Host) -> tuple[int, int]:
-    """Status 1 without the decay, and what says the mode of status 2."""
+    """Return status 1 without the decay, and the mode bits of status 2."""
     return await host.status() & ~DECAY, await host.ask("O") & (SPEED_MODE | FREE_RUN)
 
 
 def shown(state: State) -> tuple[int, int]:
-    """What `seen` has to be."""
+    """Return the expected result of `seen`."""
     return bool(state.motion) | state.flags, SPEED_MODE * (state.motion == "speed") | FREE_RUN * state.free
 
 
 def outcome(code: str, data: int, state: State, accepted: int) -> tuple[int, State]:
-    """Row of the table in 4.2: reply data, next state."""
+    """Return reply data and next state according to the table in 4.2."""
     idle, blocked = not state.motion, state.free or bool(state.flags)
     if code == "s":
         return (accepted, State("move")) if idle and not blocked else (0, state)
@@ -133,7 +133,7 @@ async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
 @cocotb.parametrize(name=["idle", "move", "ext1", "free"])
 @directed("P006-PRG-17", "P006-PRG-20", "P006-STA-01")
 async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
-    """By E, whose reply does not tell."""
+    """A ROT by E is accepted in the same states as s; the reply is 1 in any case."""
     host = await Host.start(dut)
     await brisk(host, 3000, f=3)
     await download(host, [rot(LONG)])
@@ -145,7 +145,7 @@ async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
 
 @directed("P006-STA-01", "P006-STA-02", "P006-BAD-10", "P006-CMD-43")
 async def p006_speeds_against_the_maximum(dut: Any) -> None:
-    """Equal is enough; speed mode does not care."""
+    """s is accepted if VSTART and VSTOP do not exceed VMAX; N 1 ignores them."""
     host = await Host.start(dut)
     for low, high, limit, good in (
         (600, 600, 599, False),
@@ -165,7 +165,10 @@ async def p006_speeds_against_the_maximum(dut: Any) -> None:
 
 @directed("P006-STA-04", "P006-MOT-52", "P006-STA-01")
 async def p006_analog_speed_does_not_refuse(dut: Any) -> None:
-    """The full-scale speed counts, though the momentary one is 0; a full scale of 0 refuses everything."""
+    """The check of s uses the full-scale speed, even if the current one is 0.
+
+    A full scale of 0 rejects every start.
+    """
     host = await Host.start(dut)
     await download(host, [Op(0x08, 1, 600), Op(0x08, 0, 0)])
     assert await host.ask("E") == 1
@@ -182,7 +185,7 @@ async def p006_analog_speed_does_not_refuse(dut: Any) -> None:
 
 @directed("P006-STA-10", "P006-STA-12", "P006-STA-14", "P006-CMD-28", "P006-PRG-16")
 async def p006_a_stop_while_planning(dut: Any) -> None:
-    """Between acceptance and t = 0 there is time for one; no step is made."""
+    """A stop between acceptance and t = 0 cancels the motion without a step."""
     host = await quick(dut)
     await host.ok(f=3)
     await download(host, [rot(5), Op(0x05, 0, 1)])
@@ -216,7 +219,7 @@ async def p006_abort_stops_within_its_window(dut: Any) -> None:
 
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-24", "P006-CMD-52")
 async def p006_position_set_on_the_run(dut: Any) -> None:
-    """Wherever in the interval of a step it comes, no step is lost or doubled."""
+    """A position set at any time during an interval loses or doubles no step."""
     host = await quick(dut, 3000)
     await run(host)
     await after_steps(host, 3)

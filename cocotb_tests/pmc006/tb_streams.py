@@ -1,4 +1,4 @@
-"""pwm_a_ref and pwm_b_ref, which toggle all the time and are not compared, against the rule itself."""
+"""pwm_a_ref and pwm_b_ref, which toggle continuously and are not recorded, compared with their rule."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .moves import after_steps, brisk, run
 
 
 def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
-    """Changes of the carry of the running sum; refs: (edge, reference) in order (P006-EXC-40)."""
+    """Return the changes of the carry of the running sum; refs: (edge, reference) in order (P006-EXC-40)."""
     changes, total, ref, level = [], 0, 0, 0
     coming = iter([*refs, (end + 1, 0)])
     t, following = next(coming)
@@ -32,9 +32,7 @@ def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
 @rtl_only("the golden model's record leaves them out; test_ac_29 counts its ones")
 @directed("P006-EXC-40", "P006-AC-29")
 async def p006_streams(dut: Any) -> None:
-    """Given references of many sizes and signs, when time passes, then the
-    streams are the carries of their sums.
-    """
+    """For references of many sizes and both signs, the streams are the carries of their sums."""
     host = await Host.start(dut, boot=False)
     assert isinstance(host.side, Bench)
     for name in PMC006.unwatched:

@@ -1,4 +1,4 @@
-"""A short tour of the part, which netlists and the default build can be shown as well."""
+"""A short sequence for the part, which also runs on netlists and on the default build."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ BUILDS = (F8B, F16, D8E)
     "P006-UART-01", "P006-FRM-02", "P006-FRM-03", "P006-MOT-03", "P006-MOT-05", "P006-EXC-12", builds=BUILDS
 )
 async def p006_tour(dut: Any) -> None:
-    """A register, a frame with an error, a move, a stop by EXT1, a program; every kind of block."""
+    """All kinds of blocks of the part work in one sequence.
+
+    It has a register, a frame with an error, a move, a stop by EXT1, and a program.
+    """
     host = await Host.start(dut)
     assert await host.ask("R") == 0x123 and await host.ask("n") == 800
     await host.raw("A5 FF 6A 00 00 00 00 0F")

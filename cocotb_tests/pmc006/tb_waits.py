@@ -1,4 +1,4 @@
-"""The user program in time: slots, WAIT and CMP on every source, frames and motions beside it."""
+"""Timing of the user program: slots, WAIT and CMP on every source, concurrent frames and motions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HIGH = 0x1F
 
 @directed("P006-PRG-16", "P006-PRG-15", "P006-PRG-17")
 async def p006_time_of_instructions(dut: Any) -> None:
-    """64 clk at most; ROT sets BUSY before the next one, a second ROT is ignored."""
+    """An instruction takes at most 64 cycles; ROT sets BUSY before the next one; a second ROT is ignored."""
     host = await quick(dut)
     assert await go(host, out(1, 1), out(2, 1), rot(5), rot(100), out(3, 1), WAIT_REST, out(4, 1)) == 0b111
     times = [t for t, _ in host.edges("gpo")]
@@ -32,7 +32,10 @@ SOURCES = ((1, 0x1E), (2, 0x1D), (3, 0x1B), (4, 0x17), (5, 0x0F))
 
 @directed("P006-PRG-16", "P006-BAD-19", "P006-BAD-17", "P006-CMD-31", "P006-IO-01")
 async def p006_wait_for_pins(dut: Any) -> None:
-    """Each input, both levels; bit 0 of the operand counts; a bad option passes at once."""
+    """WAIT works with each input and both levels; only bit 0 of the operand is used.
+
+    An illegal option passes immediately.
+    """
     host = await Host.start(dut)
     for option, low in SOURCES:
         program = (
@@ -103,7 +106,10 @@ BAD = ((0, 0), (10, 0), (0x18, 0), (0xFF, 1))
 @cocotb.parametrize(case=[(RIGHT, 1), (WRONG, 0), (BAD, 0)])
 @directed("P006-BAD-17", "P006-PRG-33", "P006-IO-01")
 async def p006_compare(dut: Any, case: Any) -> None:
-    """Every source; all 32 bits; a bad option clears FLAG. The program stops at the first surprise."""
+    """CMP compares all 32 bits of every source, and an illegal option clears FLAG.
+
+    The program stops at the first wrong result.
+    """
     rows, expected = case
     host = await Host.start(dut)
     await host.ok(f=3)
@@ -125,7 +131,7 @@ async def p006_compare(dut: Any, case: Any) -> None:
 
 @directed("P006-PRG-10", "P006-PRG-15", "P006-CMD-06", "P006-STA-10")
 async def p006_abort_beside_a_program(dut: Any) -> None:
-    """The motion ends, the program goes on behind its WAIT."""
+    """I ends the motion, and the program continues after its WAIT."""
     host = await quick(dut)
     await load(host, rot(100_000), WAIT_REST, out(1, 1), rot(3), WAIT_REST, out(2, 1))
     await after_steps(host, 5)
@@ -150,7 +156,7 @@ async def p006_offline_0_leaves_everything_else(dut: Any) -> None:
 
 @directed("P006-PRG-15", "P006-PRG-16", "P006-CMD-52")
 async def p006_frames_at_any_time_of_an_instruction(dut: Any) -> None:
-    """A frame falls into each clk of the 64; both sources see whole instructions."""
+    """Frames at any cycle of an instruction are executed, and both sources execute whole instructions."""
     host = await Host.start(dut)
     await load(host, Op(0x0B), out(1, 1), out(1, 0), goto(0))
     for shift in range(0, 40):

@@ -1,4 +1,4 @@
-"""tb/pmc006/eeprom_24c32.sv against openppmc/model/carrier/eeprom.py, and the Python device by itself."""
+"""tb/pmc006/eeprom_24c32.sv compared with openppmc/model/carrier/eeprom.py, and the Python device alone."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ARGS = ("-Wno-fatal", "--public-flat-rw")
 @pytest.mark.parametrize("item", ITEMS)
 @pytest.mark.parametrize("stretch", [11])
 def test_both_devices(item: Item, stretch: int, sim_options: SimOptions) -> None:
-    """Random traffic: both pull the lines on the same clk, both hold the same bytes afterwards."""
+    """With random traffic, both devices pull the lines in the same cycles and have equal content then."""
     params = {"WriteClk": WRITE_CLK, "StretchClk": stretch, "Device": 0x53}
     source = ROOT / "tb" / "pmc006" / f"{TOP}.sv"
     run_item(item, sim_options, design=Design(TOP, [source], params=params, args=ARGS))

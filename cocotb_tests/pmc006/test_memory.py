@@ -26,7 +26,7 @@ SOURCES = (ROOT / "tb" / "pmc006" / "eeprom_24c32.sv", ROOT / "cocotb_tests" / "
 
 
 def design(config: Config) -> Design:
-    """The part with its EEPROM."""
+    """Return the design of the part with its EEPROM."""
     part = part_design(PMC006.name, config)
     ports = ("clk", "rst_n", *WITH_EEPROM.inputs, *WITH_EEPROM.outputs)
     return replace(part, top="pmc006_eeprom_bench", sources=[*part.sources, *SOURCES], ports=ports)
@@ -34,5 +34,5 @@ def design(config: Config) -> Design:
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_pmc006_memory(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation."""
+    """One simulation of the part with its EEPROM passes."""
     run_item(item, sim_options, design=design(item.config))

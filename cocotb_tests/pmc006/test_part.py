@@ -1,4 +1,4 @@
-"""Directed part tests of the PMC006B4: one pytest item a cocotb test and build configuration."""
+"""Directed part tests of the PMC006B4: one pytest item for each cocotb test and build configuration."""
 
 from __future__ import annotations
 
@@ -40,5 +40,5 @@ ITEMS = cocotb_items(
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_pmc006(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation."""
+    """One simulation of the part passes."""
     run_item(item, sim_options)

@@ -1,4 +1,4 @@
-"""Ports and parameters of the top module, read from its source and by elaborating it."""
+"""Ports and parameters of the top module, read from its source and by elaboration."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ RANGES = {
 
 @verifies("P006-PORT-01", "P006-PORT-02", "P006-PORT-03", "P006-PORT-04")
 def test_p006_ports() -> None:
-    """Exactly the ports of chapter 1.1: none for supply or CAN, mon_* besides those of the original."""
+    """The top has exactly the ports of chapter 1.1.
+
+    There is no port for supply or CAN; mon_* are additional to those of the original.
+    """
     found = ports(part_design("pmc006", F8B))
     wanted = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
     wanted |= {name: ("output", PMC006.width(name) - 1, 0) for name in PMC006.outputs}

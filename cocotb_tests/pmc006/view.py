@@ -1,4 +1,4 @@
-"""What a host sees of the outputs of a PMC006: edges, steps, references; with what is asked most often."""
+"""Outputs of a PMC006 as a host of the tests reads them: edges, steps, references, frequent registers."""
 
 from __future__ import annotations
 
@@ -12,43 +12,43 @@ from .frames import signed
 
 
 class View(ABC):
-    """The seeing half of `Host`. `t`: its next free edge; `mark`: where the counting of steps begins."""
+    """Read access of `Host`. `t`: its next free edge; `mark`: steps are counted from here."""
 
     side: Side
     clk_hz: int
     t: int
     mark: int
 
-    # What the other half has.
+    # Methods of `Host`.
     @abstractmethod
     async def ask(self, code: str | int, data: int = 0) -> int:
-        """See `Host`."""
+        """Send a frame and return its reply data (see `Host`)."""
 
     @abstractmethod
     async def sync(self) -> None:
-        """See `Host`."""
+        """Run the part to the present edge (see `Host`)."""
 
     # ------------------------------------------------------------------ outputs
 
     def edges(self, signal: str, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (t, level) of an output from edge `since` on, up to the present."""
+        """Return the changes (t, level) of an output from edge `since` to the present."""
         return self.side.edges(signal, since)
 
     def level_at(self, signal: str, t: int) -> int:
-        """Level of an output after edge t."""
+        """Return the level of an output after edge t."""
         return self.side.level_at(signal, t)
 
     async def out(self, signal: str) -> int:
-        """Present output level."""
+        """Return the current level of an output."""
         await self.sync()
         return self.side.level(signal)
 
     async def busy(self) -> bool:
-        """Level of mon_busy."""
+        """Return the level of mon_busy."""
         return bool(await self.out("mon_busy"))
 
     async def until(self, signal: str, level: int, limit_us: float = 1_000_000) -> int:
-        """Run until an output has this level; returns the edge on which it took it, the last one."""
+        """Run until an output has this level; return the edge of its last change."""
         await self.sync()
         self.t = max(self.t, await self.side.level_is(signal, level, self.us(limit_us)))
         return max((t for t, _ in self.edges(signal)[-1:]), default=0)
@@ -56,11 +56,11 @@ class View(ABC):
     # ------------------------------------------------------------------ times
 
     def us(self, micros: float | Fraction) -> int:
-        """clk of so many us, rounded up."""
+        """Return the cycles of `micros` microseconds, rounded up."""
         return ceil(Fraction(micros) * self.clk_hz / 1_000_000)
 
     def in_us(self, clk: int) -> int:
-        """clk as whole us; AssertionError if it is more than a clk from that."""
+        """Convert cycles to whole us; AssertionError if they deviate from whole us by more than one cycle."""
         micros = round(Fraction(clk * 1_000_000, self.clk_hz))
         assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} clk are not whole us"
         return micros
@@ -68,21 +68,24 @@ class View(ABC):
     # ------------------------------------------------------------------ steps
 
     def steps(self, since: int | None = None) -> list[int]:
-        """Edges with mon_step since `mark`."""
+        """Return the edges with mon_step since `mark`."""
         return self.side.rises("mon_step", self.mark if since is None else since)
 
     def made(self, since: int | None = None) -> int:
-        """Their number."""
+        """Return the number of steps since `mark`."""
         return len(self.steps(since))
 
     def intervals(self, since: int | None = None) -> list[int]:
-        """Their distances in us; one that is more than a clk from whole us is an error."""
+        """Return the distances of the steps in us; each must be whole us within one cycle."""
         edges = self.steps(since)
         return [self.in_us(b - a) for a, b in zip(edges, edges[1:], strict=False)]
 
     async def next_steps(self, limit: int) -> list[int]:
-        """Run to the next step, which comes before edge `limit`, but at least to the present; returns it, or
-        all of them."""
+        """Run to the next step, before edge `limit`, at least to the present edge.
+
+        Returns:
+            The new steps, one or more.
+        """
         since = self.side.now
         await self.side.edge("mon_step", 1, max(1, limit - since))
         self.t = max(self.t, self.side.now)
@@ -92,7 +95,7 @@ class View(ABC):
     # ------------------------------------------------------------------ references
 
     async def refs(self) -> tuple[int, int, int, int]:
-        """Reference and sign of phase A, of phase B."""
+        """Return reference and sign of phase A, then of phase B."""
         await self.sync()
         level = self.side.level
         return (
@@ -105,15 +108,15 @@ class View(ABC):
     # ------------------------------------------------------------------ registers
 
     async def status(self) -> int:
-        """Status 1."""
+        """Return status 1."""
         return await self.ask("j")
 
     async def position(self) -> int:
-        """POS, signed."""
+        """Return POS, signed."""
         return signed(await self.ask("c"))
 
     async def ok(self, **settings: int) -> None:
-        """Write settings by their letters; each reply has to echo what was sent."""
+        """Write settings by their letters; each reply must echo the data."""
         for code, value in settings.items():
             got = signed(await self.ask(code, value))
             assert got == value, f"{code} {value} -> {got}"

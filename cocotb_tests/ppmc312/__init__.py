@@ -1,1 +1,1 @@
-"""Tests of the PPMC-312 core: directed tests, closed loop on the bus and on the line, and random hosts."""
+"""Tests of the PPMC-312 core: directed tests, closed-loop tests on the bus and the line, and random hosts."""

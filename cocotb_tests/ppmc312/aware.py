@@ -1,4 +1,4 @@
-"""What random hosts of the PPMC-312 know of the part's state, on the bus and on the line."""
+"""State-aware random hosts of the PPMC-312, for the bus and for the line."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from openppmc.model.ppmc312.codes import State
 
 
 class Aware(RandomHost):
-    """A random host that knows what would make sense."""
+    """Random host that chooses its next action from the state of the device."""
 
     @property
     def state(self) -> State:
-        """What the part is doing, to choose what to do next; to ask for it would disturb."""
+        """State of the device, read from the model: a read over the bus would disturb the test."""
         state: State = self.model.state
         return state

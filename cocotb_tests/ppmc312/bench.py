@@ -1,11 +1,11 @@
-"""The PPMC-312 on a bench: its bus and its build defaults. Pins and levels are those of the golden model."""
+"""Test bench of the PPMC-312: bus and build defaults. Pins and levels are those of the golden model."""
 
 from __future__ import annotations
 
 from cocotb_tests.harness import BusStyle, Part
 from openppmc.model.ppmc312 import codes
 
-# Eight registers, chosen by rs.
+# The bus has eight registers, selected by rs.
 STROBES_WE_OE = BusStyle(
     write_on={"cs_n": 0, "we_n": 0},
     write_off={"cs_n": 1, "we_n": 1},

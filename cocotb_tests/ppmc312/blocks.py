@@ -1,4 +1,4 @@
-"""Blocks that set a PPMC-312 up: curves that many tests of the bus begin with (`Host.start(dut, *TG)`)."""
+"""Set-up blocks of the PPMC-312: curves with which many bus tests begin (`Host.start(dut, *TG)`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Builds of the PPMC-312 beside those that all parts share."""
+"""Builds of the PPMC-312 in addition to those that all parts share."""
 
 from __future__ import annotations
 

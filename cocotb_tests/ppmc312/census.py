@@ -1,6 +1,6 @@
-"""What random hosts make the golden model of the PPMC-312 do, counted: they cannot become thin unseen.
+"""Count what random hosts make the golden model of the PPMC-312 do, so that a loss of coverage is noticed.
 
-Keys of the counts are words: "pulses", "answer 82", "event 83", "override 80", "answer F0 20", "event F8 01",
+Keys of the counts are texts: "pulses", "answer 82", "event 83", "override 80", "answer F0 20", "event F8 01",
 "report E0 SLOW", "trigger POSITION 87", "walk SLOW", "change 88", "change in RAMP", "clk ABN".
 """
 
@@ -21,7 +21,7 @@ from openppmc.model.ppmc312.motion.sequence import Sequence
 from openppmc.model.ppmc312.part import Ppmc312
 
 SLICE = 500
-"""clk between two looks at the state."""
+"""Cycles between two samples of the state."""
 
 LEAST: dict[str, int] = {
     "pulses": 5_000,
@@ -76,7 +76,7 @@ LEAST: dict[str, int] = {
     "report F4 02": 2,
     "report F4 03": 3,
 }
-"""Beginning of a key, and how often such things have to happen in a third of the hosts of `make test`."""
+"""Key prefix and the least number of such events in a third of the hosts of `make test`."""
 
 _SOURCES = {Source.HOST: "answer", Source.EVENT: "event", Source.OVERRIDE: "override"}
 _BY_PARAMETER = {Answer.PARAMETER, Answer.REGISTRATION, Answer.ALARM, Answer.INPUT_CHANGE}
@@ -84,7 +84,7 @@ _BY_PARAMETER |= {Answer.EVENT_FAILED, Answer.OVERRIDE_FAILED}
 
 
 def name_of(block: bytes, source: Source | None) -> str:
-    """Key of a response block in logical order."""
+    """Return the key of a response block in logical order."""
     code = block[2]
     who = _SOURCES[source] if source else "report"
     if code == Answer.STATUS:
@@ -98,7 +98,7 @@ def name_of(block: bytes, source: Source | None) -> str:
 
 @contextmanager
 def counting() -> Iterator[Counter[str]]:
-    """Counts of everything that models do inside."""
+    """Count the internal events of all models that run in the context."""
     counts: Counter[str] = Counter()
     post, change = Responses.post, Responses.input_change
     release, begin, run = Fifo._release, Operation._begin, Ppmc312.run_until
@@ -179,6 +179,6 @@ def counting() -> Iterator[Counter[str]]:
 
 
 def thin(counts: Counter[str]) -> dict[str, tuple[int, int]]:
-    """What has not happened often enough: (seen, needed)."""
+    """Return the events that are too rare: (seen, needed)."""
     seen = {kind: sum(n for key, n in counts.items() if key.startswith(kind)) for kind in LEAST}
     return {kind: (seen[kind], least) for kind, least in LEAST.items() if seen[kind] < least}

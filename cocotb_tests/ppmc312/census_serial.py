@@ -1,6 +1,6 @@
-"""What random hosts on the line make the golden model of the PPMC-312 do, counted.
+"""Count what random hosts on the line make the golden model of the PPMC-312 do.
 
-Keys of the counts are words: "frame POLL", "reply A0", "reply B0 41", "overrun", "framing", "event", "FF".
+Keys of the counts are texts: "frame POLL", "reply A0", "reply B0 41", "overrun", "framing", "event", "FF".
 """
 
 from __future__ import annotations
@@ -45,12 +45,12 @@ LEAST: dict[str, int] = {
     "reply B0 4a": 4,
     "reply B0 4b": 4,
 }
-"""How often such things have to happen in the hosts of `make test`."""
+"""Least number of such events in the hosts of `make test`."""
 
 
 @contextmanager
 def counting_frames() -> Iterator[Counter[str]]:
-    """Counts of everything that stations take and send."""
+    """Count all frames that stations receive and all replies that they send."""
     counts: Counter[str] = Counter()
     take, send, hear, answer = Station._take, Station._send, Station._character, Station.answer
     silent, reset = Station._silent, Ppmc312._software_reset
@@ -95,5 +95,5 @@ def counting_frames() -> Iterator[Counter[str]]:
 
 
 def thin_frames(counts: Counter[str]) -> dict[str, tuple[int, int]]:
-    """What has not happened often enough: (seen, needed)."""
+    """Return the events that are too rare: (seen, needed)."""
     return {kind: (counts[kind], least) for kind, least in LEAST.items() if counts[kind] < least}

@@ -1,5 +1,7 @@
-"""What the sheet crosses: instruction and state, refusal and who asked, cause of the end and state. Counted
-in the golden model."""
+"""Coverage crosses of the data sheet, counted in the golden model.
+
+Instruction × state, refusal × source of the instruction, cause of the end × state.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ INSTRUCTIONS = Cross(
     "instruction and state that it meets", (*CODES.values(), NONE), tuple(state.name for state in State)
 )
 NEVER_REFUSED = {
-    **{("F5 COMMAND", "OVERRIDE"): "a registration has looked at the code"},
+    **{("F5 COMMAND", "OVERRIDE"): "a registration has checked the code"},
     **{("F6 SIZE", source): "registered blocks have passed it" for source in ("EVENT", "OVERRIDE")},
     **{("F7 REGISTRATION", source): "only the host registers" for source in ("EVENT", "OVERRIDE")},
 }

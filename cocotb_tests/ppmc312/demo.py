@@ -1,5 +1,8 @@
-"""What `make demo PART=ppmc312` plays on the block registers: one move with three kinds of ramps, changes of
-speed that wait for positions and an event pin, a high-speed zero return."""
+"""Program of `make demo PART=ppmc312` on the block registers.
+
+One move with each of three kinds of ramps, speed changes that wait for positions and for an event pin, and a
+high-speed zero return.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ from .bench import PPMC312
 
 START, HIGH, RAMP = 320, 64, 1150  # at 8 MHz: 25 to 125 kpps
 PULSES = 3000
-# A motor with less torque at speed: fastest stage first, 1150 pulses as well.
+# A motor with less torque at speed: fastest stage first, also 1150 pulses.
 CURVE = ((64, 300), (70, 210), (78, 150), (88, 110), (100, 90), (116, 75), (136, 60), (162, 50),
          (196, 40), (240, 30), (280, 20), (320, 15))  # fmt: skip
 ANSWERS = 0x10
@@ -28,24 +31,24 @@ LONG = 3_000_000
 
 
 class Interrupted(BlockHost):
-    """A host that sleeps until the interrupt of an answer, as one that has other work does."""
+    """Host that waits for the interrupt of each answer, like a host with other tasks."""
 
     async def response(self, timeout: int | None = None) -> str:
-        """The next block."""
+        """Return the next response block."""
         await self.bench.level_is("irq_n", 0, timeout or LONG)
         await self.bench.clocks(16)
         block = await super().response(timeout)
-        await self.bench.clocks(16)  # irq_n of this answer is gone by then
+        await self.bench.clocks(16)  # irq_n of this answer is deasserted by then
         return block
 
 
 def initial(flags: int) -> str:
-    """Block of the initial setting."""
+    """Return the block of the initial setting."""
     return f"03 09 00 {flags:02X} {START:04X} {HIGH:04X} {RAMP:06X}"
 
 
 def move(flags: int, pulses: int) -> str:
-    """Block of a move with ramps."""
+    """Return the block of a move with ramps."""
     return f"03 08 82 {flags:02X} 0000 {pulses:08X}"
 
 
@@ -59,14 +62,14 @@ async def free_curve(host: BlockHost) -> None:
 
 
 async def pulses(bench: Bench, count: int) -> None:
-    """Wait for so many pulses."""
+    """Wait for `count` pulses."""
     for _ in range(count):
         await bench.edge("pout", 1, LONG)
 
 
 @cocotb.test()
 async def demo_blocks(dut: Any) -> None:
-    """Given a part just powered up, when the host's program runs on the bus, then all of it is recorded."""
+    """The host's program runs on the bus of a device that was just powered up, and the run is recorded."""
     bench = await Bench.start(dut, PPMC312)
     host = Interrupted(bench)
     story = Story(bench)
@@ -115,7 +118,7 @@ async def demo_blocks(dut: Any) -> None:
         await pulses(bench, HOME_FROM - HOME_TO)
         bench.set(org_n=1)
         await bench.edge("dir", 0, LONG)
-        # The way back to where the switch closes again.
+        # The motor moves back until the switch closes again.
         await pulses(bench, overrun() - 1)
         bench.set(org_n=0)
         await host.response()
@@ -125,5 +128,5 @@ async def demo_blocks(dut: Any) -> None:
 
 
 def overrun() -> int:
-    """Pulses that the walk makes behind the far end of the switch."""
+    """Return the number of pulses that the deceleration makes past the far end of the switch."""
     return HOME_TO - (HOME_FROM - RAMP)

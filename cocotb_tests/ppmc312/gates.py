@@ -1,4 +1,4 @@
-"""What `make test-gates` runs of the PPMC-312, and what it leaves out and why."""
+"""Selection of the PPMC-312 tests that `make test-gates` runs; each omission has its reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The host of directed tests on the parallel pins of the PPMC-312: it acts on what it reads there."""
+"""Host of directed tests on the parallel pins of the PPMC-312. It acts on the values that it reads there."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .bench import PPMC312
 from .side_host import SideHost
 
 LATE = 10_000
-"""clk that a response may come behind the golden model's."""
+"""Cycles by which a response may follow that of the golden model."""
 
 
 class Host(SideHost):
-    """Blocks and answers are texts of hexadecimal bytes in logical order.
+    """Host on the bus; blocks and answers are texts of hexadecimal bytes in logical order.
 
     `header` is the edge that ended the last strobe of the last block.
     """
@@ -28,7 +28,7 @@ class Host(SideHost):
 
     @classmethod
     async def start(cls, dut: Any, *setting: str, **pins: int) -> Host:
-        """A part out of reset with these pins, once it takes blocks, and each block of `setting` answered."""
+        """Reset a part with these pin levels, wait until it accepts blocks, and ask each `setting` block."""
         host = cls(await start_bench(dut, PPMC312, settle=8, **pins))
         host.mark = 0
         await host.ready(100)
@@ -39,7 +39,7 @@ class Host(SideHost):
     # ------------------------------------------------------------------ bus
 
     async def write(self, reg: int, byte: int, gap: int = 3) -> int:
-        """One write cycle: a strobe of 3 clk, `gap` clk without; returns the edge that ends the strobe."""
+        """Write one byte: a strobe of 3 cycles, then `gap` cycles without one; return the edge at its end."""
         side = self.side
         side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
         await side.clocks(3)
@@ -49,7 +49,7 @@ class Host(SideHost):
         return edge
 
     async def read(self, reg: int) -> int:
-        """One read cycle: d_o at the end of a strobe of 5 clk; 3 clk without."""
+        """Read one byte: d_o at the end of a strobe of 5 cycles, followed by 3 cycles without a strobe."""
         side = self.side
         edge = side.set(cs_n=0, oe_n=0, rs=reg)
         await side.clocks(5)
@@ -60,14 +60,14 @@ class Host(SideHost):
         return value
 
     async def strobe(self, length: int, gap: int = 3, **levels: int) -> None:
-        """Any levels on the pins of the bus for `length` clk, then `gap` clk without a strobe."""
+        """Drive any levels on the bus pins for `length` cycles, then no strobe for `gap` cycles."""
         self.side.set(**levels)
         await self.side.clocks(length)
         self.side.set(cs_n=1, we_n=1, oe_n=1)
         await self.side.clocks(gap)
 
     async def put(self, text: str, war: int | None = None, gap: int = 3) -> None:
-        """Write a block and no more; returns `gap` clk behind its last strobe."""
+        """Write a block only; return `gap` cycles after its last strobe."""
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, 0x20)
         await self.write(WAR, 0x20 - len(block) if war is None else war)
@@ -76,20 +76,20 @@ class Host(SideHost):
         self.header = await self.write(DWR, block[-1], gap)
 
     async def ready(self, every: int = 20, limit: int = 10_000_000) -> None:
-        """Until MWEF = 0."""
+        """Wait until MWEF = 0, polled every `every` cycles."""
         end = self.t + limit
         while await self.read(CSR) & MWEF:
             assert self.t < end, f"no block is taken any more\n{self.side.context()}"
             await self.pause(every)
 
     async def issue(self, text: str) -> None:
-        """Write a block when MWEF allows it; pulses and edges count from here."""
+        """Write a block when MWEF allows it; pulses and edges are counted from here."""
         await self.ready()
         self.mark = self.t
         await self.put(text)
 
     async def response(self, limit: int = 100_000_000) -> str:
-        """The next response block; time passes until there is one."""
+        """Wait for the next response block and return it."""
         await self.wait(limit)
         count = 0x40 - await self.read(RAR)
         assert count > 0, f"a response without a byte\n{self.side.context()}"
@@ -97,7 +97,10 @@ class Host(SideHost):
         return clean(block.hex())
 
     async def wait(self, limit: int = 100_000_000) -> None:
-        """Until MREF = 0, for `limit` clk at most; polled when the golden model has a response."""
+        """Wait until MREF = 0, for at most `limit` cycles.
+
+        CSR is polled when the golden model has a response.
+        """
         end = self.t + limit
         late = self.t + LATE
         while await self.read(CSR) & MREF:
@@ -107,7 +110,7 @@ class Host(SideHost):
                 late = self.t + LATE
 
     async def arrival(self, end: int | None = None) -> None:
-        """Until the golden model has a response: a good moment to look for one; not beyond edge `end`."""
+        """Wait until the golden model has a response, at the latest until edge `end`; no poll is made."""
         while not self.side.golden.core.responses.any_waiting:
             assert end is None or self.t < end, f"no response comes any more\n{self.side.context()}"
             await self.step()
@@ -118,6 +121,6 @@ class Host(SideHost):
         return await self.response()
 
     async def quiet(self, clk: int = 5000) -> bool:
-        """Whether no response comes for so long."""
+        """Return whether no response arrives within this number of cycles."""
         await self.pause(clk)
         return bool(await self.read(CSR) & MREF)

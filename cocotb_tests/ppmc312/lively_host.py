@@ -1,7 +1,7 @@
-"""A random host for the PPMC-312 with good manners: it keeps the part at work, scene by scene.
+"""Well-behaved random host of the PPMC-312, which keeps the device active, scene by scene.
 
-It reads its answers (a minority is lazy), clears alarms, and takes short tables, so that whole operations
-fit in. Now and then it does what a rough host does.
+It reads its answers (a minority reads only some of them), clears alarms, and uses short tables, so that whole
+operations fit into a run. Sometimes it behaves like a rough host.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .scenes import Scenes
 
 
 class Lively(Scenes):
-    """One random host of this kind."""
+    """One well-behaved random host."""
 
     def __init__(self, host: Host, seed: int) -> None:
         super().__init__(host, seed)
@@ -23,7 +23,7 @@ class Lively(Scenes):
         self.end = self.host.t + (900_000 if self.slow else 120_000)
 
     async def play(self) -> None:
-        """Scenes until the time is up."""
+        """Play scenes until the time is over."""
         rng, host = self.rng, self.host
         await host.write(CSR, rng.choice((0, 0, 0x10, 0x20, 0x30, 0x40, 0x70)))
         if rng.random() < 0.25:
@@ -57,14 +57,14 @@ class Lively(Scenes):
         await self.recover()
 
     async def rough(self) -> None:
-        """What a rough host does."""
+        """Perform one action of a rough host."""
         await self.rng.choices(
             (self.bad_block, self.registers, self.reset, self.setting, self.motion, self.registration),
             (3, 2, 1, 1, 1, 1),
         )[0]()
 
     async def several(self) -> None:
-        """Any instructions, one after the other."""
+        """Send any instructions, one after the other."""
         for _ in range(self.rng.randint(1, 5)):
             if self.rng.random() < 0.5:
                 await self.tell(
@@ -75,7 +75,7 @@ class Lively(Scenes):
                 await self.attend(100)
 
     async def settle(self) -> None:
-        """Bring the part to rest, mostly in NOR, with everything read."""
+        """Bring the device to standstill, mostly in NOR, with everything read."""
         host, rng = self.host, self.rng
         for pin in ("run", "end_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n"):
             if not host.side.pin(pin) and rng.random() < 0.95:

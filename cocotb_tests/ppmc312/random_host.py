@@ -1,7 +1,7 @@
-"""Random hosts for the PPMC-312: a seed decides build, tables, instructions, pins, and the host's manners.
+"""Random hosts of the PPMC-312: a seed decides build, tables, instructions, pins, and the kind of host.
 
-`build(seed)` says the build, `play(dut, seed)` plays. Most hosts are lively ones (`lively_host`), some are
-rough (`rough_host`).
+`build(seed)` returns the build, `play(dut, seed)` plays the seed. Most hosts are well-behaved
+(`lively_host`), some are rough (`rough_host`).
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from .rough_host import Player
 ODD = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
 build = Builds("p312", ((F16, 110), (F50, 22), (ODD, 22), (D16, 8)))
 ROUGH = 0.15
-"""Share of the hosts that do not read, do not wait, and send nonsense most of the time."""
+"""Share of the hosts that mostly do not read, do not wait, and send invalid blocks."""
 
 
 async def play(dut: Any, seed: int) -> None:
-    """Play one seed; AssertionError if the part hangs or answers nonsense."""
+    """Play one seed; AssertionError if the device hangs or returns an invalid answer."""
     rough = random.Random(f"p312 manners {seed}").random() < ROUGH
     await (Player if rough else Lively)(await Host.start(dut), seed).play()

@@ -1,4 +1,4 @@
-"""Noise on every input pin of the PPMC-312: short strobes, fast clocks, moving switches; then recovery."""
+"""Noise on every input pin of the PPMC-312: short strobes, fast clocks, changing switches; then recovery."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86,
 
 
 async def play(dut: Any, seed: int) -> None:
-    """Noise, then a host that brings the part back."""
+    """Apply noise; then a host recovers the device."""
     rng = random.Random(f"p312 noise {seed}")
     host = await Host.start(dut)
     if rng.random() < 0.7:
@@ -53,7 +53,10 @@ Changes = list[tuple[int, dict[str, int]]]
 
 
 def _bus(rng: random.Random, t: int) -> Changes:
-    """One strobe of any length, or both at once; address and data may move, a read is followed by 3 clk."""
+    """Return one strobe of any length, or both strobes together.
+
+    Address and data may change during it. At least 3 cycles without a strobe follow.
+    """
     register = rng.choice((CSR, WCR, WAR, DWR, DWR, DWR, DWR, 7, 7, 2, 1))
     begin = {"d_i": rng.choice(BYTES), "rs": register, "cs_n": rng.choice((0, 0, 0, 1))}
     strobes = rng.choice(({"we_n": 0}, {"we_n": 0}, {"oe_n": 0}, {"we_n": 0, "oe_n": 0}))
@@ -66,7 +69,7 @@ def _bus(rng: random.Random, t: int) -> Changes:
 
 
 def _switches(rng: random.Random, t: int) -> Changes:
-    """One of the other pins."""
+    """Return a change of one of the other pins."""
     if rng.random() < 0.4:
         return [(t, {"extck": rng.getrandbits(1), "epin": rng.getrandbits(1)})]
     pin = rng.choice(SWITCHES)

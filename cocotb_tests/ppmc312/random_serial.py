@@ -1,6 +1,6 @@
-"""Random hosts on the line of a PPMC-312: good frames and bad ones, noise, events, moves, resets.
+"""Random hosts on the line of a PPMC-312: valid and invalid frames, noise, events, moves, resets.
 
-A seed decides all of it, `build` the build; `play(dut, seed)` plays.
+A seed decides all of it; `build` returns the build, `play(dut, seed)` plays the seed.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ TABLE = "00 00 01F4 00C8 0001BD"
 
 
 async def play(dut: Any, seed: int) -> None:
-    """Play one seed; AssertionError if the station hangs or answers nonsense."""
+    """Play one seed; AssertionError if the station hangs or returns an invalid answer."""
     await (await Talker.on(dut, seed)).play()
 
 
 class Talker(Aware):
-    """One random host. It acts on what it hears; the golden model only tells it when to do something."""
+    """One random host. It acts on received data; the golden model only decides when it acts."""
 
     host: SerialHost
     background: MovingPins
@@ -49,7 +49,7 @@ class Talker(Aware):
 
     @classmethod
     async def on(cls, dut: Any, seed: int) -> Talker:
-        """The host of a seed, on a station that is ready."""
+        """Return the host of a seed, with a station that is ready."""
         talker = cls(seed)
         rng = talker.rng
         talker.host = host = await SerialHost.start(
@@ -66,7 +66,7 @@ class Talker(Aware):
     # ------------------------------------------------------------ top level
 
     async def play(self) -> None:
-        """Frames of all kinds; then one poll is enough, whatever has been."""
+        """Send frames of all kinds; after any of them one poll recovers the station."""
         rng = self.rng
         if rng.random() < 0.93:
             await self.instruct(TABLE)
@@ -97,7 +97,7 @@ class Talker(Aware):
         await self.recover()
 
     async def recover(self) -> None:
-        """At most one poll brings the station back."""
+        """Check that at most one poll recovers the station."""
         host = self.host
         await host.pause(1)
         self.background.stop()
@@ -114,14 +114,14 @@ class Talker(Aware):
     # ------------------------------------------------------------ line
 
     async def swallow(self) -> None:
-        """Whatever is being sent, and what has been."""
+        """Discard the reply that is being sent and all earlier ones."""
         host = self.host
         await host.go(host.t)
         await host.side.level_is("snd", 0)
         host.forget()
 
     async def listen(self) -> None:
-        """Wait for the reply, if one comes; now and then do not."""
+        """Wait for the reply, if there is one; in a few cases do not wait."""
         host, rng = self.host, self.rng
         if rng.random() < 0.04:
             await host.pause(rng.choice((20, 200, 2_000)))
@@ -136,7 +136,7 @@ class Talker(Aware):
             await host.pause(rng.choice((5, 100, 1_500, 12_000)))
 
     async def put(self, line: bytes) -> None:
-        """Characters, in a noisy place with wrong levels somewhere."""
+        """Send characters; a noisy host adds wrong levels."""
         rng, host = self.rng, self.host
         if not (self.noisy and rng.random() < 0.25):
             await host.send(line, rng.choice((0, 0, 0, 0, 0.4, 3)) if len(line) < 12 else 0)
@@ -148,13 +148,13 @@ class Talker(Aware):
             await host.character(byte, spikes=spikes)
 
     async def instruct(self, text: str) -> None:
-        """A good frame and its reply."""
+        """Send a valid frame and wait for its reply."""
         host = self.host
         await self.put(summed(0x90 + host.adr, bytes.fromhex(text), host.sum_mode))
         await self.listen()
 
     async def poll(self) -> None:
-        """A good poll."""
+        """Send one to three valid polls."""
         for _ in range(self.rng.choice((1, 1, 2, 3))):
             await self.put(summed(0x80 + self.host.adr, b"", self.host.sum_mode))
             await self.listen()
@@ -162,7 +162,7 @@ class Talker(Aware):
     # ------------------------------------------------------------ instructions
 
     def data(self, code: int, near: bool = True) -> str:
-        """Code and sensible data."""
+        """Return the code with plausible data."""
         rng, n = self.rng, LENGTHS[code]
         rate = rng.choice(RATES if rng.random() < 0.3 else RATES[:6]).to_bytes(2, "big")
         count = rng.choice(COUNTS if rng.random() < 0.3 else COUNTS[:6]).to_bytes(4, "big")
@@ -187,7 +187,7 @@ class Talker(Aware):
         return bytes([code, *data]).hex()
 
     async def start(self) -> None:
-        """A motion, if there can be one."""
+        """Start a motion, if the state allows one."""
         rng = self.rng
         if self.state not in (State.NOR, State.INI) and rng.random() < 0.9:
             await self.during()
@@ -200,25 +200,25 @@ class Talker(Aware):
             await self.host.pause(rng.choice((500, 4_000, 9_000)))
 
     async def during(self) -> None:
-        """What makes sense while something moves."""
+        """Send an instruction that makes sense during a motion."""
         moving = self.state in (State.ACC, State.FIX)
         await self.instruct(self.data(self.rng.choice(DURING if moving else SETTINGS)))
 
     async def setting(self) -> None:
-        """Settings and terminals, mostly at rest."""
+        """Send settings and terminal instructions, mostly at standstill."""
         if self.state in (State.ACC, State.FIX) and self.rng.random() < 0.7:
             await self.instruct(self.rng.choice(("80", "81", "80")))
         await self.instruct(self.data(self.rng.choice(SETTINGS)))
 
     async def table(self) -> None:
-        """00, good or bad."""
+        """Send 00 with a valid or an invalid table."""
         bad = self.rng.choice(("00 00 01F4 00C8 0001BC", "00 00 01F4 0001 000320", "00 06 01F4 00C8 000320"))
         await self.instruct(bad if self.rng.random() < 0.4 else TABLE)
         if self.state is State.INI:
             await self.instruct(TABLE)
 
     async def register(self) -> None:
-        """Overrides and events; a motion that meets them."""
+        """Register overrides and events, and start a motion that triggers them."""
         rng = self.rng
         if self.state in (State.ACC, State.FIX) and rng.random() < 0.5:
             await self.instruct("80")
@@ -234,7 +234,7 @@ class Talker(Aware):
             await self.start()
 
     async def reports(self) -> None:
-        """What makes reports: monitors, interlock, a held motion, a limit."""
+        """Create the conditions of a report: monitors, interlock, a held motion, a limit."""
         rng, host = self.rng, self.host
         if self.state in (State.ACC, State.FIX):
             await self.instruct("80")
@@ -266,7 +266,7 @@ class Talker(Aware):
             await self.poll()
 
     async def event(self) -> None:
-        """Edges of the event pins, near the end of a frame."""
+        """Apply edges of the event pins near the end of a frame."""
         rng, host = self.rng, self.host
         frame = rng.choice(
             (summed(0x80 + host.adr, b"", host.sum_mode), summed(0x90 + host.adr, b"\x26\x2a", host.sum_mode))
@@ -277,10 +277,10 @@ class Talker(Aware):
         await self.put(frame)
         await self.listen()
 
-    # ------------------------------------------------------------ bad things
+    # ------------------------------------------------------------ disturbances
 
     async def bad_frame(self) -> None:
-        """Wrong checksum, wrong digits, too short, too long, foreign, unknown, nonsense."""
+        """Send an invalid frame: wrong checksum or digits, wrong length, foreign, unknown, random bytes."""
         rng, host = self.rng, self.host
         code = rng.choice(list(LENGTHS))
         good = summed(
@@ -306,7 +306,7 @@ class Talker(Aware):
         await self.listen()
 
     async def talk_out_of_turn(self) -> None:
-        """More frames while the reply to one is pending or on its way."""
+        """Send more frames while the reply to a frame is pending or in progress."""
         rng, host = self.rng, self.host
         first = rng.choice(("25", "42", "4d", "20", "4f"))
         await self.put(summed(0x90 + host.adr, bytes.fromhex(first), host.sum_mode))
@@ -318,7 +318,7 @@ class Talker(Aware):
         await self.listen()
 
     async def noise(self) -> None:
-        """Levels on an idle line."""
+        """Apply short low levels on an idle line."""
         rng, host = self.rng, self.host
         for _ in range(rng.randint(1, 6)):
             await host.low(rng.choice((0.01, 0.1, 0.49, 0.5, 0.51, 1, 3, 9.3, 9.6, 12, 30)))
@@ -326,7 +326,7 @@ class Talker(Aware):
         await self.listen()
 
     async def silence(self) -> None:
-        """20 ms, more or less, behind something unfinished or unknown."""
+        """Leave the line idle for about 20 ms after an incomplete or unknown frame."""
         rng, host = self.rng, self.host
         await self.put(
             bytes([0x90 + host.adr]) + rng.choice((b"", b"2", b"26", b"2A", b"33", b"G0", b"4704"))
@@ -336,7 +336,7 @@ class Talker(Aware):
         await self.poll()
 
     def disturb(self) -> None:
-        """Pins that move by themselves."""
+        """Let pins change independently of the frames."""
         rng, t = self.rng, self.host.t
         pin = rng.choice(PINS)
         if rng.random() < 0.5:
@@ -348,13 +348,13 @@ class Talker(Aware):
                 self.background.blip(t + 200 * k + rng.randrange(90), "epin", 1, 40)
 
     async def alarm(self) -> None:
-        """alm_n is low for a while."""
+        """Assert alm_n (low) for a while."""
         self.background.blip(
             self.host.t + self.rng.randrange(4_000), "alm_n", 0, self.rng.choice((30, 9_000))
         )
 
     async def reset(self) -> None:
-        """By the pin or by FF; then other pins may count."""
+        """Reset the device by the pin or by FF."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
             await self.instruct("FF")

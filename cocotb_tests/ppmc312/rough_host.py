@@ -1,6 +1,6 @@
-"""A random host for the PPMC-312 with bad manners: disorder, unread answers, nonsense, resets, moving pins.
+"""Rough random host of the PPMC-312: wrong order, unread answers, invalid blocks, resets, changing pins.
 
-Also what the well-mannered ones of `lively_host` are made of: blocks, tables, moments near a boundary.
+The hosts of `lively_host` use the same blocks, tables and times near a boundary.
 """
 
 from __future__ import annotations
@@ -19,27 +19,30 @@ PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n",
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)
 DURING = (0x80, 0x81, 0x81, 0x87, 0x87, 0x88, 0x88, 0x4D, 0x42, 0x25, 0x26, 0x40)
 RECOVERY = 3000
-"""Polls of a host that reads everything until the part is quiet."""
+"""Polls of a host that reads everything until the device has no more responses."""
 
 
 def some_equal(rates: list[int], share: float) -> list[int]:
-    """The rates, in this share of cases with equal neighbours; they decide themselves, no draw is taken."""
+    """Return the rates, in this share of cases with equal neighbours.
+
+    The rates themselves are the seed: no number is drawn from the generator of the host.
+    """
     rng = random.Random(f"equal {rates}")
     return sorted(rng.choices(rates, k=len(rates))) if rng.random() < share else rates
 
 
 async def reset_by_bus(host: Host) -> None:
-    """FF brings the part back to INI, whatever has been."""
+    """Check that FF resets the device to INI in any state."""
     await host.put(message(Code.RESET))
     await host.pause(60)
     await host.wait()
-    if await host.read(RAR) == 0x40:  # the reset has taken a response away that had just come
+    if await host.read(RAR) == 0x40:  # the reset has discarded a response that had just been loaded
         await host.pause(60)
     assert await host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
 
 
 class Player(Aware):
-    """One random host. It acts on what it reads; the golden model only tells it when to do something."""
+    """One random host. It acts on data that it reads; the golden model only decides when it acts."""
 
     def __init__(self, host: Host, seed: int) -> None:
         super().__init__("p312", seed)
@@ -53,7 +56,7 @@ class Player(Aware):
     # ------------------------------------------------------------ top level
 
     async def play(self) -> None:
-        """Until the time is up; then the part can be brought back."""
+        """Play until the time is over; then check that the device recovers."""
         self.disturb_pins()
         await self.setting()
         while self.host.t < self.end:
@@ -64,7 +67,7 @@ class Player(Aware):
         await self.recover()
 
     async def recover(self) -> None:
-        """A host that reads everything and then resets has a working part again (P312-BAD-09)."""
+        """Check that the device works after a host has read everything and reset it (P312-BAD-09)."""
         host = self.host
         await host.pause(1)
         self.background.stop()
@@ -81,7 +84,7 @@ class Player(Aware):
     # ------------------------------------------------------------ host
 
     async def send(self, text: str) -> None:
-        """Write a block if the part takes it; now and then without asking."""
+        """Write a block if the device accepts it; sometimes without reading the status first."""
         host, rng = self.host, self.rng
         if not await host.read(CSR) & MWEF or rng.random() < 0.1:
             await host.put(text)
@@ -89,7 +92,7 @@ class Player(Aware):
         await self.fetch()
 
     async def fetch(self) -> None:
-        """Read what there is, if this host reads."""
+        """Read the pending responses, if this host reads."""
         host, rng = self.host, self.rng
         for _ in range(6):
             if await host.read(CSR) & MREF:
@@ -100,7 +103,7 @@ class Player(Aware):
                 for _ in range(rng.randint(1, 3)):
                     await host.read(rng.choice((DRR, DRR, RCR)))
                 continue
-            # A reset may have taken it away meanwhile.
+            # A reset may have discarded the response in the meantime.
             for _ in range(0x40 - await host.read(RAR)):
                 await host.read(DRR)
             if rng.random() < 0.1:
@@ -114,7 +117,7 @@ class Player(Aware):
             await self.send(message(Code.ALARM_CLEAR))
 
     async def registers(self) -> None:
-        """Accesses in any order."""
+        """Access registers in any order."""
         host, rng = self.host, self.rng
         for _ in range(rng.randint(1, 8)):
             if rng.random() < 0.5:
@@ -128,7 +131,7 @@ class Player(Aware):
             await host.write(CSR, rng.choice((0, 0x10, 0x20, 0x30, 0x70)))
 
     async def reset(self) -> None:
-        """At any moment, also in the middle of a block."""
+        """Reset the device at any time, also in the middle of a block."""
         host, rng = self.host, self.rng
         if rng.random() < 0.5:
             await host.write(WCR, 0x20)
@@ -153,11 +156,11 @@ class Player(Aware):
         await self.send(data.hex())
 
     async def setting(self) -> None:
-        """A table: mostly a short free curve, sometimes one that is computed; often a new base clock."""
+        """Send a table: mostly a short free curve, sometimes a computed one; often with a new base clock."""
         rng = self.rng
         clk = rng.choice((0, 0, 0, 0, 1, 1, 2, 6, 7))
         if rng.random() < 0.08 and not self.slow:
-            # With the last two R[1] = R[0] if the curve is a sigmoid. These two have stages of 2 pulses.
+            # The last two have R[1] = R[0] if the curve is a sigmoid. These two have stages of 2 pulses.
             self.rates, tail = rng.choice(
                 (
                     ([40, 120, 400], "09 00 {} 0190 0028 000480"),
@@ -206,7 +209,10 @@ class Player(Aware):
         )
 
     def block(self, code: int, trigger: int | None = None) -> bytes:
-        """Any instruction with mostly legal parameters. trigger: OV = 1 with these TRG bits."""
+        """Return any instruction with mostly legal parameters.
+
+        trigger: OV = 1 with these TRG bits.
+        """
         rng = self.rng
         flags = rng.choice((0, 0, 0x40)) | (0x10 if code in (0x10, 0x11) and rng.random() < 0.4 else 0)
         flags = flags if trigger is None else flags & 0x40 | 4 | trigger
@@ -259,7 +265,7 @@ class Player(Aware):
         await self.send(self.block(code).hex())
 
     async def registration(self) -> None:
-        """Something that waits for a position or an event."""
+        """Register an instruction that waits for a position or an event."""
         rng = self.rng
         if rng.random() < 0.3:
             await self.send(self.block(0x49).hex())
@@ -270,7 +276,7 @@ class Player(Aware):
             await self.send(self.block(rng.choice(codes), trigger).hex())
 
     async def motion(self) -> None:
-        """A motion, and what happens meanwhile."""
+        """Start a motion and act during it."""
         rng = self.rng
         await self.send(self.block(rng.choice(MOTIONS)).hex())
         for _ in range(rng.choice((0, 0, 1, 1, 2, 3))):
@@ -284,7 +290,7 @@ class Player(Aware):
             await self.wait()
 
     async def aligned(self) -> None:
-        """Something whose effect falls within a few clk of the end of an interval."""
+        """Apply an instruction or pin edge that takes effect a few cycles around the end of an interval."""
         host, rng, motion = self.host, self.rng, self.model.motion
         if not motion.active or motion.sequence.running is None:
             return
@@ -313,7 +319,7 @@ class Player(Aware):
     # ------------------------------------------------------------ pins
 
     def disturb_pins(self) -> None:
-        """Pins that move by themselves: switches, events, alarms, encoder, general input."""
+        """Let pins change independently of the host: switches, events, alarms, encoder, general input."""
         rng = self.rng
         t, scale = self.host.t, (12 if self.slow else 1)
         busy = rng.choice((0.2, 0.5, 1.0, 2.5))

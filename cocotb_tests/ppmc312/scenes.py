@@ -1,4 +1,4 @@
-"""Scenes of a random host of the PPMC-312: what a machine does, each with what may come in between."""
+"""Scenes of a random host of the PPMC-312: typical operations of a machine, each with interruptions."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ ASKED = (
 STOPS = (message(Code.STOP, "00"), message(Code.SLOW_STOP, "00"))
 CHANGES = (0x80, 0x81, 0x87, 0x87, 0x87, 0x88, 0x88, 0x88)
 POLL = 60
-"""clk between two polls of a host that attends to the part."""
+"""Cycles between two polls of a host that waits for responses."""
 
 
 class Scenes(Player):
-    """Scenes; `follows`: chance that an encoder pulse answers a pulse, 0 without an encoder."""
+    """Host that plays scenes; `follows`: probability that the encoder follows a pulse (0: no encoder)."""
 
     follows = 0.0
 
-    # ------------------------------------------------------------ the host's side
+    # ------------------------------------------------------------ host
 
     async def response(self) -> None:
-        """Read what is loaded."""
+        """Read the loaded response."""
         host = self.host
         for _ in range(0x40 - await host.read(RAR)):
             await host.read(DRR)
 
     async def attend(self, clk: int) -> None:
-        """Let time pass; read what comes, and let the encoder follow."""
+        """Wait `clk` cycles (DATASHEET: 4 × `clk`), read responses and let the encoder follow."""
         host, rng = self.host, self.rng
         end = host.t + clk * (4 if self.slow else 1)
         while True:
@@ -52,7 +52,7 @@ class Scenes(Player):
             await host.pause(min(POLL, end - host.t))
 
     async def follow(self) -> None:
-        """The encoder goes after the position, with slips."""
+        """Let the encoder follow the position, with errors."""
         counters, host = self.model.core.counters, self.host
         behind = counters.pulse - counters.encoder & 0xFFFFFFFF
         if behind and self.rng.random() < self.follows:
@@ -63,7 +63,7 @@ class Scenes(Player):
             await host.pins(epin=0)
 
     async def tell(self, text: str) -> None:
-        """Write a block as soon as it is taken, and read until its answer has come (or nearly so)."""
+        """Write a block as soon as it is accepted, and mostly read until its answer arrives."""
         host, rng = self.host, self.rng
         for _ in range(40):
             if not await host.read(CSR) & MWEF:
@@ -79,7 +79,7 @@ class Scenes(Player):
         await self.attend(10)
 
     async def curve(self) -> None:
-        """A short free curve, sometimes a computed table, on a fast base clock: operations are short."""
+        """Send a short free curve or a computed table on a fast base clock, so that operations are short."""
         host, rng = self.host, self.rng
         if rng.random() < 0.12 and not self.slow:
             # RS 300, RH 100; most of them begin with stages of 2 pulses, the fewest that are legal.
@@ -111,7 +111,7 @@ class Scenes(Player):
     # ------------------------------------------------------------ numbers
 
     def speed(self) -> int:
-        """A rate near those of the table."""
+        """Return a rate near those of the table."""
         rng = self.rng
         if rng.random() < 0.03:
             return self.rate()
@@ -120,7 +120,7 @@ class Scenes(Player):
         return max(2, rng.randint(min(self.rates) - 1, max(self.rates) + 8))
 
     def distance(self, rate: int) -> int:
-        """N near the limits between the kinds of operations."""
+        """Return an N near the limits between the kinds of operations."""
         rng, table = self.rng, self.model.core.table
         if table is None or rng.random() < 0.2:
             return rng.choice((1, 2, 3, 9, 30, 0))
@@ -131,7 +131,7 @@ class Scenes(Player):
         return max(1, near + rng.choice((0, 0, -1, 1, 2, 5)))
 
     def finite_block(self, more: int = 0) -> bytes:
-        """82 or 83 with a sensible end; more: pulses beyond it."""
+        """Return an 82 or 83 with a plausible end; more: pulses after it."""
         rng = self.rng
         code, rate = rng.choice((0x82, 0x82, 0x82, 0x83)), self.speed()
         rate = 0 if code == 0x82 and rng.random() < 0.3 else rate
@@ -148,7 +148,7 @@ class Scenes(Player):
     def change_block(
         self, trigger: int | None = None, ahead: int = 0, codes: tuple[int, ...] = CHANGES
     ) -> bytes:
-        """80, 81, 87 or 88; registered for a trigger, or for a position so far ahead."""
+        """Return an 80, 81, 87 or 88; with `trigger`, registered for it or `ahead` pulses away."""
         rng = self.rng
         code = rng.choice(codes)
         flags = 0 if trigger is None else 4 | trigger
@@ -161,7 +161,7 @@ class Scenes(Player):
     # ------------------------------------------------------------ motions
 
     async def meanwhile(self, times: int) -> None:
-        """What comes in the middle of an operation, often at a boundary."""
+        """Send instructions or move pins during an operation, often at a boundary."""
         host, rng = self.host, self.rng
         for _ in range(times):
             if self.state not in (State.ACC, State.FIX, State.WRN):
@@ -179,7 +179,7 @@ class Scenes(Player):
             await self.attend(rng.choice((0, 30, 300, 900)))
 
     async def finite(self) -> None:
-        """A move, with or without disturbance."""
+        """Make a move, with or without disturbance."""
         rng = self.rng
         if rng.random() < 0.35:
             await self.changed()
@@ -189,7 +189,7 @@ class Scenes(Player):
         await self.attend(4_000)
 
     async def changed(self) -> None:
-        """A move with changes of speed, which has to find its deceleration point again."""
+        """Make a move with speed changes; it must recompute its deceleration point."""
         rng = self.rng
         await self.tell(self.finite_block(rng.randint(12, 40)).hex())
         for _ in range(rng.choice((1, 1, 2, 3))):
@@ -204,7 +204,7 @@ class Scenes(Player):
         await self.attend(6_000)
 
     async def meeting_point(self) -> None:
-        """Two 87 shortly before the deceleration point, after an 88 to where a ramp has many stages."""
+        """Send two 87 shortly before the deceleration point, after an 88 to a rate with a long ramp."""
         host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:
             return
@@ -227,7 +227,7 @@ class Scenes(Player):
         await self.attend(3_000)
 
     async def walk_change(self) -> None:
-        """88 in the walk of an 81."""
+        """Send 88 while an 81 decelerates."""
         await self.tell(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
         await self.attend(self.rng.choice((1_000, 2_500)))
         await self.tell(message(Code.SLOW_STOP, "00"))
@@ -236,7 +236,7 @@ class Scenes(Player):
         await self.tell(message(Code.STOP, "00"))
 
     async def start_on_a_limit(self) -> None:
-        """A limit of the same or the other direction is low when a motion starts."""
+        """Start a motion while a limit of the same or the other direction is asserted (low)."""
         pin = self.rng.choice((*LIMITS, *SLOW_LIMITS))
         await self.host.pins(**{pin: 0})
         await self.tell(self.finite_block().hex())
@@ -244,7 +244,7 @@ class Scenes(Player):
         await self.host.pins(**{pin: 1})
 
     async def endless(self) -> None:
-        """85 or 86 with changes, then a stop."""
+        """Run an 85 or 86 with changes, then stop it."""
         await self.tell(self.endless_block().hex())
         await self.meanwhile(self.rng.choice((2, 4, 7)))
         if self.model.motion.active:
@@ -252,7 +252,7 @@ class Scenes(Player):
         await self.attend(1_500)
 
     async def overrides(self) -> None:
-        """Entries of the command FIFO for positions and events, before or during a motion."""
+        """Register entries of the command FIFO for positions and events, before or during a motion."""
         rng = self.rng
         before = rng.random() < 0.4
         start = self.endless_block() if rng.random() < 0.6 else self.finite_block()
@@ -261,7 +261,7 @@ class Scenes(Player):
         ahead, pins = 0, []
         for _ in range(rng.choice((1, 2, 3, 3, 5, 9))):
             trigger = rng.choice((0, 0, 0, 0, 2, 1, 3))
-            step = rng.choice((0, 1, 3, 4, 6, 9))  # 0: armed where the position is already
+            step = rng.choice((0, 1, 3, 4, 6, 9))  # 0: armed for the current position
             ahead += step + (0 if before or not step else 6)
             if trigger in (1, 3):
                 pins.append("evt0_n" if trigger == 1 else "evt1_n")
@@ -278,7 +278,7 @@ class Scenes(Player):
         await self.attend(3_000)
 
     async def press(self, pin: str) -> None:
-        """An event, now and then with a limit that forbids what it starts."""
+        """Trigger an event, sometimes with a limit that forbids the motion it starts."""
         if self.rng.random() < 0.06:
             for limit in LIMITS:
                 self.background.blip(self.host.t + 1, limit, 0, 400)
@@ -307,7 +307,7 @@ class Scenes(Player):
             await self.tell(message(Code.EVENT_SET, f"{number:02X} {block.hex()}"))
 
     async def events(self) -> None:
-        """An event buffer filled and worked off."""
+        """Fill an event buffer and trigger its entries."""
         rng = self.rng
         numbers = rng.choice(((0,), (1,), (0, 1)))
         for number in numbers:
@@ -322,7 +322,7 @@ class Scenes(Player):
                 await self.tell(message(Code.EVENT_SET, f"{2 | number:02X}"))
 
     async def meeting(self) -> None:
-        """Events and a host block at nearly the same time."""
+        """Apply events and a host block at nearly the same time."""
         host, rng = self.host, self.rng
         for number in (0, 1):
             if rng.random() < 0.7:
@@ -342,10 +342,10 @@ class Scenes(Player):
                 await host.put(block.hex())
             await self.attend(500)
 
-    # ------------------------------------------------------------ what is around the motor
+    # ------------------------------------------------------------ inputs
 
     async def origin(self) -> None:
-        """10 or 11 with an origin that comes, and goes."""
+        """Run 10 or 11 with an origin input that is asserted and deasserted."""
         host, rng = self.host, self.rng
         await self.tell(self.endless_block((0x10, 0x11, 0x11)).hex())
         for _ in range(rng.randint(1, 3)):
@@ -359,7 +359,7 @@ class Scenes(Player):
         await self.attend(2_500)
 
     async def slow_limit(self) -> None:
-        """High-speed limits and limits met while running."""
+        """Assert high-speed limits and limits while a motion is running."""
         host, rng = self.host, self.rng
         if rng.random() < 0.85:
             await self.tell(message(Code.SPEED_LIMIT, f"{rng.choice((max(self.rates), self.speed())):04X}"))
@@ -376,7 +376,7 @@ class Scenes(Player):
             await self.attend(rng.choice((300, 900, 2_000)))
 
     async def inputs(self) -> None:
-        """28 and a general input that changes, with a host that is slow to read."""
+        """Send 28 and change the general input, with a host that reads slowly."""
         host, rng = self.host, self.rng
         await self.tell(
             message(Code.MASK, f"{rng.choice((1, 1, 1, 0)):02X} {rng.choice((0xFF, 0x0F, 0x5A, 1)):02X}")
@@ -390,7 +390,7 @@ class Scenes(Player):
                 await self.attend(50)
 
     async def encoder(self) -> None:
-        """Monitors on, an encoder that follows."""
+        """Switch the monitors on; the encoder follows."""
         rng = self.rng
         self.follows = rng.choice((1.0, 0.9, 0.6, 0.2))
         await self.tell(
@@ -409,7 +409,7 @@ class Scenes(Player):
             self.follows = 0.0
 
     async def interlock(self) -> None:
-        """The control, and a motion over its position."""
+        """Switch the interlock control on and move past its position."""
         rng = self.rng
         step = rng.choice((1, 3, 9, -2, -5))
         await self.tell(message(Code.INTERLOCK_POSITION, f"{self.model.position + step & 0xFFFFFFFF:08X}"))
@@ -417,7 +417,7 @@ class Scenes(Player):
         await self.finite()
 
     async def held(self) -> None:
-        """RUN low: a motion that waits."""
+        """Start a motion while RUN is low, so that the motion waits."""
         host, rng = self.host, self.rng
         await host.pins(run=0)
         await self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
@@ -432,7 +432,7 @@ class Scenes(Player):
         await self.attend(2_000)
 
     async def end_wait(self) -> None:
-        """The positioning end monitored."""
+        """Monitor the positioning end."""
         host, rng = self.host, self.rng
         await self.tell(message(Code.END_TERMINAL, "01"))
         await self.tell(self.finite_block().hex())
@@ -446,7 +446,7 @@ class Scenes(Player):
         await self.tell(message(Code.END_TERMINAL, "00"))
 
     async def alarm(self) -> None:
-        """alm_n in the middle of something; cleared at once or with the pin still low."""
+        """Assert alm_n during an operation; clear the alarm, sometimes while the pin is still low."""
         host, rng = self.host, self.rng
         if rng.random() < 0.8:
             await self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
@@ -455,7 +455,7 @@ class Scenes(Player):
         await self.tell(message(Code.ALARM_CLEAR))
 
     async def unread(self) -> None:
-        """Reports that stay unread until there are more of their class than places (P312-RSP-20)."""
+        """Leave reports unread until there are more of their class than places (P312-RSP-20)."""
         host, rng = self.host, self.rng
         held = rng.random() < 0.4
         for _ in range(rng.randint(2, 3)):
@@ -465,7 +465,7 @@ class Scenes(Player):
                 if not await host.read(CSR) & MWEF:
                     break
                 await host.pause(100)
-            # An answer is read with the first chance, so that the next instruction is executed.
+            # Read an answer at the first opportunity, so that the next instruction is executed.
             if self.model.core.responses.answer:
                 await self.response()
             await host.put(message(Code.STEP, "00"))

@@ -5,20 +5,20 @@ from __future__ import annotations
 from fractions import Fraction
 
 SPEEDS = {5: Fraction(19_200), 6: Fraction(38_400), 7: Fraction(250_000, 3)}
-"""bits/s by mod[2:0], with a crystal of 16 MHz."""
+"""bits/s by mod[2:0], with a 16 MHz crystal."""
 T_EXEC, T_INIT = 4_096, 65_536
-"""clk that a reply takes at most: to any instruction, to 00."""
+"""Largest number of cycles before a reply: to any instruction except 00, to 00."""
 SILENCE = 320_000
-"""20 ms in clk at 16 MHz."""
+"""20 ms in cycles at 16 MHz."""
 
 T1 = "00 01 03E8 00C8 0007D0"
 """1 MHz, linear, 1000 to 200, 2000 pulses."""
 TS = "00 00 01F4 00C8 000320"
-"""8 MHz, linear, 500 to 200, 800 pulses: 400 to 1000 clk a pulse."""
+"""8 MHz, linear, 500 to 200, 800 pulses: 400 to 1000 cycles per pulse."""
 
 
 def summed(control: int, data: bytes = b"", mode: str = "BINARY") -> bytes:
-    """A frame with its checksum (P312-SER-13)."""
+    """Return a frame with its checksum (P312-SER-13)."""
     text = "".join(f"{byte:02x}" for byte in data).encode("ascii")
     total = sum(text) if mode == "CHARS" else (control + sum(data)) % 256
     return bytes([control]) + text + bytes([(total ^ 0xFF) & 0x7F])

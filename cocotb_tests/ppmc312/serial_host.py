@@ -1,6 +1,6 @@
-"""The master of a serial line with one PPMC-312, which acts on what the station answers.
+"""Master of a serial line with one PPMC-312, which acts on the replies of the station.
 
-Its UART is its own: what the part sends is read from the levels of txd, and every edge is checked.
+It has a UART model of its own: replies are decoded from the levels of txd, and every edge is checked.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
 from .side_host import SideHost
 
 SLACK = 64
-"""clk that a reply may be later."""
+"""Cycles by which a reply may be late."""
 FRAME = re.compile(rb"[\x80-\xFF](?:[0-9a-f]{2})*[\x00-\x7F]", re.DOTALL)
 
 
 class SerialHost(SerialLine, SideHost):
-    """Make one with `await SerialHost.start(dut)`.
+    """Master of the line; create it with `await SerialHost.start(dut)`.
 
-    Instructions are texts of hexadecimal bytes: code and data. Answers are texts of kind without the
-    address, and data: "90", "A0 38", "B0 42"; `wire` is the last one as it was on the line,
-    `waited` how many clk after the end of the master's last stop bit snd has risen.
+    Instructions are texts of hexadecimal bytes: code and data. Answers are texts: kind without the address,
+    then data: "90", "A0 38", "B0 42". `wire` is the last answer as received from the line. `waited` is the
+    number of cycles from the end of the master's last stop bit to the rise of snd.
     """
 
     def __init__(self, side: Side, adr: int = 1, error: float = 0) -> None:
@@ -45,7 +45,7 @@ class SerialHost(SerialLine, SideHost):
     async def start(
         cls, dut: Any, *setting: str, mod: int = 7, adr: int = 1, error: float = 0, mode: int = 0
     ) -> SerialHost:
-        """A station out of a reset; each instruction of `setting` is acknowledged.
+        """Reset a station and wait until it is ready; it acknowledges each instruction of `setting`.
 
         mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
         """
@@ -62,7 +62,7 @@ class SerialHost(SerialLine, SideHost):
         return host
 
     def speed(self, mod: int) -> None:
-        """The master takes the speed of mod; that of the part changes with its next reset only."""
+        """Set the speed of the master to that of mod; that of the device changes only at its next reset."""
         config = self.side.config
         self.bit = config.clk_hz / (SPEEDS.get(mod, SPEEDS[7]) * config.xtal_hz / 16_000_000)
 
@@ -70,7 +70,7 @@ class SerialHost(SerialLine, SideHost):
 
     @property
     def t(self) -> int:
-        """The next free edge: that of the side, or the first one behind what has been sent."""
+        """The next free edge: that of the DUT interface, or the first after the characters sent."""
         return max(self._behind, self.side.now)
 
     @t.setter
@@ -78,36 +78,36 @@ class SerialHost(SerialLine, SideHost):
         self._behind = edge
 
     async def pause(self, clk: int) -> None:
-        """Let time pass, behind what has been sent."""
+        """Wait this number of cycles after the characters sent."""
         await self.go(self.t + clk)
 
     async def pins(self, **levels: int) -> None:
-        """Pin levels from edge `t` on."""
+        """Set pin levels from edge `t` on."""
         await self.go(self.t)
         await super().pins(**levels)
 
     # ------------------------------------------------------------------ to the part
 
     async def say(self, text: str, adr: int | None = None) -> None:
-        """An instruction; pulses count from here."""
+        """Send an instruction; pulses are counted from here."""
         self.mark = self.t
         control = 0x90 + (self.adr if adr is None else adr)
         await self.send(summed(control, bytes.fromhex(text), self.sum_mode))
 
     async def ask_poll(self, adr: int | None = None) -> None:
-        """A poll without waiting."""
+        """Send a poll without waiting for its reply."""
         await self.send(summed(0x80 + (self.adr if adr is None else adr), b"", self.sum_mode))
 
     # ------------------------------------------------------------------ from the part
 
     def rise(self) -> int | None:
-        """Edge of the next rise of snd that no `hear` has had, if there is one."""
+        """Return the edge of the next rise of snd that `hear` has not used, None if there is no such edge."""
         return next(iter(self.side.rises("snd", self._heard)), None)
 
     async def begin(self, within: int = T_EXEC) -> int:
-        """Edge of the next rise of snd, at most `within` clk after the middle of the last stop bit.
+        """Return the edge of the next rise of snd.
 
-        TimeoutError if there is none by then.
+        TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
         """
         await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK
@@ -133,7 +133,7 @@ class SerialHost(SerialLine, SideHost):
         return self._meaning(line)
 
     def _decode(self, rise: int, fall: int) -> bytes:
-        """The characters between two edges of snd; every edge is where it belongs (P312-SER-18)."""
+        """Decode the characters between two edges of snd and check the time of every edge (P312-SER-18)."""
         bit, lead = self.bit, self.lead
         count, rest = divmod(round((fall - rise) / bit) - lead, 10)
         assert not rest and fall == rise + ceil((10 * count + lead) * bit), "snd falls in a character"
@@ -149,42 +149,42 @@ class SerialHost(SerialLine, SideHost):
         return " ".join([f"{control & 0xF0:02X}", *([clean(data.hex())] if data else [])])
 
     async def ask(self, text: str, within: int | None = None) -> str:
-        """An instruction and its reply."""
+        """Send an instruction and return its reply."""
         await self.say(text)
         return await self.hear(within or (T_INIT if bytes.fromhex(text)[0] == 0 else T_EXEC))
 
     async def poll(self, adr: int | None = None) -> str:
-        """A poll and its reply."""
+        """Send a poll and return its reply."""
         await self.ask_poll(adr)
         return await self.hear()
 
     async def polls(self, count: int) -> list[str]:
-        """So many polls and their replies."""
+        """Send `count` polls and return their replies."""
         return [await self.poll() for _ in range(count)]
 
     async def asks(self, *texts: str) -> list[str]:
-        """Instructions, one after the other, and their replies."""
+        """Send instructions one after the other and return their replies."""
         return [await self.ask(text) for text in texts]
 
     async def status(self) -> str:
-        """Data of 4D: flags, state, what is registered."""
+        """Return the data of 4D: flags, state, registered instructions."""
         return (await self.ask("4D")).removeprefix("A0 ")
 
     async def state(self) -> int:
-        """State byte of 4D."""
+        """Return the state byte of 4D."""
         return int((await self.status()).split()[1], 16)
 
     def forget(self) -> None:
-        """Nobody has listened so far."""
+        """Ignore all replies up to now."""
         self._heard = self.t
 
     async def quiet(self, clk: int = 2 * T_EXEC) -> bool:
-        """Whether nothing is sent for so long."""
+        """Return whether nothing is sent for this number of cycles."""
         await self.pause(clk)
         return self.rise() is None
 
     async def settle(self) -> list[str]:
-        """Polls until the station is ready; everything else that it has said."""
+        """Poll until the station is ready; return all other replies except "busy"."""
         others = []
         while (said := await self.poll()) != "90":
             if said != "80":
@@ -192,7 +192,7 @@ class SerialHost(SerialLine, SideHost):
         return others
 
     async def at_rest(self, after: int = 200, limit: int = 4_000_000) -> None:
-        """Let a motion end, which the golden model tells, and `after` clk more."""
+        """Wait until the golden model reports the end of the motion, and `after` more cycles."""
         end = self.t + limit
         while not self.side.golden.core.operation.at_rest:
             assert self.t < end, f"the motion does not end\n{self.side.context()}"

@@ -1,7 +1,7 @@
-"""Streams of bytes on a line with a PPMC-312: whatever they are, at most one poll brings the station back.
+"""Random byte streams on a line with a PPMC-312: after any of them, at most one poll recovers the station.
 
-Characters go to the golden model as a whole, without the levels of rxd, so that a second of line time takes
-a fraction of that.
+The golden model receives whole characters, without the levels of rxd, so that a second of line time takes a
+fraction of a second.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from openppmc.model.ppmc312.part import Ppmc312
 from .serial_frames import SILENCE, summed
 
 CHARACTER = 1_920
-"""clk of a character at 83.33 kbit/s and 16 MHz."""
+"""Cycles of a character at 83.33 kbit/s and 16 MHz."""
 BUILD = 70_000
-"""clk that no instruction exceeds."""
+"""Cycles that no instruction exceeds."""
 
 Stream = Iterable[int | None]
-"""Characters; None for one without a stop bit, a number above 255 for so many clk of an idle line."""
+"""Characters; None: one without a stop bit; a number above 255: that number of cycles with an idle line."""
 
 
 class Line:
@@ -34,7 +34,7 @@ class Line:
         self.t = CHARACTER
 
     def send(self, stream: Stream) -> None:
-        """Characters back to back."""
+        """Send characters back to back."""
         for item in stream:
             if item is not None and item > 0xFF:
                 self.t += item
@@ -46,7 +46,7 @@ class Line:
         self.model.run_until(self.t)
 
     def wait(self) -> None:
-        """Until the station has said what it has to say."""
+        """Wait until the station has sent all its replies."""
         model, end = self.model, self.t + BUILD + 20 * CHARACTER
         while model.outputs["snd"] or model.station.busy:
             edge = model.next_event
@@ -55,14 +55,14 @@ class Line:
         self.t = max(self.t, model.now)
 
     def ask(self, line: bytes) -> list[bytes]:
-        """Everything that is sent from the beginning of this frame to the end of its reply."""
+        """Return everything that is sent from the beginning of this frame to the end of its reply."""
         before = len(self.model.replies)
         self.send(line)
         self.wait()
         return [reply for _, reply in self.model.replies[before:]]
 
     def recovers(self) -> None:
-        """The first poll after any stream has one reply, which a master understands."""
+        """Check that the first poll after any stream has one valid reply."""
         self.wait()
         replies = self.ask(summed(0x80 + self.adr, b"", self.sum_mode))
         assert len(replies) == 1, f"{len(replies)} replies to a poll"
@@ -76,7 +76,7 @@ class Line:
 
 
 def stream(rng: random.Random, adr: int, sum_mode: str = "BINARY", size: int = 40) -> list[int | None]:
-    """Nonsense, pieces of frames and whole ones, framing errors, silence."""
+    """Return random bytes, partial and whole frames, framing errors, and silence."""
     items: list[int | None] = []
     while len(items) < size:
         kind = rng.random()
@@ -94,15 +94,19 @@ def stream(rng: random.Random, adr: int, sum_mode: str = "BINARY", size: int = 4
         else:
             items.append(rng.choice((300, CHARACTER, 30_000, SILENCE - 500, SILENCE + 500)))
     if items[-1] == SILENCE - 500:
-        # What is said after 20 ms (P312-SER-12, -17) would meet the poll that follows.
+        # The reply sent after 20 ms (P312-SER-12, -17) would collide with the poll that follows.
         items[-1] = SILENCE + 500
     return items
 
 
 def campaign(seed: int, size: int) -> int:
-    """`size` bytes for one station after the other, with a poll behind every few dozen; the bytes sent.
+    """Send `size` bytes to one station after the other, and a poll after every few dozen bytes.
 
-    AssertionError with the seed if a station does not come back.
+    Returns:
+        The number of bytes sent.
+
+    Raises:
+        AssertionError: A station does not recover; the text states the seed.
     """
     rng = random.Random(f"p312 streams {seed}")
     sent = 0

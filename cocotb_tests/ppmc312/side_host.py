@@ -1,23 +1,23 @@
-"""What all hosts of directed tests for the PPMC-312 have in common: its pulses and its state."""
+"""Base class of all hosts of directed tests for the PPMC-312: pulses and state."""
 
 from __future__ import annotations
 
 from cocotb_tests.harness.bus import SideHost
 
 TICK = 16
-"""clk of a tick at F = 1 MHz and a clock of 16 MHz."""
+"""Cycles of a tick at F = 1 MHz and a clock of 16 MHz."""
 
 
 class SideHost(SideHost):
-    """Host of one PPMC-312; `mark` is where pulses are counted from."""
+    """Host of one PPMC-312; pulses are counted from `mark`."""
 
     @property
     def condition(self) -> int:
-        """Condition byte of the status read, without asking for it: that of the golden model."""
+        """Condition byte of the status read, taken from the golden model without a bus access."""
         return int(self.side.golden.state)
 
     async def pulse(self, number: int, after: int = 0) -> int:
-        """Wait for pulse `number` since `mark`, and `after` clk more; returns the pulse's edge."""
+        """Wait for pulse `number` since `mark`, then `after` cycles more; return the edge of the pulse."""
         for _ in range(number - len(self.pulses())):
             await self.side.edge("pout", 1)
         edge = self.pulses()[number - 1]
@@ -25,11 +25,11 @@ class SideHost(SideHost):
         return edge
 
     def pulses(self) -> list[int]:
-        """Rising edges of pout since `mark`."""
+        """Return the rising edges of pout since `mark`."""
         return self.side.rises("pout", self.mark)
 
     def gaps(self, tick: int = TICK) -> list[int]:
-        """Their distances in ticks of so many clk; not whole ones are an error."""
+        """Return the distances of the pulses in ticks of `tick` cycles; they must be whole ticks."""
         edges = self.pulses()
         clk = [b - a for a, b in zip(edges, edges[1:], strict=False)]
         assert not any(gap % tick for gap in clk)

@@ -24,7 +24,7 @@ async def p312_alarm_by_its_pin(dut: Any) -> None:
     await host.pins(alm_n=0)
     assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
     assert host.out("cd_n") == 0 and host.condition == 0x10
-    # A second edge is nothing new.
+    # A second edge has no effect.
     await host.blip("alm_n", 50, 50)
     assert await host.quiet(500)
     for block, answer in (
@@ -35,7 +35,7 @@ async def p312_alarm_by_its_pin(dut: Any) -> None:
         (message(Code.ALARM_CLEAR), message(Code.ALARM_CLEAR)),
     ):
         assert await host.ask(block) == answer
-    # The event buffer still works, whatever it holds is refused or done by the table of states.
+    # The event buffer still works: its entries are rejected or executed according to the table of states.
     await host.pins(evt0_n=0)
     assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
     assert host.condition == 0x02 and host.out("aclr_n") == 0
@@ -46,7 +46,7 @@ async def p312_alarm_by_its_pin(dut: Any) -> None:
     "P312-RSP-20", "P312-INP-30", "P312-INP-32", "P312-CHK-39", "P312-CHK-40", "P312-BAD-09", "P312-RSP-11"
 )
 async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
-    # 01 by the host, while something moves; the instruction is not executed.
+    # 01 by the host during a motion; the instruction is not executed.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.pulse(2, 20)
@@ -56,7 +56,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
     await host.pause(200)
     assert host.condition == 0x10 and host.out("auxo_n") == 0x3F and len(host.pulses()) == 0
     assert not await host.read(CSR) & MWEF
-    # Another one in ABN: the alarm is reported once.
+    # Another 01 in ABN: the alarm is reported once.
     await host.issue(message(Code.OUTPUT, "3F"))
     await host.pause(200)
     assert [await host.response() for _ in range(3)] == [
@@ -65,7 +65,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
         stopped(0x80, 2),
     ]
     assert await host.quiet() and host.out("auxo_n") == 0x3F
-    # With class 1 read, a further one in ABN is reported again.
+    # After class 1 has been read, a further 01 in ABN is reported again.
     await host.issue(message(Code.VERSION))
     await host.pause(200)
     await host.issue(message(Code.VERSION))
@@ -91,7 +91,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
             stopped(0x80, 3 if trigger[1] == "4" else 2),
         ]
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 00")
-    # 01 by an event: its buffer is emptied, the other one is not.
+    # 01 by an event: its buffer is emptied, the other buffer is not.
     host = await Host.start(dut, *TF, register(0, message(Code.INPUT)), register(1, message(Code.TERMINALS)))
     await host.issue(message(Code.VERSION))
     await host.pause(200)
@@ -123,7 +123,7 @@ async def p312_second_stop_report_while_the_first_is_half_read(dut: Any) -> None
 
 @directed("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
 async def p312_reports_come_in_the_order_of_their_classes(dut: Any) -> None:
-    """All classes wait behind one that is being read, created from the last class to the first."""
+    """All classes wait for the one that is being read; they are created from the last class to the first."""
     host = await Host.start(
         dut,
         *TF,
@@ -140,7 +140,7 @@ async def p312_reports_come_in_the_order_of_their_classes(dut: Any) -> None:
     await host.pause(1000)
     await host.read(2)
     assert await host.response() == message(Code.VERSION, "12")
-    # E9 is in the window now.
+    # The read window holds E9 now.
     await host.wait()
     for level in (3, 7, 15):
         await host.pins(auxi=level)
@@ -288,7 +288,7 @@ async def p312_position_triggers_of_all_kinds(dut: Any, order: tuple[int, ...]) 
 
 @directed("P312-BAD-09", "P312-RSP-20", "P312-PAR-06", "P312-CHK-62", "P312-CMD-FF")
 async def p312_hosts_that_never_read(dut: Any) -> None:
-    """Whatever waits unread: no hang, stops still work, FF gets through."""
+    """With any number of unread responses the part does not hang, stops still work, and FF is accepted."""
     host = await Host.start(dut, *TF, register(0, message(Code.INPUT)))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.blip("evt0_n", 20, 300)
@@ -297,7 +297,7 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
     mark = host.t
     await host.pause(20_000)
     assert not host.side.rises("pout", mark) and await host.read(CSR) & MWEF
-    # The bus ignores writes now; reading one answer opens it, FF then needs no reading.
+    # The bus ignores writes now; after one answer is read it accepts them, and FF needs no further read.
     await host.put(message(Code.RESET))
     assert (
         await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
@@ -310,7 +310,7 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
         and await host.read(CSR) == MREF
         and host.condition == 0x01
     )
-    # Table read: MWEF opens with its last block; FF may come only then.
+    # Table read: MWEF is deasserted with its last block; FF is accepted only then.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.TABLE_READ))
     await host.pause(1000)

@@ -12,7 +12,7 @@ from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Answer, Code
 
-# States INI, NOR, ACC, FIX, ABN, WRN; O accepted, . refused. Blocks with 05 for flags have OV = 1.
+# States INI, NOR, ACC, FIX, ABN, WRN; O: accepted, .: rejected. Blocks with flags 05 have OV = 1.
 ROWS = [
     (T1, "OO...."),
     ("02 03 01 01 03", "OO...."),
@@ -64,7 +64,7 @@ CONDITIONS = (0x01, 0x02, 0x04, 0x08, 0x10, 0x20)
 
 
 async def in_state(dut: Any, condition: int) -> Host:
-    """A host whose part is in this state."""
+    """Return a host whose part is in this state."""
     host = await Host.start(dut, *(TF if condition != 0x01 else ()))
     if condition == 0x04:
         await host.ask(message(Code.RAMP, "00 0000 00001388"))
@@ -95,7 +95,7 @@ async def p312_accept_table(dut: Any, case: Any) -> None:
 
 @directed("P312-STA-01", "P312-BLK-01")
 async def p312_a_code_that_is_none(dut: Any) -> None:
-    """The code is looked at before the state, in each of which the answer names it."""
+    """The code is checked before the state: in every state the answer names an undefined code."""
     for condition in CONDITIONS:
         host = await in_state(dut, condition)
         for code in ("07", "48", "FE"):

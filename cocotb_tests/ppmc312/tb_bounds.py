@@ -1,4 +1,4 @@
-"""Bounds that the rules of the PPMC-312 give for FAST, and its ports."""
+"""Upper bounds that the rules of the PPMC-312 state for FAST, and its ports."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import INPUTS, OUTPUTS, SPONTANEOUS, WIDTHS, Answer, Code, Source
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")
-"""Rates 4, 400 and 800 at 8 MHz: 8, 800 and 1600 clk."""
+"""Rates 4, 400 and 800 at 8 MHz: 8, 800 and 1600 cycles."""
 T_INIT, T_EXEC, T_TRIG, T_STOP, T_PIN = 65_536, 4_096, 512, 64, 4
 POLL = 40
-"""clk that the host's poll adds."""
+"""Cycles that the poll of the host adds."""
 
 
 @directed("P312-GEN-11", "P312-GEN-10", "P312-CHK-01")
 async def p312_ports(dut: Any) -> None:
-    """Every port of table 1.3 and no other; the build of the RTL connects them by name."""
+    """The device has exactly the ports of table 1.3; the build of the RTL connects them by name."""
     inputs = (
         "mode d_i rs cs_n we_n oe_n rxd hsp mod adr evt0_n evt1_n auxi epin epdir index_n org_n alm_n end_n"
     )
@@ -52,7 +52,7 @@ async def p312_answers_come_in_time(dut: Any) -> None:
         await host.wait()
         assert host.t - host.header <= T_EXEC + POLL
         await host.response()
-        # t0 is no more than 64 clk before the answer, TW before pulse 1.
+        # t0 is at most 64 cycles before the answer, TW before pulse 1.
         await host.pulse(1)
         await host.ask(message(Code.STOP, "00"))
         await host.response()
@@ -86,7 +86,10 @@ async def p312_stops_come_in_time(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
 async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
-    """The 88 is finished first, which takes the stop beyond 64 clk; whatever the host reads, it stops."""
+    """An 88 in progress is finished before a stop by an event, which then takes more than 64 cycles.
+
+    The motion stops regardless of the reads of the host.
+    """
     longest = 0
     for after in range(1, 260, 6):
         host = await Host.start(dut, *BRISK, message(Code.STOP, "07"))
@@ -103,7 +106,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
         position = f"{host.side.golden.position:08X}"
         if answers[0] == message(
             Code.STOP, source=Source.OVERRIDE
-        ):  # it came first; then there is nothing to change
+        ):  # it was first; then there is no motion to change
             assert (
                 answers[1:]
                 == [
@@ -113,14 +116,14 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
                 and took <= T_STOP
             )
         else:
-            # The answer of the 88 waits to be read: the stop becomes an alarm, at once.
+            # The answer of the 88 is unread: the stop becomes an alarm immediately.
             assert sorted(answers) == [
                 message(Code.CHANGE),
                 message(Answer.ALARM, "01", source=SPONTANEOUS),
                 clean(message(Answer.STOPPED, f"80 {position}", source=SPONTANEOUS)),
             ]
     assert T_STOP < longest <= 200
-    # A host that reads the answer in time gets its stop.
+    # If the host reads the answer in time, the stop is executed.
     host = await Host.start(dut, *BRISK, message(Code.STOP, "07"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0004"))
     assert await host.ask(message(Code.CHANGE, "00 0005")) == message(Code.CHANGE)
@@ -135,7 +138,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")
 async def p312_changes_come_in_time(dut: Any) -> None:
-    """Direct or triggered, at most 512 clk until the rate of the coming intervals has changed."""
+    """A direct or triggered change takes effect on the coming intervals within 512 cycles."""
     for code, rest in (("88", "0320"), ("87", "0320"), ("81", "")):
         for trigger in ("direct", "pin", "position"):
             flags, place = {"direct": ("00", ""), "pin": ("05", ""), "position": ("04", "0000000A")}[trigger]
@@ -169,6 +172,6 @@ async def p312_a_position_acts_on_the_next_interval(dut: Any) -> None:
     for _ in range(2):
         assert await host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
     assert await host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
-    # 12 pulses are left at the first of them: the walk of the deceleration point starts at 200. The second
-    # one makes it constant at 400 for the rest.
+    # 12 pulses are left at the first change: the final deceleration starts at 200. The second change
+    # makes the rate constant at 400 for the remaining pulses.
     assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

@@ -17,7 +17,7 @@ ADDRESSES = range(8)
 @directed("P312-PAR-10", "P312-GEN-01")
 async def p312_write_takes_the_last_sample(dut: Any) -> None:
     host = await Host.start(dut)
-    # Register and data change during the strobe; the last level before its end counts.
+    # Register and data change during the strobe; the last level before its end is used.
     for end, levels in ((2, {"cs_n": 1}), (2, {"we_n": 1}), (1, {"cs_n": 1, "we_n": 1})):
         await host.pins(cs_n=0, we_n=0, rs=WCR, d_i=0x00)
         host.side.set(rs=CSR, d_i=0x70)
@@ -51,14 +51,14 @@ async def p312_reads_drive_the_bus(dut: Any) -> None:
         assert rise - mark in range(0, 5) and fall - mark - 9 in range(0, 5)
         assert host.out("d_o") == value, reg
         assert len([edge for edge in host.side.edges("d_o", mark) if edge[0] > mark + 4]) == 0
-    # One byte is gone; a rewind brings it back.
+    # One byte has been read; a rewind returns to it.
     assert await host.read(RAR) == 0x3D and await host.read(RCR) == 0 and await host.read(RAR) == 0x3C
     assert await host.response() == message(Code.VERSION, "12")
 
 
 @directed("P312-PAR-11", "P312-PAR-08")
 async def p312_one_value_a_strobe(dut: Any) -> None:
-    """A response that comes during a read of CSR, and one that goes, do not change what the strobe shows."""
+    """A response that is loaded or discarded during a read of CSR does not change the value of the read."""
     host = await Host.start(dut, T1)
     await host.issue(message(Code.VERSION))
     mark = host.t
@@ -97,7 +97,7 @@ async def p312_control_bits(dut: Any) -> None:
     await host.write(CSR, 0x50)
     assert await host.read(CSR) & 0x70 == 0x50
     assert await host.response() == message(Code.OUTPUT) and host.out("auxo_n") == 0x00
-    # Bits that the sheet prints as crosses.
+    # Bits that the data sheet prints as crosses.
     assert await host.ask(message(Code.IN_POSITION, "FA 0001")) == message(Code.IN_POSITION)
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
 
@@ -110,7 +110,7 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
         for byte in block:
             await host.write(DWR, byte)
 
-    # Armed once, the window stays open; WAR may come first.
+    # Once armed, the window stays open; WAR may be written first.
     await host.write(WAR, 0x1D)
     await host.write(WCR, 0x20)
     await data(0x40, 0x01, 0x03)
@@ -118,7 +118,7 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
     await host.write(WAR, 0x1D)
     await data(0x40, 0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12")
-    # Disarmed in the middle, armed again: the bytes between are lost.
+    # The window is disarmed in the middle and armed again: the bytes in between are discarded.
     await host.write(WAR, 0x1D)
     await data(0x40)
     await host.write(WCR, 0x21)
@@ -126,18 +126,18 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
     await host.write(WCR, 0x20)
     await data(0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12")
-    # A new address forgets what was written.
+    # A new address discards the bytes written before.
     await host.write(WAR, 0x1C)
     await data(0x01, 0x26, 0x02)
     await host.write(WAR, 0x1D)
     await data(0x40, 0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12") and host.out("auxo_n") == 0x3F
-    # Outside: nothing is stored, and the pointer does not move, not even round and back to the top.
+    # Outside the window no byte is stored and the pointer does not move, not even round and back to the top.
     for war in (0x20, 0x21, 0x3D, 0x80, 0xBD, 0xFF):
         await host.write(WAR, war)
         await data(*(0x40, 0x01, 0x03) * 13)
         assert await host.quiet(200) and not await host.read(CSR) & MWEF
-    # A whole window, and the first and last address that work.
+    # A whole window, and the first and last valid address.
     await host.put("03 1E" + " 40" * 30)
     assert await host.response() == "03 1E F0 23" + " 40" * 28
     await host.put("03", war=0x1F)
@@ -148,7 +148,7 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
 async def p312_writes_while_an_instruction_is_processed(dut: Any) -> None:
     host = await Host.start(dut)
     await host.issue(T1)
-    # None of these counts: the window stays armed, the pointer at its end.
+    # All these writes are ignored: the window stays armed, the pointer at its end.
     await host.write(WCR, 0x00)
     await host.write(WAR, 0x1D)
     for byte in (0x40, 0x01, 0x03):
@@ -175,7 +175,7 @@ async def p312_reads_in_any_order(dut: Any) -> None:
         assert await host.read(RAR) == 0x38
         assert [await host.read(DRR) for _ in range(count)] == want[:count]
         assert await host.read(RAR) == 0x38 + count and not await host.read(CSR) & MREF
-    # Writes to the same addresses are writes; the reading goes on.
+    # Writes to the same addresses are writes; the read continues.
     await host.write(RCR, 0x00)
     await host.write(DRR, 0x00)
     await host.write(RAR, 0x00)
@@ -231,6 +231,6 @@ async def p312_wait_request_of_reads_and_writes(dut: Any) -> None:
     await host.issue(message(Code.OUTPUT, "11"))
     mark = host.mark
     await host.pause(40)
-    # Three of the four strobes come too soon after the one before; in DATASHEET it never gets high between.
+    # Three of the four strobes follow too soon after the previous one; in DATASHEET wrq_n stays low between.
     assert len(host.side.falls("wrq_n", mark)) == (1 if slow else 3)
     assert await host.response() == message(Code.OUTPUT) and host.out("auxo_n") == 0x2E

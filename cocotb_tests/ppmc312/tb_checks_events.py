@@ -18,7 +18,7 @@ FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
 
 def at(position: int, code: int = 0x80) -> str:
-    """80 or 81 at a position."""
+    """Return the block of an 80 or 81 at a position."""
     return message(code, f"04 {position:08X}")
 
 
@@ -327,7 +327,7 @@ async def p312_one_edge_is_remembered(dut: Any) -> None:
     await host.pause(4)
     await host.pins(evt0_n=1)
     await host.pause(500)
-    # The second edge of evt0 and the one of evt1 were worked on before the first answer was read.
+    # The second edge of evt0 and the edge of evt1 are processed before the first answer is read.
     assert {await host.response(), await host.response()} == {
         message(Code.OUTPUT, source=Source.EVENT),
         message(Answer.ALARM, "01", source=SPONTANEOUS),

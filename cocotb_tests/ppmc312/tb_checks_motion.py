@@ -54,7 +54,10 @@ async def p312_worked_moves(dut: Any, case: Any) -> None:
 )
 @directed("P312-CHK-17")
 async def p312_long_moves(dut: Any, case: Any) -> None:
-    """At F = 8 MHz, 2 clk a tick, so that nobody has to wait for 70 million clk."""
+    """Long moves of all curves have the expected number, rates and total time of pulses.
+
+    At F = 8 MHz a tick lasts 2 cycles, which keeps the simulation short.
+    """
     setting, n, total, first, last = case
     block = bytearray.fromhex(setting)
     block[3] &= 0xF8
@@ -133,7 +136,7 @@ async def p312_positions_wrap(dut: Any) -> None:
 
 
 def highs(host: Host) -> list[int]:
-    """High times of pout since `mark`."""
+    """Return the high times of pout since `mark`."""
     changes = host.side.edges("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
 
@@ -226,7 +229,7 @@ async def p312_current_reduction(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.response()
     await host.pause(1_584_000)
-    # Runs on past the time of the timer that its t0 has stopped.
+    # The motion lasts longer than the time of the timer that its t0 has stopped.
     await host.ask(message(Code.CONSTANT, "00 0190 0000000A"))
     await host.response()
     await host.pause(1_000_000)

@@ -1,4 +1,4 @@
-"""Base clocks of the PPMC-312: other crystals and clocks, shortest interval, EXTCK."""
+"""Base clocks of the PPMC-312: other crystals and clock frequencies, shortest interval, EXTCK."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ STOP = message(Code.STOP, "00")
 
 
 def highs(host: Host) -> list[int]:
-    """High times of pout since `mark`."""
+    """Return the high times of pout since `mark`."""
     changes = host.side.edges("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
 

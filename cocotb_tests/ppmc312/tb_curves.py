@@ -1,4 +1,4 @@
-"""Free curves of the PPMC-312: transfers, errors in them, what disturbs them."""
+"""Free curves of the PPMC-312: transfers, errors in them, disturbances."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-CMD-01", "P312-CMD-FC-1", "P312-CMD-FC-10", "P312-CMD-41")
 async def p312_a_combined_curve_may_be_announced_with_four_bytes(dut: Any) -> None:
-    """LE = 0 with L = 04: the last byte means nothing, whatever it is; 03 and 04 are the only lengths."""
+    """LE = 0 with L = 04: the last byte is ignored; 03 and 04 are the only lengths."""
     for last in ("00", "01", "02", "7F", "80", "FF"):
         host = await Host.start(dut)
         assert await host.ask(f"02 04 01 01 03 {last}") == message(Code.FREE_CURVE, "00 03")
@@ -34,7 +34,7 @@ async def p312_a_combined_curve_may_be_announced_with_four_bytes(dut: Any) -> No
 
 
 def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[int, int]) -> list[str]:
-    """Blocks of a transfer with so many rates and pulse numbers a block."""
+    """Return the blocks of a transfer; step: the largest number of rates and of pulse numbers in a block."""
     blocks = [
         bytes([2, 3 + (down is not None), 1, 0x11 if down else 1, len(up), *([len(down)] if down else [])])
     ]
@@ -48,7 +48,7 @@ def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[i
 
 
 CURVES = {
-    # The longest in the longest blocks, sides of their own, and one value a block.
+    # The longest curve in the longest blocks, separate tables, and one value in each block.
     "longest": ([300 + 3 * k for k in range(127)], [2 + k for k in range(127)], None, (15, 10)),
     "two-sides": (
         [50 * (k + 1) for k in range(9)],
@@ -92,7 +92,7 @@ async def p312_free_curves(dut: Any, case: tuple) -> None:
     head, got = await read_table(host)
     assert head[:3] == [len(rates), len(up), len(down) if down else 0]
     assert got == [rates, up, down or []]
-    # Highest and lowest rate that may be asked for: of stage 126 and of the first stage in use.
+    # Highest and lowest rate that an instruction may request: of stage 126 and of the first stage in use.
     assert (await host.ask(message(Code.CONSTANT, f"00 {rates[0] - 1:04X} 00000001")))[6:11] == "F0 20"
     if rates[-1] < 0xFFFF:
         assert (await host.ask(message(Code.CONSTANT, f"00 {rates[-1] + 1:04X} 00000001")))[6:11] == "F0 20"
@@ -102,7 +102,7 @@ async def p312_free_curves(dut: Any, case: tuple) -> None:
 
 
 FC_ERRORS = [
-    # Code blocks.
+    # Errors of code blocks.
     ("11", ("02 04 01 11 01 03",)),
     ("11", ("02 04 01 11 03 01",)),
     ("11", ("02 04 01 11 80 03",)),
@@ -150,7 +150,7 @@ async def p312_errors_of_each_free_curve_block(dut: Any, case: Any) -> None:
 
 @directed("P312-CMD-FC-8", "P312-RSP-20", "P312-BAD-11", "P312-INP-31", "P312-CMD-FF")
 async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
-    # The answer to a block is not read: alarm, no transfer any more.
+    # The answer to a block is not read: alarm, and the transfer is aborted.
     host = await Host.start(dut, T1, TF[0])
     await host.issue(TF[1])
     await host.pause(200)
@@ -162,7 +162,7 @@ async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
     assert await host.ask(TF[2]) == message(Answer.STATUS, "01 10")
     await host.ask(message(Code.ALARM_CLEAR))
     assert host.condition == 0x01
-    # Other instructions do not open one; a curve is complete only once.
+    # Other instructions do not start a transfer; a curve is complete only once.
     for block in (TF[2], "00 02 0064", "07 01 40"):
         assert await host.ask(block) == message(Answer.STATUS, "01 01")
     for block in TH:
@@ -172,7 +172,7 @@ async def p312_a_transfer_that_is_disturbed(dut: Any) -> None:
     assert (rates, up, down) == ([100, 200, 400], [6, 4], [5, 4, 3]) and head[:3] == [3, 2, 3]
     for block in ("02 01 40", "02 02 80 00", "02 09 00 01 03E8 00C8 0007D0"):
         assert await host.ask(block) == message(Answer.STATUS, "01 02")
-    # A block after an unread answer, then FF: it goes through at once.
+    # A block after an unread answer, then FF: FF is executed immediately.
     await host.ask(TF[0])
     await host.issue(TF[1])
     await host.pause(200)

@@ -39,7 +39,10 @@ async def p312_datasheet_setting_times(dut: Any, case: Any) -> None:
 
 @directed("P312-INP-01", "P312-INP-20", "P312-TIM-14", "P312-CMD-27", builds=(D16,))
 async def p312_datasheet_run_is_the_plain_pin(dut: Any) -> None:
-    """RUN starts and holds an operation without the 200 us of the other pins; 27 shows these plain."""
+    """RUN starts and holds an operation without the 200 us filter of the other pins.
+
+    Instruction 27 returns the unfiltered levels of these pins.
+    """
     host = await Host.start(dut, *TF)
     for low in (1, 2, 100, 5000):
         await host.pins(run=0)
@@ -48,7 +51,7 @@ async def p312_datasheet_run_is_the_plain_pin(dut: Any) -> None:
         mark = host.mark = host.t
         await host.pins(run=1)
         await host.pause(low - 1)
-        await host.pins(run=0)  # one clk of RUN is enough
+        await host.pins(run=0)  # RUN high for one cycle is enough
         assert (
             await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)
             and host.condition == 0x08
@@ -57,7 +60,7 @@ async def p312_datasheet_run_is_the_plain_pin(dut: Any) -> None:
         assert await host.pulse(1) - mark in range(80, 80 + 8)
         await host.ask(STOP)
         await host.response()
-    # Low for 20 clk: it counts where it is tested, directly before t0, and nowhere else.
+    # Low for 20 cycles: the level takes effect only where it is sampled, directly before t0.
     host = await Host.start(dut, *TF)
     await host.issue(message(Code.STEP, "00"))
     delay = await host.pulse(1) - 80 - host.header
@@ -156,7 +159,10 @@ async def p312_datasheet_stop_and_pins(dut: Any) -> None:
 
 @directed("P312-TIM-12", "P312-BLK-01", builds=(D16,))
 async def p312_datasheet_stop_of_what_ends_by_itself(dut: Any) -> None:
-    """80 is judged when it comes: that the status is RDY after its 350 us is no error."""
+    """80 is validated when it arrives, and a motion that ends before the stop is executed is not an error.
+
+    The status is RDY when the 350 us of the stop have passed.
+    """
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.CONSTANT, "00 0064 00000008"))
     mark = host.mark

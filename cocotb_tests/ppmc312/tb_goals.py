@@ -1,6 +1,6 @@
-"""What a replacement is to be good for: 2 Mpps, pulses 20 us after the instruction, tables within 5 ms.
+"""Goals of a replacement: 2 Mpps, pulse 1 within 20 us of the instruction, tables within 5 ms.
 
-At 50 MHz, where the base clocks are no whole number of clk. The figures are printed.
+The tests run at 50 MHz, where a base clock is not a whole number of cycles. The measured values are printed.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FAST = ("02 03 01 00 03", "00 06 0004 0008 0010", "01 09 000032 000014 00000A")
 
 @directed("P312-MOT-01", "P312-MOT-02", "P312-MOT-05", "P312-MOT-07", "P312-CHK-63", builds=(F50,))
 async def p312_two_million_pulses_a_second(dut: Any) -> None:
-    """Given F = 8 MHz and rate 4, when 3000 pulses have been output, then none is a clk off or missing."""
+    """With F = 8 MHz and rate 4, all 3000 pulses are output at their exact cycle."""
     host = await Host.start(dut, *FAST)
     await host.ask(message(Code.RAMP, "00 0000 00000BB8"))
     assert await host.response() == message(Answer.STOPPED, "40 00 00 0B B8", source=SPONTANEOUS)
@@ -40,7 +40,7 @@ async def p312_two_million_pulses_a_second(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-MOT-01", "P312-CMD-00", builds=(F50,))
 async def p312_tables_and_starts_at_50_mhz(dut: Any) -> None:
-    """Given tables of all kinds, when they are set and motions started, then within 5 ms and 20 us."""
+    """Tables of all kinds are built within 5 ms, and motions start within 20 us."""
     longest = 0.0
     for setting in (
         T1,
@@ -70,7 +70,7 @@ async def p312_tables_and_starts_at_50_mhz(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-MOT-01", builds=(F50,))
 async def p312_the_longest_plan(dut: Any) -> None:
-    """Given a table with two sides of all lengths, when a triangle is planned, then pulse 1 is in time."""
+    """With two different ramps, a triangular profile is planned in time: pulse 1 follows within 20 us."""
     table = build(1000, 328, 200, 3000, 3000)
     assert table.sa == 0 and table.sd > 0
     host = await Host.start(dut, message(Code.INITIAL, "10 03E8 0148 00C8 000BB8 000BB8"))

@@ -17,7 +17,7 @@ from openppmc.model.ppmc312.codes import Answer, Code, Source
 
 from .serial_frames import T_INIT
 
-# Flags and rates before NA; the least NA; bytes after NA. From P312-TBL-04: about
+# Flags and rates before NA; the least NA; bytes after NA. P312-TBL-04 results in about
 # 2 * 8001 * (Rs + RH) / (126 * RH).
 LEAST = [
     ("01 03E8 00C8", 762, ""),
@@ -48,7 +48,7 @@ STEEP = (
 
 
 def doubled(rates: range) -> list[int]:
-    """Two intervals of each rate."""
+    """Return two intervals of each rate."""
     return [rate for each in rates for rate in (each, each)]
 
 
@@ -75,7 +75,7 @@ async def p312_least_pulses_of_a_table(dut: Any, case: Any) -> None:
 @cocotb.parametrize(case=[case for case in LEAST if not case[0].startswith("1")])
 @directed("P312-TBL-05", "P312-CHK-08", "P312-SER-41", "P312-SER-47")
 async def p312_serial_least_pulses_of_a_table(dut: Any, case: Any) -> None:
-    """The limits of the serial line are those of the bus: reply 42, or ready."""
+    """The serial line has the limits of the bus: the reply is 42, or ready."""
     head, least, _ = case
     host = await SerialHost.start(dut)
     for pulses, reply in ((least - 1, "B0 42"), (least, "90"), (least + 1, "90")):
@@ -101,7 +101,7 @@ async def p312_least_table_from_an_event(dut: Any) -> None:
 @cocotb.parametrize(direction=[0, 0x40])
 @directed("P312-TBL-05", "P312-MOT-01", "P312-MOT-12", "P312-MOT-20", "P312-MOT-30", "P312-GEN-06")
 async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
-    """Operations, a triangle and a deceleration stop keep every interval of a table with 2-pulse stages."""
+    """Operations, a triangular profile and a deceleration stop keep all intervals of 2-pulse stages."""
     sign = -1 if direction else 1
     host = await Host.start(dut, FAST)
     _, (rates, up, _) = await read_table(host)
@@ -114,7 +114,7 @@ async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
         position += sign * number
         assert await host.response() == stopped(0x40, position)
         assert host.gaps(TICK) == (ramp + [4] * constant + ramp[::-1])[:-1]
-    # A triangle: half of the pulses each way.
+    # A triangular profile: half of the pulses in each ramp.
     assert await host.ask(message(Code.RAMP, f"{direction:02X} 0000 0000000B")) == message(Code.RAMP, "10")
     position += sign * 11
     assert await host.response() == stopped(0x40, position)
@@ -134,14 +134,14 @@ async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
 @cocotb.parametrize(direction=[0, 0x40])
 @directed("P312-CMD-FC-4", "P312-MOT-12", "P312-MOT-30", "P312-MOT-32", "P312-OVR-11", "P312-MOT-31")
 async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -> None:
-    """Stages of 2 pulses at 130 to 4 ticks of 125 ns: ramps, 81, 87 and 88 change at the right pulse."""
+    """With stages of 2 pulses at 130 to 4 ticks of 125 ns, ramps, 81, 87 and 88 act at the right pulse."""
     sign = -1 if direction else 1
     host = await Host.start(dut, *STEEP)
     climb, fall = doubled(range(130, 3, -1)), doubled(range(4, 131))
     assert await host.ask(message(Code.RAMP, f"{direction:02X} 0000 {512:08X}")) == message(Code.RAMP, "00")
     assert await host.response() == stopped(0x40, sign * 512)
     assert host.gaps(TICK) == (climb + [4] * 4 + fall)[:-1]
-    # 81 in the middle of the acceleration, registered at a position: the walk begins at the stage reached.
+    # 81 during the acceleration, registered at a position: the deceleration begins at the stage reached.
     await host.ask(message(Code.POSITION_SET, "00 00000000"))
     at = (sign * 100) & 0xFFFFFFFF
     assert await host.ask(message(Code.SLOW_STOP, f"04 {at:08X}")) == message(Answer.REGISTERED)
@@ -154,7 +154,7 @@ async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -
     assert gaps[turn:] == doubled(range(top, 131))[:-1] and gaps[:turn] == climb[:turn]
     assert 100 <= turn < 140
     assert await host.response() == stopped(0x08, sign * (len(gaps) + 1))
-    # 87 up and down between constant rates, then 88.
+    # 87 to a higher and to a lower speed between constant rates.
     await host.ask(message(Code.FOREVER_CONSTANT, f"{direction:02X} 0082"))
     mark = host.mark
     await host.pulse(4)

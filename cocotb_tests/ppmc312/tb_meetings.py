@@ -1,4 +1,4 @@
-"""Things that meet on the PPMC-312: events, overrides, host blocks and pins while something is processed."""
+"""Collisions on the PPMC-312: events, overrides, host blocks and pins during an instruction."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ async def p312_host_goes_next_after_one_event(dut: Any) -> None:
     await put_with(host, message(Code.SPEED_LIMIT, "0100"), evt0_n=0, evt1_n=0)
     await host.pause(500)
     assert await host.response() == message(Code.INPUT, "00", source=Source.EVENT)
-    # The event on the second pin finds the answer of the first one unread.
+    # The event on the second pin occurs while the answer of the first is unread.
     assert await host.response() == message(Answer.ALARM, "01", source=SPONTANEOUS)
     assert await host.response() == message(Code.SPEED_LIMIT)
 
@@ -205,7 +205,10 @@ async def p312_event_buffer_before_an_override_on_the_same_edge(dut: Any) -> Non
 
 @directed("P312-RSP-20", "P312-PAR-06")
 async def p312_an_answer_due_as_the_one_before_it_is_read(dut: Any) -> None:
-    """The read of the last byte ends some clk before, with and behind the end of the host's instruction."""
+    """An answer is delivered whether it is ready before, when or after the previous one is read.
+
+    The read of the last byte ends some cycles before, at and after the end of the host's instruction.
+    """
     for shift in range(18, 38):
         host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
         await host.write(CSR, 0x30)
@@ -224,7 +227,7 @@ async def p312_an_answer_due_as_the_one_before_it_is_read(dut: Any) -> None:
 @cocotb.parametrize(pin=["fl_n", "bhl_n"])
 @directed("P312-INP-11")
 async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
-    """The pin falls some clk before, with and behind the look at the limits."""
+    """A start is rejected if a limit is asserted by the cycle of its check, otherwise it is accepted."""
     refused = []
     for shift in range(16, 40):
         host = await Host.start(dut, *TF)
@@ -240,7 +243,10 @@ async def p312_a_limit_about_the_check_of_a_start(dut: Any, pin: str) -> None:
 @cocotb.parametrize(code=[Code.FOREVER_CONSTANT, Code.VERSION])
 @directed("P312-RSP-11", "P312-MON-04")
 async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code) -> None:
-    """The encoder leaves its window some clk before, with and behind the effect: what is read first."""
+    """The order of the responses depends on the cycle in which the encoder leaves its window.
+
+    The encoder leaves it some cycles before, at and after the effect of an instruction.
+    """
     first = []
     for shift in range(8, 40):
         host = await Host.start(dut, *TF)
@@ -262,7 +268,7 @@ async def p312_a_report_about_the_effect_of_an_instruction(dut: Any, code: Code)
 @cocotb.parametrize(gap=range(38, 56, 3))
 @directed("P312-OVR-10", "P312-RSP-20", "P312-EVT-04")
 async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> None:
-    """The first edge has released the only override of its pin while the entry was being registered."""
+    """A second edge during a registration is an alarm: the first edge has released the only override."""
     host = await Host.start(dut, *TF, message(Code.STOP, "07"))
     await host.put(message(Code.EVENT_SET, "01", message(Code.INPUT)), gap=0)
     await host.go(host.header + 6)
@@ -279,7 +285,7 @@ async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> No
 @cocotb.parametrize(shift=range(-3, 5))
 @directed("P312-OVR-12", "P312-MOT-34", "P312-RSP-20")
 async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
-    """80 by an event, around the clk in which the pulse that a position waits for is made."""
+    """80 by an event, near the cycle of the pulse that a position waits for, stops at pulse 9 or 10."""
     setting = (message(Code.STOP, "04 0000000A"), message(Code.EVENT_SET, "00", message(Code.STOP, "00")))
     host = await Host.start(dut, *TF, *setting)
     pace = host.side.golden.pace
@@ -295,7 +301,10 @@ async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
 
 @directed("P312-OVR-10", "P312-CMD-41")
 async def p312_an_event_about_the_next_block_of_a_table(dut: Any) -> None:
-    """An event finds an answer of the table unread: its report comes before the next block, or behind it."""
+    """An event while an answer of the table read is unread causes an alarm.
+
+    Its report is read before the next block of the table or after it.
+    """
     report, first = message(Answer.ALARM, "01", source=SPONTANEOUS), set()
     for gap in range(12):
         host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))

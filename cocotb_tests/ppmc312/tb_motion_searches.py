@@ -1,4 +1,4 @@
-"""Origin searches and zero returns of the PPMC-312 in every form, and what ends them."""
+"""Origin searches and zero returns of the PPMC-312 in every form, and the causes that end them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ async def p312_searches_in_every_form(dut: Any) -> None:
                 await host.pins(index_n=0)
             count = 6 if index else 4
             assert await host.response() == stopped(0x20, count * sign)
-            # 11: the way back at R[sa]; nothing rests between the phases.
+            # 11: the return at R[sa]; there is no standstill between the phases.
             await host.pins(org_n=1, index_n=1)
             await host.ask(message(Code.POSITION_SET, "00 00000000"))
             assert host.out("zclmp_n") == 0
@@ -56,7 +56,7 @@ async def p312_searches_in_every_form(dut: Any) -> None:
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-34")
 async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
-    # At the origin before pulse 1, and too slow for a walk: phase 2 at once.
+    # At the origin before pulse 1, or at a rate too low for a deceleration: phase 2 follows immediately.
     for rate, number in (("0000", 0), ("0190", 3)):
         host = await Host.start(dut, *TF)
         if not number:
@@ -67,7 +67,7 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
             await host.pins(org_n=0)
         assert await host.response() == stopped(0x20, number)
         assert len(host.pulses()) == number and host.out("dir") == 1
-    # Stops of phase 1 end it.
+    # Stops in phase 1 end the operation.
     for act, cause in (
         ({"fl_n": 0}, 0x01),
         ({"fhl_n": 0}, 0x02),
@@ -106,7 +106,8 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
 async def p312_zero_return_whose_origin_meets_a_slow_stop(dut: Any) -> None:
-    # Too slow for a walk: of both in one interval the stop counts, and there is no way back.
+    # The rate is too low for a deceleration: with both in one interval the stop has priority,
+    # and there is no return.
     for origin_first in (False, True):
         host = await Host.start(dut, *TF)
         await host.ask(message(Code.ZERO_RETURN, "00 0190"))

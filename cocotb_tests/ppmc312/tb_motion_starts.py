@@ -1,4 +1,4 @@
-"""Starts of the PPMC-312: rates that may be asked for, forms, plans, held starts, pulse 1."""
+"""Starts of the PPMC-312: legal rates, forms, plans, held starts, pulse 1."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ async def p312_rates_that_may_be_asked_for(dut: Any) -> None:
     "P312-GEN-10",
 )
 async def p312_forms_of_the_starts(dut: Any) -> None:
-    # 84 at R[sa]: the end of the motion comes one interval after its pulse.
+    # 84 at R[sa]: the motion ends one interval after its pulse.
     for table, rate in ((TF, 400), (TG, 400), (TH, 200), (ODD, 200)):
         host = await Host.start(dut, *table)
         await host.ask(message(Code.STEP, "40"))
@@ -98,7 +98,7 @@ async def p312_forms_of_the_starts(dut: Any) -> None:
 
 @directed("P312-MOT-10", "P312-MOT-11", "P312-MOT-12", "P312-BAD-15", "P312-GEN-06")
 async def p312_plans_on_an_odd_table(dut: Any) -> None:
-    """t(x) is the last stage that is slow enough, whatever comes before it."""
+    """t(x) is the last stage that is slow enough, regardless of the stages before it."""
     host = await Host.start(dut, *ODD)
     for n, rate, kind, pulses in (
         (30, 0, "00", "200x3 300x4 100x16 300x7"),
@@ -177,7 +177,7 @@ async def p312_every_start_is_held(dut: Any) -> None:
         assert await host.ask(message(Code.FOREVER_CONSTANT, "00 0064")) == message(Answer.STATUS, "00 20")
         await host.pins(run=1)
         assert await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)
-        # RUN means nothing any more.
+        # RUN is ignored from here on.
         await host.pins(run=0)
         host.mark = mark
         await host.pulse(1)
@@ -194,7 +194,7 @@ async def p312_every_start_is_held(dut: Any) -> None:
 
 @directed("P312-MOT-32", "P312-MOT-30", "P312-MOT-31", "P312-INP-12")
 async def p312_changes_that_wait_for_pulse_1(dut: Any) -> None:
-    """The newest one counts, and it starts from the plan's rate, not from that of one which was replaced."""
+    """The newest change is used; it starts from the rate of the plan, not from that of a replaced change."""
     setting = ("02 03 01 06 03", "00 06 0008 000C 0010", "01 09 000003 000002 000003")
 
     async def seen(host: Host) -> list[int]:

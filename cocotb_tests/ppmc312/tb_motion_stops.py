@@ -1,4 +1,4 @@
-"""Stops of the PPMC-312: causes that meet, immediate stops, limits, high-speed limits."""
+"""Stops of the PPMC-312: causes that coincide, immediate stops, limits, high-speed limits."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ async def p312_causes_that_come_together(dut: Any) -> None:
     ):
         host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "FFFF"))
         await host.ask(start)
-        await host.pulse(3, 20)  # pout is high, and it stays so for its time
+        await host.pulse(3, 20)  # pout is high and stays high for the pulse width
         low = host.t
         await host.pins(**levels)
         if cause == 0x80:
@@ -50,7 +50,7 @@ async def p312_immediate_stops_cut_the_interval_short(dut: Any) -> None:
         await host.pause(70)
         assert host.condition == (0x10 if pin == "alm_n" else 0x02)
         assert host.pulses()[-1] == edge
-    # After the last pulse the cause is NOS, and the interval still ends at once.
+    # After the last pulse the cause is NOS, and the interval still ends immediately.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.CONSTANT, "00 0190 00000002"))
     await host.pulse(2, 2000)
@@ -72,7 +72,7 @@ async def p312_limits_of_both_directions(dut: Any) -> None:
         host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "00C8"))
         away = dict.fromkeys(own[1 - ccw], 0)
         await host.pins(**away)
-        # Starts with the limits of the other direction, and runs past them.
+        # The motion starts and continues with the limits of the other direction asserted.
         await host.ask(message(Code.CONSTANT, f"{ccw << 6:02X} 0064 00000003"))
         assert await host.response() == stopped(0x40, 3 * sign)
         limit, slow = own[ccw]
@@ -102,7 +102,7 @@ async def p312_limits_of_both_directions(dut: Any) -> None:
         await host.pins(**{slow: 0})
         await host.pulse(4, 20)
         await host.ask(change(0x88, 200))
-        # As fast as HSL now: the walk begins with the interval after the next boundary.
+        # The rate now equals HSL: the deceleration begins with the interval after the next boundary.
         assert (await host.response())[:11] == "23 06 E0 02"
         assert host.gaps()[-7:] == rates("200x5 400x2")
 
@@ -115,12 +115,12 @@ async def p312_high_speed_limit_and_88(dut: Any) -> None:
     await host.pulse(3, 20)
     await host.pins(fhl_n=0)
     await host.pulse(5, 20)
-    # Slower than HSL: the walk is cancelled and does not come back.
+    # Slower than HSL: the deceleration is cancelled and does not resume.
     assert await host.ask(change(0x88, 300)) == message(Code.CHANGE)
     host.mark = mark
     await host.pulse(12, 20)
     assert host.gaps() == rates("100x5 300x6")
-    # Fast enough again: another walk, from the table's stage.
+    # Fast enough again: another deceleration, from the stage of the table.
     assert await host.ask(change(0x88, 150)) == message(Code.CHANGE)
     await host.response()
     host.mark = mark
@@ -134,7 +134,7 @@ async def p312_limits_act_from_the_first_clk_of_a_held_motion(dut: Any) -> None:
         await host.pins(run=0)
         assert await host.ask(message(Code.CONSTANT, "00 0064 00000002")) == message(Code.CONSTANT, "01")
         await host.pins(**levels)
-        # A new table cannot come between; what is held is fixed.
+        # No new table can be set in between: a held motion is fixed.
         assert await host.ask(message(Code.SPEED_LIMIT, "FFFF")) == message(Answer.STATUS, "00 20")
         await host.pins(run=1)
         assert await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)

@@ -1,4 +1,4 @@
-"""Walks over the stages of a table of the PPMC-312, and changes of rate in the middle of them."""
+"""Walks over the stages of a table of the PPMC-312, and rate changes during them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ EQUAL = (
     "00 0A 0064 00C8 00C8 0190 0190",
     "01 0F 000005 000004 000003 000002 000002",
 )
-# R[122..126] = 500 400 400 200 100, pa = 3 3 3 4 5, pd = - - - 30 6: the equal ones are slower than R[sd].
+# R[122..126] = 500 400 400 200 100, pa = 3 3 3 4 5, pd = - - - 30 6: the equal rates are slower than R[sd].
 SLOW_EQUAL = (
     "02 04 01 11 05 02",
     "00 0A 0064 00C8 0190 0190 01F4",
@@ -43,7 +43,7 @@ UNEVEN = (
 
 
 WALKS = [
-    # Table, start, what is done after which pulses, all intervals, cause.
+    # Table, start, (pulses, instruction after them), all intervals, cause.
     (TG, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x6 200x4", 0x08),
     (TG, f"{ALWAYS} 0096", [(4, SLOW_STOP)], "150x4 200x4", 0x08),
     (TG, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4", 0x10),  # as slow as the stop speed
@@ -70,7 +70,7 @@ WALKS = [
     ),
     (TF, message(Code.RAMP, "00 0000 0000001E"), [(29, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x2", 0x10),
     (TF, message(Code.RAMP, "00 0000 0000001E"), [(30, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x3", 0x40),
-    # Ramps of 87, and where they meet the deceleration point.
+    # Ramps of 87, and their collision with the deceleration point.
     (TF, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 150))], "400x3 200x4 150x13", 0x40),
     (TH, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 100))], "400x3 200x4 100x13", 0x40),
     (TG, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 400))], "100x3 200x4 400x13", 0x40),
@@ -127,7 +127,7 @@ WALKS = [
         "100x4 300x2 250x4",
         0x40,
     ),
-    # Equal neighbouring rates: the last of them counts for a constant rate, its own stage for a stage.
+    # Equal neighbouring rates: a constant rate uses the last of them, a stage uses its own.
     (EQUAL, message(Code.RAMP, "00 0000 00000028"), [], "400x4 200x7 100x18 200x7 400x4", 0x40),
     (EQUAL, message(Code.RAMP, "00 0190 00000006"), [(5, SLOW_STOP)], "400x5", 0x10),
     (EQUAL, message(Code.FOREVER_RAMP, "00 0000"), [(1, SLOW_STOP)], "400x1", 0x10),
@@ -162,8 +162,8 @@ WALKS = [
         "400x4 200x7 100x7 200x13 400x6 200x3",
         0x40,
     ),
-    # A ramp that ends at the deceleration point without a walk: the next 87 starts from t(R_c), not from the
-    # stage in which it ended.
+    # A ramp that ends at the deceleration point without a walk: the next 87 starts from t(R_c), not from
+    # the stage in which the ramp ended.
     (
         SLOW_EQUAL,
         message(Code.RAMP, "00 0096 0000003C"),
@@ -178,7 +178,7 @@ WALKS = [
         "400x9 200x13 400x7 200x11",
         0x40,
     ),
-    # The same where rates do not fall: t(400) = t(401) = 125, so that 87 finds stages to slow down with.
+    # The same with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages to decelerate.
     (
         UNEVEN,
         message(Code.RAMP, "00 0064 00000050"),
@@ -193,7 +193,7 @@ WALKS = [
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
         0x40,
     ),
-    # Two held for one boundary: the newer one counts.
+    # Two changes are held for one boundary: the newer one is used.
     (
         TF,
         message(Code.CONSTANT, "00 0190 0000000A"),
@@ -229,9 +229,9 @@ async def p312_walks_and_changes(dut: Any, case: Any) -> None:
 
 @directed("P312-MOT-33", "P312-MOT-32", "P312-OVR-11", "P312-STA-01")
 async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
-    """The second one is accepted before the ramp of the first begins, and comes too late for its boundary.
+    """An 87 that is accepted before the ramp of another 87 begins is held in that ramp and then discarded.
 
-    It is held in the ramp, and dropped where that ends: the rest is not sped up.
+    It is too late for the boundary of the first 87. The remaining pulses are not accelerated.
     """
     for ahead in (30, 60, 100, 140):
         host = await Host.start(dut, *TF)
@@ -251,7 +251,7 @@ async def p312_two_87_across_the_deceleration_point(dut: Any) -> None:
 
 @directed("P312-MOT-32", "P312-OVR-03", "P312-OVR-11", "P312-STA-01")
 async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: Any) -> None:
-    """Accepted before the ramp of a direct 87 begins, it is held over all steps of that ramp."""
+    """An override with 87, accepted before the ramp of a direct 87 begins, is held until that ramp ends."""
     for ahead in (40, 60, 100, 140):
         host = await Host.start(dut, *TF, message(Code.RAMP_CHANGE, "05 0190"))
         await host.ask(f"{ALWAYS} 0190")
@@ -270,8 +270,11 @@ async def p312_an_override_with_a_ramp_waits_for_the_end_of_another_ramp(dut: An
 
 @directed("P312-MOT-12", "P312-MOT-31", "P312-OVR-11", "P312-CMD-88")
 async def p312_stages_go_on_while_an_88_is_looked_up(dut: Any) -> None:
-    """The look-up of its rate takes longer than a stage here, and the motion needs the table meanwhile."""
-    steps = range(10, 34, 2)  # 2 clk each: stages of 40 .. 130 clk
+    """The motion traverses the stages while the rate of an 88 is looked up.
+
+    The look-up takes longer than a stage here, and the motion reads the table during this time.
+    """
+    steps = range(10, 34, 2)  # 2 cycles each: stages of 40 .. 130 cycles
     curve = ("02 04 01 10 0C 02", f"00 18 {''.join(f'{rate:04X}' for rate in steps)}")
     pulses = ("00 1E " + "000002" * 10, "00 06 000002 000003", "01 06 000009 000009")
     climb = [rate for rate in reversed(steps) for _ in range(3 if rate == 32 else 2)]

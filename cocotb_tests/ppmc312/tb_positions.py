@@ -1,4 +1,4 @@
-"""Positions, windows, interlock and input monitor of the PPMC-312 at their pins (chapters 3.4, 7)."""
+"""Positions, windows, interlock and input monitor of the PPMC-312 at its pins (chapters 3.4, 7)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 async def encoder(host: Host, count: int) -> None:
-    """So many edges of the encoder, negative ones CCW, as fast as they may come."""
+    """Apply `count` edges of the encoder, CCW if negative, at the highest allowed rate."""
     for _ in range(abs(count)):
         await host.pins(epin=1, epdir=int(count < 0))
         await host.pause(2)
@@ -34,12 +34,12 @@ async def p312_positions(dut: Any) -> None:
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 FF FF FF FE")
     await encoder(host, 4)
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 02")
-    # Falling edges and the direction alone do not count.
+    # Falling edges and a change of the direction alone are not counted.
     for levels in ({"epin": 1, "epdir": 1}, {"epdir": 0}, {"epdir": 1}, {"epin": 0}, {"epdir": 0}):
         await host.pins(**levels)
         await host.pause(4)
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 01")
-    # Reads while counting: POS follows pout at once.
+    # Reads while counting: POS follows pout immediately.
     await host.ask(message(Code.POSITION_SET, "00 0000FFFE"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     mark = host.mark
@@ -75,7 +75,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
             assert await host.ask(message(Code.STATUS)) == message(
                 Code.STATUS, f"{enabled | outside * value:02X} 01 00"
             )
-        # Off: nothing more; enabled again it begins inside, and once with RES = 0.
+        # Disabled: no more reports; enabled again the monitor begins inside the window, for one report with
+        # RES = 0.
         assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await host.ask(f"03 04 {code} 01 0004")
@@ -102,7 +103,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
 @directed("P312-RSP-22", "P312-MON-05", "P312-RSP-10")
 async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     host = await Host.start(dut, message(Code.ENCODE, "03 0002"), message(Code.IN_POSITION, "01 0002"))
-    # Behind an answer: outside and back again leaves nothing of the automatic one; the single one stays.
+    # While an answer is unread, a move out of the window and back leaves no automatic report;
+    # the single report stays.
     await host.issue(message(Code.VERSION))
     await host.wait()
     await encoder(host, 3)
@@ -111,7 +113,7 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     assert await host.response() == message(Code.VERSION, "12")
     assert await host.response() == message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS)
     assert await host.quiet()
-    # Loaded, then the value returns: the report is read, and the return is a change again.
+    # Once a report is loaded and the value returns: the report is read, and the return is a change again.
     await encoder(host, 1)
     await host.pause(20)
     await encoder(host, -1)
@@ -120,7 +122,7 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
         message(Answer.ENCODE_CHANGE, "00", source=SPONTANEOUS),
     ]
     assert await host.quiet()
-    # Disabled while it waits behind another one.
+    # Disabled while it waits for another report.
     await host.ask(message(Code.IN_POSITION, "03 0002"))
     await encoder(host, 1)
     await host.issue(message(Code.ENCODE, "00 0002"))
@@ -137,7 +139,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
     await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
     mark = host.mark
     await host.pulse(3, 20)
-    # Outside by now, but not looked at; inside again when the output ends.
+    # Outside by now, but not compared; inside again when the output ends.
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "08 08 00")
     host.mark = mark
     await host.pulse(4, 20)
@@ -148,7 +150,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
         stopped(0x40, 6),
         message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS),
     }
-    # In END wait the output is over.
+    # In the END wait the output has ended.
     await host.ask(message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.CONSTANT, "40 0190 00000002"))
     assert (
@@ -161,7 +163,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
 async def p312_interlock_by_its_position(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.INTERLOCK_POSITION, "00000003"))
     for sign, first in ((0x00, 3), (0x40, 3)):
-        # Standing on it at the start does not count; arriving from either side does.
+        # Being at the position at the start does not trigger; arriving from either side does.
         await host.ask(message(Code.POSITION_SET, f"00 {first if sign else 0:08X}"))
         assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "40 02 00")
@@ -176,7 +178,7 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
         host.mark = mark
         assert 0 <= edge - host.pulses()[number - 1] <= 4
         assert (await host.response())[:11] == "23 06 E0 40"
-        # The position stays; without 44 nothing happens there.
+        # The position stays; without 44 it has no effect.
         await host.ask(message(Code.CONSTANT, "40 0190 00000004"))
         await host.response()
         assert await host.quiet()
@@ -185,7 +187,7 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
     assert host.out("intlk_n") == 1 and await host.ask(message(Code.STATUS)) == message(
         Code.STATUS, "00 02 00"
     )
-    # Set while it runs: equality by setting does not count either.
+    # Set while the interlock is active: equality caused by a setting does not trigger, either.
     await host.ask(message(Code.INTERLOCK))
     await host.ask(message(Code.POSITION_SET, "00 00000003"))
     assert await host.quiet() and host.out("intlk_n") == 0
@@ -197,7 +199,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
     await host.pins(auxi=0x0F)
     await host.ask(message(Code.MASK, "FF 3C"))
     base = None
-    # Shorter than a sample period: seen only if it stands at the sample.
+    # Shorter than a sample period: detected only if the level is valid at the sample.
     for level in (0x33, 0x0F, 0x03, 0x3F):
         await host.pins(auxi=level)
         await host.wait()
@@ -206,7 +208,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         if base is not None:
             assert (now - base) % 800 < 60 or (now - base) % 800 > 740
         base = now
-    # Bits outside of the mask do not report.
+    # Bits outside of the mask are not reported.
     await host.pins(auxi=0xFC)
     assert await host.quiet(2000)
     for first, second in ((0xE0, 0xFC), (0xC0, 0xFC)):
@@ -215,7 +217,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         await host.pause(300)
         await host.pins(auxi=second)
         assert await host.quiet(2000)
-    # Mask 0 stops it, a new 28 takes a new former value and drops what waits.
+    # Mask 0 disables the monitor; a new 28 samples a new former value and discards pending reports.
     await host.issue(message(Code.MASK, "01 00"))
     await host.pins(auxi=0xFF)
     assert await host.response() == message(Code.MASK) and await host.quiet(2000)
@@ -227,7 +229,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
     await host.pause(2000)
     await host.read(7), await host.read(7), await host.read(7), await host.read(7)
     assert await host.response() == message(Answer.INPUT_CHANGE, "00 80", source=SPONTANEOUS)
-    # What waits behind a report in the window is dropped, that one is not.
+    # A report that waits for the one in the read window is discarded; the one in the window is not.
     await host.pins(auxi=0xFE)
     await host.wait()
     await host.pins(auxi=0x7F)

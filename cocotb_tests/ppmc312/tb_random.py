@@ -1,4 +1,4 @@
-"""Random hosts and noise on all pins, compared with the golden model on every clk."""
+"""Random hosts and noise on all pins, compared with the golden model in every cycle."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from . import random_host, random_noise, random_serial
     least=200,
 )
 async def p312_random_host(dut: Any, seed: int) -> None:
-    """Given random hosts, when the RTL gets their pins, then all outputs change as in the golden model."""
+    """With the pins of random hosts, all outputs change as in the golden model."""
     await random_host.play(dut, seed)
 
 
@@ -38,7 +38,7 @@ async def p312_random_host(dut: Any, seed: int) -> None:
     "P312-BAD-01", "P312-BAD-02", "P312-BAD-09", "P312-PAR-09", "P312-PAR-10", "P312-GEN-01", least=1
 )
 async def p312_random_noise(dut: Any, seed: int) -> None:
-    """Given noise on all pins, when the RTL gets it, then all outputs change as in the golden model."""
+    """With noise on all pins, all outputs change as in the golden model."""
     await random_noise.play(dut, seed)
 
 
@@ -60,5 +60,5 @@ async def p312_random_noise(dut: Any, seed: int) -> None:
     least=200,
 )
 async def p312_random_serial(dut: Any, seed: int) -> None:
-    """Given random hosts on the line, when the RTL gets their pins, then it does what the model does."""
+    """With the pins of random hosts on the line, all outputs change as in the golden model."""
     await random_serial.play(dut, seed)

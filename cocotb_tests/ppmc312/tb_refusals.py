@@ -1,4 +1,4 @@
-"""Blocks that the PPMC-312 refuses: parameters, sizes, headers, codes, and the order of its checks."""
+"""Blocks that the PPMC-312 rejects: parameters, sizes, headers, codes, and the order of its checks."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from openppmc.model.ppmc312.codes import Answer, Code
 
 
 def refused(block: str, number: str) -> str:
-    """F0 for a block."""
+    """Return the answer F0 to a block."""
     data = bytes.fromhex(block)[2:30]
     return f"03 {len(data) + 2:02X} F0 {number} " + data.hex(" ").upper()
 
 
 PARAMETERS = [
-    # Number, block; state NOR with table TF. All lengths that are none, then values.
+    # Number, block; state NOR with table TF. First all invalid lengths, then values.
     ("23", message(Code.IN_POSITION, "00")),
     ("23", message(Code.ENCODE, "01 00")),
     ("23", message(Code.IN_POSITION, "01 0001 00")),
@@ -100,7 +100,7 @@ async def p312_parameter_abnormality(dut: Any) -> None:
     host = await Host.start(dut, *TF)
     for number, block in PARAMETERS:
         assert await host.ask(block) == refused(block, number), block
-    # None of them has changed anything.
+    # No block has changed any state.
     assert (
         await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
         and host.side.golden.position == 0
@@ -165,7 +165,7 @@ async def p312_size_header_and_command_abnormality(dut: Any) -> None:
 
 @directed("P312-BLK-01", "P312-STA-01", "P312-STA-03")
 async def p312_order_of_checks(dut: Any) -> None:
-    """State, length, value, limit, RUN; OV without its byte is 0."""
+    """The checks are made in this order: state, length, value, limit, RUN; OV without its byte is 0."""
     host = await Host.start(dut, T1)
     assert await host.ask(message(Code.STOP)) == message(Answer.STATUS, "00 02")
     assert await host.ask(message(Code.CHANGE, "00 00")) == message(Answer.STATUS, "00 02")

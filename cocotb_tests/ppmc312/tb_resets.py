@@ -1,4 +1,4 @@
-"""Resets of the PPMC-312, by pin and by FF, that meet accesses, blocks and motions; its mode pins."""
+"""Resets of the PPMC-312, by pin and by FF, that coincide with accesses, blocks and motions; mode pins."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 @directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
 async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
-    """Strobes that begin up to 40 clk after the header of FF: driven in time, one value, to their end."""
-    for reg, most in ((CSR, 40), (DRR, 34)):  # later the answer is there, and it would be read
+    """A read strobe that coincides with a software reset drives one value in time and until its end.
+
+    The strobes begin up to 40 cycles after the header of FF.
+    """
+    for reg, most in ((CSR, 40), (DRR, 34)):  # later, the answer is loaded, and it would be read
         seen = []
         for after in range(1, most + 1):
             host = await Host.start(dut)
@@ -32,19 +35,19 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
             assert not [edge for edge in host.side.edges("d_o", mark) if edge[0] > rise], after
             seen.append(host.out("d_o"))
             await host.pause(40)
-            # Nothing of the strobe outlives the reset.
+            # No effect of the strobe remains after the reset.
             assert await host.response() == message(Code.RESET) and await host.read(CSR) == MREF
         if reg == CSR:
-            # Busy also where the strobe begins during the reset, then ready.
+            # Also busy if the strobe begins during the reset, then ready.
             assert seen[:24] == [MWEF | MREF] * 24 and MREF in seen and seen == sorted(seen, reverse=True)
         else:
-            # The byte of the old response as long as there is one, then nothing.
+            # The byte of the old response as long as there is one, then 0.
             assert seen[:18] == [0x12] * 18 and seen[-1] == 0 and seen == sorted(seen, reverse=True)
 
 
 @directed("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
 async def p312_a_write_that_meets_the_software_reset(dut: Any) -> None:
-    """CSR may be written at any time: before the reset it is cleared, after it it stands."""
+    """A write to CSR at any time is cleared if it is before the reset and is kept if it is after it."""
     seen = []
     for after in range(1, 41):
         host = await Host.start(dut)
@@ -54,7 +57,7 @@ async def p312_a_write_that_meets_the_software_reset(dut: Any) -> None:
         assert await host.response() == message(Code.RESET)
         seen.append(await host.read(CSR) >> 4)
     assert seen[0] == 0 and seen[-1] == 7 and seen == sorted(seen)
-    # The wait request of an access during the reset goes with EWRQ.
+    # The wait request of an access during the reset ends with EWRQ.
     for after in range(8, 32):
         host = await Host.start(dut)
         await host.write(CSR, 0x40)
@@ -95,7 +98,7 @@ async def p312_reset_in_the_middle_of_a_block(dut: Any) -> None:
     assert (await host.read(CSR), await host.read(RAR), host.condition) == (0x04, 0x40, 0x01)
     levels = {"auxo_n": 0x3F, "exon_n": 1, "zclmp_n": 1, "irq_n": 1, "dir": 0, "pout": 0, "out_oe": 1}
     assert {name: host.out(name) for name in levels} == levels
-    # Neither the pointer nor the arming has survived.
+    # Neither the pointer nor the arming of the window survives.
     await host.write(DWR, 0x01)
     await host.write(DWR, 0x03)
     assert await host.quiet(200)

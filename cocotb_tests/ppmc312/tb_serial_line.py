@@ -42,13 +42,13 @@ async def p312_serial_bit_times_that_are_no_whole_clk(dut: Any, mod: int) -> Non
 
 REPLIES = {"81 7E": "90", "91 34 31 2D": "A0 12", "91 32 30 4E": "90"}
 REPLIES |= {"91 32 30 4F": "B0 41", "91 34 65 20": "A0 00"}
-"""Frames by who answers them: the poll, the core with and without data, the station for both of its own."""
+"""Frames by the source of the reply: the poll, the core with and without data, the station for two others."""
 
 
 @cocotb.parametrize(mod=[5, 6, 7])
 @directed("P312-SER-18", builds=(F16, F27X12))
 async def p312_serial_a_reply_leaves_one_pair_of_wires_to_its_master(dut: Any, mod: int) -> None:
-    """snd rises half a bit after the end of the master's stop bit, and not more than a few clk later."""
+    """snd rises half a bit after the end of the master's stop bit, and at most 6 cycles later."""
     host = await SerialHost.start(dut, mod=mod)
     for line, answer in REPLIES.items():
         await host.raw(line)
@@ -59,8 +59,10 @@ async def p312_serial_a_reply_leaves_one_pair_of_wires_to_its_master(dut: Any, m
 @cocotb.parametrize(mod=[5, 6, 7])
 @directed("P312-SER-18", builds=(F16, SLOW, SLOWEST))
 async def p312_serial_a_slow_line_driver_has_its_time(dut: Any, mod: int) -> None:
-    """snd rises SND_WAIT + 0.5 bits after the end of the frame, the start bit begins exactly SND_LEAD bits
-    later, and snd falls at the end of the last stop bit (P312-SER-18)."""
+    """With a slow line driver, snd rises SND_WAIT + 0.5 bits after the end of the frame (P312-SER-18).
+
+    The start bit begins exactly SND_LEAD bits later, and snd falls at the end of the last stop bit.
+    """
     host = await SerialHost.start(dut, mod=mod)
     for line, answer in REPLIES.items():
         await host.raw(line)
@@ -74,22 +76,27 @@ async def p312_serial_a_slow_line_driver_has_its_time(dut: Any, mod: int) -> Non
 
 @directed("P312-SER-15", "P312-SER-18", builds=(F16, SLOW, SLOWEST))
 async def p312_serial_frames_back_to_back_with_a_slow_line_driver(dut: Any) -> None:
-    """A control code for this station that ends before the fall of snd is an overrun, one after it is
-    executed, and frames for other stations do not matter (P312-SER-15, P312-SER-18)."""
+    """A control code that ends before the fall of snd is an overrun, one after it is executed.
+
+    Frames for other stations have no effect (P312-SER-15, P312-SER-18).
+    """
     host = await SerialHost.start(dut)
     for line in ("82 7D", "92 34 31 2C", "81 7E"):
         await host.raw(line)
     assert await host.hear() == "90"
     await host.raw("81 7E")
     await host.go(host.t + 1)
-    await host.raw("81 7E")  # the reply to the frame before is pending or being sent
+    await host.raw("81 7E")  # the reply to the previous frame is pending or being sent
     assert await host.hear(timed=False) == "90"
     assert await host.ask("4F") == "A0 00 01 00"
 
 
 @directed("P312-SER-18", "P312-OVR-10")
 async def p312_serial_a_reply_that_is_ready_about_half_a_bit_after_the_frame(dut: Any) -> None:
-    """An event is processed before the frame, a clk later each time: snd waits for whatever is over last."""
+    """snd rises after the later of the end of the frame and the end of an instruction in progress.
+
+    An event is processed before the frame, one cycle later in each round.
+    """
     host = await SerialHost.start(dut, TS, "49 03 08 82 00 01 EE 00 00 00 28")
     waited = []
     for clk in range(14, 2, -1):
@@ -128,7 +135,7 @@ async def p312_serial_wrong_bit_time_of_slow_lines(dut: Any, case: Any) -> None:
 
 @directed("P312-SER-01", "P312-SER-15")
 async def p312_serial_far_too_slow_master(dut: Any) -> None:
-    """At 12 % the last data bit is taken for the stop bit: no answer, or a framing error, but no harm."""
+    """With a bit time 12 % too long, no frame is executed, and a framing error is counted."""
     host = await SerialHost.start(dut, error=0.12)
     for _ in range(3):
         await host.send(summed(0x91, b"\x26\x3f"))
@@ -145,7 +152,7 @@ async def p312_serial_far_too_slow_master(dut: Any) -> None:
 
 @directed("P312-SER-01", "P312-BAD-16")
 async def p312_serial_glitches_between_characters(dut: Any) -> None:
-    """A low level that is over in the middle of a start bit is none."""
+    """A low level that ends before the middle of a start bit is ignored."""
     host = await SerialHost.start(dut)
     for clk in (1, 2, 3, 40, 94):
         await host.pins(rxd=0)
@@ -165,7 +172,7 @@ async def p312_serial_glitches_between_characters(dut: Any) -> None:
 @cocotb.parametrize(clk=[94, 95, 96, 97, 98])
 @directed("P312-SER-01", "P312-SER-15")
 async def p312_serial_where_the_start_bit_is_verified(dut: Any, clk: int) -> None:
-    """Half a bit are 96 clk; a longer one is a character FF, which nobody has asked for."""
+    """A low level of at least half a bit (96 cycles) is received as the character FF."""
     host = await SerialHost.start(dut)
     await host.raw("91")
     await host.pins(rxd=0)
@@ -178,7 +185,7 @@ async def p312_serial_where_the_start_bit_is_verified(dut: Any, clk: int) -> Non
 
 @directed("P312-SER-01", "P312-BAD-16")
 async def p312_serial_noise_away_from_the_middle(dut: Any) -> None:
-    """Levels are wrong for 30 clk, but not where they are looked at."""
+    """Wrong levels of 30 cycles have no effect outside of the middle of a bit, where it is sampled."""
     host = await SerialHost.start(dut)
     for byte in b"\x91" + b"26" + b"15" + b"3":
         spikes = [(bit + place, 30) for bit in range(10) for place in (0.05, 0.7) if 0.5 < bit + place < 9.5]
@@ -189,11 +196,11 @@ async def p312_serial_noise_away_from_the_middle(dut: Any) -> None:
 
 @directed("P312-SER-14", "P312-BAD-16")
 async def p312_serial_noise_in_the_middle(dut: Any) -> None:
-    """One wrong bit anywhere in a frame is never executed."""
+    """A frame with one wrong bit at any place is never executed."""
     host = await SerialHost.start(dut)
     frame = summed(0x91, b"\x26\x15")
     for place in range(1, len(frame)):
-        # The sum does not hold the highest bit of a byte.
+        # The sum does not contain the highest bit of a byte.
         for bit in (0, 2, 5):
             for number, byte in enumerate(frame):
                 await host.character(byte, spikes=[(bit + 1.3, 80)] if number == place else ())
@@ -208,7 +215,10 @@ async def p312_serial_noise_in_the_middle(dut: Any) -> None:
 
 @directed("P312-SER-15", "P312-SER-45")
 async def p312_serial_framing_errors(dut: Any) -> None:
-    """The frame is abandoned, whose ever it is; the line has to rest before the next character counts."""
+    """A framing error ends the frame of any station.
+
+    The line must be idle before the next character is received.
+    """
     host = await SerialHost.start(dut)
     for adr in (1, 2):
         await host.character(0x90 + adr, stop=1)
@@ -225,7 +235,7 @@ async def p312_serial_framing_errors(dut: Any) -> None:
 @cocotb.parametrize(bits=[9.3, 9.7, 10, 10.5, 15, 40, 300])
 @directed("P312-SER-15", "P312-BAD-16")
 async def p312_serial_breaks(dut: Any, bits: float) -> None:
-    """However long it is: one framing error; none if it ends before the stop bit is looked at."""
+    """A break of any length is one framing error, or no error if it ends before the stop bit is sampled."""
     host = await SerialHost.start(dut)
     await host.raw("91 32")
     await host.low(bits)
@@ -252,7 +262,7 @@ async def p312_serial_characters_without_a_gap_and_with_one(dut: Any) -> None:
     host = await SerialHost.start(dut)
     for gap in (0, 0.3, 1, 7.77, 100):
         await host.send(summed(0x91, b"\x43\xa5\x5a\x00\xff"), gap)
-        # The reply comes while the line rests.
+        # The reply follows while the line is idle.
         host.t -= ceil(Fraction(gap) * host.bit)
         assert await host.hear() == "90"
     assert await host.ask("42") == "A0 A5 5A 00 FF"

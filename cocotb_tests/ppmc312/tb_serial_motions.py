@@ -114,7 +114,7 @@ async def p312_serial_overrides_by_pins(dut: Any, case: Any) -> None:
     assert await host.poll() == "B0 28" and await host.ask("80") == "90"
     await host.at_rest()
     assert await host.poll() == STOPPED
-    # 81 and 80 find nothing to stop: the first one fails and takes the other with it.
+    # 81 and 80 have no motion to stop: the first one fails and empties the FIFO.
     await host.blip(pin)
     assert await host.polls(2) == ["B0 4B", "90"] and await host.status() == "00 02 00"
 

@@ -1,4 +1,4 @@
-"""What polls of the serial mode tell, in which order, and what events and overrides leave behind."""
+"""Reports of serial polls, their order, and the results of events and overrides."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ ON, OFF, STOP, STEP = (f"03 {tail}" for tail in ("01 20", "01 21", "02 80 00", "
 
 
 def event(code: str, block: str) -> str:
-    """Registration of a parallel block."""
+    """Return the registration of a parallel block."""
     data = bytes.fromhex(block)
     return f"{code} {data.ljust(10, b'0').hex()}"
 
 
 @directed("P312-SER-30", "P312-CHK-67", "P312-RSP-10")
 async def p312_serial_everything_at_once(dut: Any) -> None:
-    """All eight classes wait; each poll takes the first."""
+    """If reports of all classes are pending, each poll reads the first."""
     host = await SerialHost.start(
         dut, TS, "02 01 0002", "03 01 0002", "04 00000004", "90 0000000A", "28 FF", "44"
     )
@@ -107,7 +107,7 @@ async def p312_serial_the_newest_of_events_and_overrides(dut: Any) -> None:
 )
 @directed("P312-SER-22", "P312-EVT-03", "P312-SER-43")
 async def p312_serial_what_events_may_do(dut: Any, case: Any) -> None:
-    """Data of read instructions are dropped; a failure empties the buffer."""
+    """Data of read instructions are discarded; a failure empties the buffer."""
     block, answer = case
     host = await SerialHost.start(dut, TS, event("49", block))
     await host.blip("evt0_n")
@@ -119,7 +119,7 @@ async def p312_serial_what_events_may_do(dut: Any, case: Any) -> None:
 
 @directed("P312-SER-21", "P312-RSP-20")
 async def p312_serial_newer_reports_replace_older_ones(dut: Any) -> None:
-    """No alarm: the newest stop, end of interlock and hold are told, once."""
+    """Unread reports are no alarm: the newest stop, end of interlock and hold are each reported once."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("84 01F4 00000002") == "90"
     await host.at_rest()
@@ -139,7 +139,7 @@ async def p312_serial_newer_reports_replace_older_ones(dut: Any) -> None:
 
 @directed("P312-SER-21", "P312-SER-22", "P312-RSP-20", "P312-OVR-10")
 async def p312_serial_no_alarm_by_unread_answers(dut: Any) -> None:
-    """Overrides and events follow each other, whatever has been polled."""
+    """Overrides and events are executed one after the other, regardless of polls."""
     host = await SerialHost.start(dut, TS, event("49", ON), event("49", OFF))
     for _ in range(6):
         await host.blip("evt0_n", gap=300)
@@ -153,7 +153,7 @@ async def p312_serial_no_alarm_by_unread_answers(dut: Any) -> None:
 
 @directed("P312-RSP-22", "P312-MON-05", "P312-SER-42")
 async def p312_serial_monitors_that_return(dut: Any) -> None:
-    """A report nobody has asked for vanishes when the distance returns."""
+    """An unread monitor report is discarded when the distance returns."""
     host = await SerialHost.start(dut, TS, "02 01 0002", "03 01 0002")
     for far in ("00000010", "00000001"):
         assert await host.ask(f"43 {far}") == "90"
@@ -170,7 +170,7 @@ async def p312_serial_monitors_that_return(dut: Any) -> None:
 
 @directed("P312-SER-46", "P312-SER-30")
 async def p312_serial_end_status(dut: Any) -> None:
-    """40 tells the last stop for ever, polls tell it once."""
+    """40 always returns the last stop, polls report it once."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("40") == "A0 00"
     assert await host.ask("82") == "90"
@@ -201,7 +201,7 @@ async def p312_serial_end_status(dut: Any) -> None:
 
 @directed("P312-SER-30", "P312-SER-22", "P312-SER-19")
 async def p312_serial_an_event_around_a_poll(dut: Any) -> None:
-    """Whatever the poll meets, nothing is lost and nothing is told twice."""
+    """An event near a poll is reported exactly once."""
     host = await SerialHost.start(dut, TS, event("49", message(Code.EXCITATION_ON)))
     for shift in (*range(-60, -20, 5), *range(-16, 6)):
         await last_bit(host, summed(0x81), shift, evt0_n=0)
@@ -211,7 +211,7 @@ async def p312_serial_an_event_around_a_poll(dut: Any) -> None:
 
 
 async def last_bit(host: SerialHost, frame: bytes, shift: int, **levels: int) -> None:
-    """A frame, with other pins changing `shift` clk after the middle of its last stop bit."""
+    """Send a frame; other pins change `shift` cycles after the middle of its last stop bit."""
     await host.send(frame[:-1])
     changes: dict[int, dict[str, int]] = {}
     for place, level in enumerate([0, *(frame[-1] >> k & 1 for k in range(8)), 1]):
@@ -255,7 +255,7 @@ async def p312_serial_a_report_around_a_poll(dut: Any, pin: str) -> None:
 
 @directed("P312-OVR-10", "P312-SER-19", "P312-SER-22")
 async def p312_serial_an_event_around_an_instruction(dut: Any) -> None:
-    """The instruction has its reply, the event is done before or after it."""
+    """An instruction has its reply, and an event near it is executed before or after it."""
     host = await SerialHost.start(
         dut, TS, event("49", message(Code.EXCITATION_ON)), event("49", message(Code.EXCITATION_OFF))
     )

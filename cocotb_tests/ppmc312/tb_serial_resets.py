@@ -1,4 +1,4 @@
-"""Resets of a station, the pins that are latched, silent stations, the other host side's pins."""
+"""Resets of a station, latched pins, silent stations, the pins of the other host interface."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .serial_host import SerialHost
 
 
 async def reset(host: SerialHost, clk: int = 12) -> None:
-    """Reset pin."""
+    """Assert the reset pin for `clk` cycles."""
     await host.pins(rst_n=0)
     await host.pause(clk)
     await host.pins(rst_n=1)
@@ -40,7 +40,7 @@ async def p312_serial_reset_in_a_frame(dut: Any, characters: int) -> None:
 @cocotb.parametrize(place=[0.5, 3.5, 8.5, 9.2])
 @directed("P312-GEN-12", "P312-SER-01")
 async def p312_serial_reset_in_a_character(dut: Any, place: float) -> None:
-    """What is left of the character may look like another one, but not like a frame."""
+    """The rest of a character after a reset may be received as another character, but not as a frame."""
     host = await SerialHost.start(dut)
     await host.raw("91 32")
     t = host.t
@@ -112,7 +112,7 @@ async def p312_serial_software_reset_in_every_state(dut: Any) -> None:
 @cocotb.parametrize(clk=[0, 400, 1_500, 3_000])
 @directed("P312-CMD-FF", "P312-EVT-03", "P312-SER-19")
 async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
-    """Also in the middle of a reply, which ends there."""
+    """A software reset by an event ends a reply that is being sent."""
     host = await SerialHost.start(dut, TS, "49 03 01 FF 00 00 00 00 00 00 00")
     await host.say("42")
     await host.pause(clk)
@@ -127,7 +127,7 @@ async def p312_serial_software_reset_by_an_event(dut: Any, clk: int) -> None:
 
 @directed("P312-PRT-03", "P312-CMD-FF")
 async def p312_serial_pins_that_are_latched(dut: Any) -> None:
-    """Address and speed count at the end of a reset only, of either kind."""
+    """Address and speed are sampled only at the end of a reset, by pin or by FF."""
     host = await SerialHost.start(dut)
     await host.pins(adr=5, mod=6)
     await host.pause(20)
@@ -149,7 +149,7 @@ async def p312_serial_pins_that_are_latched(dut: Any) -> None:
 
 @directed("P312-PRT-03", "P312-PRT-01", "P312-CMD-FF")
 async def p312_serial_the_mode_is_latched(dut: Any) -> None:
-    """From serial to parallel and back, by resets of both kinds."""
+    """Resets of both kinds switch from serial to parallel mode and back."""
     host = await SerialHost.start(dut)
     await host.pins(mode=1)
     await host.pause(20)
@@ -170,7 +170,7 @@ async def p312_serial_the_mode_is_latched(dut: Any) -> None:
 
 @directed("P312-PRT-01", "P312-BAD-17")
 async def p312_serial_the_bus_does_nothing(dut: Any) -> None:
-    """d_oe, irq_n and wrq_n rest whatever the bus pins do."""
+    """d_oe, irq_n and wrq_n do not change at any level of the bus pins."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("82") == "90"
     for write in (True, False, True):
@@ -196,7 +196,7 @@ async def p312_serial_parallel_parts_do_not_listen(dut: Any) -> None:
 @cocotb.parametrize(mod=[0, 1, 2, 3, 4])
 @directed("P312-BAD-17", "P312-CHK-61", "P312-PRT-03")
 async def p312_serial_silent_stations(dut: Any, mod: int) -> None:
-    """Speeds without a documented protocol: nothing is sent, the event pins and motions still work."""
+    """At a speed without a documented protocol the station sends nothing; event pins and motions work."""
     host = await SerialHost.start(dut)
     await host.pins(mod=mod)
     await host.say("FF")
@@ -226,7 +226,10 @@ async def p312_serial_hsp_has_no_function(dut: Any, hsp: int) -> None:
 
 @directed("P312-PRT-02", "P312-SER-15", builds=(D16,))
 async def p312_serial_frames_before_out_oe(dut: Any) -> None:
-    """A poll, a framing error, most of an instruction: no reply, effect or count, nothing left for later."""
+    """Frames before out_oe have no reply, effect or count, and leave no state.
+
+    They are a poll, a framing error, and most of an instruction.
+    """
     host = await SerialHost.start(
         dut,
     )
@@ -248,7 +251,7 @@ async def p312_serial_frames_before_out_oe(dut: Any) -> None:
 @cocotb.parametrize(early=[300, 40, 6, 5, 4, 3, 2, 1, 0, -1, -2, -3, -10])
 @directed("P312-PRT-02", builds=(D16,))
 async def p312_serial_the_first_character(dut: Any, early: int) -> None:
-    """A frame counts when the stop bit of its control code is looked at with out_oe = 1 or later."""
+    """A frame is received if the stop bit of its control code is sampled with out_oe = 1."""
     host = await SerialHost.start(
         dut,
     )

@@ -1,4 +1,4 @@
-"""A short tour of the serial mode, which netlists can be shown as well."""
+"""A short sequence in serial mode, which also runs on netlists."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from .serial_host import SerialHost
     "P312-SER-01", "P312-SER-02", "P312-SER-13", "P312-SER-18", "P312-SER-20", "P312-SER-30", "P312-SER-45"
 )
 async def p312_serial_tour(dut: Any) -> None:
-    """Each kind of frame and of reply, a motion, an event, an override, errors of all three counters."""
+    """All kinds of frames and replies work in one sequence.
+
+    It has a motion, an event, an override, and errors of all three counters.
+    """
     host = await SerialHost.start(dut, adr=10)
     assert await host.poll() == "90" and await host.asks("41", "82") == ["A0 12", "B0 43"]
     assert await host.asks(TS, "63 12345678", "62") == ["90", "90", "A0 12 34 56 78"]

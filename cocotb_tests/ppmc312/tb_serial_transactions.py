@@ -17,7 +17,7 @@ REGISTERED = "59 03 08 82 00 0000 00000064"
 
 
 class Row(NamedTuple):
-    """Number, what is sent, the reply, settings before it, later polls, levels of pins."""
+    """Number, bytes sent, reply, settings before it, polls after it, levels of pins."""
 
     number: int
     sent: str
@@ -81,7 +81,7 @@ ROWS = [
     Row(42, "81 7E", ACK),
     Row(42, "81 7E", "81 7E", (TS, "85 0190")),
 ]
-# What happens between the instruction and the polls.
+# Instructions between the row and its polls.
 _THEN = {9: "86 0000", 17: "86 0000"}
 BY_NAME = {f"row{row.number}_{place}": row for place, row in enumerate(ROWS)}
 
@@ -116,7 +116,7 @@ async def p312_serial_row(dut: Any, name: str) -> None:
 
 @directed("P312-SER-45", "P312-SER-46")
 async def p312_serial_read_outs(dut: Any) -> None:
-    """Row 39, and the alarm of row 42."""
+    """The replies of row 39, and the alarm of row 42, equal those of chapter 12."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("84 01F4 00000002") == "90" and await host.settle() == ["A0 38"]
     await host.ask("83 0000 00000000")
@@ -139,7 +139,7 @@ async def p312_serial_read_outs(dut: Any) -> None:
 
 @directed("P312-CMD-FF", "P312-SER-19")
 async def p312_serial_reset_is_not_answered(dut: Any) -> None:
-    """Row 41."""
+    """An FF (row 41) is not answered."""
     host = await SerialHost.start(dut)
     await host.raw("91 66 66 6F")
     assert await host.quiet(6_000)
@@ -147,7 +147,7 @@ async def p312_serial_reset_is_not_answered(dut: Any) -> None:
 
 @directed("P312-CMD-26", "P312-CMD-06", "P312-MOT-30")
 async def p312_serial_what_the_rows_do(dut: Any) -> None:
-    """Effects of rows 4, 7, 10, 21 and 26 behind their replies."""
+    """Rows 4, 7, 10, 21 and 26 have their effects after their replies."""
     host = await SerialHost.start(dut, TS)
     for line, output, level in (
         ("91 32 36 31 35 33", "auxo_n", 0x2A),

@@ -1,4 +1,4 @@
-"""Initial settings of the PPMC-312: tables read back, order of checks, what a setting empties."""
+"""Initial settings of the PPMC-312: tables read back, order of checks, the buffers that a setting clears."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T5 = message(Code.INITIAL, "09 2000 0040 00EA60")
 
 
 def weighted(values: list[int]) -> int:
-    """Sum of (i + 1) x value over the stages, slowest first; the values come fastest first."""
+    """Return the sum of (i + 1) x value over the stages, slowest first; `values` begin with the fastest."""
     return sum((i + 1) * value for i, value in enumerate(reversed(values)))
 
 
@@ -44,7 +44,7 @@ async def p312_tables_with_two_sides_read_back(dut: Any) -> None:
         assert rates[95] == 504 and short[::-1][:6] == [8, 9, 10, 9, 9, 10]
         assert short[5::-1] == [22, 22, 22, 22, 22, 23]
         assert sum(short) == 1500 and sum(long) == 2000 and weighted(long) == 156_518
-    # The longest numbers: sums beyond 2^38.
+    # The largest numbers: sums beyond 2^38.
     setting = message(Code.INITIAL, "18 FFFF FF80 FEFF FFFFFF 8ABCDE")
     table = build(0xFFFF, 0xFF80, 0xFEFF, 0xFFFFFF, 0x8ABCDE, 0, True)
     head, (rates, up, down) = await read_table(await Host.start(dut, setting))
@@ -60,7 +60,7 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
     )
     assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
     assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
-    # Both sides: the slower one has all stages, the other one starts at the last stage that is slow enough.
+    # Both ramps: the slower one has all stages, the other starts at the last stage that is slow enough.
     for rs, rp, counts in (
         (300, 300, [127, 127, 127]),
         (300, 299, [127, 127, 123]),
@@ -79,7 +79,10 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
 
 @directed("P312-OVR-10", "P312-EVT-01", "P312-CMD-00", "P312-CMD-FC-1", "P312-CMD-FC-9")
 async def p312_an_event_edge_during_00_and_01_is_dropped(dut: Any) -> None:
-    """It is remembered, and goes when the buffers are emptied: also with what is registered afterwards."""
+    """An event edge during 00 and 01 is stored and is discarded when the buffers are emptied.
+
+    An entry that is registered afterwards is not triggered by it.
+    """
     filled = (*TF, message(Code.EVENT_SET, "00", message(Code.OUTPUT, "01")), message(Code.STOP, "07"))
     for block, answer, cond, most in (
         (T1, message(Code.INITIAL), 0x02, 24_000),
@@ -123,8 +126,8 @@ async def p312_initial_setting_layouts_and_order_of_checks(dut: Any) -> None:
     host = await Host.start(dut)
     good = [
         T1,
-        message(Code.INITIAL, "01 03E8 0001 00C8 0007D0 000001"),  # LE = 0: RP and ND mean nothing
-        message(Code.INITIAL, "E1 03E8 00C8 0007D0"),  # bits 7..5 mean nothing
+        message(Code.INITIAL, "01 03E8 0001 00C8 0007D0 000001"),  # LE = 0: RP and ND are ignored
+        message(Code.INITIAL, "E1 03E8 00C8 0007D0"),  # bits 7..5 are ignored
         message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0007D0"),
     ]
     for block in good:
@@ -139,7 +142,7 @@ async def p312_initial_setting_layouts_and_order_of_checks(dut: Any) -> None:
         (0x03, message(Code.INITIAL, "11 03E8 0100 03E8 0007D0 0007D0")),  # before 02 and 04
         (0x02, message(Code.INITIAL, "11 03E8 03E7 0380 000001 0007D0")),  # before 04 and 05
         (0x04, message(Code.INITIAL, "11 00F0 03E8 00C8 000001 0007D0")),  # before 05
-        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0002F9")),  # deceleration side alone
+        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0002F9")),  # deceleration ramp alone
         (0x05, message(Code.INITIAL, "01 03E8 00C8 000000")),
         (0x00, message(Code.INITIAL, "01 03E8 00C8 0007D0 00")),
         (0x00, message(Code.INITIAL)),
@@ -174,7 +177,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
         if block == TF[0]:
             assert await host.ask(message(Code.STATUS)) == message(Answer.STATUS, "02 01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, f"00 {state:02X} 00")
-    # Refused by the table of states: nothing happens.
+    # Rejected by the table of states: nothing happens.
     host = await Host.start(dut, *filled)
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     for block in (T1, TF[0], message(Code.INITIAL, "01 03E8 00C8 0007")):
@@ -183,7 +186,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
     await host.ask(message(Code.STOP, "00"))
     await host.response()
     await host.pins(fhl_n=0)
-    # HSL: as set, then RH of the new table, by either way of giving one.
+    # HSL: as set, then RH of the new table, whether 00 or 01 sets the table.
     await host.ask(message(Code.SPEED_LIMIT, "00C8"))
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
     await host.ask(message(Code.STOP, "00"))

@@ -1,4 +1,4 @@
-"""Terminals and timers of the PPMC-312 at their pins (chapters 3.4, 7)."""
+"""Terminals and timers of the PPMC-312 at its pins (chapters 3.4, 7)."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ async def p312_pins_and_reads(dut: Any) -> None:
     assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "7F E0")
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
-    # exon_n, zclmp_n and outputs have nothing to do with pulses.
+    # exon_n, zclmp_n and the outputs are independent of pulses.
     assert (host.out("exon_n"), host.out("zclmp_n"), host.out("auxo_n")) == (1, 0, 0)
 
 
@@ -66,7 +66,7 @@ async def p312_clear_pulses(dut: Any) -> None:
     await host.pause(CLEAR + 100)
     for name, fall in first.items():
         assert host.side.edges(name) == [(fall, 0), (fall + CLEAR, 1)]
-    # Both run on their own; 24 again restarts its time only.
+    # Both pulses are independent; another 24 restarts only the time of its own pulse.
     await host.ask(message(Code.ALARM_CLEAR))
     again = host.side.falls("aclr_n")[-1]
     await host.pause(200_000)
@@ -103,7 +103,7 @@ async def p312_times_of_the_crystal_at_another_clock(dut: Any) -> None:
 
 @directed("P312-OUT-01", "P312-CHK-45", "P312-MOT-06")
 async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
-    # Counted from the end of pulse output, which an immediate stop does not draw out.
+    # The time is counted from the end of pulse output; an immediate stop ends the output immediately.
     host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.pulse(2, 2000)
@@ -112,10 +112,10 @@ async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
     await host.pause(1_600_200)
     (edge,) = host.side.falls("cd_n")
     assert 0 <= edge - low - 1_600_000 < 10
-    assert host.condition == 0x08  # END wait does not hold it up
+    assert host.condition == 0x08  # the END wait does not delay it
     await host.pins(end_n=0, fl_n=1)
     await host.response()
-    # alm_n takes it down at once, whatever the state; t0 brings it up.
+    # alm_n asserts cd_n (low) immediately in any state; t0 deasserts it.
     await host.pins(end_n=1)
     await host.ask(message(Code.END_TERMINAL, "00"))
     await host.ask(message(Code.STEP, "00"))
@@ -140,7 +140,7 @@ async def p312_zero_clamp(dut: Any) -> None:
     assert host.side.rises("zclmp_n", host.mark) == turned
     await host.response()
     assert host.out("zclmp_n") == 1
-    # By FO: when inside, or by END, after the output has ended; not without EN.
+    # By FO: inside the window or by END, after the output has ended; not without EN.
     for flags, distance, end_n, level in (
         (5, 3, 1, 0),
         (5, 2, 1, 1),
@@ -170,7 +170,7 @@ async def p312_end_wait(dut: Any) -> None:
         await host.ask(stop)
         await host.pause(7000)
         assert host.condition == 0x08 and await host.quiet(200)
-        # Nothing of all this does anything; overrides register.
+        # These have no effect; overrides are registered.
         for block in (
             message(Code.CHANGE, "00 0064"),
             message(Code.RAMP_CHANGE, "00 00C8"),
@@ -193,7 +193,7 @@ async def p312_end_wait(dut: Any) -> None:
         answer = await host.response()
         assert answer[:11] == f"23 06 E0 {cause:02X}" and count <= 3
         await host.pins(end_n=1)
-    # END low already: no wait; 06 00 in END wait, FF in END wait.
+    # END is low already: no wait; 06 00 in the END wait, FF in the END wait.
     await host.pins(end_n=0)
     await host.ask(message(Code.STEP, "00"))
     assert (await host.response())[:11] == "23 06 E0 40"
@@ -219,7 +219,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.pause(16_000)
     assert host.condition == 0x08
-    # Low for less than 200 us: 27 shows it, nothing else sees it.
+    # Low for less than 200 us: 27 returns the level, no other function detects it.
     await host.pins(end_n=0, fl_n=0)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "BD E0")
     await host.pins(end_n=1, fl_n=1)
@@ -244,7 +244,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
 
 @directed("P312-TIM-12", "P312-TIM-20", "P312-OVR-12", "P312-INP-31", builds=(D16,))
 async def p312_datasheet_triggered_stop(dut: Any) -> None:
-    """80 by EVT: 350 us after the filtered edge; by position at once."""
+    """80 by EVT acts 350 us after the filtered edge; by position it acts immediately."""
     host = await Host.start(dut, *TF, message(Code.STOP, "05"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     mark = host.mark
@@ -260,7 +260,7 @@ async def p312_datasheet_triggered_stop(dut: Any) -> None:
 
 @directed("P312-CMD-25", "P312-CMD-27", "P312-INP-01", "P312-EVT-01")
 async def p312_25_and_27_show_all_pins_at_one_clk(dut: Any) -> None:
-    """Pins that change together are seen together, whoever asks, up to one clk and not after it."""
+    """25 and 27 sample all pins in one cycle, for every source of the instruction."""
     names = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n", "evt1_n", "run")
     pins = dict.fromkeys(names, 0)
     for code, levels, shown in (

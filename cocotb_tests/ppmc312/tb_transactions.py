@@ -14,11 +14,11 @@ from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 T1_8M = message(Code.INITIAL, "00 03E8 00C8 0007D0")
-"""T1 at F = 8 MHz, for moves that would take 15 to 25 million clk at 1 MHz."""
+"""T1 at F = 8 MHz, for moves that would take 15 to 25 million cycles at 1 MHz."""
 
 
 async def sends(host: Host, text: str) -> None:
-    """`WAR; DWR bytes in bus order`."""
+    """Send `WAR; DWR bytes in bus order`."""
     war, data = (piece.strip() for piece in text.split(";"))
     while await host.read(CSR) & MWEF:
         await host.pause(20)
@@ -30,7 +30,7 @@ async def sends(host: Host, text: str) -> None:
 
 
 async def gets(host: Host) -> str:
-    """`RAR; DRR bytes in bus order` of the next response."""
+    """Return `RAR; DRR bytes in bus order` of the next response."""
     await host.wait()
     rar = await host.read(RAR)
     data = bytes([await host.read(DRR) for _ in range(0x40 - rar)])
@@ -39,7 +39,7 @@ async def gets(host: Host) -> str:
 
 
 SINGLE = [
-    # Number, setting, what is sent, what is got at once, what is got later.
+    # Number, setting, block sent, immediate response, later response.
     (1, (), "15; D0 07 00 C8 00 E8 03 01 00 09 03", "3D; 00 01 03"),
     (2, (), "10; DC 05 00 D0 07 00 C8 00 F4 01 E8 03 11 00 0E 03", "3D; 00 01 03"),
     (3, (), "1A; 0A 00 03 02 04 03", "3D; 02 01 03"),

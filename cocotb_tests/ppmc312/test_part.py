@@ -1,4 +1,4 @@
-"""Directed part tests of the PPMC-312: one pytest item a cocotb test and build configuration."""
+"""Directed part tests of the PPMC-312: one pytest item for each cocotb test and build configuration."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ ITEMS = cocotb_items("cocotb_tests.ppmc312", *MODULES, part=PPMC312)
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_ppmc312(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation."""
+    """One simulation of the part passes."""
     run_item(item, sim_options)
 
 

@@ -1,4 +1,4 @@
-"""Blocks of the PPMC-312 by the names of their codes: instructions to it, and its answers."""
+"""Blocks of the PPMC-312 by the names of their codes: instructions and answers."""
 
 from __future__ import annotations
 
@@ -6,26 +6,26 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 
 def message(code: int, *data: str, source: int = Source.HOST) -> str:
-    """Header, length, code and what stands behind it, as a text of hexadecimal bytes in logical order.
+    """Return header, length, code and data as a text of hexadecimal bytes in logical order.
 
-    data: hexadecimal texts. source: the header; of an answer, who asked for it.
+    data: hexadecimal texts. source: the header; for an answer, the source of the instruction.
     """
     behind = " ".join(data)
     return f"{source:02X} {len(bytes.fromhex(behind)) + 1:02X} {code:02X} {behind}".rstrip()
 
 
 def register(buffer: int, block: str) -> str:
-    """49 that registers a block in an event buffer."""
+    """Return a 49 that registers a block in an event buffer."""
     return message(Code.EVENT_SET, f"{buffer:02X} {block}")
 
 
 def stopped(cause: int, position: int) -> str:
-    """The report of a stop, as a host shows it; a negative position is that of 32 bits."""
+    """Return the report of a stop as a host receives it; a negative position is encoded in 32 bits."""
     text = message(Answer.STOPPED, f"{cause:02X} {position & 0xFFFFFFFF:08X}", source=SPONTANEOUS)
     return bytes.fromhex(text).hex(" ").upper()
 
 
 def rates(text: str) -> list[int]:
-    """`400x3 200x4` as a list of intervals."""
+    """Return `400x3 200x4` as a list of intervals."""
     words = (word.split("x") for word in text.split())
     return [int(rate) for rate, count in words for _ in range(int(count))]

@@ -44,10 +44,10 @@ const char *ppmc104_strerror(ppmc104_result_t result)
     case PPMC104_ERR_UNKNOWN: return "error 0: no such command, or nothing to stop";
     case PPMC104_ERR_BUSY: return "error 1: not while an operation runs";
     case PPMC104_ERR_UNINITIALISED: return "error 2: not initialised";
-    case PPMC104_ERR_DATA: return "error 3: data byte nobody asked for";
+    case PPMC104_ERR_DATA: return "error 3: unexpected data byte";
     case PPMC104_ERR_RAMP_LONG: return "error 4: ramp longer than 11220 pulses";
     case PPMC104_ERR_RAMP: return "error 5: high speed below start speed, or ramp below 4 pulses";
-    case PPMC104_ERR_DATA_BUSY: return "error 6: data byte nobody asked for, during an operation";
+    case PPMC104_ERR_DATA_BUSY: return "error 6: unexpected data byte, during an operation";
     case PPMC104_ERR_DECELERATING: return "error 7: decelerates already";
     case PPMC104_TIMEOUT: return "time-out: the part did not get ready";
     case PPMC104_NO_PART: return "time-out: no part answers, check address, wiring and reset";

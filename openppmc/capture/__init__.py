@@ -1,5 +1,7 @@
-"""Captures of old chips: what a logic analyser saw of bus and pins, in words and beside the golden model.
+"""Captures of original chips by a logic analyser.
 
-Room `common` reads files, pin maps, moves and comparisons, and knows no part. A part's folder says how its
-bus or line is read and what its bytes mean (column `decode` of the table of parts).
+Bus and pins are decoded to text and compared with the golden model.
+
+Folder `common` reads files, pin maps, moves and comparisons, and depends on no part. The folder of a part
+defines how its bus or line is read and what its bytes mean (column `decode` of the table of parts).
 """

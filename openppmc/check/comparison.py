@@ -1,4 +1,4 @@
-"""What a comparison of two lists of output edges finds: both sides, and the first difference."""
+"""Result of a comparison of two lists of output edges: both sides, and the first difference."""
 
 from __future__ import annotations
 
@@ -10,12 +10,19 @@ from .records import Edge, Recording, by_signal, level_at
 
 Waves = dict[str, list[tuple[int, int]]]
 PULSES = "pout_n"
-"""The output whose falls are pulses (P104-GEN-05)."""
+"""Output whose falling edges are pulses (P104-GEN-05)."""
 
 
 @dataclass(frozen=True)
 class Mismatch:
-    """First difference: at edge `t` `signal` differs; the (t, value) each side shows next, if any."""
+    """First difference of two lists of edges.
+
+    Attributes:
+        t: edge of the difference.
+        signal: output that differs there.
+        expected, actual: next change (t, value) of each side, `None` without one.
+        differing: all outputs that differ, in order of time.
+    """
 
     t: int
     signal: str
@@ -26,7 +33,12 @@ class Mismatch:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Both sides of a run, ready to be reported or drawn. pins: of the part; seen: who was compared."""
+    """Both sides of a run, for a report or a picture.
+
+    Attributes:
+        pins: pins of the part.
+        seen: name of the side that was compared with the model.
+    """
 
     recording: Recording
     initial: Mapping[str, int]
@@ -43,7 +55,7 @@ class Comparison:
 
     @property
     def pulses(self) -> int:
-        """Falls of pout_n, of all axes; 0 of a part without that output."""
+        """Number of falling edges of `pout_n` of all axes; 0 for a part without that output."""
         level, found = self.initial.get(PULSES, 0), 0
         for _, now in self.actual.get(PULSES, ()):
             found += (level & ~now).bit_count()
@@ -60,8 +72,12 @@ def compare_edges(
 ) -> tuple[Waves, Waves, Mismatch | None]:
     """Compare two edge lists up to edge `end`.
 
-    `initial` names the outputs to compare (no others are) with their levels before edge 0; `resets` are the
-    stamps of falling rst_n. Returns both sides as changes per signal, and the first difference or None.
+    Args:
+        initial: outputs to compare, with their levels before edge 0; other outputs are ignored.
+        resets: stamps of falling edges of `rst_n`.
+
+    Returns:
+        Both sides as changes per signal, and the first difference or `None`.
     """
     snap = {t - 1: t for t in resets}
     sides = []
@@ -96,7 +112,10 @@ def _first_difference(expected: Waves, actual: Waves) -> Mismatch | None:
 
 
 def differing_spans(comparison: Comparison, name: str) -> list[tuple[int, int]]:
-    """Changes (t, 1 = the sides differ from here on) of one output."""
+    """Return the changes (t, level) of the difference of one output.
+
+    Level 1 means that the sides differ from t on.
+    """
     expected, actual = comparison.expected[name], comparison.actual[name]
     initial, spans, state = comparison.initial[name], [], 0
     for t in sorted({t for t, _ in expected} | {t for t, _ in actual}):

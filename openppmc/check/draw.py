@@ -1,4 +1,4 @@
-"""Draws a comparison: a PNG of the surroundings of the first difference."""
+"""PNG of a comparison: signals before and after the first difference."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ SHADE = "#f7c9c9"
 
 
 def window(comparison: Comparison) -> tuple[int, int]:
-    """Edges (from, to) that the picture shows: some edges of the differing signal on both sides."""
+    """Return the edges (from, to) that the picture shows.
+
+    They include up to five edges of the differing signal before and after the difference.
+    """
     m = comparison.mismatch
     assert m is not None
     times = sorted({t for side in (comparison.expected, comparison.actual) for t, _ in side[m.signal]})
@@ -23,17 +26,20 @@ def window(comparison: Comparison) -> tuple[int, int]:
     after = [t for t in times if t > m.t][:5]
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
     start, stop = min([m.t - 12, *before]), max([m.t + 12, *after, *ends])
-    # Far neighbours would squeeze the difference to nothing: keep within 4000 clk of it.
+    # A wide window would make the difference invisible: keep within 4000 cycles of it.
     start, stop = max(start, m.t - 4000), min(stop, max(m.t + 4000, max(ends) + 12))
     margin = max(2, (stop - start) // 20)
     return start - margin, stop + margin
 
 
 def draw_png(comparison: Comparison, path: Path) -> None:
-    """Both waveforms of every active output around the first difference, host accesses above them.
+    """Draw both waveforms of every active output near the first difference.
 
-    A wide view on the left; where that squeezes the difference to a few pixels, a zoom on the right. Raises
-    MissingExtraError.
+    The accesses of the host are above the waveforms. The left side is a wide view. If the difference is only
+    a few pixels wide there, the right side is a zoom.
+
+    Raises:
+        MissingExtraError: matplotlib is not installed.
     """
     needs("plot", "a picture of the difference", "matplotlib")
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -56,9 +62,9 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     for number, (axes, (start, stop)) in enumerate(zip(panels, views, strict=True)):
         _panel(axes, comparison, outputs, pins, start, stop, labels=number == 0)
         axes.set_xlabel(
-            f"clk edge   (1 clk = {clk_ps(recording.params) / 1000:g} ns)"
+            f"clock edge   (1 cycle = {clk_ps(recording.params) / 1000:g} ns)"
             if number == 0
-            else f"zoom: {stop - start} clk"
+            else f"zoom: {stop - start} cycles"
         )
     _title(figure, comparison)
     figure.savefig(path, metadata={"Software": None})
@@ -67,7 +73,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
 def _panel(
     axes: Any, comparison: Comparison, outputs: list[str], pins: list[str], low: int, high: int, labels: bool
 ) -> None:
-    """One time window of all lanes."""
+    """Draw all lanes in one time window."""
     m, recording = comparison.mismatch, comparison.recording
     assert m is not None
     part = comparison.pins
@@ -135,7 +141,7 @@ def _title(figure: Any, comparison: Comparison) -> None:
 
 
 def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
-    """The differing signals first (in order of time), then those with an edge in the window."""
+    """Return the differing signals in order of time, then those with an edge in the window."""
     m = comparison.mismatch
     assert m is not None
 
@@ -146,7 +152,7 @@ def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
 
     first = [name for name in m.differing if name == m.signal or active(name)]
     others = [name for name in comparison.initial if name not in first and active(name)]
-    # The read data bus is noise unless it is what differs.
+    # The read data bus is omitted unless it differs.
     return first + [name for name in others if name not in ("d_o", "d_oe")]
 
 
@@ -180,7 +186,7 @@ def _lane(
     high: int,
     color: str,
 ) -> None:
-    """One waveform of height 0.8 with its base at y; vectors as boxes with hex values."""
+    """Draw one waveform of height 0.8 with its base at y; vectors are boxes with hex values."""
     level = level_at(changes, low, initial)
     points = [(low, level), *((t, v) for t, v in changes if low < t <= high), (high, None)]
     if width == 1:
@@ -212,7 +218,7 @@ def _lane(
 
 
 def _mark_accesses(axes: Any, accesses: list[Access], low: int, high: int) -> None:
-    """Writes as labelled ticks, reads as small ticks, above the waveforms."""
+    """Draw writes as labelled ticks and reads as small ticks above the waveforms."""
     last = -1e9
     for access in accesses:
         if not low <= access.t <= high:

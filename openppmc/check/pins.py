@@ -1,4 +1,4 @@
-"""The pins of a part as reports and pictures need them."""
+"""Pins of a part for reports and pictures."""
 
 from __future__ import annotations
 
@@ -9,8 +9,13 @@ from typing import Any, Protocol
 
 
 class Pinned(Protocol):
-    """A part's pins. inputs: idle levels, without rst_n. bus_pins: inputs of the host's bus or line. clock:
-    input of the external clock, or "" """
+    """Pins of a part.
+
+    Attributes:
+        inputs: idle levels, without `rst_n`.
+        bus_pins: inputs of the host's bus or line.
+        clock: input of the external clock, or "".
+    """
 
     @property
     def inputs(self) -> Mapping[str, int]: ...
@@ -19,7 +24,7 @@ class Pinned(Protocol):
     @property
     def clock(self) -> str: ...
     def width(self, pin: str) -> int:
-        """Bits of an input or output."""
+        """Return the number of bits of an input or output."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +38,7 @@ class ModelPins:
     clock: str = ""
 
     def width(self, pin: str) -> int:
-        """As `Pinned.width`."""
+        """Return the same as `Pinned.width`."""
         return self.widths.get(pin, 1)
 
 
@@ -41,7 +46,7 @@ _CLOCKS = ("clock", "ext_clk", "extck")
 
 
 def pins_of(model: Any) -> ModelPins:
-    """Of a golden model fresh out of reset (`model.chip.Chip`)."""
+    """Return the pins of a golden model immediately after reset (`model.chip.Chip`)."""
     inputs = {pin: level for pin, level in model.INPUTS.items() if pin != "rst_n"}
     clock = next((pin for pin in _CLOCKS if pin in inputs), "")
     return ModelPins(inputs, dict(model.log.initial), model.WIDTHS, frozenset(model.HOST_PINS), clock)

@@ -1,4 +1,4 @@
-"""Records shared by bench and comparator: pin changes in, edges out. Plain data, no simulator."""
+"""Records that bench and comparator share: changes of inputs, edges of outputs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from typing import NamedTuple
 
 
 class Change(NamedTuple):
-    """Input pin `pin` has level `value` from clk edge `t` on (edge t is the first that samples it)."""
+    """Change of an input: pin `pin` has level `value` from edge `t` of the clock on.
+
+    Edge t is the first edge that samples the level.
+    """
 
     t: int
     pin: str
@@ -19,7 +22,7 @@ class Change(NamedTuple):
 
 
 class Edge(NamedTuple):
-    """Output `signal` has level `value` from clk edge `t` on (visible just after that edge)."""
+    """Change of an output: `signal` has level `value` immediately after edge `t` of the clock."""
 
     t: int
     signal: str
@@ -27,9 +30,11 @@ class Edge(NamedTuple):
 
 
 class Access(NamedTuple):
-    """One host access; `t` is edge 0 of P104-BUS-05/06: first edge with RS true, or with WS false again.
+    """One access of the host.
 
-    kind: "read" or "write", or on a bus with more registers than two what the report shall show.
+    Attributes:
+        t: edge 0 of P104-BUS-05/06: first edge with RS true, or with WS false again.
+        kind: "read" or "write"; on a bus with more than two registers the text for the report.
     """
 
     t: int
@@ -49,7 +54,7 @@ class Access(NamedTuple):
 
 @dataclass
 class Recording:
-    """All that a run leaves: enough to replay it into a model and to compare."""
+    """All data of a run that a replay into a model and a comparison need."""
 
     part: str
     params: dict[str, object]
@@ -60,16 +65,16 @@ class Recording:
     accesses: list[Access] = field(default_factory=list)
 
     def to_json(self) -> str:
-        """One JSON document; lists of lists, so that it stays short."""
+        """Return one JSON document; lists of lists, so that it is short."""
         return json.dumps({**self.__dict__, "version": 1})
 
     def digest(self) -> str:
-        """The same for recordings that do not differ in anything."""
+        """Return a digest that is equal for equal recordings."""
         return hashlib.sha256(self.to_json().encode()).hexdigest()
 
     @classmethod
     def from_json(cls, text: str) -> Recording:
-        """Inverse of `to_json`."""
+        """Return the recording of a JSON document of `to_json`."""
         data = json.loads(text)
         data.pop("version")
         data["stimulus"] = [Change(*row) for row in data["stimulus"]]
@@ -79,7 +84,10 @@ class Recording:
 
 
 def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, list[tuple[int, int]]]:
-    """Per signal of `initial` the real changes (t, value): same-edge doubles merged, repeats dropped."""
+    """Return the changes (t, value) of each signal in `initial`.
+
+    Of several changes at one edge the last one counts. Repeated levels are omitted.
+    """
     lists: dict[str, list[tuple[int, int]]] = {name: [] for name in initial}
     for t, signal, value in edges:
         changes = lists[signal]
@@ -99,13 +107,16 @@ def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, li
 
 
 def level_at(changes: list[tuple[int, int]], t: int, initial: int) -> int:
-    """Level at t, changes at t included, by bisection: recordings have a hundred thousand of them."""
+    """Return the level at t, changes at t included.
+
+    The search is a bisection because recordings have a hundred thousand changes.
+    """
     place = bisect_right(changes, t, key=lambda change: change[0])
     return changes[place - 1][1] if place else initial
 
 
 def bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> list[tuple[int, int]]:
-    """Changes (edge, level) of one bit of a port."""
+    """Return the changes (edge, level) of one bit of a port."""
     level, rows = initial >> place & 1, []
     for t, value in changes:
         if value >> place & 1 != level:
@@ -115,7 +126,10 @@ def bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> lis
 
 
 def steps(changes: list[tuple[int, int]]) -> list[int]:
-    """Edges on which phases (positive logic) go on to another pattern; a chopper's off-times do not count."""
+    """Return the edges at which phases (positive logic) change to another pattern.
+
+    Off-times of a chopper do not count.
+    """
     found, last = [], 0
     for t, pattern in changes:
         if pattern and last and pattern != last:

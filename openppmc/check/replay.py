@@ -1,12 +1,12 @@
-"""Recorded inputs into a golden model, at their clk, and what it says the outputs must do.
+"""Replay of recorded inputs into a golden model, and the outputs that it expects.
 
     edges = expected_edges("ppmc104", {"CLK_HZ": 24_000_000}, changes, end)
     comparison = compare_recording(Recording("ppmc104", params, end=end, stimulus=changes, edges=seen))
     comparison.mismatch     # None, or the first difference
 
-Time is the index of rising clk edges, 0 the first one behind the reset: an input at t is sampled first by
-edge t, an output at t changes with edge t (`model.chip`). A recording that begins
-in a reset has `rst_n` 0 and 1 among its changes.
+Time is the index of the rising clock edge; 0 is the first edge after the reset. Edge t is the first one that
+samples an input at t, and an output at t changes with edge t (`model.chip`). A recording that begins in a
+reset has `rst_n` 0 and 1 in its changes.
 """
 
 from __future__ import annotations
@@ -22,20 +22,31 @@ from .records import Change, Edge, Recording
 
 
 def new_model(part: str, params: Mapping[str, object]) -> Any:
-    """Golden model of a part with these parameters of its top module. ValueError for values out of range,
-    parts.UnknownPartError for a part without model."""
+    """Return the golden model of a part with these parameters of its top module.
+
+    Raises:
+        ValueError: a value is out of range.
+        parts.UnknownPartError: the part has no model.
+    """
     return parts.part(part).load("model")(**{name.lower(): value for name, value in params.items()})
 
 
 class Follower:
-    """`model`: whatever follows; it needs pins(t, **levels) and run_until(t)."""
+    """Model with a stream of inputs.
+
+    model: any object with `pins(t, **levels)` and `run_until(t)`.
+    """
 
     def __init__(self, model: Any) -> None:
         self.model = model
         self._fed, self._end = 0, -1
 
     def catch_up(self, stimulus: Sequence[Change], end: int) -> Any:
-        """Feed what has been added to `stimulus` since the last call, run up to edge `end`; the model."""
+        """Pass on the new changes in `stimulus` and run the model up to edge `end`.
+
+        Returns:
+            The model.
+        """
         new = stimulus[self._fed :]
         self._fed = len(stimulus)
         for t, group in groupby(new, key=lambda change: change.t):
@@ -49,9 +60,15 @@ class Follower:
 def expected_edges(
     part: str, params: Mapping[str, object], inputs: Iterable[tuple[int, str, int]], end: int
 ) -> list[Edge]:
-    """Output edges, in order of time up to edge `end`, of a golden model that gets these (edge, pin, level).
+    """Return the output edges of a golden model with these inputs.
 
-    inputs: in order of time, by the names of the model's pins. ValueError for an unknown pin or level.
+    The edges are in order of time up to edge `end`.
+
+    Args:
+        inputs: (edge, pin, level) in order of time, with the pin names of the model.
+
+    Raises:
+        ValueError: a pin or level is unknown.
     """
     follower = Follower(new_model(part, params))
     model = follower.catch_up([Change(*row) for row in inputs], end)
@@ -65,11 +82,14 @@ def compare_recording(
     follower: Follower | None = None,
     pins: Pinned | None = None,
 ) -> Comparison:
-    """Feed a recording's inputs into a golden model and compare every output.
+    """Replay the inputs of a recording into a golden model and compare every output.
 
-    initial: outputs to compare with their levels before edge 0 (all of the model, in reset). seen: who made
-    the recording, in reports and pictures. follower: a model that has followed already; pins: the part's
-    for reports (the model's).
+    Args:
+        initial: outputs to compare, with their levels before edge 0; by default all outputs of the model with
+            their levels in reset.
+        seen: source of the recording, for reports and pictures.
+        follower: a model that has run with this recording already.
+        pins: pins of the part for reports; by default those of the model.
     """
     follower = follower or Follower(new_model(recording.part, recording.params))
     if pins is None or initial is None:

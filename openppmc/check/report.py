@@ -1,4 +1,7 @@
-"""A comparison in words: what differs, where, the neighbourhood of both sides, the stimulus before it."""
+"""A comparison as text.
+
+The text contains the difference, the edges of both sides near it, and the stimulus before it.
+"""
 
 from __future__ import annotations
 
@@ -40,8 +43,11 @@ def _pin_rows(part: Pinned, changes: list[Change], t: int, count: int = 12) -> l
 
 
 def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
-    """Write compare.txt, recording.json, compare.vcd and compare.png; returns the text. MissingExtraError
-    behind the first two if the others cannot be made."""
+    """Write `compare.txt`, `recording.json`, `compare.vcd` and `compare.png`; return the text.
+
+    Raises:
+        MissingExtraError: a library for the last two files is missing; the first two are written.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     text = report(comparison, repro)
     (folder / "compare.txt").write_text(text + "\n", encoding="utf-8")
@@ -52,7 +58,10 @@ def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
 
 
 def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
-    """Text of a mismatch: what, where, neighbourhoods of both sides, stimulus before it."""
+    """Return the text of a mismatch.
+
+    The text contains the difference, the edges of both sides near it, and the stimulus before it.
+    """
     m, recording = comparison.mismatch, comparison.recording
     if m is None:
         return f"no difference in {comparison.edges_compared} output edges up to edge {recording.end}"
@@ -78,7 +87,7 @@ def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
 
 
 def _folded_accesses(accesses: list[Any], history: int) -> list[str]:
-    """Accesses as text, runs of equal status polls folded into one row."""
+    """Return accesses as text; repeated equal polls of the status are one row."""
     rows: list[tuple[Any, int]] = []
     for access in accesses:
         poll = access.kind == "CSR read" or (access.kind == "read" and access.reg == 1)

@@ -1,4 +1,4 @@
-"""A comparison as a VCD: both sides, where they differ, and the pins."""
+"""A comparison as a VCD file: both sides, their differences, and the pins."""
 
 from __future__ import annotations
 
@@ -10,13 +10,18 @@ from .comparison import Comparison, differing_spans
 
 
 def clk_ps(params: Any) -> int:
-    """Length of 1 clk in ps."""
+    """Return the length of 1 cycle in ps."""
     return round(1e12 / int(params.get("CLK_HZ", 16_000_000)))
 
 
 def write_vcd(comparison: Comparison, path: Path) -> None:
-    """VCD with scopes `expected`, `actual`, `differs` (1 where the two levels differ) and `pins`. Raises
-    MissingExtraError."""
+    """Write a VCD file with the scopes `expected`, `actual`, `differs` and `pins`.
+
+    A signal in `differs` is 1 where the two levels differ.
+
+    Raises:
+        MissingExtraError: pyvcd is not installed.
+    """
     needs("plot", "a waveform file", "vcd")
     from vcd import VCDWriter
 

@@ -1,4 +1,4 @@
-"""The PC's side of a board: protocol without I/O, ports, drivers of the parts.
+"""Host software for a board: protocol without I/O, ports, and drivers of the parts.
 
     from openppmc.host import CCW, Ppmc104
 
@@ -7,10 +7,10 @@
         axis.home(CCW)
         axis.move(2500)
 
-A module for each thing that the parts share, a module or folder for each part. A byte passes `part` →
-`axis` → `motion` → `link` → `script` → `frames` → `port`; each imports only those after it. `port` does the
-I/O; `model_port` and `line_port` have the boards that need no hardware. What is called "Pure" in its first
-line does neither.
+Each function that the parts share has a module, and each part has a module or folder. A byte passes `part` →
+`axis` → `motion` → `link` → `script` → `frames` → `port`; each module imports only those after it. `port`
+does the I/O; `model_port` and `line_port` contain the boards that need no hardware. A module with "Pure" in
+its first line does no I/O and imports no module that does.
 """
 
 from typing import TYPE_CHECKING

@@ -1,6 +1,6 @@
-"""What users hand to a driver, checked in one place: numbers, flags, names, forgotten parentheses. Pure.
+"""Checks of arguments: numbers, flags, names, missing parentheses. Pure.
 
-Classes of drivers and motions derive from `Checked`: each public method checks its arguments by their
+Classes of drivers and motions derive from `Checked`: each public method checks its arguments against their
 annotations before it begins.
 
 >>> whole(100.0, "pulses"), exact(0.5, "speed"), flag(1, "on")
@@ -32,18 +32,26 @@ Number: TypeAlias = int | float | Fraction
 
 
 def exact(value: Any, what: str) -> Fraction:
-    """A finite real number of any kind as a fraction. OutOfRange, also for text, bool and None."""
+    """Return a finite real number of any type as a fraction.
+
+    Raises:
+        OutOfRange: the value is no finite number; also for text, bool and `None`.
+    """
     try:
         if not isinstance(value, bool):
             top, bottom = (value, 1) if _is_index(value) else value.as_integer_ratio()
             return Fraction(int(top), int(bottom))
     except (AttributeError, TypeError, ValueError, OverflowError):
-        pass  # text, None, a list; nan; infinite
+        pass  # text, `None`, a list; nan; infinite
     raise OutOfRange(f"{what} {value!r} is not a number")
 
 
 def whole(value: Any, what: str) -> int:
-    """An integer of any kind, also as a float without a fraction. OutOfRange, for text, bool, None, too."""
+    """Return an integer of any type, also a float without a fraction.
+
+    Raises:
+        OutOfRange: the value is no whole number; also for text, bool and `None`.
+    """
     if type(value) is int:
         return value
     try:
@@ -56,7 +64,7 @@ def whole(value: Any, what: str) -> int:
 
 
 def within(value: Any, what: str, low: int, high: int, unit: str = "") -> int:
-    """A whole number from low to high. OutOfRange."""
+    """Return a whole number from low to high. Raises OutOfRange."""
     number = whole(value, what)
     if not low <= number <= high:
         raise OutOfRange(f"{what} {number} is outside {low} to {high}{unit and ' ' + unit}")
@@ -64,7 +72,11 @@ def within(value: Any, what: str, low: int, high: int, unit: str = "") -> int:
 
 
 def flag(value: Any, what: str) -> bool:
-    """True or False, 1 or 0; OutOfRange for words, None and other numbers, which Python would take."""
+    """Return a flag given as True, False, 1 or 0.
+
+    Raises:
+        OutOfRange: another value, such as text, `None` or another number, which Python would accept.
+    """
     try:
         if value in (False, True):
             return bool(value)
@@ -74,7 +86,7 @@ def flag(value: Any, what: str) -> bool:
 
 
 def side(direction: Any) -> int:
-    """A direction of pulses: 0 (CW) or 1 (CCW). OutOfRange."""
+    """Return a direction of pulses: 0 (CW) or 1 (CCW). Raises OutOfRange."""
     number = whole(direction, "direction")
     if number not in (0, 1):
         raise OutOfRange(f"direction {number} is neither 0 (CW) nor 1 (CCW)")
@@ -90,13 +102,13 @@ def _is_index(value: Any) -> bool:
 
 
 def _usual(value: Any, what: str) -> Number:
-    """A number as it is where the package can count with it."""
+    """Return a number unchanged if the package can calculate with its type, else as a fraction."""
     number = exact(value, what)
     return value if isinstance(value, int | float | Fraction) else number
 
 
 def _seconds(value: Any, what: str) -> float:
-    """A time, which may be without end."""
+    """Return a time in s, which may be infinite."""
     return value if isinstance(value, float) and value == inf else float(exact(value, what))
 
 
@@ -104,7 +116,7 @@ def _seconds(value: Any, what: str) -> float:
 
 
 class Kind(NamedTuple):
-    """What an argument must be. optional: None will do, too."""
+    """Type of an argument. optional: `None` is accepted as well."""
 
     name: str
     check: Callable[[Any, str], Any]
@@ -115,14 +127,20 @@ _CHECKS = {"int": whole, "Number": _usual, "float": _seconds, "bool": flag}
 
 
 def _kind(annotation: Any) -> Kind | None:
-    """By annotation, such as `int` or `units.Number | None`; None for what is not checked here."""
+    """Return the type for an annotation such as `int` or `units.Number | None`.
+
+    For other annotations, which are not checked, it returns None.
+    """
     first, *more = str(getattr(annotation, "__name__", annotation)).split(" | ")
     name = first.removeprefix("units.")
     return Kind(name, _CHECKS[name], more == ["None"]) if name in _CHECKS and more in ([], ["None"]) else None
 
 
 class Entry:
-    """A method of a class that checks its arguments; objects have it as a `Bound`. kinds: by parameter."""
+    """Method of a class that checks its arguments; an instance returns it as a `Bound`.
+
+    kinds: type of each parameter that is checked.
+    """
 
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
@@ -140,7 +158,7 @@ class Entry:
         return self.function(instance, *values, **words)
 
     def checked(self, values: Sequence[Any], words: Mapping[str, Any]) -> tuple[Any, Any]:
-        """The arguments as the function gets them. OutOfRange."""
+        """Return the arguments as the function receives them. Raises OutOfRange."""
         if self.kinds:
             known = [self._one(name, value) for name, value in zip(self._names, values, strict=False)]
             values = (*known, *values[len(known) :])
@@ -153,7 +171,10 @@ class Entry:
 
 
 def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The checking function of a class method. Python 3.10 binds only functions to the class."""
+    """Return a class method that checks its arguments.
+
+    Python 3.10 binds only functions to the class.
+    """
     entry = Entry(function)
 
     @wraps(function)
@@ -168,8 +189,8 @@ def _value(bound: Bound, *others: object) -> Any:
 
 
 class Bound:
-    # A method of an object, as true, equal and hashable as those of Python. Arithmetic with it is an error,
-    # and so is a comparison with a number. Help and names are those of the function.
+    # A method of an object. Its truth value, equality and hash are those of a Python method. Arithmetic with
+    # it and a comparison with a number raise an error. Its help and its names are those of the function.
 
     def __init__(self, entry: Entry, instance: object) -> None:
         self._entry, self.__self__ = entry, instance
@@ -218,8 +239,11 @@ class Bound:
 
 
 class Checked:
-    """Base of what users hold. Public methods check their arguments. Names that can be set are those that the
-    class declares (property, class attribute or annotation in its body) and those that begin with _."""
+    """Base class of all objects that users hold.
+
+    Public methods check their arguments. Only attributes that the class declares (property, class attribute
+    or annotation in its body) and those that begin with _ can be set.
+    """
 
     _declared: frozenset[str] = frozenset()
 
@@ -245,7 +269,7 @@ class Checked:
 
 
 def _guess(name: str, of: Checked) -> str:
-    """The nearest name that exists."""
+    """Return a hint with the most similar existing name, or an empty text."""
     names = [one for one in {*dir(of), *of._declared} if not one.startswith("_")]
     near = get_close_matches(name, names, 1)
     return f": do you mean {near[0]!r}?" if near else ""

@@ -1,4 +1,4 @@
-"""How a motion ended: finish status and remaining pulses, decoded, and what is raised for it. Pure."""
+"""End of a motion, decoded from finish status and remaining pulses, and its exceptions. Pure."""
 
 # ruff: noqa: N818
 
@@ -20,13 +20,13 @@ from ..model.motion.codes import (
 from .errors import PpmcError, ProtocolError
 
 COUNTS = 1 << 32
-"""Values of a pulse counter."""
+"""Number of values of a pulse counter."""
 ALARM_INPUT = ("alarm input", "clear the drive's alarm")
-"""What that input is called where it is one, and what to do about it."""
+"""Name of the alarm input on parts that have one, and the advice for it."""
 
 
 class MotionError(PpmcError):
-    """A motion ended other than asked for; `end` says where and why."""
+    """A motion ended in another way than requested; `end` holds position and cause."""
 
     def __init__(self, message: str, end: End) -> None:
         super().__init__(message)
@@ -34,7 +34,7 @@ class MotionError(PpmcError):
 
 
 class LimitReached(MotionError):
-    """A hard or slow-down limit switch ended the motion."""
+    """A hard limit or slow-down limit switch ended the motion."""
 
 
 class AlarmStop(MotionError):
@@ -42,7 +42,7 @@ class AlarmStop(MotionError):
 
 
 class StoppedEarly(MotionError):
-    """A stop command ended a motion that was to be complete."""
+    """A stop command ended a motion before all its pulses were output."""
 
 
 class OriginNotFound(MotionError):
@@ -50,12 +50,16 @@ class OriginNotFound(MotionError):
 
 
 class EndUnknown(ProtocolError):
-    """A motion is over, but the part does not confirm how it ended: it was reset, replaced, or moved by
-    something else. The position is not reliable until the next homing.
+    """A motion is over, but the part does not confirm how it ended.
 
-    `finish`: the finish status that was read, None if the part has none or did not report one. `pulses`:
-    counted since the start of the motion, CW positive, None if unknown. `asked`: pulses of the move, None for
-    endless motions and for those of another program. `position`: the pulse counter now, None without one.
+    The part was reset, replaced, or moved by something else. The position is not reliable until the next
+    homing.
+
+    Attributes:
+        finish: finish status that was read, `None` if the part has none or did not report one.
+        pulses: counted since the start of the motion, CW positive, `None` if unknown.
+        asked: pulses of the move, `None` for endless motions and for those of another program.
+        position: current pulse counter, `None` without one.
     """
 
     def __init__(
@@ -82,7 +86,7 @@ class EndUnknown(ProtocolError):
 
 
 class Cause(Flag):
-    """Why a motion ended; several may meet. COMPLETE: all pulses were made."""
+    """Cause of the end of a motion; several may coincide. COMPLETE: all pulses were output."""
 
     COMPLETE = 0
     STOP = FINISH_STOP
@@ -95,7 +99,7 @@ class Cause(Flag):
         return self.words(ALARM_INPUT[0])
 
     def words(self, alarm: str) -> str:
-        """What ended it; alarm: what the part calls that input."""
+        """Return the cause as text. alarm: name of the alarm input of the part."""
         words = [alarm if cause is Cause.ALARM else text for cause, text in _WORDS.items() if cause in self]
         return " and ".join(words) or "complete"
 
@@ -114,10 +118,13 @@ _CAUSE_BITS = FINISH_STOP | FINISH_ALARM | FINISH_LIMIT | FINISH_SLOW
 class End:
     """End of a motion.
 
-    pulses: made, CW positive; None for a motion that another program started. left: pulses not made (of
-    endless operations: of 2^24). position: pulse counter afterwards, None if the bridge has none. finish: the
-    finish status byte. who, alarm: for messages, the axis of a part with several, and what the part calls its
-    alarm input with what to do about it.
+    Attributes:
+        pulses: pulses output, CW positive; `None` for a motion that another program started.
+        left: pulses not output (of endless operations: of 2^24).
+        position: pulse counter after the motion, `None` if the bridge has none.
+        finish: finish status byte.
+        who: message prefix, which names the axis if the part has several.
+        alarm: name of the alarm input of the part, and the advice for it.
     """
 
     cause: Cause
@@ -131,19 +138,23 @@ class End:
 
     @property
     def why(self) -> str:
-        """The cause in words."""
+        """Cause as text."""
         return self.cause.words(self.alarm[0])
 
     @property
     def complete(self) -> bool:
-        """All pulses were made: no other cause, and no pulse is left."""
+        """True if all pulses were output: no other cause, and no pulse is left."""
         return self.cause is Cause.COMPLETE and self.left == 0
 
     def check(self, asked: int | None = None) -> End:
-        """Return the end itself if it is complete. Raises LimitReached, AlarmStop or StoppedEarly otherwise,
-        and EndUnknown if nothing ended the motion, but the pulses are not those of the move.
+        """Return the end itself if the motion is complete.
 
-        asked: pulses of the move, without a sign.
+        Args:
+            asked: pulses of the move, without a sign.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: something ended the motion.
+            EndUnknown: nothing ended the motion, but the pulses are not those of the move.
         """
         if self.cause is Cause.COMPLETE:
             wrong = asked is not None and self.pulses is not None and abs(self.pulses) != asked
@@ -158,7 +169,7 @@ class End:
         raise kind(f"{self.who}{self.why} ended the motion{where}{made}: {advice}", self)
 
     def trouble(self) -> tuple[type[MotionError], str]:
-        """What to raise if it is not complete, and what to do about it."""
+        """Return exception class and advice for an end that is not complete."""
         if Cause.ALARM in self.cause:
             return AlarmStop, f"{self.alarm[1]}, then home again if steps may be lost"
         if self.cause & (Cause.LIMIT | Cause.SLOW_LIMIT):
@@ -176,14 +187,23 @@ def decode_end(
     moved: int | None = None,
     where: str = "",
 ) -> End:
-    """Decode finish status and remaining pulses (P104-RD-03, P104-END-04..06, P2104-END-04..06, STMC-FIN-01,
-    -REM-01), if they confirm each other.
+    """Decode finish status and remaining pulses if they confirm each other.
 
-    total: pulses ordered, 2^24 for endless operations, None for a motion of another program. direction: 0 CW,
-    1 CCW. operation: low three bits of the command code, None if unknown. moved: difference of the pulse
-    counter since the start, None without a counter. where: begins the message of an error. Raises EndUnknown
-    if bit 7 is 0, if the operation is none or another one, or if remaining pulses or pulse counter contradict
-    the status.
+    Rules: P104-RD-03, P104-END-04..06, P2104-END-04..06, STMC-FIN-01, STMC-REM-01.
+
+    Args:
+        finish: finish status byte.
+        remaining: remaining-pulse register.
+        total: requested pulses, 2^24 for endless operations, `None` for a motion of another program.
+        direction: 0 = CW, 1 = CCW.
+        position: pulse counter after the motion, `None` without a counter.
+        operation: lowest three bits of the command code, `None` if unknown.
+        moved: difference of the pulse counter since the start, `None` without a counter.
+        where: prefix of an error message.
+
+    Raises:
+        EndUnknown: bit 7 is 0, the operation does not exist or is another one, or the remaining pulses or the
+            pulse counter contradict the status.
     """
 
     def unknown(reason: str) -> EndUnknown:
@@ -199,7 +219,8 @@ def decode_end(
         raise unknown(f"finish status 0x{finish:02X}")
     cause = Cause(finish & _CAUSE_BITS)
     if not cause and number == ORIGIN:
-        # The origin switch sets no bit; a search through all 2^24 pulses reads the same as one pulse less.
+        # The origin switch sets no bit. A search through all 2^24 pulses reads the same as one that ended a
+        # pulse earlier.
         searched_all = remaining == 0 and moved is not None and abs(moved) == total
         cause = Cause.COMPLETE if searched_all else Cause.ORIGIN
     left = remaining + 1 if cause else 0

@@ -1,7 +1,8 @@
-"""Errors of ports and lines, and refusals of a part, as exceptions. Ends of motions: `ending`.
+"""Exceptions for ports, lines and rejected commands. Ends of motions are in `ending`.
 
-Each message says what is wrong and what to do about it. Names say what happened, as in
-`except LimitReached`; the common base is an Error. What only one part refuses is in its module or folder.
+Each message states what is wrong and what to do. The name of an exception is the event itself, as in `except
+LimitReached`; only the common base class ends in Error. An exception of one part only is in the module or
+folder of that part.
 """
 
 # ruff: noqa: N818
@@ -13,11 +14,11 @@ from ..model.single.codes import Error
 
 
 class OutOfRange(PpmcError, ValueError):
-    """An argument outside its range; the message gives range and unit."""
+    """An argument is outside its range; the message states range and unit."""
 
 
 class NoSuchName(PpmcError, AttributeError):
-    """A name was set that the object does not have: a mistyped setting, most likely."""
+    """An attribute was set that the object does not have, for example because of a typing error."""
 
 
 class Misused(PpmcError, TypeError, AttributeError):
@@ -25,43 +26,47 @@ class Misused(PpmcError, TypeError, AttributeError):
 
 
 class Timeout(PpmcError, TimeoutError):
-    """A wait with a time limit given by the caller ran out."""
+    """A wait exceeded the time limit that the caller gave."""
 
 
 # ---------------------------------------------------------------------- port and line
 
 
 class LinkError(PpmcError):
-    """The way to the board: port, cable, protocol."""
+    """Error on the path to the board: port, cable or protocol."""
 
 
 class PortError(LinkError):
-    """The port cannot be opened: no such port, taken, not allowed, not a serial port, bad text."""
+    """The port cannot be opened.
+
+    It does not exist, is in use, is not permitted, or is no serial port.
+    """
 
 
 class NoAnswer(LinkError):
-    """Nothing that could be an answer came back."""
+    """No valid response was received."""
 
 
 class WrongDevice(LinkError):
-    """Something answers, but it is not the bridge or the part that was asked for."""
+    """A device responds, but it is not the requested bridge or part."""
 
 
 class ProtocolError(LinkError):
-    """The bridge did something that its contract does not know."""
+    """The bridge violated its protocol."""
 
 
 class Disconnected(LinkError):
-    """The port went away while it was open."""
+    """The port disappeared while it was open."""
 
 
-# Names say what happened, as in `except LimitReached`; the common base is an Error.
+# ---------------------------------------------------------------------- rejected commands
 
 
 class CommandRefused(PpmcError):
-    """The part refused a byte. `status` is its status byte; one subclass per reason.
+    """The part rejected a byte; each reason has a subclass.
 
-    `number` is the error number of PPMC-104 and STMC; those of the PPMC-2104 are in a table of their own.
+    status: status byte of the part. number: error number of PPMC-104 and STMC; the PPMC-2104 has its own
+    table.
     """
 
     number: int
@@ -73,69 +78,75 @@ class CommandRefused(PpmcError):
 
 
 class NothingToStop(CommandRefused):
-    """Error 0 (PPMC-2104: 6). The driver sends only defined codes, so it is a stop command at rest."""
+    """Error 0 (PPMC-2104: 6): a stop command while the motor is stopped.
+
+    The part also reports it for an undefined code, but the driver sends only defined codes.
+    """
 
     number = Error.UNDEFINED
     text = "nothing to stop: the motor is at rest (or the code is unknown)"
 
 
 class NotWhileBusy(CommandRefused):
-    """Error 1 (PPMC-2104: 5)."""
+    """Error 1 (PPMC-2104: 5): the part is busy with a motion."""
 
     number = Error.NOT_WHILE_BUSY
     text = "the part is busy with a motion: wait for its end or stop it first"
 
 
 class NotInitialised(CommandRefused):
-    """Error 2 (PPMC-2104: 4)."""
+    """Error 2 (PPMC-2104: 4): the part is not initialised."""
 
     number = Error.NOT_INITIALISED
     text = "the part is not initialised (power-up, reset or excitation off): initialise it first"
 
 
 class UnexpectedData(CommandRefused):
-    """Error 3 (PPMC-2104: 2)."""
+    """Error 3 (PPMC-2104: 2): a data byte that no command requested."""
 
     number = Error.UNASKED_DATA
     text = "the part did not ask for this data byte: another program may be using it; send the command again"
 
 
 class RampTooLong(CommandRefused):
-    """Error 4 (PPMC-2104: 10)."""
+    """Error 4 (PPMC-2104: 10): the ramp is too long."""
 
     number = Error.PA_TOO_LARGE
     text = "the part refuses a ramp of more than 11220 pulses: choose a shorter one"
 
 
 class BadRamp(CommandRefused):
-    """Error 5 (PPMC-2104: 9)."""
+    """Error 5 (PPMC-2104: 9): the ramp is invalid."""
 
     number = Error.BAD_RAMP
     text = "the part refuses this ramp: it needs 4 pulses or more, and a high speed not below the start speed"
 
 
 class UnexpectedDataBusy(CommandRefused):
-    """Error 6."""
+    """Error 6: a data byte during a motion that no command requested."""
 
     number = Error.UNASKED_DATA_BUSY
     text = "the part did not ask for this data byte during the motion: another program may be using it"
 
 
 class AlreadyDecelerating(CommandRefused):
-    """Error 7 (PPMC-2104: 8)."""
+    """Error 7 (PPMC-2104: 8): a deceleration stop while the motor is decelerating."""
 
     number = Error.ALREADY_DECELERATING
     text = "the motor is decelerating already: wait for its end, or halt it at once"
 
 
 class UnknownCode(CommandRefused):
-    """Error 1 of the PPMC-2104."""
+    """Error 1 of the PPMC-2104: the code is undefined."""
 
     text = "the part does not know this code: check the script"
 
 
 class StartRefused(CommandRefused):
-    """Error 7 of the PPMC-2104; other parts have reasons of their own."""
+    """Error 7 of the PPMC-2104: an active switch prevents the start.
+
+    Other parts have their own reasons.
+    """
 
     text = (
         "it may not start: its limit switch of this direction, its alarm or, for a search, its origin "
@@ -159,5 +170,5 @@ BY_NUMBER: dict[int, type[CommandRefused]] = {
 
 
 def refused(status: int) -> CommandRefused:
-    """The exception for a status byte with ERR = 1."""
+    """Return the exception for a status byte with ERR = 1."""
     return BY_NUMBER[status >> 4 & 7](status)

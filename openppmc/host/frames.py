@@ -1,9 +1,11 @@
-"""Frames of the UART bridge (docs/uart_bridge.md, UB-FRM-01..04), and one request at a time over a line
-that may lose, break or repeat bytes (UB-SEQ, UB-MSG). Pure.
+"""Frames (UB-FRM-01..04) and sessions (UB-SEQ, UB-MSG) of the UART bridge. Pure.
 
-No I/O and no clock: the caller passes the time in seconds (any origin, never backwards), sends the bytes
-that the methods return and hands over the bytes that arrive. A payload is what stands between the
-flags without the CRC: SEQ and what follows.
+See docs/uart_bridge.md.
+
+A session has one outstanding request at a time, over a line that may lose, corrupt or repeat bytes. This
+module does no I/O and reads no clock. The caller passes the time in seconds (any origin, never decreasing),
+sends the bytes that the methods return, and passes the bytes that arrive. A payload is the content between
+the flags without the CRC: SEQ and the bytes that follow it.
 """
 
 from __future__ import annotations
@@ -18,13 +20,16 @@ CRC_START = 0xFFFF
 CRC_BYTES = 2
 
 REQUEST_LIMIT = 256
-"""Content of a request in bytes, SEQ and CRC included (UB-FRM-04)."""
+"""Longest content of a request in bytes, including SEQ and CRC (UB-FRM-04)."""
 ANSWER_LIMIT = 262
-"""Longest content that a bridge sends: SEQ, RESULT, POS, LAST, 256 data bytes, CRC (UB-ANS-01, -02)."""
+"""Longest content that a bridge sends, in bytes (UB-ANS-01, -02).
+
+It consists of SEQ, RESULT, POS, LAST, 256 data bytes and CRC.
+"""
 
 
 class Fault(IntEnum):
-    """What is wrong with a frame; the numbers are those of the bridge's NAK messages (UB-FRM-06)."""
+    """Error of a frame; the numbers are those of the NAK messages of the bridge (UB-FRM-06)."""
 
     FRAMING = 1
     CRC = 2
@@ -36,25 +41,28 @@ class Fault(IntEnum):
 
 @dataclass(frozen=True)
 class Frame:
-    """A good frame."""
+    """Valid frame."""
 
     payload: bytes
 
     @property
     def seq(self) -> int:
-        """First byte: SEQ of a request or an answer, 128.. for messages."""
+        """First byte: SEQ of a request or an answer, 128 and up for messages."""
         return self.payload[0]
 
 
 @dataclass(frozen=True)
 class Broken:
-    """A frame that was dropped, and why."""
+    """Invalid frame, which was dropped; fault: the reason."""
 
     fault: Fault
 
 
 def crc16(data: bytes) -> int:
-    """CRC of UB-FRM-03: polynomial 1021, start FFFF, not reflected, not inverted."""
+    """Return the CRC of UB-FRM-03.
+
+    It has the polynomial 1021 and the initial value FFFF, and is not reflected and not inverted.
+    """
     return binascii.crc_hqx(data, CRC_START)
 
 
@@ -64,9 +72,14 @@ def escape(data: bytes) -> bytes:
 
 
 def encode(payload: bytes, limit: int = ANSWER_LIMIT) -> bytes:
-    """Line bytes of a frame: flag, payload and CRC escaped, flag.
+    """Return the line bytes of a frame: flag, escaped payload and CRC, flag.
 
-    payload: 1 to limit - 2 bytes, SEQ first; ValueError otherwise. limit: REQUEST_LIMIT for requests.
+    Args:
+        payload: 1 to limit - 2 bytes, SEQ first.
+        limit: REQUEST_LIMIT for requests.
+
+    Raises:
+        ValueError: the payload has a wrong length.
     """
     if not 1 <= len(payload) <= limit - CRC_BYTES:
         raise ValueError(f"a frame carries 1 to {limit - CRC_BYTES} bytes, not {len(payload)}")
@@ -75,10 +88,10 @@ def encode(payload: bytes, limit: int = ANSWER_LIMIT) -> bytes:
 
 
 class Deframer:
-    """Line bytes to frames; keeps what is incomplete for the next call.
+    """Receiver that converts line bytes to frames; it keeps an incomplete frame for the next call.
 
-    limit: content in bytes, CRC included, beyond which a frame is dropped as too long. Bytes before the
-    first flag are ignored (UB-FRM-05).
+    limit: longest content in bytes, including the CRC; a longer frame is dropped as too long. Bytes before
+    the first flag are ignored (UB-FRM-05).
     """
 
     def __init__(self, limit: int = ANSWER_LIMIT) -> None:
@@ -86,13 +99,13 @@ class Deframer:
         self.reset()
 
     def reset(self) -> None:
-        """Forget everything and hunt for a flag."""
+        """Discard all received bytes and wait for a flag."""
         self._hunting = True
         self._escaped = False
         self._content = bytearray()
 
     def feed(self, data: bytes) -> list[Frame | Broken]:
-        """Take line bytes; returns the frames that they complete or break, in order."""
+        """Process line bytes; return the frames that they complete or invalidate, in order."""
         found: list[Frame | Broken] = []
         for byte in data:
             item = self._flag() if byte == FLAG else self._byte(byte)
@@ -125,18 +138,21 @@ class Deframer:
             return None
         if len(content) <= CRC_BYTES:
             return Broken(Fault.TOO_SHORT)
-        # Over a payload and its own CRC the CRC is 0.
+        # The CRC of a payload followed by its own CRC is 0.
         return Broken(Fault.CRC) if crc16(content) else Frame(content[:-CRC_BYTES])
 
 
 MESSAGE_EVENT, MESSAGE_NAK = 0x80, 0x81
 LAST_SEQ = 127
 WAKE_UP = b"\x00\x00\x7e"
-"""Sent at 115 200 baud: brings a bridge back from any rate and out of any frame (UB-LIN-06)."""
+"""Bytes sent at 115 200 baud to wake up a bridge (UB-LIN-06).
+
+They return it from any rate and any frame to the idle state.
+"""
 
 
 class Nak(IntEnum):
-    """Why the bridge dropped something (UB-FRM-06, -07, UB-SEQ-03)."""
+    """Reason why the bridge dropped a frame (UB-FRM-06, -07, UB-SEQ-03)."""
 
     FRAMING = 1
     CRC = 2
@@ -152,7 +168,10 @@ _REPEAT_AFTER = frozenset(Nak) - {Nak.SEQ}
 
 
 class GaveUp(Exception):  # noqa: N818 - says what happened, the link makes an error of it
-    """No answer after all attempts. `naks`: what the bridge said meanwhile; `heard`: line bytes that came."""
+    """No answer after all attempts.
+
+    naks: NAKs of the bridge during this time. heard: number of received bytes.
+    """
 
     def __init__(self, attempts: int, naks: tuple[int, ...], heard: int) -> None:
         super().__init__(f"no answer after {attempts} attempts")
@@ -160,10 +179,11 @@ class GaveUp(Exception):  # noqa: N818 - says what happened, the link makes an e
 
 
 class Session:
-    """The requests of one host.
+    """Sequence of requests of one host.
 
-    attempts: how often a request is sent at most. grace: seconds from a NAK to the repeat; the NAK may
-    concern noise before the request, then the answer comes within that time and nothing need be repeated.
+    attempts: largest number of times that a request is sent. grace: seconds from a NAK to the repetition. The
+    NAK may concern noise before the request; then the answer arrives within this time, and no repetition is
+    required.
     """
 
     def __init__(self, attempts: int = 4, grace: float = 0.05) -> None:
@@ -177,30 +197,35 @@ class Session:
         self._request: bytes | None = None
         self._heard = 0
         self.events: deque[int] = deque()
-        """Pin bytes of the events that came, oldest first; the caller takes them out."""
+        """Pin bytes of the received events, oldest first; the caller removes them."""
         self.repeats = 0
-        """Requests sent again so far, for statistics."""
+        """Number of repeated requests, for statistics."""
 
     @property
     def busy(self) -> bool:
-        """A request is outstanding."""
+        """True if a request is outstanding."""
         return self._request is not None
 
     @property
     def deadline(self) -> float | None:
-        """When `tick` wants to be called if nothing arrives; None without a request."""
+        """Time at which `tick` must be called if no byte arrives; `None` without a request."""
         return self._deadline if self.busy else None
 
     def restart(self) -> None:
-        """Begin anew after the link was woken up: SEQ 0, no request, nothing half received."""
+        """Start again after the link was woken up: SEQ 0, no request, no incomplete frame."""
         self._deframer.reset()
         self._next_seq = 0
         self._request = self._answer = None
 
     def request(self, script: bytes, patience: float, now: float) -> bytes:
-        """Line bytes of a new request; `patience`: seconds to wait for the answer before repeating.
+        """Return the line bytes of a new request.
 
-        Raises RuntimeError while another one is outstanding, ValueError if the script is too long.
+        Args:
+            patience: seconds to wait for the answer before the request is repeated.
+
+        Raises:
+            RuntimeError: another request is outstanding.
+            ValueError: the script is too long.
         """
         if self.busy:
             raise RuntimeError("a request is outstanding")
@@ -216,11 +241,11 @@ class Session:
         return line
 
     def abandon(self) -> None:
-        """Nobody waits for the outstanding request any more; its answer will be ignored."""
+        """Cancel the outstanding request; its answer will be ignored."""
         self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
-        """Bytes arrived. Returns the answer without its SEQ if it is complete now."""
+        """Process received bytes; return the answer without its SEQ if it is complete."""
         self._heard += len(data)
         for item in self._deframer.feed(data):
             if isinstance(item, Frame):
@@ -229,7 +254,10 @@ class Session:
         return answer
 
     def tick(self, now: float) -> bytes:
-        """At the deadline: the same request again. Empty before. Raises GaveUp after the last attempt."""
+        """Return the request again at its deadline, before it nothing.
+
+        Raises GaveUp after the last attempt.
+        """
         if self._request is None or now < self._deadline:
             return b""
         if self._sent >= self._attempts:
@@ -241,7 +269,7 @@ class Session:
         return self._request
 
     def _sort(self, payload: bytes, now: float) -> None:
-        """Answer, event, NAK, or nothing of ours."""
+        """Process an answer, an event or a NAK; ignore other payloads."""
         kind = payload[0]
         if kind == MESSAGE_EVENT and len(payload) == 2:
             self.events.append(payload[1])

@@ -1,6 +1,8 @@
-"""What a part allows, for drivers and for plans that need no board: what all parts have in common. Pure.
+"""Capabilities of a part, for drivers and for plans without a board. Pure.
 
-Each part's own is `KIND` in its folder (`openppmc.parts`, column `kind`).
+This module has the members that all parts share.
+
+The capabilities of each part are `KIND` in its folder (`openppmc.parts`, column `kind`).
 """
 
 from __future__ import annotations
@@ -18,20 +20,24 @@ POSITIVE = "positive logic"
 LONG = "long intervals"
 PULSE_ONLY = "pulse only"
 COILS_OFF = "excitation off"
+CHOPPER = "chopper times"
 FREE_CURVES = "free curves"
 AUX = "output AUX"
 PHASES = "phase outputs"
 OWN_STOP = "a deceleration of its own"
 CURVES = "ramps of other shapes"
-"""What not all parts have."""
+"""Names of capabilities that not all parts have."""
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What an initialisation asks for; names and units as those of the drivers' `initialise`.
+    """Request for an initialisation; names and units are those of `initialise` of the drivers.
 
-    ramp_pulses None: as usual for the part. positive_logic None: what the part has, or positive where it has
-    both. axis: its number. curve: file of a free curve, as `ppmc312.free.read_stages` reads it.
+    Attributes:
+        ramp_pulses: `None` for the default of the part.
+        positive_logic: `None` for the logic that the part has, positive if it has both.
+        axis: number of the axis.
+        curve: file of a free curve, as read by `ppmc312.profile.read_stages`.
     """
 
     start_pps: units.Number = 1000
@@ -52,13 +58,18 @@ class Wanted:
 
     @property
     def own_stop(self) -> bool:
-        """With a deceleration that is not the acceleration backwards."""
+        """True if the deceleration ramp is not the reversed acceleration ramp."""
         return self.stop_pps is not None or self.down_pulses is not None
 
 
 class AnySetup(Protocol):
-    """What the plans of all parts tell. start, high: speeds as asked for and as reached. ramp_pulses: from
-    one to the other. clock: base clock of the ramp."""
+    """Members of the set-ups of all parts.
+
+    Attributes:
+        start, high: speeds as requested and as reached.
+        ramp_pulses: pulses between these speeds.
+        clock: base clock of the ramp.
+    """
 
     @property
     def start(self) -> units.Speed: ...
@@ -72,9 +83,17 @@ class AnySetup(Protocol):
 
 @dataclass(frozen=True)
 class Kind:
-    """One part. row: in the table of parts. axes: how many. has: of the words above. outputs: highest value
-    of the auxiliary outputs. alarm: what its alarm input is called, and what to do about it. origin_between:
-    the origin lies between the slow-down limits, and a search ends at them. usual_ramp: in pulses."""
+    """Capabilities of one part.
+
+    Attributes:
+        row: row in the table of parts.
+        axes: number of axes.
+        has: names of capabilities (see above).
+        outputs: highest value of the auxiliary outputs.
+        alarm: name of the alarm input, and the advice for it.
+        origin_between: the origin is between the slow-down limits, and a search ends at them.
+        usual_ramp: default length of a ramp in pulses.
+    """
 
     row: Row
     axes: int = 1
@@ -89,58 +108,74 @@ class Kind:
 
     @property
     def number(self) -> int:
-        """As IDENT of the bridge tells it, 0 for parts that are on no bridge."""
+        """Part number in IDENT of the bridge, 0 for parts that are on no bridge."""
         return self.row.number
 
     def check_axis(self, axis: int) -> int:
-        """The number itself if there is such an axis; OutOfRange otherwise."""
+        """Return the axis number if the part has this axis. Raises OutOfRange otherwise."""
         if not 1 <= axis <= self.axes:
             there = "one axis" if self.axes == 1 else f"axes 1 to {self.axes}"
             raise OutOfRange(f"axis {axis}: a {self} has {there}")
         return axis
 
     def need(self, what: str) -> None:
-        """OutOfRange if the part lacks one of the things in `has`."""
+        """Raise OutOfRange if the part lacks this capability (a member of `has`)."""
         if what not in self.has:
             raise OutOfRange(f"{what}: a {self} does not have that")
 
     def constant_clock(
         self, xtal_hz: int, ramp: units.BaseClock | None, pps: units.Number
     ) -> units.BaseClock:
-        """The base clock of a constant speed, after that of the ramp (None: nobody knows it). Raises
-        OutOfRange for a speed that no clock reaches. Here: the one that an initialisation has chosen."""
+        """Return the base clock of a constant speed.
+
+        This method returns the clock that an initialisation has chosen; subclasses may choose another one.
+
+        Args:
+            ramp: base clock of the ramp, `None` if it is unknown.
+
+        Raises:
+            OutOfRange: no clock reaches the speed.
+        """
         if ramp is None:
             raise OutOfRange("a speed needs a base clock, which an initialisation chooses: initialise first")
         ramp.choose(pps)
         return ramp
 
     def plan(self, xtal_hz: int, wanted: Wanted) -> AnySetup:
-        """The initialisation, with what it really reaches. Raises OutOfRange for what the part
-        cannot do."""
+        """Return the set-up for an initialisation, with the values that are reached.
+
+        Raises:
+            OutOfRange: the part does not support the request.
+        """
         raise OutOfRange(f"plan: a {self} does not have that")
 
 
 def kind_of(name: str) -> Kind:
-    """The kind of the part of this name. UnknownPartError."""
+    """Return the capabilities of the part with this name. Raises UnknownPartError."""
     return cast(Kind, part(name).load("kind"))
 
 
 def name_of(number: int) -> str:
-    """Name of the part with this number, known or not."""
+    """Return the name of the part with this number, also for an unknown part."""
     row = by_number(number)
     return f"PPMC-{number}" if row is None else row.title
 
 
-# What parts allow whose speeds are a rate byte over a base clock (P104-INT-01). Pure.
+# Capabilities of parts whose speeds are a base clock divided by a rate byte + 1 (P104-INT-01).
 
 AXIS_BIT = 0x20
-"""Bit of a command code that names axis 2."""
+"""Bit of a command code that selects axis 2."""
 
 
 @dataclass(frozen=True)
 class RateKind(Kind):
-    """See `Kind`. lengths: shortest and longest ramp in pulses. least_rate: with an internal base clock.
-    rate_gap: by how much the start rate is above the high rate at least."""
+    """Capabilities of a part with rate bytes; see `Kind`.
+
+    Attributes:
+        lengths: shortest and longest ramp in pulses.
+        least_rate: lowest rate byte with an internal base clock.
+        rate_gap: least difference of start rate and high rate.
+    """
 
     lengths: tuple[int, int] = (PA_MIN, PA_MAX)
     least_rate: int = 0
@@ -156,7 +191,7 @@ class RateKind(Kind):
         return units.any_clock(xtal_hz, pps, ramp.vsel, ramp.csel, self.least_rate)
 
     def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> units.BaseClock:
-        """The base clock of an initialisation. OutOfRange."""
+        """Return the base clock of an initialisation. Raises OutOfRange."""
         if wanted.external_clock is not None:
             return units.BaseClock.external_pin(wanted.external_clock)
         vsel = int(not wanted.long_intervals)

@@ -1,4 +1,7 @@
-"""Several stations on one line, regardless of their frames: master, motions, waiting, stopping, errors."""
+"""Lines with several stations: master, motions, waiting, stopping, errors.
+
+They are independent of the frame format.
+"""
 
 # ruff: noqa: N818
 
@@ -25,15 +28,18 @@ from .motion import PROGRESS_POLL, AnyMotion, Progress
 from .part import Device, Turning
 from .port import Port
 
-# What a line with several stations can get wrong, as exceptions.
+# Exceptions of a line with several stations.
 
 
 class StationSilent(NoAnswer):
-    """No reply of a station came, however often it was asked."""
+    """No reply of a station was received after all attempts."""
 
 
 class GarbledReply(NoAnswer):
-    """Bytes came, but never a whole reply: noise, a wrong speed, or two stations with one address."""
+    """Bytes were received, but no complete reply.
+
+    The cause is noise, a wrong speed, or two stations with one address.
+    """
 
 
 class DuplicateAddress(LinkError):
@@ -41,17 +47,19 @@ class DuplicateAddress(LinkError):
 
 
 class LineEcho(LinkError):
-    """The line hears its own bytes, but was not told so."""
+    """The master receives its own bytes, but was not configured for it."""
 
 
 class LostReply(LinkError):
-    """An instruction that may not be repeated was sent, and nobody knows whether it was carried out."""
+    """An instruction that may not be repeated was sent, and it is unknown whether it was executed."""
 
 
 def unanswered(where: str, misses: Sequence[Miss], attempts: int, check: str, others: str) -> NoAnswer:
-    """What to say when all attempts to ask a station have failed.
+    """Return the exception after all attempts to reach a station have failed.
 
-    check: what to look at after silence. others: what makes garbled replies.
+    Args:
+        check: what the user should check after silence.
+        others: possible causes of corrupt replies.
     """
     if not any(miss.heard for miss in misses):
         if len(misses) < attempts:
@@ -63,32 +71,35 @@ def unanswered(where: str, misses: Sequence[Miss], attempts: int, check: str, ot
     return GarbledReply(f"{where}: only garbled replies, {attempts} times: {others}")
 
 
-# Motions of stations on a line: their ends show only when somebody asks.
+# Motions of stations on a line. Only a poll detects their ends.
 
 POLL_EVERY = 0.02
 """Seconds between two rounds of polls."""
 
 
 class LineMotion(AnyMotion, Protocol):
-    """A motion under way."""
+    """Running motion."""
 
     @property
     def unknown(self) -> EndUnknown | None:
-        """Why the part does not confirm its end, None if it does or the motion is not over."""
+        """Reason why the part does not confirm the end.
+
+        It is None if the part confirms it, or while the motion is running.
+        """
 
     @property
     def line(self) -> Master[Any]:
-        """Where its station is."""
+        """Line of the station."""
 
     @property
     def station(self) -> int:
-        """Its number."""
+        """Number of the station."""
 
     def look(self) -> None:
-        """Ask the station; sets `end`, or `unknown`, when the motion is over."""
+        """Poll the station; set `end` or `unknown` if the motion is over."""
 
     def now(self) -> Progress:
-        """Where the motor is, or where the motion has ended."""
+        """Return the progress now, or at the end of the motion."""
 
 
 def wait_all(
@@ -96,11 +107,17 @@ def wait_all(
     timeout: float | None = None,
     progress: Callable[[Progress], None] | None = None,
 ) -> list[End]:
-    """Ask the stations until their motions are over; ends in the same order, not judged.
+    """Poll the stations until their motions are over.
 
-    timeout: s for all of them, None for ever; Timeout leaves the rest running. progress: called about ten
-    times a second, with pulses summed up if there are several motions. Raises EndUnknown as soon as one
-    motion is over without a confirmed end; the rest run on.
+    It returns the ends in the same order, for any cause.
+
+    Args:
+        timeout: longest wait for all motions in s, `None` for no limit.
+        progress: called about ten times a second, with the sum of the pulses of several motions.
+
+    Raises:
+        Timeout: the time is over; the other motions continue.
+        EndUnknown: a motion is over without a confirmed end; the other motions continue.
     """
     if not motions:
         return []
@@ -119,7 +136,10 @@ def wait_all(
             return [motion.end for motion in motions if motion.end is not None]
         if limit is not None and line.clock() >= limit:
             who = ", ".join(str(motion.station) for motion in running)
-            raise Timeout(f"station {who}: not over after {timeout:g} s: wait longer or stop it")
+            raise Timeout(
+                f"station {who}: motion still in progress after {timeout:g} s; "
+                "increase timeout or stop the motion"
+            )
         if progress is not None and line.clock() >= due:
             progress(_sum(motions))
             due = line.clock() + PROGRESS_POLL
@@ -127,7 +147,10 @@ def wait_all(
 
 
 def _sum(motions: Sequence[LineMotion]) -> Progress:
-    """Progress of several motions together; position is the first one's that still runs."""
+    """Return the progress of several motions together.
+
+    Its position is that of the first running motion.
+    """
     known = [(motion, motion.now()) for motion in motions]
     asked = [motion.asked for motion in motions]
     first = next(now for motion, now in known if motion.end is None)
@@ -139,10 +162,13 @@ def _sum(motions: Sequence[LineMotion]) -> Progress:
     )
 
 
-# The master's end of a line with several stations, whatever their frames are: bytes out, one reply in.
+# Master of a line with several stations, for any frame format. It sends a frame and receives one reply.
 
 PATIENCE = 0.1
-"""Seconds beyond line time until a station counts as silent: it takes 4 ms, a USB adapter up to 16 ms."""
+"""Seconds beyond line time until a station counts as silent.
+
+A station needs 4 ms, a USB adapter up to 16 ms.
+"""
 BITS = 10
 _GAP_BYTES, _GAP = 5, 0.01
 _MOST_NOISE = 400
@@ -151,17 +177,26 @@ Answer = TypeVar("Answer", covariant=True)
 
 
 class Listener(Protocol[Answer]):
-    """Takes the bytes of one reply."""
+    """Receiver for the bytes of one reply."""
 
     def take(self, byte: int) -> Answer | Fault | None:
-        """The next byte; a reply when it is complete, a Fault when it cannot become one any more."""
+        """Process a byte; return the reply if it is complete.
+
+        It returns a Fault if no reply is possible any more.
+        """
 
 
 class Master(Generic[Answer]):
-    """Half duplex: a frame, then the reply to it; faults are counted, nothing is repeated.
+    """Half-duplex master: it sends a frame and receives the reply.
 
-    port: open already. baud: line rate in bit/s. echo: the master hears its own bytes. patience: s beyond
-    line time until a station is silent, at most 60. counters: one for each station, by its number.
+    It counts faults and repeats nothing.
+
+    Attributes:
+        port: open port.
+        baud: line rate in bit/s.
+        echo: the master receives its own bytes.
+        patience: seconds beyond line time until a station counts as silent, at most 60.
+        counters: counters of each station, by its number.
     """
 
     def __init__(self, port: Port, baud: int, echo: bool, patience: float) -> None:
@@ -174,52 +209,58 @@ class Master(Generic[Answer]):
 
     @staticmethod
     def check_patience(patience: float) -> None:
-        """OutOfRange for one that makes no sense."""
+        """Raise OutOfRange if the patience is not more than 0 s and at most 60 s."""
         if not 0 < exact(patience, "patience") <= 60:
             raise OutOfRange(f"patience {patience:g} s is outside 0 to 60 s")
 
     @property
     def port_patience(self) -> float:
-        """What the port needs at least; virtual boards may be slower than real time."""
+        """Least patience of the port in s; virtual boards may be slower than real time."""
         return getattr(self.port, "patience", 0.0)
 
     @property
     def name(self) -> str:
-        """The port as the user named it."""
+        """Port as the user named it."""
         return self.port.name
 
     def clock(self) -> float:
-        """Time of the port in s; that of `model:` is virtual."""
+        """Return the time of the port in s; the time of `model:` is virtual."""
         return self.port.clock()
 
     def pause(self, seconds: float) -> None:
-        """Let time of the port pass; bytes that come are dropped."""
+        """Wait on the clock of the port; discard received bytes."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
             self.stray += len(self.port.read(left))
 
     def wait_event(self, timeout: float) -> int | None:
-        """There are none on a line: None after `timeout` seconds, bytes that come are dropped."""
+        """Return `None` after `timeout` seconds, because a line has no events; discard received bytes."""
         self.pause(timeout)
         return None
 
     def forget_events(self) -> None:
-        """There are none on a line."""
+        """Do nothing, because a line has no events."""
 
     def close(self) -> None:
-        """Close the port; allowed twice."""
+        """Close the port; a second call is allowed."""
         self._closed = True
         self.port.close()
 
     def seconds(self, count: int) -> float:
-        """Line time of so many bytes."""
+        """Return the line time of this number of bytes in s."""
         return count * BITS / self.baud
 
     # ------------------------------------------------------------------ frames
 
     def ask(self, station: int, sent: bytes, listener: Listener[Answer], extra: float = 0.0) -> Answer | Miss:
-        """Send a frame and await the reply. extra: s that the station may take longer. Raises LineEcho,
-        Disconnected."""
+        """Send a frame and wait for the reply.
+
+        Args:
+            extra: additional time in s that the station may need.
+
+        Raises:
+            LineEcho, Disconnected: the line or the port failed.
+        """
         self.send(station, sent)
         counters = self.counters[station]
         got = self._await(listener, self.seconds(len(sent)) + extra)
@@ -233,7 +274,7 @@ class Master(Generic[Answer]):
         return got
 
     def send(self, station: int, sent: bytes) -> None:
-        """Send a frame, and drop its echo if there is one. What came before is dropped."""
+        """Send a frame and discard its echo, if any. Bytes received earlier are discarded."""
         if self._closed:
             raise Disconnected(f"{self.name}: the line is closed: open it again")
         self.stray += len(self.port.read(0))
@@ -251,10 +292,10 @@ class Master(Generic[Answer]):
             raise LineEcho(f"{self.name}: the line does not hear its own bytes: leave the option echo out")
         self._early = heard[len(sent) :]
         if heard[: len(sent)] != sent:
-            self.stray += 1  # somebody else talks; the reply will show what it has done
+            self.stray += 1  # another device sends at the same time; the reply will show the effect
 
     def _await(self, listener: Listener[Answer], seconds: float) -> Answer | Miss:
-        """The reply, or what came instead."""
+        """Return the reply, or a Miss with the bytes received instead."""
         heard = bytearray()
         deadline = self.clock() + seconds + self.patience
         early, self._early = self._early, b""
@@ -275,11 +316,11 @@ class Master(Generic[Answer]):
                     return Miss(fault, bytes(heard) + data[place + 1 :] + self._rest())
 
     def _missed(self, listener: Listener[Answer], heard: bytes) -> Miss:
-        """Silence, perhaps after bytes that were no reply."""
+        """Return the Miss for silence, possibly after bytes that were no reply."""
         return Miss(Fault.NOISE if heard else None, heard)
 
     def _rest(self) -> bytes:
-        """What still comes until the line is quiet. Bounded."""
+        """Return the bytes that arrive until the line is quiet; the time is limited."""
         gap = max(_GAP, self.seconds(_GAP_BYTES))
         rest, end = b"", self.clock() + 20 * gap
         while (data := self.port.read(gap)) and self.clock() < end:
@@ -288,7 +329,7 @@ class Master(Generic[Answer]):
 
 
 class Station(Turning, Protocol):
-    """One of the line."""
+    """Station of the line."""
 
     @property
     def number(self) -> int: ...
@@ -301,9 +342,9 @@ StationT = TypeVar("StationT", bound=Station)
 
 
 class LineBus(Device, Generic[LineT, StationT]):
-    """A line with its stations, which `axis` gives; see `device.Device`.
+    """Line with stations, which `axis` returns; see `part.Device`.
 
-    Leaving its `with` block by an exception decelerates motions that this object started.
+    If its `with` block is left by an exception, motions that this object started decelerate.
     """
 
     link: LineT
@@ -315,14 +356,14 @@ class LineBus(Device, Generic[LineT, StationT]):
 
     @abstractmethod
     def make(self, station: int) -> StationT:
-        """The driver of a station."""
+        """Create the driver of a station."""
 
     @abstractmethod
     def look_at(self, axis: StationT) -> None:
-        """Read what a station has to say."""
+        """Read the unsolicited reports of a station."""
 
     def axis(self, station: int) -> StationT:
-        """The station with this number, whether it is there or not; always the same object."""
+        """Return the station with this number, connected or not; the object is always the same."""
         made = self._stations.get(station)
         if made is None:
             made = self.make(station)
@@ -331,7 +372,7 @@ class LineBus(Device, Generic[LineT, StationT]):
 
     @property
     def axes(self) -> tuple[StationT, ...]:
-        """The stations in use so far."""
+        """Stations used so far."""
         return tuple(self._stations[number] for number in sorted(self._stations))
 
     def wait(
@@ -340,19 +381,27 @@ class LineBus(Device, Generic[LineT, StationT]):
         timeout: float | None = None,
         progress: Callable[[Progress], None] | None = None,
     ) -> list[End]:
-        """Wait until motions, or the motions of stations (default: of all in use), are over; does not judge.
+        """Wait until motions, or the motions of stations, are over; return the ends for any cause.
 
-        timeout: s, None for ever; Timeout leaves the rest running. progress: called about ten times a second.
+        Args:
+            motions: motions or stations; default: all stations in use.
+            timeout: longest wait in s, `None` for no limit.
+            progress: called about ten times a second.
+
+        Raises:
+            Timeout: the time is over; the other motions continue.
         """
         wanted = self.axes if motions is None else motions
         chosen = [one.motion if hasattr(one, "motion") else one for one in wanted]
         if motions is not None and None in chosen:
-            raise OutOfRange("this station was started by nobody: start it first")
+            raise OutOfRange("this station has no motion to wait for; start one first")
         return wait_all([one for one in chosen if one is not None], timeout, progress)
 
     def stop(self, stations: Iterable[int] | None = None, now: bool = False) -> list[End]:
-        """Stop stations (default: those in use) and wait; all are told before an error is raised. Those at
-        rest are passed over."""
+        """Stop stations (default: those in use) and wait.
+
+        All stations receive the stop command before an error is raised. Stopped stations are skipped.
+        """
         errors: list[PpmcError] = []
         moving = []
         for axis in self._chosen(stations):
@@ -369,7 +418,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         return ends
 
     def attend(self, seconds: float) -> None:
-        """Let time pass, and look at the stations in use."""
+        """Wait on the clock of the line and poll the stations in use."""
         end = self.line.clock() + seconds
         while (left := end - self.line.clock()) > 0:
             for axis in self.axes:

@@ -1,5 +1,8 @@
-"""Ports of a line with several stations: anything pyserial opens, the modelled line (`model:`), one in a
-process of its own (`sim:`)."""
+"""Ports of a line with several stations.
+
+They are a device or URL opened by pyserial, a modelled line (`model:`), and a line in a separate process
+(`sim:`).
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,17 @@ if TYPE_CHECKING:
     import serial
     from serial.rs485 import RS485Settings
 
-# The port `model:` of a line: golden models of the stations with their motors, in virtual time.
+# Port `model:` of a line: golden models of the stations with their motors, in virtual time.
 
 
 class ModelLine:
-    """A line that needs no hardware. text: words of the part's virtual line. baud: line rate. part:
-    of the stations. Raises PortError for a bad text."""
+    """Line that needs no hardware.
+
+    Attributes:
+        text: options of the virtual line of the part.
+        baud: line rate in bit/s.
+        part: part of the stations. Raises PortError if text is invalid.
+    """
 
     def __init__(self, text: str, baud: int, part: str) -> None:
         self.name = "model:" + text
@@ -66,7 +74,7 @@ class ModelLine:
             raise Disconnected(f"{self.name}: the port went away: plug it in and run the command again")
 
     def _catch_up(self) -> None:
-        """The line went on while the program did something else."""
+        """Advance the line by the time that has passed while the program did something else."""
         if behind := self._pacer.behind(self.line.seconds):
             self._run(behind)
 
@@ -74,12 +82,15 @@ class ModelLine:
         whole(lambda: self.line.run_seconds(seconds))
 
 
-# What can go wrong between the master of a line and a station, and how often it did. Pure.
+# Faults between the master of a line and a station, and their counters.
 
 
 class Fault(Enum):
-    """Why bytes were no reply. FOREIGN: it came from another station; BROKEN: a wrong character or checksum;
-    NOISE: bytes that belong to no reply."""
+    """Reason why bytes were no reply.
+
+    FOREIGN: another station replied. BROKEN: a wrong character or checksum. NOISE: bytes that belong to no
+    reply.
+    """
 
     FOREIGN = "another station replied"
     BROKEN = "a broken reply"
@@ -88,11 +99,16 @@ class Fault(Enum):
 
 @dataclass
 class Counters:
-    """What has happened between the master and a station.
+    """Counters of the transfers between the master and a station.
 
-    sent: frames. repeated: of these, once more. silent: no reply; garbled: a broken one; foreign: another
-    station replied; refused: the station says that a frame arrived broken (41). lost_reports: polls without a
-    whole reply, with which a report may be gone.
+    Attributes:
+        sent: frames.
+        repeated: repeated frames.
+        silent: no reply.
+        garbled: an invalid reply.
+        foreign: another station replied.
+        refused: the station reports that a frame arrived corrupt (41).
+        lost_reports: polls without a complete reply, in which a report may be lost.
     """
 
     sent: int = 0
@@ -105,25 +121,28 @@ class Counters:
 
     @property
     def faults(self) -> int:
-        """All that went wrong on the line."""
+        """Number of all faults of the line."""
         return self.silent + self.garbled + self.foreign + self.refused
 
 
 @dataclass(frozen=True)
 class Miss:
-    """No reply. fault: why, None after silence. heard: bytes that came."""
+    """Missing reply. fault: the reason, `None` after silence. heard: bytes received."""
 
     fault: Fault | None
     heard: bytes
 
 
 SIM_PATIENCE = 0.25
-"""The virtual line answers through two processes."""
+"""Seconds; the reply of the virtual line passes through two processes."""
 _SHORT, _LONGEST = 0.05, 30.0
 
 
 class UrlPort(SerialPort):
-    """A device or URL through pyserial. rs485: how RTS switches the driver, None: it does not."""
+    """Device or URL opened by pyserial.
+
+    rs485: how RTS switches the line driver, `None`: it does not.
+    """
 
     def __init__(self, spec: str, baud: int, rs485: RS485Settings | None = None) -> None:
         self._rs485 = rs485
@@ -146,8 +165,10 @@ class UrlPort(SerialPort):
 
 
 class SimLinePort(SimPort):
-    """The virtual line: started here, stopped with the port. A read that has to wait counts the line's time,
-    which may be slower than real time."""
+    """Virtual line; its process is started with the port and stopped with it.
+
+    A read with a timeout uses the time of the line, which may be slower than real time.
+    """
 
     patience = SIM_PATIENCE
 
@@ -163,7 +184,7 @@ class SimLinePort(SimPort):
         return super().read(min(timeout / factor - timeout, _LONGEST)) if 0 < factor < 1 else data
 
     def _pace(self) -> float:
-        """Line time / wall time; 1 while nothing moves."""
+        """Return line time / wall time; 1 if the line does not run."""
         from ..sim import SimError
 
         try:
@@ -179,7 +200,7 @@ class SimLinePort(SimPort):
 
 
 def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:
-    """Open a port for a line. part: of the stations, for virtual ones. Raises PortError."""
+    """Open a port of a line. part: part of the stations, for virtual lines. Raises PortError."""
     if not spec:
         raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
     name = spec if ":" in spec else spec + ":"

@@ -1,4 +1,4 @@
-"""A board at the other end of a port: wake-up, identity, line rate, scripts, events."""
+"""Connection to a board through a port: wake-up, identity, line rate, scripts, events."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity,
 
 DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
-"""Seconds beyond line time and waits until a request is repeated: USB adapters and busy computers."""
+"""Seconds beyond line time and waits until a request is repeated.
+
+USB adapters and busy computers need this time.
+"""
 _SETTLE = 0.02
 _QUIET = 0.05
 _BITS = 10
@@ -22,7 +25,7 @@ _MISFIT = "package and bitstream do not fit together: renew the older one"
 
 
 class Talk(Protocol):
-    """What the driver of an axis needs of a link; see `Link`."""
+    """Members of a link that the driver of an axis needs; see `Link`."""
 
     @property
     def name(self) -> str: ...
@@ -39,11 +42,16 @@ class Talk(Protocol):
 
 
 class Link:
-    """Opens the port, finds the bridge, raises the line rate. A context manager.
+    """Open link to a bridge, with the line rate raised. A context manager.
 
-    spec: device path, `sim:…` or `model:…`. baud: line rate to work with, one of the bridge's (115200 to
-    3000000); a board or adapter that cannot do it works at 115200. part: number that the part must have.
-    Raises PortError, NoAnswer, WrongDevice, Disconnected.
+    Attributes:
+        spec: device path, `sim:…` or `model:…`.
+        baud: line rate to use, one of those of the bridge (115200 to 3000000); a board or adapter that does
+            not support it works at 115200.
+        part: number that the part must have, `None` for any.
+
+    Raises:
+        PortError, NoAnswer, WrongDevice, Disconnected: the connection failed.
     """
 
     def __init__(self, spec: str | Port, baud: int = DEFAULT_BAUD, part: int | None = None) -> None:
@@ -52,7 +60,7 @@ class Link:
         self.port = open_port(spec) if isinstance(spec, str) else spec
         self.baud = BASE_BAUD
         self.refusal: Callable[[Answer], Exception] = lambda answer: refused(answer.last)
-        """Makes the exception of a refused command; drivers of parts with other errors put theirs here."""
+        """Creates the exception for a rejected command; drivers of parts with other errors replace it."""
         self._session = Session()
         self._closed = False
         try:
@@ -67,22 +75,22 @@ class Link:
 
     @property
     def name(self) -> str:
-        """The port as the user named it."""
+        """Port as the user named it."""
         return self.port.name
 
     @property
     def repeats(self) -> int:
-        """Requests that had to be sent again since the link was opened."""
+        """Number of requests repeated since the link was opened."""
         return self._session.repeats
 
     def clock(self) -> float:
-        """Time of the port in s; that of `model:` is virtual."""
+        """Return the time of the port in s; the time of `model:` is virtual."""
         return self.port.clock()
 
     # ------------------------------------------------------------------ opening and closing
 
     def _hello(self) -> Identity:
-        """Wake the bridge up at 115 200 baud and ask who it is."""
+        """Wake the bridge up at 115 200 baud and read its identity."""
         heard = 0
         for _ in range(3):
             self.port.write(WAKE_UP)
@@ -106,12 +114,12 @@ class Link:
         )
 
     def _drain(self) -> int:
-        """Drop what comes until the line is quiet; returns how much. Bounded."""
+        """Discard received bytes until the line is quiet, for a limited time; return their number."""
         heard = 0
         end = self.clock() + 10 * _QUIET
         while (data := self.port.read(_QUIET)) and self.clock() < end:
             heard += len(data)
-        # Up to two NAKs answer the wake-up itself.
+        # Up to two NAKs are the response to the wake-up itself.
         return max(0, heard - 16)
 
     def _check(self, part: int | None) -> None:
@@ -129,12 +137,15 @@ class Link:
             )
 
     def build(self) -> Build | None:
-        """What the bitstream was built from; None if it does not tell, or is older than the question."""
+        """Return the build of the bitstream, `None` if the bitstream is too old or does not report it."""
         answer = self.attempt(Script().version())
         return Build.parse(answer.values[0]) if answer.result is Result.DONE else None
 
     def use_rate(self, baud: int) -> bool:
-        """Go on at another of RATES; False if board or adapter cannot, and the link works at 115200."""
+        """Switch to another rate of RATES; return True if board and adapter support it.
+
+        Otherwise return False; the link then works at 115200.
+        """
         if baud != self.baud:
             self._raise_rate(baud)
             if self.baud == baud:
@@ -142,7 +153,10 @@ class Link:
         return self.baud == baud
 
     def _raise_rate(self, baud: int) -> None:
-        """Another line rate, if board and adapter can do it; otherwise everything stays as it was."""
+        """Switch to another line rate if board and adapter support it.
+
+        Otherwise return to 115 200 baud.
+        """
         if RATES.index(baud) > self.identity.best_rate:
             return
         self.execute(Script().rate(RATES.index(baud)))
@@ -157,7 +171,10 @@ class Link:
             self.identity = self._hello()
 
     def close(self) -> None:
-        """Switch events off, go back to 115 200 baud, close the port. Never raises; allowed twice."""
+        """Switch events off, return to 115 200 baud and close the port.
+
+        Never raises; a second call is allowed.
+        """
         if self._closed:
             return
         self._closed = True
@@ -180,15 +197,18 @@ class Link:
     # ------------------------------------------------------------------ scripts
 
     def execute(self, script: Script) -> Answer:
-        """Run a script completely.
+        """Execute a script completely.
 
-        Raises the part's error (CommandRefused), Timeout if a wait of the script ran out, ProtocolError for
-        an answer that cannot be, NoAnswer, Disconnected.
+        Raises:
+            CommandRefused: the part rejected a command.
+            Timeout: a wait of the script exceeded its time limit.
+            ProtocolError: the answer is invalid.
+            NoAnswer, Disconnected: the link failed.
         """
         return self.judge(self.attempt(script))
 
     def judge(self, answer: Answer) -> Answer:
-        """The answer itself if all ops were done, otherwise the exception of `execute`."""
+        """Return the answer if all operations were done, otherwise raise the exception of `execute`."""
         if answer.result is Result.DONE:
             return answer
         if answer.result is Result.REFUSED:
@@ -203,7 +223,7 @@ class Link:
         raise ProtocolError(f"{where}: refused (result {int(answer.result)}): {_MISFIT}")
 
     def attempt(self, script: Script) -> Answer:
-        """Run a script and return its answer whatever its result is. Raises LinkErrors only."""
+        """Execute a script and return its answer, regardless of its result. Raises LinkErrors only."""
         if self._closed:
             raise Disconnected(f"{self.name}: the link is closed: open it again")
         try:
@@ -223,7 +243,10 @@ class Link:
             session.abandon()
 
     def _await(self) -> bytes:
-        """The answer to the outstanding request, repeated as often as it takes."""
+        """Return the answer to the outstanding request.
+
+        The request is repeated until its attempts are used up.
+        """
         session, port = self._session, self.port
         while True:
             deadline = session.deadline
@@ -242,7 +265,10 @@ class Link:
     # ------------------------------------------------------------------ events
 
     def wait_event(self, timeout: float) -> int | None:
-        """The next event's pin byte (UB-MSG-01), None after `timeout` seconds without one."""
+        """Return the pin byte of the next event (UB-MSG-01).
+
+        It returns None after `timeout` seconds without an event.
+        """
         session = self._session
         end = self.clock() + timeout
         while not session.events:
@@ -253,18 +279,18 @@ class Link:
         return session.events.popleft()
 
     def forget_events(self) -> None:
-        """Drop events that came earlier."""
+        """Discard the events received so far."""
         self._session.events.clear()
 
     def pause(self, seconds: float) -> None:
-        """Let time of the port pass; events are kept."""
+        """Wait on the clock of the port; events are kept."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
             self._session.receive(self.port.read(left), self.clock())
 
 
 def _silence(name: str, gone: GaveUp) -> str:
-    """What to say when the attempts are used up."""
+    """Return the error message after all attempts."""
     if gone.naks:
         why = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
         return (

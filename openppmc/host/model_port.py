@@ -1,7 +1,7 @@
-"""The port `model:`: golden bridge, golden part and plant instead of a board, in virtual time.
+"""Port `model:`: golden bridge, golden part and plant model, in virtual time.
 
-The line is modelled byte-wise: bytes take their time; bytes at a wrong rate arrive as framing errors or
-breaks.
+The line is modelled byte by byte. A byte takes its line time. A byte at a wrong rate arrives as a framing
+error or a break.
 """
 
 from __future__ import annotations
@@ -21,28 +21,31 @@ from ..sim.common.machine import PLANT_WORDS, Setup, machine_kind, own_words, pa
 from ..sources import build_id
 from .errors import Disconnected, PortError
 
-# Keeps the virtual time of a model in step with real time, and its calls whole.
+# The pacer keeps the virtual time of a model in step with real time. `whole` completes each call of a model.
 
 T = TypeVar("T")
 
 SLICE = 0.01
-"""Seconds of wall time between two looks."""
+"""Seconds of wall time between two checks."""
 _LAG = 0.25
 
 
 class Pacer:
-    """speed: virtual seconds a second; None: as fast as it goes."""
+    """Coupling of virtual time to wall time.
+
+    speed: virtual seconds per second, `None` for as fast as possible.
+    """
 
     def __init__(self, speed: float | None) -> None:
         self.speed = speed
         self._origin = time.monotonic()
 
     def step(self, left: float) -> float:
-        """How much of `left` virtual seconds may pass before the next look."""
+        """Return how much of `left` virtual seconds may pass before the next check."""
         return left if self.speed is None else min(left, SLICE * self.speed)
 
     def wait(self, seconds: float) -> None:
-        """Do not run ahead of the wall clock; forget the lag of a model that cannot keep up."""
+        """Wait until the wall clock has caught up; discard the lag of a model that is too slow."""
         if self.speed is None:
             return
         ahead = seconds / self.speed - (time.monotonic() - self._origin)
@@ -52,7 +55,10 @@ class Pacer:
             self._origin -= ahead
 
     def behind(self, seconds: float) -> float:
-        """Virtual seconds that went by on the wall while the program did something else, 0 if few."""
+        """Return the virtual seconds that passed while the program did something else.
+
+        It returns 0 if there are few.
+        """
         if self.speed is None:
             return 0.0
         behind = (time.monotonic() - self._origin) * self.speed - seconds
@@ -61,14 +67,17 @@ class Pacer:
 
 _Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
 _worker: tuple[int, int, _Jobs] | None = None
-"""The process that has the thread, the thread, and its queue."""
+"""Process that owns the thread, the thread, and its queue."""
 
 
 def whole(call: Callable[[], T]) -> T:
-    """Call into a model. The call ends even if a signal handler raises meanwhile; the next one waits for it.
+    """Call a model and complete the call, even if a signal handler raises an exception.
 
-    A model that stops in the middle of an edge is broken. Handlers raise in the main thread only, so one
-    other thread makes all calls. Queues of C, because locks of Python can stay locked where a handler raises.
+    The next call waits for the end of this call.
+
+    A model that is interrupted within an edge is unusable. Handlers raise exceptions in the main thread only,
+    so one other thread makes all calls. The queues are implemented in C, because a lock of Python can stay
+    locked when a handler raises an exception.
     """
     global _worker
     if _worker is None or _worker[0] != os.getpid():
@@ -98,12 +107,14 @@ OPTIONS = ("part", "speed", "clk", "xtal", "timing")
 
 
 class ModelPort:
-    """A board that needs no hardware.
+    """Board that needs no hardware.
 
-    text: words of the machine (`openppmc.sim.common.machine`) and `speed` (1: real time, 10: ten times as
-    fast, max: as fast as it goes), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map` (stmc)
-    FAMILY or SHEET, `unplug` (the port goes away after this number of seconds of its time). Raises PortError
-    for anything else.
+    text: options of the machine model (`openppmc.sim.common.machine`), and `speed` (1: real time, 10: ten
+    times as fast, max: as fast as possible), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map`
+    (stmc) FAMILY or SHEET, `unplug` (the port disappears after this number of seconds of its time).
+
+    Raises:
+        PortError: text is invalid.
     """
 
     def __init__(self, text: str = "", baud: int = 115_200) -> None:
@@ -129,7 +140,7 @@ class ModelPort:
             raise PortError(f"{self.name}: {error}") from error
         axes = len(machine.plants) if kind.counters else 1
         number, datasheet = part(machine.part).number, timing == "DATASHEET"
-        # The model has no RTL: its sources are nobody's.
+        # The model has no RTL, so its source digest is empty.
         build = build_id(__version__, b"", board="MODL")
         self.bridge = Bridge(board, number, clk_hz, xtal_hz, datasheet, kind.counters, axes, build)
 
@@ -170,7 +181,7 @@ class ModelPort:
             )
 
     def _pass_time(self, seconds: float) -> None:
-        """Silence on the line; ends early when a message comes."""
+        """Let time pass without a byte on the line; return early when a message arrives."""
         whole(lambda: self._idle(seconds))
 
     def _idle(self, seconds: float) -> None:
@@ -194,7 +205,7 @@ class ModelPort:
         self.board.run_until(self.board.t + clk)
 
     def _catch_up(self) -> None:
-        """The board went on while the program did something else."""
+        """Advance the board by the time that has passed while the program did something else."""
         end = self.board.seconds + self._pacer.behind(self.board.seconds)
         while (left := end - self.board.seconds) > 0:
             self._pass_time(left)
@@ -210,7 +221,7 @@ class ModelPort:
 
 
 def _speed(text: str) -> float | None:
-    """Times real time, None for as fast as it goes."""
+    """Return the speed as a multiple of real time, `None` for as fast as possible."""
     if text == "max":
         return None
     try:

@@ -1,4 +1,4 @@
-"""A motion under way: progress, waiting for its end, finding the origin."""
+"""Running motions: progress, wait for the end, and the search for the origin."""
 
 from __future__ import annotations
 
@@ -19,15 +19,23 @@ from .speeds import Number
 
 READ_FINISH = 0x80
 SAFETY_POLL = 0.5
-"""Seconds between looks at BUSY while waiting for the interrupt message, which noise may eat."""
+"""Seconds between reads of BUSY while waiting for the interrupt message.
+
+Noise may destroy this message.
+"""
 PROGRESS_POLL = 0.1
 OPERATION, OPERATION_PULSES, DIRECTION_BIT = 0x40, 0xC0, 3
 
 
 @dataclass(frozen=True)
 class Order:
-    """A motion to start. operation: low three bits of its code. asked: pulses, None for endless ones.
-    clock: base clock, None for that of the ramp."""
+    """Parameters of a motion to start.
+
+    Attributes:
+        operation: lowest three bits of the command code.
+        asked: pulses, `None` for endless motions.
+        clock: base clock, `None` for that of the ramp.
+    """
 
     operation: int
     direction: int
@@ -44,13 +52,20 @@ class Order:
 
     @property
     def ramped(self) -> bool:
-        """With ramps, so a stop may take one as well."""
+        """True if the motion has ramps, so that a stop may have one as well."""
         return self.operation in RAMP_OPERATIONS
 
 
 @dataclass(frozen=True)
 class Progress:
-    """What a progress callback gets. asked: pulses of the move, None if it is endless. Times in s."""
+    """Argument of a progress callback.
+
+    Attributes:
+        position: position of the pulse counter.
+        made: pulses output since the start.
+        asked: pulses of the move, `None` if endless.
+        seconds: time since the start in s.
+    """
 
     position: int
     made: int
@@ -59,7 +74,7 @@ class Progress:
 
 
 class AnyMotion(Protocol):
-    """A motion under way on any part; see `Motion`."""
+    """Running motion of any part; see `Motion`."""
 
     @property
     def end(self) -> End | None: ...
@@ -74,7 +89,7 @@ class AnyMotion(Protocol):
 
 
 class Moving(Protocol):
-    """What a motion needs of its axis, which is an `axis.Axis`."""
+    """Members of an axis (`axis.Axis`) that a motion needs."""
 
     link: Talk
     bit: int
@@ -92,29 +107,35 @@ class Moving(Protocol):
 
 
 class Handle(Checked):
-    """What all motions have: `end` is the End that the part has confirmed; `unknown` is the error of a motion
-    that is over without that."""
+    """Members that all motions have.
+
+    end: End that the part has confirmed. unknown: error of a motion that is over without a confirmed end.
+    """
 
     end: End | None = None
     unknown: EndUnknown | None = None
 
     @property
     def over(self) -> bool:
-        """The motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
+        """True if the motion is over: `end` is set, or `poll` and `wait` raise EndUnknown."""
         return self.end is not None or self.unknown is not None
 
     def _confirmed(self) -> End | None:
-        """The end, None while it moves. Raises EndUnknown."""
+        """Return the end, `None` while the motion is running. Raises EndUnknown."""
         if self.unknown is not None:
             raise self.unknown
         return self.end
 
 
 class Motion(Handle):
-    """Handle of an operation that was started; `end` is its End once it is known.
+    """Handle of a motion that was started; `end` is its End when it is known.
 
-    asked: pulses, None for endless operations. direction: 0 CW, 1 CCW. ramped: it has ramps. `begin`: pulse
-    counter before. ours: False for one that another program started.
+    Attributes:
+        asked: pulses, `None` for endless motions.
+        direction: 0 = CW, 1 = CCW.
+        ramped: the motion has ramps.
+        begin: pulse counter before the motion.
+        ours: False if another program started it.
     """
 
     asked: int | None
@@ -135,9 +156,10 @@ class Motion(Handle):
         self._started = self._link.clock()
 
     def poll(self) -> Progress | None:
-        """Return where the motor is now; None when it has stopped (then `end` is set).
+        """Return the current progress; `None` if the motor has stopped (then `end` is set).
 
-        Raises EndUnknown if it has stopped, and the part does not confirm how.
+        Raises:
+            EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
         """
         self._confirmed()
         answer = self._link.execute(self._axis.where(Script().read(1)))
@@ -150,9 +172,14 @@ class Motion(Handle):
         return Progress(self._axis.counted(count) or 0, made, self.asked, self._link.clock() - self._started)
 
     def look(self, status: int) -> None:
-        """The status register was read: fetch the end if there is one. EndUnknown is raised by `poll` and
-        `wait` only, so that polling one axis does not raise the error of another. Raises ProtocolError for
-        a status that does not exist."""
+        """Process a status register that was read; read the end of the motion if BUSY = 0.
+
+        Only `poll` and `wait` raise EndUnknown, so that a poll of one axis does not raise the error of
+        another.
+
+        Raises:
+            ProtocolError: the status has a bit set that always reads as 0.
+        """
         if status & self._axis.unused:
             raise ProtocolError(
                 f"{self._link.name}: {self._axis.who}status 0x{status:02X} does not exist; the bus to the "
@@ -162,11 +189,16 @@ class Motion(Handle):
             self._finish()
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """Wait for the end, without judging its cause.
+        """Wait for the end and return it, for any cause.
 
-        timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
-        second; what it raises ends the wait, and the motion continues. Raises EndUnknown if the part does not
-        confirm how the motion ended.
+        Args:
+            timeout: longest wait in s, `None` for no limit.
+            progress: called about ten times a second. An exception that it raises ends the wait; the motion
+                continues.
+
+        Raises:
+            Timeout: the time is over; the motion continues.
+            EndUnknown: the part does not confirm how the motion ended.
         """
         self._confirmed()
         limit = None if timeout is None else self._link.clock() + timeout
@@ -180,22 +212,24 @@ class Motion(Handle):
             if progress:
                 progress(now)
             if limit is not None and self._link.clock() >= limit:
-                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+                raise Timeout(
+                    f"motion still in progress after {timeout:g} s; increase timeout or stop the motion"
+                )
         assert self.end is not None
         return self.end
 
     def _finish(self) -> None:
-        """Fetch the finish status; this also releases int_n (P104-RD-04).
+        """Read the finish status, which also releases int_n (P104-RD-04).
 
-        With DATASHEET timing BUSY rises up to 112 us after the command, and bytes wait for that (P104-DS-03):
-        then it was no end.
+        With DATASHEET timing BUSY rises up to 112 us after the command, and the part accepts no byte before
+        that (P104-DS-03). In this case the motion has not ended.
         """
         bit, remaining = self._axis.bit, self._axis.codes.remaining
         script = Script().call(READ_FINISH | bit).get(1).call(remaining | bit).get(3)
         try:
             answer = self._link.execute(self._axis.where(script))
         except NotWhileBusy:
-            return  # a part with DATASHEET timing was about to begin
+            return  # with DATASHEET timing the motion had not begun yet
         count = answer.number(4, signed=True)
         position = self._axis.counted(count)
         moved = None
@@ -218,20 +252,23 @@ class Motion(Handle):
             self.end = self._axis.told(end)
 
 
-# Finding the origin: the same edge from the same side, wherever the search begins.
+# Homing. It finds the same edge from the same side, regardless of the start position.
 
 LONGEST_BACK_OFF = 200_000
 
 
 class Switched(Protocol):
-    """Switches; True: active."""
+    """Switches; True = active."""
 
     @property
     def origin(self) -> bool: ...
 
 
 class Searching(Protocol):
-    """What homing needs of an axis, which is an `axis.Axis` or that of a part with other ways."""
+    """Members of an axis that homing needs.
+
+    The axis is an `axis.Axis`, or an axis of a part with other commands.
+    """
 
     @property
     def kind(self) -> Kind: ...
@@ -251,7 +288,7 @@ class Searching(Protocol):
 
 
 class Homing:
-    """One homing run of an axis; see `Axis.home`."""
+    """Homing run of an axis; see `Axis.home`."""
 
     def __init__(
         self,
@@ -269,7 +306,7 @@ class Homing:
         self._progress = progress
 
     def run(self, fast: bool, to_limit: bool) -> End:
-        """Approach, leave the switch if it is active, search, zero."""
+        """Approach the switch, leave it if it is active, search its edge and set the position to 0."""
         if (fast or to_limit) and not self._axis.inputs().origin:
             self._approach(to_limit)
             if self._axis.kind.origin_between and not self._axis.inputs().origin:
@@ -293,8 +330,12 @@ class Homing:
 
     @staticmethod
     def found(end: End) -> End:
-        """Return the end of a search that the origin ended. Raises OriginNotFound for a search that made all
-        its pulses, and as `End.check`."""
+        """Return the end of a search if the origin switch ended it.
+
+        Raises:
+            OriginNotFound: the search output all its pulses.
+            MotionError: another cause ended the search; see `End.check`.
+        """
         if end.cause is Cause.ORIGIN:
             return end
         raise OriginNotFound(
@@ -304,7 +345,7 @@ class Homing:
         )
 
     def _approach(self, to_limit: bool) -> None:
-        """High speed up to the slow-down limit, or on to the hard limit."""
+        """Run at high speed to the slow-down limit, or further to the hard limit."""
         end = self._axis.jog(self._towards, high=True).wait(progress=self._progress)
         if to_limit and end.cause == Cause.SLOW_LIMIT:
             end = self._axis.jog(self._towards, speed=self._pps).wait(progress=self._progress)
@@ -318,7 +359,7 @@ class Homing:
             )
 
     def _leave(self) -> None:
-        """Away from the switch in small moves until it is released."""
+        """Move away from the switch in small moves until it is released."""
         gone = 0
         step = -self._back_off if not self._towards else self._back_off
         while self._axis.inputs().origin:

@@ -1,5 +1,7 @@
-"""What a program opens: parts behind a UART bridge, of any kind (`open_part`), with one axis
-(`OneAxis`)."""
+"""Base classes of drivers for parts on a UART bridge.
+
+`open_part` opens any part. `OneAxis` is the base class of parts with one axis.
+"""
 
 from __future__ import annotations
 
@@ -19,13 +21,13 @@ from .port import Port
 from .registers import Status
 from .script import Script
 
-# What a program holds open: closing it, and no motion of ours left running after an error.
+# The base class of open devices. It closes the port and stops its motions after an error.
 
 DeviceT = TypeVar("DeviceT", bound="Device")
 
 
 class Way(Protocol):
-    """The way to the hardware: a bridge's link or the master's end of a line."""
+    """Transport to the hardware: the link of a bridge or the master end of a line."""
 
     @property
     def name(self) -> str: ...
@@ -35,7 +37,7 @@ class Way(Protocol):
 
 
 class Turning(Protocol):
-    """An axis of any part, as far as it takes to bring it to rest."""
+    """Axis of any part, with the members that are needed to stop it."""
 
     @property
     def who(self) -> str: ...
@@ -49,23 +51,26 @@ class Turning(Protocol):
 
 
 class Device(Checked):
-    """A context manager: leaving the block by an exception decelerates motions that this object started;
-    leaving it normally lets them go on. Both close the port."""
+    """Context manager for an open device; on exit it closes the port.
+
+    If the block is left by an exception, motions that this object started decelerate. If it is left normally,
+    they continue.
+    """
 
     kind: Kind
     link: Way
 
     @property
     def axes(self) -> tuple[Turning, ...]:
-        """Its axes, number 1 first."""
+        """Axes of the device; axis 1 is first."""
         raise NotImplementedError
 
     def attend(self, seconds: float) -> None:
-        """Let time of the board pass, and read what the part says by itself."""
+        """Wait on the clock of the board and process unsolicited reports of the part."""
         self.link.pause(seconds)
 
     def close(self) -> None:
-        """Close the port; a motion goes on."""
+        """Close the port; a running motion continues."""
         self.link.close()
 
     def __enter__(self: DeviceT) -> DeviceT:
@@ -80,7 +85,7 @@ class Device(Checked):
                     try:
                         axis.brake()
                     except PpmcError:
-                        pass  # the first error is the one to tell
+                        pass  # the first error is the one to report
         self.close()
 
 
@@ -88,7 +93,7 @@ PartT = TypeVar("PartT", bound="Part")
 
 
 class AnyInputs(Protocol):
-    """Switches; True: active."""
+    """Switches; True = active."""
 
     @property
     def origin(self) -> bool: ...
@@ -97,20 +102,20 @@ class AnyInputs(Protocol):
 
 
 class AnyAxis(Turning, Protocol):
-    """An axis behind a bridge; see `axis.Axis`."""
+    """Axis accessed through a bridge; see `axis.Axis`."""
 
     @property
     def number(self) -> int: ...
     @property
     def busy(self) -> int:
-        """Its bits in the raw status of the part: it moves."""
+        """Mask of the bits in the raw status of the part that are set while this axis moves."""
 
     @property
     def kind(self) -> Kind: ...
     @property
     def link(self) -> Talk: ...
     def apply(self, setup: Any) -> AnySetup:
-        """Initialise with a plan of the part's own kind."""
+        """Initialise the axis with a set-up of the part's own type."""
 
     def inputs(self) -> AnyInputs: ...
     def zero(self) -> None: ...
@@ -141,7 +146,7 @@ class AnyAxis(Turning, Protocol):
 
 
 class Part(Device):
-    """A part behind a bridge; see `device.Device`."""
+    """Part accessed through a bridge; see `Device`."""
 
     link: Link
 
@@ -154,12 +159,12 @@ class Part(Device):
 
     @classmethod
     def open(cls: type[PartT], spec: str | Port, baud: int = DEFAULT_BAUD) -> PartT:
-        """Open a port (`/dev/ttyUSB0`, `COM3`, `sim:…`, `model:…`) and check what is there."""
+        """Open a port (`/dev/ttyUSB0`, `COM3`, `sim:…`, `model:…`) and check which part is connected."""
         return cls.on(Link(spec, baud, cls.kind.number))
 
     @classmethod
     def on(cls: type[PartT], link: Link) -> PartT:
-        """On an open link, which is closed if that fails."""
+        """Create the driver on an open link; close the link if that fails."""
         try:
             return cls(link)
         except BaseException:
@@ -167,15 +172,15 @@ class Part(Device):
             raise
 
     def reset(self) -> None:
-        """Reset of the part, in any state: pulses end at once, nothing initialised."""
+        """Reset the part in any state: pulses end immediately, and nothing is initialised."""
         raise NotImplementedError
 
 
-# What the drivers of the parts with one axis share.
+# The base class of drivers for parts with one axis.
 
 
 class OneAxis(Part, Axis):
-    """Part and axis in one object; see `part.Part` and `axis.Axis`."""
+    """Part and axis in one object; see `Part` and `axis.Axis`."""
 
     kind: RateKind
     link: Link
@@ -191,27 +196,31 @@ class OneAxis(Part, Axis):
         return Script()
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
-        """Initialise with a setup that was planned before."""
+        """Initialise the axis with a set-up planned earlier."""
         self.link.execute(self.straps(setup.clock).call(setup.code, *setup.data))
         self.setup = setup
         return setup
 
     def reset(self) -> None:
-        """Reset of the part, in any state: pulses end at once, coils off, nothing initialised."""
+        """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
         self.link.execute(Script().reset())
         self.forget()
 
     def status(self) -> Status:
-        """Status register; allowed at any time."""
+        """Return the status register; allowed at any time."""
         return Status.parse(self.link.execute(Script().read(1)).byte(0))
 
     def pins(self) -> int:
-        """The bridge's view of interrupt, HOLD and switches; allowed at any time."""
+        """Return the PINS byte of the bridge: interrupt, HOLD and switches; allowed at any time."""
         return self.link.execute(Script().pins()).byte(0)
 
 
 def driver_of(number: int, where: str = "") -> type[Part]:
-    """The driver of the part with this number; WrongDevice if there is none."""
+    """Return the driver class of the part with this number.
+
+    Raises:
+        WrongDevice: no driver exists for this part.
+    """
     row = by_number(number)
     if row is None or not row.driver:
         *most, last = (one.title for one in having("number", "driver"))
@@ -223,9 +232,13 @@ def driver_of(number: int, where: str = "") -> type[Part]:
 
 
 def open_part(spec: str | Port, baud: int = DEFAULT_BAUD, number: int | None = None) -> Part:
-    """Open a port and take the driver of the part that is there (IDENT). number: the part that it must be.
+    """Open a port and return the driver of the part that IDENT reports.
 
-    Raises WrongDevice for another part, or one without a driver.
+    Args:
+        number: number of the only part to accept, `None` for any.
+
+    Raises:
+        WrongDevice: another part is connected, or no driver exists for it.
     """
     link = Link(spec, baud, number)
     try:

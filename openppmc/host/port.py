@@ -1,8 +1,7 @@
-"""Ports that a user names: a serial device, the virtual board (`sim:`), the model (`model:`).
-The only place with real I/O.
+"""Ports: a serial device, the virtual board (`sim:`) or the model (`model:`).
 
-pyserial is imported when a port is opened or looked for: all else works without it. Its SerialException is an
-OSError.
+This is the only module with real I/O. pyserial is imported when a port is opened or listed; everything else
+works without it. Its SerialException is an OSError.
 """
 
 from __future__ import annotations
@@ -24,28 +23,31 @@ _GONE = "the port went away: check the cable, plug the board in and run the comm
 
 
 class Port(Protocol):
-    """A byte stream with a clock of its own, so that a modelled board may run faster than the wall clock."""
+    """Byte stream with its own clock, so that a modelled board may run faster than the wall clock."""
 
     name: str
 
     def read(self, timeout: float) -> bytes:
-        """What has arrived; waits up to `timeout` seconds for the first byte. Raises Disconnected."""
+        """Return the bytes received; wait up to `timeout` seconds for the first byte.
+
+        Raises Disconnected.
+        """
 
     def write(self, data: bytes) -> None:
-        """Send. Raises Disconnected."""
+        """Send bytes. Raises Disconnected."""
 
     def set_baud(self, baud: int) -> None:
-        """Change the line rate. Raises PortError if the port cannot."""
+        """Change the line rate. Raises PortError if the port does not support it."""
 
     def clock(self) -> float:
-        """Seconds, never backwards."""
+        """Return the time in s, which never decreases."""
 
     def close(self) -> None:
-        """Give the port back; allowed twice."""
+        """Close the port; a second call is allowed."""
 
 
 class SerialPort:
-    """A device node through pyserial, opened exclusively."""
+    """Serial device opened exclusively with pyserial."""
 
     SLICE = 0.02
 
@@ -70,7 +72,7 @@ class SerialPort:
                 return data
 
     def _guarded(self, action: Callable[[], bytes]) -> bytes:
-        """What an access to the port gives. Raises Disconnected."""
+        """Return the result of an access to the port. Raises Disconnected."""
         try:
             return action()
         except (OSError, TypeError) as error:
@@ -104,11 +106,11 @@ class SerialPort:
         try:
             self._serial.close()
         except OSError:
-            pass  # it is gone already
+            pass  # the device has already disappeared
 
 
 class SimPort(SerialPort):
-    """The virtual board: started here, stopped with the port."""
+    """Virtual board; its process is started with the port and stopped with it."""
 
     def __init__(self, text: str, baud: int = BASE_BAUD) -> None:
         try:
@@ -137,7 +139,7 @@ class SimPort(SerialPort):
 
 
 def serial_ports() -> list[tuple[str, str]]:
-    """Device and description of the serial ports of this computer, sorted."""
+    """Return device and description of the serial ports of this computer, sorted."""
     from serial.tools import list_ports
 
     ports = sorted(list_ports.comports(), key=lambda port: port.device)
@@ -145,7 +147,7 @@ def serial_ports() -> list[tuple[str, str]]:
 
 
 def describe_ports() -> str:
-    """One phrase: what ports there are."""
+    """Return the serial ports of this computer as text for messages."""
     found = [device for device, _ in serial_ports()]
     return (
         f"there are {', '.join(found)}" if found else "this computer shows no serial port (model: needs none)"
@@ -153,7 +155,7 @@ def describe_ports() -> str:
 
 
 def _why_not(path: str, error: Exception) -> str:
-    """Cause and cure of a failed open."""
+    """Return cause and remedy of a failed open as text."""
     code = getattr(error, "errno", None)
     text = str(error)
     if "://" in path:

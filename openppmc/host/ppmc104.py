@@ -1,31 +1,33 @@
-"""Driver of a PPMC-104 behind a UART bridge, and what the part allows."""
+"""Driver of a PPMC-104 on a UART bridge, and the capabilities of the part."""
 
 from __future__ import annotations
 
 from ..parts import part
 from . import speeds
-from .axis import Chopping
 from .errors import NotWhileBusy, OutOfRange
-from .kind import AUX, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind
+from .kind import AUX, CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind
 from .part import OneAxis
 from .registers import Inputs
 from .script import Result, Script
 
-KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, AUX)))
+KIND = RateKind(part("ppmc104"), has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER, AUX)))
 
 
 READ_AUXI, AUX_OUTPUT, AUX_ON, AUX_OFF = 0x85, 0x86, 0xC1, 0xC2
 _OTHER_STRAPS = 0xFC
 _START_XT = 1792
-"""Crystal cycles until BUSY rises after the last byte of an operation, at most (P104-DS-03: 112 us)."""
+"""Crystal cycles from the last byte of an operation until BUSY rises, at most.
+
+They are 112 us (P104-DS-03).
+"""
 
 
-class Ppmc104(Chopping, OneAxis):
+class Ppmc104(OneAxis):
     """One PPMC-104; see `part.OneAxis`.
 
-    `initialise`, figures for a 16 MHz crystal: speeds 488.3 to 500 000 pps; ramp_pulses 4 to 11 220;
-    base_clock 500 000 or 125 000 Hz. phases, half_step and positive_logic of an initialised part stay until
-    `excitation_off` or `reset`.
+    Limits of `initialise` for a 16 MHz crystal: speeds 488.3 to 500 000 pps, ramp_pulses 4 to 11 220,
+    base_clock 500 000 or 125 000 Hz. phases, half_step and positive_logic of an initialised part do not
+    change until `excitation_off` or `reset`.
     """
 
     kind = KIND
@@ -40,7 +42,8 @@ class Ppmc104(Chopping, OneAxis):
     def _at_rest(self, script: Script) -> None:
         identity = self.link.identity
         if identity.datasheet:
-            # A motion that was just sent may be about to begin. The bridge's limit may be 1 ms short.
+            # A command sent just before may not have started its motion yet. The bridge may wait 1 ms less
+            # than the limit.
             limit = 2 + _START_XT * 1000 // identity.xtal_hz
             answer = self.link.attempt(Script().timeout(limit).wait(1, self.busy, self.busy))
             if answer.result is not Result.TIMED_OUT:
@@ -50,15 +53,15 @@ class Ppmc104(Chopping, OneAxis):
     # ------------------------------------------------------------------ auxiliary
 
     def aux(self, on: bool) -> None:
-        """AUX output (on: pin low)."""
+        """Set the AUX output (on = pin low)."""
         self.link.execute(Script().call(AUX_ON if on else AUX_OFF))
 
     def auxo(self, value: int) -> None:
-        """The four auxiliary outputs, 0 to 15; a 1 makes a pin low."""
+        """Set the four auxiliary outputs, 0 to 15; a 1 sets a pin low."""
         if not 0 <= value <= 15:
             raise OutOfRange(f"auxiliary outputs {value} are outside 0 to 15")
         self.link.execute(Script().call(AUX_OUTPUT, value))
 
     def auxi(self) -> int:
-        """The four auxiliary inputs, pin levels; only at rest."""
+        """Return the four auxiliary inputs as pin levels; only while no motion is running."""
         return self.link.execute(Script().call(READ_AUXI).get(1)).byte(1)

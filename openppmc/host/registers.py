@@ -1,4 +1,4 @@
-"""The readable registers of PPMC-104 and STMC as dataclasses (P104-STA-01..06, P104-RD-06). Pure."""
+"""Readable registers of PPMC-104 and STMC as dataclasses (P104-STA-01..06, P104-RD-06). Pure."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from ..model.single.codes import BUSY, ERR, IBF, OBF, Error
 
 @dataclass(frozen=True)
 class Status:
-    """Status register. error: number of the last byte's error or None. expected: parameter bytes wanted."""
+    """Status register.
+
+    error: error number of the last byte, or `None`. expected: number of parameter bytes still required.
+    """
 
     raw: int
     busy: bool
@@ -21,7 +24,7 @@ class Status:
 
     @classmethod
     def parse(cls, raw: int) -> Status:
-        """From the byte."""
+        """Decode the status byte."""
         number = raw >> 4 & 7
         faulty = bool(raw & ERR)
         return cls(
@@ -39,19 +42,19 @@ Pins = TypeVar("Pins", bound="Switches")
 
 @dataclass(frozen=True)
 class ReadCodes:
-    """Codes of the read commands that differ from part to part."""
+    """Codes of the read commands that differ between parts."""
 
     outputs: int = 0x82
     remaining: int = 0x83
 
 
 FAMILY = ReadCodes()
-"""Those of most parts."""
+"""Codes of most parts."""
 
 
 @dataclass(frozen=True)
 class Switches:
-    """Switches of an axis; True: active (pin low). The sixth one is the part's."""
+    """Switches of an axis; True = active (pin low). Subclasses add the sixth switch of the part."""
 
     limit_cw: bool
     limit_ccw: bool
@@ -61,12 +64,12 @@ class Switches:
 
     @classmethod
     def of_pins(cls: type[Pins], raw: int) -> Pins:
-        """From the bridge's PINS byte; unlike command 0x81 it may be asked for during a motion."""
+        """Decode the PINS byte of the bridge, which can be read during a motion (unlike command 0x81)."""
         return cls(*(not raw >> bit & 1 for bit in (2, 3, 4, 5, 6, 7)))
 
     @property
     def active(self) -> list[str]:
-        """Names of the active ones."""
+        """Names of the active switches."""
         return [name.replace("_", " ") for name, on in vars(self).items() if on]
 
 
@@ -79,7 +82,13 @@ class Inputs(Switches):
 
 @dataclass(frozen=True)
 class Outputs:
-    """Motor outputs. phases: levels of S1 to S5; hold: the motor has rested for 34 ms; ccw: level of DIR."""
+    """Motor outputs.
+
+    Attributes:
+        phases: levels of S1 to S5.
+        hold: the motor has been stopped for 34 ms.
+        ccw: level of DIR.
+    """
 
     phases: tuple[int, ...]
     hold: bool
@@ -87,5 +96,5 @@ class Outputs:
 
     @classmethod
     def parse(cls, raw: int) -> Outputs:
-        """From the byte of the read command."""
+        """Decode the byte of the read command."""
         return cls(tuple(raw >> bit & 1 for bit in (7, 6, 5, 4, 3)), bool(raw & 4), bool(raw & 2))

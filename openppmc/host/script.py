@@ -1,4 +1,7 @@
-"""Scripts for the UART bridge and its answers (docs/uart_bridge.md, "Ops", UB-ANS-01, -02). Pure, no I/O."""
+"""Scripts for the UART bridge and its answers (UB-ANS-01, -02). Pure.
+
+See "Ops" in docs/uart_bridge.md.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +24,7 @@ RATES = (115_200, 230_400, 460_800, 921_600, 1_000_000, 2_000_000, 3_000_000)
 
 @dataclass(frozen=True)
 class Op:
-    """One op: its bytes, and how many data bytes it gives when it is done."""
+    """Operation: its bytes, and the number of data bytes that it returns."""
 
     name: str
     code: bytes
@@ -33,10 +36,10 @@ def _within(name: str, value: int, low: int, high: int) -> int:
 
 
 class Script:
-    """A list of ops, built by chaining: `Script().call(0x80).get(1)`.
+    """List of operations, built by chaining: `Script().call(0x80).get(1)`.
 
-    Every method raises ValueError for an operand out of range, and when the script becomes longer than 253
-    bytes or would give more than 256 data bytes.
+    Every method raises ValueError for an operand out of range, and if the script becomes longer than 253
+    bytes or would return more than 256 data bytes.
     """
 
     def __init__(self) -> None:
@@ -50,12 +53,12 @@ class Script:
 
     @property
     def gives(self) -> int:
-        """Data bytes of a complete answer."""
+        """Number of data bytes of a complete answer."""
         return sum(op.gives for op in self.ops)
 
     @property
     def patience(self) -> float:
-        """Seconds that the script may reasonably run: its waits, and one time limit for the mailbox."""
+        """Longest expected run time in s: its waits, and one time limit for the mailbox."""
         return (self._waits_ms + self._mailbox_ms) / 1000
 
     def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
@@ -69,7 +72,7 @@ class Script:
         return self
 
     def extend(self, other: Script) -> Script:
-        """All ops of another script as well."""
+        """Append all operations of another script."""
         for op in other.ops:
             self._add(op.name, op.code, op.gives, mailbox=op.name in ("POST", "CALL", "GET"))
         self._mailbox_ms = max(self._mailbox_ms, other._mailbox_ms)
@@ -78,116 +81,119 @@ class Script:
             self._wait_ms = other._wait_ms
         return self
 
-    # ------------------------------------------------------------------ the bridge itself
+    # ------------------------------------------------------------------ operations of the bridge
 
     def nop(self) -> Script:
-        """Nothing."""
+        """Append an operation without effect."""
         return self._add("NOP", b"\x00")
 
     def ident(self) -> Script:
-        """16 bytes about the bridge and its part, see `Identity`."""
+        """Append a read of 16 bytes about the bridge and its part, see `Identity`."""
         return self._add("IDENT", b"\x01", IDENT_BYTES)
 
     def rate(self, code: int) -> Script:
-        """Line rate RATES[code] after this answer."""
+        """Append a change of the line rate to RATES[code] after this answer."""
         return self._add("RATE", bytes([0x02, _within("rate code", code, 0, len(RATES) - 1)]))
 
     def events(self, on: bool) -> Script:
-        """Messages when int_n falls."""
+        """Append a switch of the event messages, which are sent when int_n falls."""
         return self._add("EVENTS", bytes([0x03, int(on)]))
 
     def timeout(self, milliseconds: int) -> Script:
-        """Limit of each wait in the rest of the script, 0 to 65535 ms."""
+        """Append the time limit of each following wait, 0 to 65535 ms."""
         _within("time limit in ms", milliseconds, 0, 0xFFFF)
         self._wait_ms = milliseconds
         return self._add("TIMEOUT", b"\x04" + milliseconds.to_bytes(2, "little"))
 
     def reset(self) -> Script:
-        """Reset of the part."""
+        """Append a reset of the part."""
         return self._add("RESET", b"\x05")
 
     def pins(self) -> Script:
-        """1 byte: levels of the part's pins."""
+        """Append a read of the levels of the part's pins, 1 byte."""
         return self._add("PINS", b"\x06", 1)
 
     def straps(self, levels: int) -> Script:
-        """Set the strap pins, 8 bits."""
+        """Append a write of the strap pins, 8 bits."""
         return self._add("STRAPS", bytes([0x07, _within("straps", levels, 0, 255)]))
 
     def count(self, axis: int = 1) -> Script:
-        """4 bytes: signed pulse counter of axis 1 or 2."""
+        """Append a read of the signed pulse counter of axis 1 or 2, 4 bytes."""
         return self._add("COUNT", bytes([0x06 + 2 * _within("axis", axis, 1, 2)]), 4)
 
     def zero(self, axis: int = 1) -> Script:
-        """Pulse counter of axis 1 or 2 to 0."""
+        """Append a reset of the pulse counter of axis 1 or 2 to 0."""
         return self._add("ZERO", bytes([0x07 + 2 * _within("axis", axis, 1, 2)]))
 
     def version(self) -> Script:
-        """16 bytes about what the bitstream was built from, see `Build`."""
+        """Append a read of 16 bytes about the build of the bitstream, see `Build`."""
         return self._add("VERSION", b"\x0c", VERSION_BYTES)
 
-    # ------------------------------------------------------------------ the recorder
+    # ------------------------------------------------------------------ operations of the recorder
 
     def record(self, on: bool) -> Script:
-        """Begin to record, or end it."""
+        """Append a start or an end of the recording."""
         return self._add("RECORD", bytes([0x0D, int(on)]))
 
     def rewind(self) -> Script:
-        """Read records from the first one on."""
+        """Append a rewind: reading begins with the first record again."""
         return self._add("RECORD", b"\x0d\x02")
 
     def recorded(self) -> Script:
-        """16 bytes about the records, see `Recorded`."""
+        """Append a read of 16 bytes about the records, see `Recorded`."""
         return self._add("RECORDED", b"\x0e", RECORDED_BYTES)
 
     def fetch(self, n: int) -> Script:
-        """The next n = 1 to 255 bytes of the records."""
+        """Append a read of the next n = 1 to 255 bytes of the records."""
         return self._add("FETCH", bytes([0x90, _within("count", n, 1, 255)]), n)
 
-    # ------------------------------------------------------------------ registers of the part
+    # ------------------------------------------------------------------ operations of the part's registers
 
     def write(self, a: int, byte: int) -> Script:
-        """One write cycle at register a."""
+        """Append one write access to register a."""
         return self._add("WRITE", bytes([0x10 | _register(a), _within("byte", byte, 0, 255)]))
 
     def read(self, a: int) -> Script:
-        """One read cycle, 1 byte."""
+        """Append one read access, 1 byte."""
         return self._add("READ", bytes([0x20 | _register(a)]), 1)
 
     def read_many(self, a: int, n: int) -> Script:
-        """n = 1 to 255 read cycles, n bytes."""
+        """Append n = 1 to 255 read accesses, n bytes."""
         return self._add("READN", bytes([0x30 | _register(a), _within("count", n, 1, 255)]), n)
 
     def read_number(self, a: int, n: int) -> Script:
-        """A read cycle of each of n = 1 to 4 registers from a on, n bytes."""
+        """Append a read access to each of n = 1 to 4 registers from a on, n bytes."""
         _within("count", n, 1, 4)
         return self._add("READ", bytes(0x20 | _register(place) for place in range(a, a + n)), n)
 
     def post(self, a: int, data: bytes) -> Script:
-        """1 to 255 bytes, each written when the part can take it (IBF = 0)."""
+        """Append 1 to 255 bytes, each written when the part accepts it (IBF = 0)."""
         _within("number of bytes", len(data), 1, 255)
         return self._add("POST", bytes([0x40 | _register(a), len(data)]) + data, mailbox=True)
 
     def call(self, command: int, *data: int) -> Script:
-        """A command byte with up to 14 data bytes, each checked; gives 1 byte, the last status."""
+        """Append a command byte with up to 14 data bytes, each checked.
+
+        It returns 1 byte, the last status.
+        """
         _within("number of command bytes", 1 + len(data), 1, 15)
         for byte in (command, *data):
             _within("byte", byte, 0, 255)
         return self._add("CALL", bytes([0x50 | 1 + len(data), command, *data]), 1, mailbox=True)
 
     def get(self, n: int) -> Script:
-        """n = 1 to 15 bytes of the part's answer, each when it is there (OBF = 1)."""
+        """Append a read of n = 1 to 15 bytes from the part, each when it is valid (OBF = 1)."""
         return self._add("GET", bytes([0x60 | _within("count", n, 1, 15)]), n, mailbox=True)
 
     def wait(self, a: int, mask: int, value: int) -> Script:
-        """Until register a AND mask = value; gives the byte."""
+        """Append a wait until register a AND mask = value; it returns the byte."""
         _within("mask", mask, 0, 255)
         _within("value", value, 0, 255)
         self._waits_ms += self._wait_ms
         return self._add("WAIT", bytes([0x70 | _register(a), mask, value]), 1)
 
     def write_many(self, a: int, data: bytes) -> Script:
-        """1 to 255 write cycles without waiting."""
+        """Append 1 to 255 write accesses without waiting."""
         _within("number of bytes", len(data), 1, 255)
         return self._add("WRITEN", bytes([0x80 | _register(a), len(data)]) + data)
 
@@ -213,10 +219,15 @@ class Result(IntEnum):
 
 @dataclass(frozen=True)
 class Answer:
-    """What came back: `values` holds the data of each op that gives some, in order.
+    """Answer to a script.
 
-    With result DONE it is complete. Otherwise `failed` is the op that ended the script (None if the position
-    fits no op), `last` the byte last read from the part, and the data of the failed op come last, if any.
+    With result DONE it is complete.
+
+    Attributes:
+        values: data of each operation that returns data, in order. Data of a failed operation are the last
+            entry.
+        failed: operation that ended the script, `None` if the position fits no operation.
+        last: byte last read from the part.
     """
 
     result: Result
@@ -225,17 +236,17 @@ class Answer:
     last: int = 0
 
     def byte(self, place: int) -> int:
-        """The value at that place, of one byte."""
+        """Return a value of one byte by its index."""
         (value,) = self.values[place]
         return value
 
     def number(self, place: int, signed: bool = False) -> int:
-        """The value at that place as a little-endian number."""
+        """Return a value by its index as a little-endian number."""
         return int.from_bytes(self.values[place], "little", signed=signed)
 
 
 class BadAnswer(ValueError):  # noqa: N818 - the noun says it
-    """An answer that does not fit the script: the other side does not keep the contract."""
+    """Answer that does not fit the script: the other device violates the protocol."""
 
 
 def parse_answer(script: Script, body: bytes) -> Answer:
@@ -273,7 +284,7 @@ def _split(ops: list[Op], data: bytes) -> tuple[tuple[bytes, ...], bytes]:
 
 
 def _op_at(ops: list[Op], position: int) -> tuple[list[Op], Op | None]:
-    """Ops before the position, and the op there."""
+    """Return the operations before the position, and the operation at it."""
     start = 0
     for place, op in enumerate(ops):
         if start == position:
@@ -284,7 +295,7 @@ def _op_at(ops: list[Op], position: int) -> tuple[list[Op], Op | None]:
 
 @dataclass(frozen=True)
 class Identity:
-    """Answer of IDENT. Frequencies in Hz; `best_rate` is a code into RATES."""
+    """Answer to IDENT. Frequencies in Hz; `best_rate` is an index of RATES."""
 
     version: int
     part: int
@@ -297,7 +308,7 @@ class Identity:
 
     @classmethod
     def parse(cls, data: bytes) -> Identity:
-        """From the 16 bytes; BadAnswer if they do not begin with the mark."""
+        """Decode the 16 bytes. Raises BadAnswer if they do not begin with the mark."""
         if len(data) != IDENT_BYTES or data[:4] != IDENT_MARK:
             raise BadAnswer("no IDENT of a PPMC bridge")
         return cls(
@@ -314,8 +325,14 @@ class Identity:
 
 @dataclass(frozen=True)
 class Build:
-    """Answer of VERSION (UB-VER-01). version: as "0.3.1". changed: there were changes since the commit.
-    source, commit: hexadecimal, "" if nobody knows; board: 4 letters, or ""."""
+    """Answer to VERSION (UB-VER-01).
+
+    Attributes:
+        version: for example "0.3.1".
+        changed: the sources differed from the commit.
+        source, commit: hexadecimal, "" if unknown.
+        board: 4 letters, or "".
+    """
 
     version: str
     changed: bool
@@ -325,7 +342,10 @@ class Build:
 
     @classmethod
     def parse(cls, data: bytes) -> Build | None:
-        """From the 16 bytes; None if nobody knows. BadAnswer for anything but 16 bytes."""
+        """Decode the 16 bytes; return `None` if all are 0 (unknown).
+
+        Raises BadAnswer for another length.
+        """
         if len(data) != VERSION_BYTES:
             raise BadAnswer(f"VERSION of {len(data)} bytes")
         if not any(data):

@@ -1,8 +1,10 @@
-"""Pulses per second to the rate bytes of the part and back, exactly (P104-INT-01, -02, STMC-INI-01). Pure.
+"""Exact conversion between pulses per second and rate bytes. Pure.
 
-All speeds are in pulses per second (pps), as exact fractions; where a part gives no pulses, a pulse is a
-step. A part cannot make every speed: it makes base clock / (rate + 1) with rate 0 to 255, or base clock /
-divisor, so a speed that was asked for is rounded to the nearest interval.
+Rules: P104-INT-01, P104-INT-02, STMC-INI-01.
+
+All speeds are exact fractions in pulses per second (pps); for a part without pulses, a pulse is a step. A
+part supports only certain speeds: base clock / (rate + 1) with rate 0 to 255, or base clock / divisor.
+Therefore a requested speed is rounded to the nearest interval.
 """
 
 from __future__ import annotations
@@ -22,18 +24,23 @@ QUANTA_FAST, QUANTA_SLOW, QUANTA_EXTRA = 8, 32, 30
 
 
 def nearby(speed: Fraction | float | int) -> str:
-    """A speed for messages: six digits at most, no needless zeros."""
+    """Return a speed as text for messages: at most six digits, without unnecessary zeros."""
     return f"{float(speed):.6g}"
 
 
 @dataclass(frozen=True)
 class BaseClock:
-    """What the intervals are counted in.
+    """Clock that the intervals are counted in.
 
-    period: of one base clock in s. extra: addition to every interval in s (vsel low). csel, vsel: levels of
-    the strap pins that choose it. external: it comes in at the `clock` pin. least_rate: lowest rate byte
-    that the driver uses with it. beyond: base clocks of an interval beyond its rate byte.
-    slowest_rate: the highest rate. clk: its number on parts that number them.
+    Attributes:
+        period: period of the base clock in s.
+        extra: addition to every interval in s (vsel low).
+        csel, vsel: levels of the strap pins that select it.
+        external: the clock is input at the `clock` pin.
+        least_rate: lowest rate byte that the driver uses with it.
+        beyond: base clocks of an interval minus its rate byte.
+        slowest_rate: highest rate.
+        clk: number of the clock on parts that number their clocks.
     """
 
     period: Fraction
@@ -51,7 +58,10 @@ class BaseClock:
 
     @classmethod
     def internal(cls, xtal_hz: int, csel: int = 1, vsel: int = 1, least_rate: int = 0) -> BaseClock:
-        """500 kHz (csel 1) or 125 kHz (csel 0) at a 16 MHz crystal; vsel 0 adds 7.5 us to each interval."""
+        """Return an internal base clock.
+
+        At a 16 MHz crystal it has 500 kHz (csel 1) or 125 kHz (csel 0); vsel 0 adds 7.5 us to each interval.
+        """
         quantum = Fraction(4, xtal_hz)
         quanta = QUANTA_FAST if csel else QUANTA_SLOW
         extra = (0 if vsel else QUANTA_EXTRA) * quantum
@@ -59,7 +69,11 @@ class BaseClock:
 
     @classmethod
     def external_pin(cls, hertz: Number) -> BaseClock:
-        """A steady clock on the `clock` pin, 0 < hertz <= 1e6; vsel is kept high. OutOfRange otherwise."""
+        """Return the base clock for a stable clock on the `clock` pin; vsel is kept high.
+
+        Raises:
+            OutOfRange: hertz is not in 0 < hertz <= 1e6.
+        """
         return cls(pin_period(hertz), external=True)
 
     @property
@@ -68,11 +82,11 @@ class BaseClock:
         return 1 / self.period
 
     def speed(self, rate: int) -> Fraction:
-        """Speed of a rate byte in pps."""
+        """Return the speed of a rate byte in pps."""
         return self.speed_of(rate + self.beyond)
 
     def speed_of(self, periods: int) -> Fraction:
-        """Speed of an interval of so many base clocks in pps."""
+        """Return the speed in pps of an interval of this number of base clocks."""
         return 1 / (periods * self.period + self.extra)
 
     @property
@@ -86,11 +100,15 @@ class BaseClock:
         return self.speed(self.least_rate)
 
     def reaches(self, pps: Number) -> bool:
-        """The speed lies between the slowest and the fastest."""
+        """Return True if the speed is between the lowest and the highest speed."""
         return self.slowest <= exact(pps, "speed") <= self.fastest
 
     def choose(self, pps: Number, what: str = "speed") -> Speed:
-        """The rate whose interval is nearest. Raises OutOfRange with the possible range."""
+        """Return the rate whose interval is nearest.
+
+        Raises:
+            OutOfRange: the speed is out of range; the message states the range.
+        """
         asked = exact(pps, what)
         if not self.slowest <= asked <= self.fastest:
             raise OutOfRange(
@@ -103,7 +121,7 @@ class BaseClock:
 
 
 def pin_period(hertz: Number) -> Fraction:
-    """Period of a clock that comes from outside in s. OutOfRange."""
+    """Return the period of an external clock in s. Raises OutOfRange."""
     if not 0 < exact(hertz, "external clock") <= 1_000_000:
         raise OutOfRange(f"external clock {nearby(hertz)} Hz is outside 0 to 1000000 Hz")
     return 1 / Fraction(hertz)
@@ -111,7 +129,7 @@ def pin_period(hertz: Number) -> Fraction:
 
 @dataclass(frozen=True)
 class Speed:
-    """A speed as it was asked for and as the part makes it, both in pps."""
+    """Speed as requested and as reached by the part, both in pps."""
 
     asked: Fraction
     rate: int
@@ -120,7 +138,7 @@ class Speed:
 
     @property
     def error(self) -> float:
-        """Relative deviation: 0.01 is one per cent too fast."""
+        """Relative deviation; 0.01 = one per cent too fast."""
         return float(self.reached / self.asked - 1)
 
     def __str__(self) -> str:
@@ -129,7 +147,7 @@ class Speed:
 
 @dataclass(frozen=True)
 class Setup:
-    """Everything that an initialisation fixes, with the speeds that are really reached."""
+    """All settings of an initialisation, with the speeds that are reached."""
 
     start: Speed
     high: Speed
@@ -141,21 +159,24 @@ class Setup:
 
     @property
     def clock(self) -> BaseClock:
-        """The base clock of the ramp."""
+        """Base clock of the ramp."""
         return self.start.clock
 
     @property
     def data(self) -> bytes:
-        """RL, RH, PA low, PA high."""
+        """Data bytes of the command: RL, RH, PA low, PA high."""
         return bytes([self.start.rate, self.high.rate]) + self.ramp_pulses.to_bytes(2, "little")
 
     @property
     def flat(self) -> bool:
-        """There is one speed only, the high one (on an STMC with 0 ramp pulses, too: STMC-MOV-04)."""
+        """True if only one speed exists, the high one.
+
+        On an STMC this is also true with 0 ramp pulses (STMC-MOV-04).
+        """
         return not self.ramp_pulses or self.start.rate == self.high.rate
 
     def ramp(self) -> Ramp:
-        """The ramp, to predict moves with; its rates are base clocks of an interval less one."""
+        """Return the ramp to predict moves with; its rates are the base clocks of an interval minus 1."""
         beyond = self.clock.beyond - 1
         slow, fast = self.start.rate + beyond, self.high.rate + beyond
         return Ramp(slow, fast, self.ramp_pulses) if self.ramp_pulses else Ramp(fast, fast, 0)
@@ -168,12 +189,12 @@ class Setup:
 
     @property
     def ramp_seconds(self) -> float:
-        """Time of the acceleration in s, from the formula of constant acceleration."""
+        """Acceleration time in s, calculated for constant acceleration."""
         return float(2 * self.ramp_pulses / (self.start.reached + self.high.reached))
 
 
 def motor_bits(phases: int, half_step: bool) -> int:
-    """Low bits of an initialisation code. phases 3, 4 or 5; OutOfRange otherwise."""
+    """Return the low bits of an initialisation code. Raises OutOfRange if phases is not 3, 4 or 5."""
     if phases not in (3, 4, 5):
         raise OutOfRange(f"{phases} phases: the part drives motors with 3, 4 or 5")
     return phases - 2 | half_step << 2
@@ -182,10 +203,15 @@ def motor_bits(phases: int, half_step: bool) -> int:
 def choose_clock(
     xtal_hz: int, start_pps: Number, base_clock: Number | None, vsel: int = 1, least_rate: int = 0
 ) -> BaseClock:
-    """Internal base clock: the one asked for, or the one that reaches start_pps.
+    """Return the internal base clock: the requested one, or one that reaches start_pps.
 
-    base_clock in Hz: 500 000 or 125 000 at a 16 MHz crystal, None to choose. The fast one is preferred
-    because its speeds lie closer together. Raises OutOfRange.
+    The fast base clock is preferred, because its speeds are closer together.
+
+    Args:
+        base_clock: 500 000 or 125 000 Hz at a 16 MHz crystal, `None` to choose.
+
+    Raises:
+        OutOfRange: the part does not have this base clock.
     """
     fast, slow = (BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (1, 0))
     if base_clock is None:
@@ -199,7 +225,13 @@ def choose_clock(
 
 
 def any_clock(xtal_hz: int, pps: Number, vsel: int = 1, first: int = 1, least_rate: int = 0) -> BaseClock:
-    """An internal base clock that reaches the speed, csel = first preferred. Raises OutOfRange."""
+    """Return an internal base clock that reaches the speed.
+
+    The clock with csel = first is preferred.
+
+    Raises:
+        OutOfRange: no base clock reaches the speed.
+    """
     clocks = [BaseClock.internal(xtal_hz, csel, vsel, least_rate) for csel in (first, 1 - first)]
     for clock in clocks:
         if clock.reaches(pps):
@@ -217,8 +249,15 @@ def plan_setup(
     rate_gap: int = 0,
     lengths: tuple[int, int] = (PA_MIN, PA_MAX),
 ) -> Setup:
-    """Rates of a ramp, the start rate at least `rate_gap` above the high rate; lengths: shortest and longest
-    ramp. Raises OutOfRange for speeds or a length that the part cannot do."""
+    """Return the set-up of a ramp.
+
+    Args:
+        rate_gap: least difference of start rate and high rate.
+        lengths: shortest and longest ramp in pulses.
+
+    Raises:
+        OutOfRange: the part does not support these speeds or this length.
+    """
     shortest, longest = lengths
     if not shortest <= ramp_pulses <= longest:
         raise OutOfRange(f"ramp of {ramp_pulses} pulses is outside {shortest} to {longest} pulses")

@@ -1,4 +1,4 @@
-"""Driver of an STMC behind a UART bridge; what the part allows, refuses and tells."""
+"""Driver of an STMC on a UART bridge, with capabilities, errors and registers of the part."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .registers import FAMILY, ReadCodes, Switches
 from .script import Result, Script
 from .speeds import BaseClock, Number, pin_period
 
-# What an STMC refuses: the numbers of the family, two of them with another meaning.
+# Errors of an STMC. Two numbers have another meaning than in the PPMC family.
 
 _TEXTS = {
     Error.NOT_INITIALISED: "the part is not initialised (power-up or reset): initialise it first",
@@ -26,32 +26,38 @@ _TEXTS = {
 
 
 def refused(status: int) -> CommandRefused:
-    """The exception for a status byte of an STMC with ERR = 1."""
+    """Return the exception for a status byte of an STMC with ERR = 1."""
     number = status >> 4 & 7
     return BY_NUMBER[number](status, _TEXTS.get(Error(number), ""))
 
 
-# What can be read of an STMC at any time, where it differs from the family. Pure.
+# ---------------------------------------------------------------------- registers
 
 
 @dataclass(frozen=True)
 class Inputs(Switches):
-    """Switches of an STMC; motor_off: MON is low."""
+    """Switches of an STMC. motor_off: MON is low."""
 
     motor_off: bool
 
 
-# Step clocks of an STMC: a speed is the clock over a divisor (STMC-INI-01). Pure.
+# ---------------------------------------------------------------------- step clocks
 
 LEAST_DIVISOR = 5
-"""The sheet advises against lower ones; the part would take them."""
+"""The data sheet advises against lower divisors; the part would accept them."""
 
 
 def divided(hertz: Number, external: bool = True) -> BaseClock:
-    """Step clock, 0 < hertz <= 1e6 (else OutOfRange); rate bytes are divisors, up to 255. external: it is the
-    one that the board makes, or the `ext_clk` pin.
+    """Return a step clock. A speed is the clock / divisor, with divisors up to 255 (STMC-INI-01).
 
-    The worked examples of the sheet, with the external clock of its board:
+    Args:
+        hertz: frequency, 0 < hertz <= 1e6.
+        external: it is the clock of the board, or the `ext_clk` pin.
+
+    Raises:
+        OutOfRange: the frequency is out of range.
+
+    The examples of the data sheet, with the external clock of its board:
 
     >>> clock = divided(48_675)
     >>> clock.choose(345).rate, clock.choose(825).rate
@@ -59,7 +65,7 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
     >>> clock.speed(59)
     Fraction(825, 1)
 
-    Divisors below 5 are left out, as the sheet advises:
+    Divisors below 5 are not used, as the data sheet advises:
 
     >>> float(clock.slowest), float(clock.fastest)
     (190.88235294117646, 9735.0)
@@ -69,14 +75,17 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
     return BaseClock(pin_period(hertz), external=external, least_rate=LEAST_DIVISOR, beyond=0)
 
 
-# What an STMC on the J105 board allows. Pure.
+# ---------------------------------------------------------------------- capabilities on the J105 board
 
 BOARD_CLOCK = BOARD_CLOCK_HZ
 """Second step clock of the J105 board: 48 675 Hz."""
 
 
 class StmcKind(RateKind):
-    """Speeds are a step clock over a divisor, and the clock is chosen by the initialisation."""
+    """Capabilities of an STMC.
+
+    A speed is step clock / divisor, and the initialisation selects the clock.
+    """
 
     def constant_clock(
         self, xtal_hz: int, ramp: speeds.BaseClock | None, pps: speeds.Number
@@ -110,18 +119,21 @@ KIND = StmcKind(
 
 
 READ_MAPS = {"FAMILY": FAMILY, "SHEET": ReadCodes(outputs=0x83, remaining=0x84)}
-"""What the codes of its read commands may be, the default first (ruling R-01)."""
+"""Codes of the read commands by name, the default first (ruling R-01)."""
 
 
 class Stmc(OneAxis):
-    """One STMC; see `part.OneAxis`. It has no pulse output: the board counts the steps of the phases.
+    """One STMC; see `part.OneAxis`.
 
-    `initialise`: a speed is step clock / divisor, divisors 5 to 255. base_clock: 12 500 Hz (internal, at a
-    16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s), None to take
-    the second one if it reaches start_pps. external_clock: frequency in Hz if another clock is wired.
-    ramp_pulses: steps from start to high speed, 0 to 65 535; with 0 there is no ramp, and high_pps at once.
-    No long_intervals. phases, half_step and positive_logic stay as they are until `reset` (STMC-INI-04); the
-    step clock is that of the last initialisation for constant speeds, too.
+    It has no pulse output: the board counts the steps of the phases.
+
+    Arguments of `initialise`: a speed is step clock / divisor, with divisors 5 to 255. base_clock: 12 500 Hz
+    (internal, at a 16 MHz crystal: 49.02 to 2500 steps/s) or 48 675 Hz (of the board: 190.9 to 9735 steps/s);
+    `None`: the second one if it reaches start_pps, otherwise the first one. external_clock: frequency in Hz
+    if another clock is connected. ramp_pulses: steps from start to high speed, 0 to 65 535; with 0 there is
+    no ramp, and the motor starts at high_pps. long_intervals is not supported. phases, half_step and
+    positive_logic do not change until `reset` (STMC-INI-04). Constant speeds also use the step clock of the
+    last initialisation.
 
     A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
     """
@@ -135,9 +147,13 @@ class Stmc(OneAxis):
 
     @property
     def read_map(self) -> str:
-        """Which read codes the part knows, a key of READ_MAPS. It is asked the first time, in any state."""
+        """Name of the read codes that the part has, a key of READ_MAPS.
+
+        The first access tests it, in any state.
+        """
         if not self._read_map:
-            # 81h reads the inputs or is undefined: error 0. Any other error is that of a defined command.
+            # 81h reads the inputs, or is undefined (error 0). Any other error is an error of a defined
+            # command.
             answer = self.link.attempt(Script().call(0x81).get(1))
             if answer.result is Result.REFUSED:
                 self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"

@@ -1,4 +1,4 @@
-"""Signals that end a program: motors stop first."""
+"""Signals that end a program after its motors have stopped."""
 
 from __future__ import annotations
 
@@ -15,22 +15,28 @@ if TYPE_CHECKING:
     from .motion import Progress
     from .part import Device, Turning
 
-# The command line imports this file first: what the functions need is imported in them.
+# The command line imports this module first. To keep that fast, functions import what they need.
 
 LONGEST_WAIT = 10.0
-"""Seconds that motors may take to decelerate; what moves then is stopped at once."""
+"""Seconds allowed for motors to decelerate.
+
+A motor that still moves then is stopped immediately.
+"""
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 )
-"""Those of this system that `stop_on_signals` handles."""
+"""Signals of this system that `stop_on_signals` handles."""
 NO_MOTION = "nothing was moving"
-"""First words of `bring_to_rest` in that case."""
+"""First words of the result of `bring_to_rest` in this case."""
 arrived: list[int] = []
-"""Signals of the command line before it has a board; an exception that a handler raises can get lost."""
+"""Signals that the command line received before it opened a board.
+
+They are stored, because an exception of a handler can get lost.
+"""
 
 
 class Signalled(SystemExit):
-    """A signal ends the program. number: of the signal; the exit status is 128 + number."""
+    """A signal ends the program. number: number of the signal; the exit status is 128 + number."""
 
     def __init__(self, number: int) -> None:
         super().__init__(128 + number)
@@ -38,7 +44,7 @@ class Signalled(SystemExit):
 
 
 def name_of(number: int) -> str:
-    """What users call a signal.
+    """Return the usual name of a signal.
 
     >>> name_of(2), name_of(15)
     ('interrupted', 'SIGTERM')
@@ -48,8 +54,10 @@ def name_of(number: int) -> str:
 
 @contextmanager
 def handled(handler: Callable[[int, FrameType | None], Any]) -> Iterator[None]:
-    """Let a function handle SIGNALS inside the block, except SIGTERM and SIGHUP if they are ignored (nohup).
-    Without effect outside the main thread."""
+    """Handle SIGNALS with a function inside the block, except ignored SIGTERM and SIGHUP (nohup).
+
+    Outside the main thread it has no effect.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -70,10 +78,14 @@ def bring_to_rest(
     hurry: Callable[[], bool] = lambda: False,
     every: bool = False,
 ) -> str:
-    """Decelerate the motors of devices and wait until they stop. Returns one line for the user.
+    """Decelerate the motors of devices, wait until they stop, and return one line for the user.
 
-    seconds: longest wait, then they are stopped at once. hurry: asked about ten times a second; True stops
-    them at once. every: also motions that these objects do not know of. Errors are in the line.
+    Errors are part of the line.
+
+    Args:
+        seconds: longest wait; motors that still move then are stopped immediately.
+        hurry: called about ten times a second; True stops the motors immediately.
+        every: also stop motions that these objects did not start.
     """
     from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
 
@@ -124,7 +136,7 @@ def bring_to_rest(
 
 
 def say(line: str) -> None:
-    """One line on stderr, if there is still somewhere to write: a closed terminal is none."""
+    """Print one line on stderr; ignore a closed terminal."""
     try:
         print(line, file=sys.stderr, flush=True)
     except OSError:
@@ -136,16 +148,22 @@ def say(line: str) -> None:
 
 @contextmanager
 def stop_on_signals(*devices: Device, seconds: float = LONGEST_WAIT) -> Iterator[None]:
-    """Bring motors to rest when a signal ends the program inside the block: SIGINT, SIGTERM, SIGHUP.
+    """Stop the motors when SIGINT, SIGTERM or SIGHUP ends the program inside the block.
 
-    devices: opened parts, banks or lines, all their axes. The first signal raises Signalled, a SystemExit,
-    where the program is; at the end of the block the motors decelerate, and what still moves after `seconds`
-    (more than 0) is stopped at once. One line goes to stderr, and the program exits with 128 + the signal's
-    number. The second signal stops at once, the third one exits without waiting. A signal that was ignored
-    (nohup) stays ignored. Only in the main thread: OutOfRange elsewhere.
+    The first signal raises Signalled, a SystemExit, at the current place of the program. At the end of the
+    block the motors decelerate; a motor that still moves after `seconds` is stopped immediately. One line is
+    printed on stderr, and the program exits with 128 + the number of the signal. The second signal stops the
+    motors immediately, the third one exits without waiting. A signal that was ignored (nohup) stays ignored.
 
         with Ppmc104.open("/dev/ttyUSB0") as axis, stop_on_signals(axis):
             axis.move(100_000)
+
+    Args:
+        devices: open parts, banks or lines; all their axes are stopped.
+        seconds: longest deceleration, more than 0.
+
+    Raises:
+        OutOfRange: the caller is not in the main thread, or seconds is not more than 0.
     """
     from .check import exact
     from .errors import OutOfRange

@@ -1,6 +1,6 @@
 """Speeds, rates and set-ups as numbers, under one public name. Pure.
 
-They are in `speeds`; times that only one part has are in that part's folder.
+The functions are defined in `speeds`; times that only one part has are defined in the folder of that part.
 """
 
 from .axis import chop_byte

@@ -1,12 +1,13 @@
-"""Golden models: pure Python, integers and fractions, written from the rules and not from the RTL.
+"""Golden models in pure Python, with integers and fractions.
 
-A module or a folder for each part; in a folder, `part` is the part at pin level, `codes` has its codes and
-`carrier` the part as its UART bridge sees it. Parts import the modules that they share and not each other:
+They are written from the rules, not from the RTL. Each part has a module or a folder. In a folder, `part` is
+the part at pin level, `codes` has its codes, and `carrier` is the part as seen by its UART bridge. Parts
+import the modules that they share, and no other part:
 
     clock       time, events, edges
     chip        blocks of a clocked part, pins; `uart`: a UART
-    motion      motion of one axis as the family has it: ramp, limits, excitation, chopper
-    carrier     UART bridge, the carrier around any part, switches along an axis, EEPROM
+    motion      motion of one axis of the PPMC family: ramp, limits, excitation, chopper
+    carrier     UART bridge, the carrier of any part, switches along an axis, EEPROM
     single      parts with one axis on a byte bus: host port, commands, prediction of a move
 """
 

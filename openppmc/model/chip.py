@@ -1,8 +1,8 @@
-"""A part at pin level: time, input pins, output edges, reset. What is behind the pins is the part's business.
+"""Part at pin level: time, input pins, output edges, reset. Subclasses define the part itself.
 
-Time is the index of rising clk edges. A pin change at t is first sampled by edge t; an output edge at t is
-the register changing at edge t. Edge 0 is the first one with rst_n = 1. The cost of a run grows with its
-events, not with its clk.
+Time is the index of rising edges of `clk`. A pin change at t is first sampled by edge t; an output edge at t
+is a register that changes at edge t. Edge 0 is the first one with rst_n = 1. The cost of a run is
+proportional to the number of events, not to the number of cycles.
 """
 
 from __future__ import annotations
@@ -16,16 +16,15 @@ from typing import ClassVar
 
 from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, Timebase
 
-# What the blocks of the models share: phases of a clk edge, set-up, input levels, output registers.
-#
-# Within one clk edge the blocks run in the order of `Phase`, so that each sees of the others what a register
-# would show just before the edge.
+# Common parts of the models' blocks: phases of an edge of `clk`, set-up, input levels, output registers. At
+# one edge the blocks run in the order of `Phase`, so that each block sees the state of the others that a
+# register would hold just before the edge.
 
 Put = Callable[[int, str, int], None]
 
 
 class Phase(IntEnum):
-    """Order of events within one clk edge."""
+    """Order of events at one edge of `clk`."""
 
     PINS = 0
     BUS = 1
@@ -47,9 +46,9 @@ class Phase(IntEnum):
 
 @dataclass
 class Context:
-    """Set-up and services that every block gets.
+    """Set-up and services of every block.
 
-    levels: synchronised input levels as decisions see them; on a part with several axes those of one axis.
+    levels: synchronised input levels that decisions use; on a part with several axes those of one axis.
     """
 
     timebase: Timebase
@@ -61,12 +60,12 @@ class Context:
     levels: dict[str, int]
 
     def drive(self, t: int, signal: str, value: int) -> None:
-        """Host-side output: changes `host_pins` clk after the internal edge t."""
+        """Drive a host-side output: it changes `host_pins` cycles after the internal edge t."""
         self.queue.at(t + self.latency.host_pins, Phase.PIN, lambda at: self.log.set(at, signal, value))
 
 
 class PinRegister:
-    """Output registers that follow internal levels `lag` clk later.
+    """Output registers that follow internal levels `lag` cycles later.
 
     put(t, signal, value): sets a pin of the part.
     """
@@ -78,7 +77,7 @@ class PinRegister:
         self._last = dict(initial)
 
     def latch(self, t: int, internal: Mapping[str, int]) -> None:
-        """Pass the internal levels after edge t on to the pins."""
+        """Pass the internal levels after edge t to the pins."""
         for signal, value in internal.items():
             if self._last[signal] != value:
                 self._last[signal] = value
@@ -88,18 +87,25 @@ class PinRegister:
         return lambda now: self._put(now, signal, value)
 
 
-# Square wave of a phase accumulator: adds twice its frequency every clk, toggles on each wrap.
+# Square wave of a phase accumulator, which adds twice its frequency every cycle and toggles on each wrap.
 
 
 class Square:
-    """Toggle n = 1, 2, .. comes ceil(n * clk_hz / (2 * hz)) clk after edge `origin`; low before the first.
+    """Square wave, low before the first toggle.
 
-    clk_hz and hz in Hz, hz 1..clk_hz/4 (ValueError outside).
+    Toggle n = 1, 2, .. occurs ceil(n * clk_hz / (2 * hz)) cycles after edge `origin`.
+
+    Args:
+        clk_hz: frequency of `clk` in Hz.
+        hz: frequency of the wave in Hz, 1..clk_hz/4.
+
+    Raises:
+        ValueError: hz is out of range.
     """
 
     def __init__(self, clk_hz: int, hz: int, origin: int = 0) -> None:
         if not 1 <= hz <= clk_hz // 4:
-            raise ValueError(f"a square wave of {hz} Hz from a clk of {clk_hz} Hz")
+            raise ValueError(f"square wave of {hz} Hz is outside 1 Hz to a quarter of clk_hz ({clk_hz} Hz)")
         self._clk_hz, self._hz, self.origin = clk_hz, hz, origin
         self._n = 1
 
@@ -114,11 +120,11 @@ class Square:
         return self._n & 1
 
     def advance(self) -> None:
-        """The next toggle has been dealt with."""
+        """Advance to the following toggle."""
         self._n += 1
 
     def restart(self, origin: int) -> None:
-        """Begin anew, low, at edge `origin`."""
+        """Start again at edge `origin` with a low level."""
         self.origin, self._n = origin, 1
 
 
@@ -126,12 +132,18 @@ DATA, STATUS, COMMAND = 0, 1, 1
 
 
 class Chip(ABC):
-    """One part.
+    """One part. The model starts just after the release of reset, before edge 0.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..XTAL_MAX, timing "FAST" or "DATASHEET"; ValueError for anything else. The
-    model starts just released from reset, before edge 0. Subclasses name their pins in INPUTS (idle
-    levels), WIDTHS (bits, where not 1) and HOST_PINS (the bus); where a parameter decides about them, before
-    they call `__init__`.
+    Subclasses define their pins in INPUTS (idle levels), WIDTHS (bits, if not 1) and HOST_PINS (bus). If
+    these depend on a parameter, they are set before `__init__` is called.
+
+    Args:
+        clk_hz: 8e6..200e6.
+        xtal_hz: 1e6..XTAL_MAX.
+        timing: "FAST" or "DATASHEET".
+
+    Raises:
+        ValueError: another value.
     """
 
     XTAL_MAX: ClassVar[int] = 16_000_000
@@ -153,46 +165,46 @@ class Chip(ABC):
         self.log = EdgeLog(self._reset_levels)
         self._pins = dict(self.INPUTS)
 
-    # ------------------------------------------------------------------ for the part
+    # ------------------------------------------------------------------ implemented by the part
 
     @abstractmethod
     def _latch(self, t: int) -> None:
-        """Pass internal levels after edge t on to the output registers."""
+        """Pass the internal levels after edge t to the output registers."""
 
     @abstractmethod
     def _restart(self) -> None:
-        """Fresh blocks in their reset state."""
+        """Create blocks in their reset state."""
 
     @abstractmethod
     def _released(self, t: int) -> None:
-        """Edge t is the first one after a reset."""
+        """Process edge t, the first one after a reset."""
 
     @abstractmethod
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins."""
+        """Sample new levels of the bus pins at edge t."""
 
     @abstractmethod
     def _see(self, t: int, levels: Mapping[str, int]) -> None:
-        """Synchronised levels of the other pins as decisions at edge t use them."""
+        """Process synchronised levels of the other pins, which decisions at edge t use."""
 
     @abstractmethod
     def _strobe(self, write: bool, reg: int) -> dict[str, int]:
-        """Bus pin levels of an access, without d_i."""
+        """Return the bus pin levels of an access, without d_i."""
 
     # ------------------------------------------------------------------ time
 
     @property
     def now(self) -> int:
-        """The last edge that was run, -1 before edge 0."""
+        """Last edge that was run, -1 before edge 0."""
         return self._queue.now
 
     @property
     def next_event(self) -> int | None:
-        """The next edge on which anything happens by itself, None if nothing ever will."""
+        """Next edge with an event that needs no input change; `None` if no event is scheduled."""
         return self._queue.next_edge()
 
     def run_until(self, t: int) -> None:
-        """Run all edges up to and including t. Raises ValueError if t lies before `now`."""
+        """Run all edges up to and including t. Raises ValueError if t is before `now`."""
         queue = self._queue
         if t < queue.now:
             raise ValueError(f"run_until({t}): edge {queue.now} is done")
@@ -201,10 +213,12 @@ class Chip(ABC):
     # ------------------------------------------------------------------ pins
 
     def pins(self, t: int, **levels: int) -> None:
-        """Input levels that rising edge t samples first; later calls for the same t overrule.
+        """Set input levels that rising edge t samples first; later calls for the same t override them.
 
-        Raises ValueError for an edge already run, an unknown pin or a level out of range. rst_n = 0 acts
-        at once; its output edges are stamped t.
+        rst_n = 0 acts immediately; its output edges have the time t.
+
+        Raises:
+            ValueError: edge t was already run, a pin is unknown, or a level is out of range.
         """
         inputs, widths = self.INPUTS, self.WIDTHS
         for pin, level in levels.items():
@@ -228,7 +242,7 @@ class Chip(ABC):
             self._sample(t, changed)
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
-        """Edge t samples pins; the levels reach the inside `input_sync` clk later."""
+        """Sample pins at edge t; the blocks receive the levels `input_sync` cycles later."""
         names = set(changed)
         if not names.isdisjoint(self.HOST_PINS):
             self._queue.at(t, Phase.PINS, lambda now: self._sample_bus(now, self._pins))
@@ -240,7 +254,7 @@ class Chip(ABC):
         self._queue.at(t + self.latency.input_sync, Phase.LEVELS, lambda now: self._see(now, levels))
 
     def _reset(self, t: int) -> None:
-        """Asynchronous reset (P104-PORT-03, P2104-PORT-03)."""
+        """Reset the part asynchronously (P104-PORT-03, P2104-PORT-03)."""
         self._queue.clear()
         for signal, level in self._reset_levels.items():
             self.log.set(t, signal, level)
@@ -249,9 +263,10 @@ class Chip(ABC):
     # ------------------------------------------------------------------ host
 
     def write(self, t: int, reg: int, byte: int, strobe: int = 2) -> int:
-        """Write cycle: strobe from edge t, data byte (reg 0) or command byte (reg 1).
+        """Write a data byte (reg 0) or command byte (reg 1) with a strobe from edge t.
 
-        Returns edge 0 of P104-BUS-06 = t + strobe, up to which the pins are set; edge 0 is not run yet.
+        Returns:
+            Edge 0 of P104-BUS-06 = t + strobe. The pins are set up to it; it is not run yet.
         """
         levels = self._strobe(True, reg)
         self.pins(t, **levels, d_i=byte)
@@ -259,8 +274,10 @@ class Chip(ABC):
         return t + strobe
 
     def read(self, t: int, reg: int, strobe: int = 4) -> int:
-        """Read cycle: strobe from edge t; returns d_o at its end. The next access may begin at
-        t + strobe + 2."""
+        """Read a register with a strobe from edge t; return d_o at its end.
+
+        The next access may begin at t + strobe + 2.
+        """
         levels = self._strobe(False, reg)
         self.pins(t, **levels)
         self.run_until(t + strobe - 1)
@@ -271,11 +288,11 @@ class Chip(ABC):
     def _bus_idle(self, levels: Mapping[str, int]) -> dict[str, int]:
         return {pin: 1 for pin in levels if pin.endswith("_n")}
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     @property
     def edges(self) -> list[Edge]:
-        """All output edges so far, in time order."""
+        """All output edges so far, in order of time."""
         return self.log.edges
 
     @property
@@ -285,5 +302,5 @@ class Chip(ABC):
 
     @property
     def inputs(self) -> Mapping[str, int]:
-        """Input levels as set last."""
+        """Input levels as last set."""
         return MappingProxyType(self._pins)

@@ -1,4 +1,6 @@
-"""Time: XTAL cycles, quanta, clk edges, and the constants a core may choose inside the spec's windows.
+"""Time: crystal cycles, quanta, edges of `clk`, and the latencies of a core.
+
+A core may choose its latencies within the bounds of the rules.
 
 Rules: P104-GEN-02..04 (CYC, quantum), P104-BCK-03 (tick n of the quantum counter), section 8 (`ds_*`).
 """
@@ -15,29 +17,36 @@ BuildClk = Callable[[int, int, int], int]
 
 @dataclass(frozen=True)
 class Latency:
-    """Constants of one core, in clk. The defaults are those of the RTL of this project.
+    """Constants of one core, in cycles. The defaults are those of the RTL of this project.
 
-    c_event: write event to C-event when the mailbox is open (P104-HSK-03, 0..8).
-    window_open: end of a closed window to the C-event of a byte that waited.
-    host_pins: internal change to int_n, aux_n, auxo. int_pin: interrupt latch to int_n on parts with
-    several latches (P2104-INT-03, -05, 0..2). motor_pins: to s, pout_n, hold, dir (both 0..2).
-    start_extra: internal pulse 1 beyond W (P104-TIM-02, 0..2).
-    end_extra: pout_n rise to BUSY fall (P104-END-01, 0..4).
-    imm_end: deciding edge to BUSY fall when pout_n is high (P104-END-02, 0..4).
-    input_sync: pin edge to the internal level (2).
-    flag_lead: a forced-deceleration flag set this long before a pulse event still counts for it
-    (P104-FDC-06, 0..4).
-    queue_next: OBF fall to the next byte of a longer answer (P104-HSK-05, 0..4).
-    reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
-    build_base, build_per_rate: ramp-table build, base + per_rate * (RL - RH) (P104-HSK-04, <= 40000), 3
-    for RL = RH, which needs no table; `build_clk`, a function of (RL, RH, PA), replaces them. build_queue:
-    added where two axes share the builder.
-    ds_host: added to the times measured from a write event, ds_waited: from the end of a wait, ds_motor:
-    from a pulse, a deciding edge or an input level (section 8, -0/+16).
-    ds_window: added to the windows of P2104-DS-01..14, which count from the C-event.
-    ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12. Where an interval is
-    slower than the one before, the core looks its rate up while it runs, seek_start and seek_per_rate clk a
-    rate, and the mailbox opens when the look-up has passed the limit. The first one is known: seek_turn.
+    Attributes:
+        c_event: write event to C-event when the mailbox is open (P104-HSK-03, 0..8).
+        window_open: end of a closed window to the C-event of a byte that waited.
+        host_pins: internal change to int_n, aux_n, auxo (0..2).
+        int_pin: interrupt latch to int_n on parts with several latches (P2104-INT-03, -05, 0..2).
+        motor_pins: internal change to s, pout_n, hold, dir (0..2).
+        start_extra: start edge to internal pulse 1, in addition to W (P104-TIM-02, 0..2).
+        end_extra: rise of pout_n to the fall of BUSY (P104-END-01, 0..4).
+        imm_end: deciding edge to the fall of BUSY when pout_n is high (P104-END-02, 0..4).
+        input_sync: edge that samples a pin to the internal level (2).
+        flag_lead: least time from a forced-deceleration flag to a pulse event for which it still counts
+            (P104-FDC-06, 0..4).
+        queue_next: fall of OBF to the next byte of a longer answer (P104-HSK-05, 0..4).
+        reset_tick: origin of the quantum counter relative to the first edge with rst_n = 1.
+        build_base, build_per_rate: ramp-table build, base + per_rate * (RL - RH) (P104-HSK-04, <= 40000). It
+            takes 3 for RL = RH, which needs no table.
+        build_clk: function of (RL, RH, PA) that replaces build_base and build_per_rate.
+        build_queue: addition to a build where two axes share the builder.
+        ds_host: addition to times measured from a write event (section 8, -0/+16).
+        ds_waited: addition to times measured from the end of a wait (section 8, -0/+16).
+        ds_motor: addition to times measured from a pulse, a deciding edge or an input level (section 8,
+            -0/+16).
+        ds_window: addition to the windows of P2104-DS-01..14, which count from the C-event.
+        ds12_lag: pulse event to the edge on which its interval decides about P104-DS-12.
+        seek_start, seek_per_rate: look-up of the rate of an interval that is slower than the previous one.
+            The core looks the rate up while it runs, and the mailbox opens when the look-up has passed the
+            limit. It takes seek_start, and seek_per_rate for each rate.
+        seek_turn: look-up of the first such interval, whose rate is known.
     """
 
     c_event: int = 2
@@ -66,7 +75,7 @@ class Latency:
     seek_per_rate: int = 3
 
     def build(self, rl: int, rh: int, pa: int) -> int:
-        """Length of the ramp-table build in clk."""
+        """Return the length of the ramp-table build in cycles."""
         if self.build_clk is not None:
             return self.build_clk(rl, rh, pa)
         if rl == rh:
@@ -76,9 +85,14 @@ class Latency:
 
 @dataclass(frozen=True)
 class Timebase:
-    """Conversion between XTAL cycles, quanta (4 XTAL cycles) and clk.
+    """Conversion between crystal cycles, quanta (4 crystal cycles) and cycles.
 
-    clk_hz: frequency of clk, 8e6..200e6. xtal_hz: emulated crystal, 1e6..xtal_max. Raises ValueError outside.
+    Args:
+        clk_hz: frequency of `clk`, 8e6..200e6.
+        xtal_hz: emulated crystal, 1e6..xtal_max.
+
+    Raises:
+        ValueError: a frequency is out of range.
     """
 
     clk_hz: int = 16_000_000
@@ -92,11 +106,11 @@ class Timebase:
             raise ValueError(f"xtal_hz {self.xtal_hz} is outside 1e6..{self.xtal_max // 1_000_000}e6")
 
     def cyc(self, cycles: int) -> int:
-        """CYC(n): clk that cover n XTAL cycles, rounded up (P104-GEN-03)."""
+        """Return CYC(n): the cycles that cover n crystal cycles, rounded up (P104-GEN-03)."""
         return -(-cycles * self.clk_hz // self.xtal_hz)
 
     def nearest(self, cycles: int) -> int:
-        """clk nearest to n XTAL cycles, halves up (X and H of P104-INT-03)."""
+        """Return the number of cycles nearest to n crystal cycles, halves up (X and H of P104-INT-03)."""
         return (2 * cycles * self.clk_hz + self.xtal_hz) // (2 * self.xtal_hz)
 
     @property
@@ -106,46 +120,51 @@ class Timebase:
 
     @property
     def quantum(self) -> int:
-        """XTAL cycles of a quantum: 4, or 5 where 4 would last less than 2 clk (8 MHz and a fast crystal)."""
+        """Crystal cycles of a quantum.
+
+        They are 4, or 5 if 4 would last less than 2 cycles of `clk` (8 MHz and a fast crystal).
+        """
         return 4 if 2 * self.clk_hz >= self.xtal_hz else 5
 
     def tick(self, n: int) -> int:
-        """clk from the restart of the quantum counter to its tick n (P104-BCK-03)."""
+        """Return the cycles from the restart of the quantum counter to its tick n (P104-BCK-03)."""
         return self.cyc(self.quantum * n)
 
     def ticks_in(self, clk: int) -> int:
-        """Number of the last tick at or before `clk` clk after the restart; 0 for clk < 0."""
+        """Return the number of the last tick at or before a cycle after the restart.
+
+        For clk < 0 it returns 0.
+        """
         return max(0, clk * self.xtal_hz // (self.quantum * self.clk_hz))
 
     def seconds(self, clk: int) -> float:
-        """Seconds of so many clk."""
+        """Return the time of this number of cycles in s."""
         return clk / self.clk_hz
 
 
 class QuantumCounter:
-    """The one quantum counter of a part: restarted at an edge, runs on for ever (P104-BCK-03)."""
+    """Quantum counter of a part, restarted at an edge; it never stops (P104-BCK-03)."""
 
     def __init__(self, timebase: Timebase, origin: int) -> None:
         self._timebase = timebase
         self.origin = origin
 
     def restart(self, t: int) -> None:
-        """Tick 0 is at edge t."""
+        """Restart: tick 0 is at edge t."""
         self.origin = t
 
     def edge_of(self, n: int) -> int:
-        """Edge of tick n."""
+        """Return the edge of tick n."""
         return self.origin + self._timebase.tick(n)
 
     def last_tick(self, t: int) -> int:
-        """Number of the last tick at or before edge t."""
+        """Return the number of the last tick at or before edge t."""
         return self._timebase.ticks_in(t - self.origin)
 
 
-# Event queue of the models: callbacks ordered by clk edge, then by phase within the edge.
-#
-# A phase is a small integer that says which register of the part looks at which other before both change;
-# each part lists its own. Callbacks of one edge and phase run in the order they were asked for.
+# Event queue of the models: callbacks ordered by edge of `clk`, then by phase within the edge. A phase is a
+# small integer. It defines which register of the part reads which other one before both change; each part has
+# its own list. Callbacks of one edge and phase run in the order in which they were scheduled.
 
 Callback = Callable[[int], None]
 
@@ -159,12 +178,12 @@ class Event:
         self.action: Callback | None = action
 
     def cancel(self) -> None:
-        """Forget the callback."""
+        """Cancel the callback."""
         self.action = None
 
 
 class Scheduler:
-    """Heap of events. `now` is the last edge that was worked on completely, -1 before the first."""
+    """Heap of events. `now` is the last edge that was run completely, -1 before the first."""
 
     def __init__(self) -> None:
         self.now = -1
@@ -172,7 +191,10 @@ class Scheduler:
         self._serial = 0
 
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
-        """Call `action(t)` at edge t in this phase. Raises ValueError for an edge already worked on."""
+        """Call `action(t)` at edge t in this phase.
+
+        Raises ValueError for an edge that was already run.
+        """
         if t <= self.now:
             raise ValueError(f"event for edge {t}, but edge {self.now} is done")
         event = kind(action)
@@ -181,7 +203,7 @@ class Scheduler:
         return event
 
     def clear(self) -> None:
-        """Cancel everything (reset)."""
+        """Cancel all events (reset)."""
         for *_, event in self._heap:
             event.cancel()
         self._heap.clear()
@@ -193,21 +215,23 @@ class Scheduler:
                 event.cancel()
 
     def next_edge(self) -> int | None:
-        """Edge of the next event, None if there is none."""
+        """Return the edge of the next event, `None` if there is no event."""
         while self._heap and self._heap[0][3].action is None:
             heapq.heappop(self._heap)
         return self._heap[0][0] if self._heap else None
 
     def run_edge(self, t: int) -> None:
-        """Run every event of edge t, also those that other events of this edge add."""
+        """Run every event of edge t, including those that other events of this edge add."""
         while self._heap and self._heap[0][0] == t:
             action = heapq.heappop(self._heap)[3].action
             if action is not None:
                 action(t)
 
     def run_until(self, t: int, after: Callback) -> None:
-        """Run every event up to edge t, also those that are added meanwhile; `after` follows the events of
-        each edge and may add some to it."""
+        """Run every event up to edge t, including those that are added during the run.
+
+        `after` is called after the events of each edge, and may add events to this edge.
+        """
         heap, pop = self._heap, heapq.heappop
         while heap:
             edge, _, _, event = heap[0]
@@ -233,10 +257,12 @@ class Scheduler:
 
 
 class Edge(NamedTuple):
-    """Output `signal` takes `value` at rising clk edge `t` (visible just after that edge).
+    """Change of output `signal` to `value` at rising edge `t` of `clk`.
 
-    Only an asynchronous reset changes outputs between edges; it is stamped with the next edge, so its
-    edges may be seen up to one clk earlier on the pins.
+    The new value is visible just after that edge.
+
+    Only an asynchronous reset changes outputs between edges. Its edges have the time of the next edge, so on
+    the pins they may occur up to one cycle earlier.
     """
 
     t: int
@@ -245,10 +271,10 @@ class Edge(NamedTuple):
 
 
 class EdgeLog:
-    """Present levels of all outputs and the list of their changes, in time order.
+    """Current levels of all outputs and the list of their changes, in order of time.
 
-    `initial` and `levels` map each output to its first and its present level; `edges` never holds a
-    change to the same level, and at most one entry per signal and clk edge.
+    `initial` and `levels` map each output to its first and its current level. `edges` never holds a change to
+    the same level, and at most one entry per signal and edge of `clk`.
     """
 
     def __init__(self, initial: Mapping[str, int]) -> None:
@@ -267,7 +293,7 @@ class EdgeLog:
             if edge.t != t:
                 break
             if edge.signal == signal:
-                # An asynchronous reset met a change of the same edge: only the outcome counts.
+                # An asynchronous reset coincides with a change at this edge: only the final level counts.
                 del self.edges[place]
                 if self.level_before(signal, place) == value:
                     return
@@ -275,26 +301,29 @@ class EdgeLog:
         self.edges.append(Edge(t, signal, value))
 
     def level_before(self, signal: str, place: int) -> int:
-        """Level of `signal` before entry `place` of the list."""
+        """Return the level of `signal` before entry `place` of the list."""
         for edge in reversed(self.edges[:place]):
             if edge.signal == signal:
                 return edge.value
         return self.initial[signal]
 
     def of(self, signal: str, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (t, value) of one signal from edge `since` on."""
+        """Return the changes (t, value) of one signal from edge `since` on."""
         return [(e.t, e.value) for e in self.edges if e.signal == signal and e.t >= since]
 
     def falls(self, signal: str, since: int = 0) -> list[int]:
-        """Edges on which a one-bit signal fell."""
+        """Return the edges at which a one-bit signal fell."""
         return [t for t, value in self.of(signal, since) if value == 0]
 
     def rises(self, signal: str, since: int = 0) -> list[int]:
-        """Edges on which a one-bit signal rose."""
+        """Return the edges at which a one-bit signal rose."""
         return [t for t, value in self.of(signal, since) if value == 1]
 
 
 def low_times(changes: list[tuple[int, int]]) -> list[int]:
-    """Lengths in clk of the complete low phases in a list of (t, value) of an active-low signal."""
+    """Return the lengths of the complete low phases of an active-low signal, in cycles.
+
+    changes: list of (t, value).
+    """
     pairs = zip(changes, changes[1:], strict=False)
     return [b - a for (a, low), (b, high) in pairs if low == 0 and high == 1]

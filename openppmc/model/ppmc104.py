@@ -1,10 +1,10 @@
-"""Golden model of the PPMC-104 at pin level, event driven and exact to the cycle.
+"""Golden model of the PPMC-104 at pin level, event driven and cycle-accurate.
 
-Pins and time: `chip`, `clock`, `single.single`. Bus: `single.hostport` (P104-BUS, -HSK). Commands: here and
-`single.commands` (P104-CMD, -ERR, -INI, -RD, -AUX). Motion: here, `motion.motion` and `single.commands`
-(P104-OPR, -BCK, -PRO, -FDC, -TIM, -END). Limits: `motion.codes` (P104-LIM). Phases and chopper:
-`motion.excitation` (P104-PHS, -SW). Ramp: `motion.ramp` (P104-RMP). Here: P104-PORT-01..03 (pins, reset),
-P104-PAR-01 (parameters). `clock.Latency` has the constants that the rules leave open.
+Rules by module: this one pins, reset and parameters (P104-PORT-01..03, P104-PAR-01). Bus: `single.hostport`
+(P104-BUS, -HSK). Commands: this one and `single.commands` (P104-CMD, -ERR, -INI, -RD, -AUX). Motion: this
+one, `motion.motion` and `single.commands` (P104-OPR, -BCK, -PRO, -FDC, -TIM, -END). Limits: `motion.codes`
+(P104-LIM). Phases and chopper: `motion.excitation` (P104-PHS, -SW). Ramp: `motion.ramp` (P104-RMP). `chip`,
+`clock` and `single.single` have pins and time. `clock.Latency` has the constants that the rules leave open.
 """
 
 from __future__ import annotations
@@ -59,28 +59,28 @@ OUTPUTS: dict[str, int] = {
 WIDTHS: dict[str, int] = {"d_i": 8, "auxi": 4, "d_o": 8, "auxo": 4, "s": 5}
 HOST_PINS = ("a0", "cs_n", "rd_n", "wr_n", "d_i")
 GUARD = GuardPins(limits=("l1_n", "l2_n"), slow_limits=("l3_n", "l4_n"), alarm="alm_n", origin="cnp_n")
-# Levels of the input register (P104-RD-05), bit by bit.
+# Bits of the input register and their pins (P104-RD-05).
 INPUT_REGISTER = {7: "cnp_n", 6: "alm_n", 3: "l1_n", 2: "l2_n", 1: "l3_n", 0: "l4_n"}
 
 
-# Switching times of the PPMC-104 (P104-SW-04, -05, P104-AUX-03).
+# Chopper times of the PPMC-104 (P104-SW-04, -05, P104-AUX-03).
 
 DEFAULT_QUANTA = (260, 435)
 
 
 class Switching:
-    """Default times until the first 0x84, then its two values, stretched by vsel = L."""
+    """Chopper times: the defaults until the first 0x84, then its two values, longer with vsel = L."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
         self._parameters: tuple[int, int] | None = None
 
     def set(self, p_on: int, p_off: int) -> None:
-        """0x84: both values, 0..255, used from the next phase boundary on (P104-AUX-03)."""
+        """Process 0x84: both values, 0..255, are used from the next phase boundary on (P104-AUX-03)."""
         self._parameters = (p_on, p_off)
 
     def quanta(self, on: bool) -> int:
-        """Length of a phase that begins now (P104-SW-04, -05)."""
+        """Return the length in quanta of a phase that begins now (P104-SW-04, -05)."""
         if self._parameters is None:
             return DEFAULT_QUANTA[0 if on else 1]
         plain = self._context.levels["vsel"]
@@ -90,14 +90,14 @@ class Switching:
         return 12 * p_off + (132 if plain else 115)
 
 
-# What is special in the motion of the PPMC-104: P104-OPR, P104-STP, P104-DS-03 (triangles), -10, -12.
+# Motion of the PPMC-104, where it differs: P104-OPR, P104-STP, P104-DS-03 (triangles), -10, -12.
 
 DS_FLAG_COMMAND, DS_FLAG_LIMIT, DS_FLAG_LIMIT_HIGH = 272, 192, 272
 DS_FAST_PULSE, DS_FAST_PHASE = 100, 148
 
 
 class Motion(TimedMotion):
-    """The axis of a PPMC-104."""
+    """Motion of the axis of a PPMC-104."""
 
     hold_cycles = 544_000
 
@@ -120,7 +120,10 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ stop commands and inputs
 
     def slow_stop(self, t: int, reference: int) -> None:
-        """Decelerating Stop taken in START, ACC or HIGH of 011/110 (P104-STP-03, P104-DS-10)."""
+        """Process a deceleration stop (P104-STP-03, P104-DS-10).
+
+        It was accepted in START, ACC or HIGH of 011/110.
+        """
         at = t
         if self._context.datasheet:
             at = reference + self._context.timebase.cyc(DS_FLAG_COMMAND)
@@ -150,7 +153,10 @@ class Motion(TimedMotion):
         return DS_FAST_PULSE if self._command.pulse_only else DS_FAST_PHASE
 
     def _fast_lag(self, rate: int, limit: int) -> int:
-        """Pulse event to the decision about P104-DS-12 (see Latency.ds12_lag)."""
+        """Return the cycles from a pulse event to the decision about P104-DS-12.
+
+        See Latency.ds12_lag.
+        """
         latency, quanta = self._context.latency, self._clock.quanta
         before = self.intervals[-2].rate if len(self.intervals) > 1 else rate
         passed = 0
@@ -163,7 +169,7 @@ class Motion(TimedMotion):
         return latency.ds12_lag + look_up
 
     def _falls(self, number: int) -> bool:
-        """Whether this interval of a ramp has a lower index than the one before."""
+        """Return True if this interval of a ramp has a lower index than the previous one."""
         index, before = self.intervals[number].index, self.intervals[number - 1].index
         return index is not None and before is not None and index < before
 
@@ -173,10 +179,9 @@ class Motion(TimedMotion):
         self._gate.set(t, False)
 
 
-# Command processor of the PPMC-104 model: what each command does. The bytes before that: `single.commands`.
-#
-# Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary: P104-AUX-01..06,
-# P104-DS-11.
+# Command processor of the PPMC-104 model: the effect of each command. `single.commands` processes the bytes
+# before that. Initialisation: P104-INI-01..10, P104-DS-01/02. Reads: P104-RD-01..08. Auxiliary:
+# P104-AUX-01..06, P104-DS-11.
 
 _DS_AUX, _DS_EXCITATION_OFF = 224, 288
 
@@ -223,7 +228,10 @@ class CommandUnit(ByteUnit):
         return None
 
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
-        """Now in FAST; in DATASHEET after so many XTAL cycles with the mailbox closed (P104-DS-11)."""
+        """Execute an action now, or with DATASHEET timing after a time (P104-DS-11).
+
+        The mailbox is closed during this time. cycles: the time in crystal cycles.
+        """
         if not self._context.datasheet:
             action(t)
             return
@@ -232,7 +240,7 @@ class CommandUnit(ByteUnit):
         self._context.queue.at(at, Phase.BEGIN, action)
 
     def _excitation_off(self, t: int) -> None:
-        """Software reset (P104-AUX-04, -06)."""
+        """Execute a software reset (P104-AUX-04, -06)."""
         self._chopper.stop()
         self._excitation.off()
         self.setup = None
@@ -240,7 +248,7 @@ class CommandUnit(ByteUnit):
     # ------------------------------------------------------------------ registers
 
     def _register(self, t: int, code: int) -> list[int]:
-        """Bytes of a read command, sampled at edge t (P104-RD-02..08)."""
+        """Return the bytes of a read command, sampled at edge t (P104-RD-02..08)."""
         motion, levels = self._motion, self._context.levels
         if code == 0x80:
             value = motion.finish
@@ -258,13 +266,16 @@ class CommandUnit(ByteUnit):
         return [levels["auxi"]]
 
     def _pin(self, name: str) -> int:
-        """Present level of a motor pin."""
+        """Return the current level of a motor pin."""
         return self._context.log.levels[name]
 
     # ------------------------------------------------------------------ initialisation
 
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
-        """Fourth byte of an initialisation: check, store, begin the table build (P104-INI-05..08)."""
+        """Process the fourth byte of an initialisation (P104-INI-05..08).
+
+        It is checked and stored, and the table build begins.
+        """
         rl, rh = data[0], data[1]
         pa = data[2] | data[3] << 8
         if pa > PA_MAX:
@@ -276,10 +287,16 @@ class CommandUnit(ByteUnit):
 
 
 class Ppmc104(SingleAxis):
-    """One PPMC-104.
+    """One PPMC-104. The model starts just after the release of reset, before edge 0.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET", phase_idle 0 or 1; ValueError for
-    anything else. The model starts just released from reset, before edge 0.
+    Args:
+        clk_hz: 8e6..200e6.
+        xtal_hz: 1e6..16e6.
+        timing: "FAST" or "DATASHEET".
+        phase_idle: 0 or 1.
+
+    Raises:
+        ValueError: another value.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -313,13 +330,13 @@ class Ppmc104(SingleAxis):
         return self.log.falls("pout_n")
 
 
-# The modelled carrier with a PPMC-104.
+# Modelled carrier with a PPMC-104.
 
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
 class Carrier(carrier.Carrier[Ppmc104]):
-    """Wired as ppmc104_carrier: straps bit 0 is csel, bit 1 vsel."""
+    """Carrier wired like ppmc104_carrier: straps bit 0 is csel, bit 1 vsel."""
 
     def __init__(
         self,
@@ -353,6 +370,6 @@ _LIMITS = Limits(slower=0, least=0, shortest=PA_MIN, longest=PA_MAX)
 def predict(
     init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
 ) -> RampMove:
-    """See `single.predict.predict_move`."""
+    """Return the prediction of a move; see `single.predict.predict_move`."""
     ramp = Ramp(*_LIMITS.check(init, n, rate))
     return run(timebase or Timebase(), BaseClock.of_pins(csel, vsel), ramp, n, rate)

@@ -1,4 +1,4 @@
-"""UART in time: bit times are exact fractions of a clk (P312-SER-01, -15, -18)."""
+"""UART in time: bit times are exact fractions of a cycle (P312-SER-01, -15, -18)."""
 
 from __future__ import annotations
 
@@ -16,16 +16,20 @@ BITS = 10
 
 
 class Queued(Protocol):
-    """Anything that has the queue of a part."""
+    """Object that has the queue of a part."""
 
     @property
     def queue(self) -> Scheduler:
-        """Its events."""
+        """Event queue."""
         ...
 
 
 class Receiver:
-    """bit: clk of a bit. got(t, byte): a character, its stop bit sampled at edge t; None if it was low."""
+    """Receiver.
+
+    bit: cycles of a bit. got(t, byte): called with a character whose stop bit edge t samples; `None`: the
+    stop bit was low.
+    """
 
     def __init__(self, context: Queued, bit: Fraction, got: Callable[[int, int | None], None]) -> None:
         self._queue, self._bit, self._got = context.queue, bit, got
@@ -36,13 +40,13 @@ class Receiver:
         self._event: Event | None = None
 
     def forget(self) -> None:
-        """What is on its way is none; the line has to be high first."""
+        """Discard the character being received and ignore the line until it is high."""
         if self._event:
             self._event.cancel()
         self._start, self._broken = None, True
 
     def see(self, t: int, level: int) -> None:
-        """The synchronised line from edge t on."""
+        """Process a level of the synchronised line from edge t on."""
         self._level = level
         if self._start is not None:
             self._history.append((t, level))
@@ -53,39 +57,50 @@ class Receiver:
             self._event = self._queue.at(self._middle(0), Phase.BUS, self._verify)
 
     def _middle(self, number: int) -> int:
-        """Edge that samples bit `number`, 0 for the start bit."""
+        """Return the edge that samples bit `number`, 0 for the start bit."""
         assert self._start is not None
         return self._start + ceil((number + Fraction(1, 2)) * self._bit) - 1
 
     def _verify(self, t: int) -> None:
-        """The middle of the start bit: a glitch is over by then."""
+        """Check the start bit in its middle, when a glitch is over."""
         if self._level:
             self._start = None
         else:
             self._event = self._queue.at(self._middle(BITS - 1), Phase.BUS, self._stop)
 
     def _at(self, t: int) -> int:
-        """Level that edge t has seen."""
+        """Return the level that edge t has sampled."""
         return next(level for since, level in reversed(self._history) if since <= t)
 
     def _stop(self, t: int) -> None:
-        """The middle of the stop bit; what the line was in the middles before it is known now."""
+        """Process the middle of the stop bit.
+
+        The levels in the middles of all earlier bits are known now.
+        """
         byte = sum(self._at(self._middle(number + 1)) << number for number in range(8))
         self._start, self._broken = None, not self._level
         self._got(t, byte if self._level else None)
 
 
 class Transmitter:
-    """bit: cycles of a bit. sent gets (edge in the middle of the stop bit, character). lead: bits from the
-    rise of snd to the first start bit. Changes txd and snd."""
+    """Transmitter, which drives txd and snd.
+
+    Attributes:
+        bit: cycles of a bit.
+        sent: list for (edge in the middle of the stop bit, character).
+        lead: bits from the rise of snd to the first start bit.
+    """
 
     def __init__(self, context: Context, bit: Fraction, sent: list[tuple[int, int]], lead: int = 1) -> None:
         self._queue, self._log, self._bit, self._sent = context.queue, context.log, bit, sent
         self._lead = lead
 
     def send(self, t: int, message: bytes, ended: Callable[[int], None]) -> None:
-        """snd rises at edge t, the first start bit begins `lead` bits later, the characters back to back.
-        ended(t): snd has fallen."""
+        """Send characters without gaps.
+
+        snd rises at edge t, and the first start bit begins `lead` bits later. ended(t): called when snd has
+        fallen.
+        """
         self._log.set(t, "snd", 1)
         levels = [1] * self._lead
         for byte in message:

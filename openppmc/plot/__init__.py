@@ -1,1 +1,1 @@
-"""Plots of what a part did: pictures made from edge lists, with matplotlib."""
+"""Plots of the outputs of a part: pictures of edge lists, with matplotlib."""

@@ -19,8 +19,15 @@ OTHERS = ("#c26a1b", "#7a4fa3", "#2f9e6e")
 
 
 def draw_capture(moves: Sequence[tuple[int, Sequence[Sequence[int]]]], title: str, path: Path) -> None:
-    """moves: number of each axis, and of its moves the times of the pulses in ps. path: one of FORMATS.
-    OSError if it cannot be written."""
+    """Draw the moves in a capture.
+
+    Args:
+        moves: number of each axis, and the times of the pulses of its moves in ps.
+        path: file of one of FORMATS.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
     figure, axes = plt.subplots(figsize=(10, 4.2), dpi=110, layout="constrained")
     for number, (axis, of_axis) in enumerate(moves):
         colour = (SPEED, *OTHERS)[number % 4]

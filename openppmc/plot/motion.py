@@ -1,7 +1,7 @@
-"""A picture of a run: speed profile and pins over time, an overview above and close-ups below.
+"""Picture of a run: speed profile and pins over time, an overview above and close-ups below.
 
-Input is plain data: per signal the level before the first edge and the changes (clk edge, level). Nothing is
-computed from the host's commands, so the picture shows what the pins did.
+The input is plain data: for each signal the level before the first edge and the changes (edge, level). The
+picture shows only recorded pins; nothing is computed from the commands of the host.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from matplotlib.figure import Figure
 
 from .signals import Run, Section, Trace, speeds
 
-SLOWEST = 2.1e-3  # s; pulses farther apart belong to different motions (rate 255 at 125 kHz is 2.048 ms)
+# In s. Pulses with a longer interval belong to different motions (rate 255 at 125 kHz is 2.048 ms).
+SLOWEST = 2.1e-3
 
 INK, GREY, PALE = "#1b2733", "#6b7785", "#dfe4ea"
 SPEED = "#0b6fb8"
@@ -41,7 +42,7 @@ COLOURS = {
 
 
 def bare(axes: Axes) -> None:
-    """No frame, no ticks but those of x."""
+    """Remove the frame and all ticks except those of x."""
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_color(PALE)
@@ -51,7 +52,10 @@ def bare(axes: Axes) -> None:
 def draw_traces(
     axes: Axes, traces: Sequence[Trace], begin: int, end: int, scale: float, label_size: int = 9
 ) -> None:
-    """Logic levels stacked from top to bottom, x in units of `scale` clk from `begin` on."""
+    """Draw logic levels, stacked from top to bottom.
+
+    x is in units of `scale` cycles from `begin` on.
+    """
     count = len(traces)
     for row, trace in enumerate(traces):
         base = (count - 1 - row) * 1.5
@@ -59,7 +63,7 @@ def draw_traces(
         times, levels = trace.within(begin, end)
         xs = [(t - begin) / scale for t in times]
         ys = [base + level for level in levels]
-        idle = base + trace.name.endswith("*")  # what is filled is the active level
+        idle = base + trace.name.endswith("*")  # the active level is filled
         axes.fill_between(xs, idle, ys, step="post", color=colour, alpha=0.18, linewidth=0)
         dense = len(times) > 400
         axes.step(
@@ -83,7 +87,7 @@ def draw_traces(
 
 
 def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None:
-    """Speed over time, filled; a legend if the curves have names."""
+    """Draw the speed over time, filled; with a legend if the curves have names."""
     for curve in run.speeds:
         label = curve.name
         for times, values in speeds(curve.pulses, run.clk_hz, gap=round(SLOWEST * run.clk_hz)):
@@ -105,7 +109,7 @@ def draw_speed(axes: Axes, run: Run, begin: int, end: int, scale: float) -> None
 
 
 def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
-    """The whole run: speed above, pins below, chapters as numbered bands."""
+    """Draw the complete run: speed above, pins below, chapters as numbered bands."""
     scale = run.clk_hz / 1000
     speed, pins = rows
     draw_speed(speed, run, 0, run.end, scale)
@@ -150,9 +154,9 @@ def overview(figure: Figure, rows: tuple[Axes, Axes], run: Run) -> None:
 
 
 def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
-    """One zoom: all pins, times in µs from its beginning, marked edges with what happens there."""
+    """Draw one zoom: all pins, times in µs from its beginning, marked edges with their text."""
     scale = run.clk_hz / 1e6
-    lift = 9 / (len(run.traces) * run.row_scale)  # titles stand as far above the axes, however high these are
+    lift = 9 / (len(run.traces) * run.row_scale)  # constant distance of the titles from the axes
     title, note, marks = 1 + 0.115 * lift, 1 + 0.05 * lift, 1.5 / run.row_scale
     draw_traces(axes, run.traces, zoom.begin, zoom.end, scale, label_size=8)
     axes.set_xlabel("µs", fontsize=9, color=GREY, labelpad=1)
@@ -197,7 +201,7 @@ def close_up(axes: Axes, run: Run, zoom: Section, letter: str) -> None:
 def draw(run: Run, path: Path) -> None:
     """Draw the run into a PNG."""
     plt.rcParams["font.family"] = "DejaVu Sans"
-    # Heights in inches: the rows of pins, above and in the close-ups, decide; nine rows give 11.6.
+    # Heights in inches depend on the rows of pins, above and in the close-ups; nine rows give 11.6.
     rows = len(run.traces) / 9 * run.row_scale
     speed, pins, lower, gap, margins = 2.10531, 2.63163 * rows, 3.78955 * rows, 1.4495, (1.102, 0.522)
     height = round(speed + pins + lower + gap + sum(margins), 4)

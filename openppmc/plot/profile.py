@@ -18,7 +18,7 @@ from .motion import GREY, INK, PALE, SPEED, bare
 
 
 class Move(Protocol):
-    """What is drawn: times of the pulses in s, speed of each interval in pulses per second."""
+    """Move to draw: times of the pulses in s, and speed of each interval in pulses per second."""
 
     @property
     def seconds(self) -> Sequence[float]: ...
@@ -31,7 +31,7 @@ FORMATS = (".png", ".svg", ".pdf")
 
 
 def draw_profile(move: Move, title: str, path: Path) -> None:
-    """Draw the move into a file of one of FORMATS. OSError if it cannot be written."""
+    """Draw the move into a file of one of FORMATS. Raises OSError."""
     times, speeds = move.seconds, move.speeds
     figure, axes = plt.subplots(figsize=(9, 4), dpi=110, layout="constrained")
     if speeds:
@@ -44,7 +44,11 @@ def draw_profile(move: Move, title: str, path: Path) -> None:
 
 
 def finish(figure: Figure, axes: Axes, xlabel: str, title: str, path: Path) -> None:
-    """Labels and frame of a plot of speed in pps; saves and closes it. OSError if it cannot be written."""
+    """Add labels and frame to a plot of the speed in pps, then save and close it.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
     axes.set_xlabel(xlabel, fontsize=9, color=GREY)
     axes.set_ylabel("speed / pps", fontsize=9, color=GREY)
     axes.set_title(title, fontsize=11, color=INK, loc="left")

@@ -1,4 +1,7 @@
-"""What a picture of a run shows: pins, pulses, chapters and close-ups, as plain data in clk edges."""
+"""Data for the picture of a run: pins, pulses, chapters and close-ups.
+
+Times are edges of the clock.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,13 @@ Changes = Sequence[tuple[int, int]]
 
 @dataclass(frozen=True)
 class Trace:
-    """One pin: name as drawn (* = active low), level before the first change, changes (clk edge, level).
+    """One pin.
 
-    `colour` overrides what the name stands for.
+    Attributes:
+        name: name in the picture (* = active low).
+        initial: level before the first change.
+        changes: (edge, level).
+        colour: colour instead of that for the name.
     """
 
     name: str
@@ -21,7 +28,7 @@ class Trace:
     colour: str = ""
 
     def within(self, begin: int, end: int) -> tuple[list[int], list[int]]:
-        """Edges and levels for a step plot from `begin` to `end`."""
+        """Return edges and levels for a step plot from `begin` to `end`."""
         level, times, levels = self.initial, [begin], []
         inside = []
         for t, value in self.changes:
@@ -38,9 +45,12 @@ class Trace:
 
 @dataclass(frozen=True)
 class Section:
-    """A named stretch of time in clk edges.
+    """Named interval in edges of the clock.
 
-    `note` is its subtitle, `marks` are (edge, text) and `spans` (edge, edge, text), drawn in close-ups only.
+    Attributes:
+        note: subtitle.
+        marks: (edge, text), only in close-ups.
+        spans: (edge, edge, text), only in close-ups.
     """
 
     title: str
@@ -53,7 +63,10 @@ class Section:
 
 @dataclass(frozen=True)
 class Speed:
-    """A curve of the speed: its name (empty: no legend), its colour, and the edges of the pulses, in clk."""
+    """Curve of the speed.
+
+    It has a name (empty: no legend), a colour, and the edges of the pulses in cycles.
+    """
 
     name: str
     colour: str
@@ -62,9 +75,11 @@ class Speed:
 
 @dataclass(frozen=True)
 class Run:
-    """All that the picture shows. `row_scale` makes the rows of pins lower than usual.
+    """Content of the picture.
 
-    `unit` is that of the speed, thousands a second.
+    Attributes:
+        row_scale: height of the rows of pins, 1 = normal.
+        unit: unit of the speed, thousands per second.
     """
 
     title: str
@@ -80,7 +95,10 @@ class Run:
 
 
 def speeds(pulses: Sequence[int], clk_hz: int, gap: int) -> list[tuple[list[int], list[float]]]:
-    """Speed in pulses per second as step curves, one for each stretch of pulses closer than `gap` clk."""
+    """Return the speed in pulses per second as step curves.
+
+    Pulses with an interval of up to `gap` cycles form one curve.
+    """
     curves: list[tuple[list[int], list[float]]] = []
     times: list[int] = []
     values: list[float] = []

@@ -1,1 +1,1 @@
-"""Tests of what no part owns."""
+"""Tests that do not belong to one device."""

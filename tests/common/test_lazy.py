@@ -17,7 +17,7 @@ LAZY = (*PACKAGES, "cocotb_tests.harness")
 
 
 def written_out(package: str) -> dict[str, tuple[str, str]]:
-    """Public name -> module and name, as the imports under `TYPE_CHECKING` have them."""
+    """Return public name -> (module, name), from the imports under `TYPE_CHECKING`."""
     tree = ast.parse((ROOT / package.replace(".", "/") / "__init__.py").read_text(encoding="utf-8"))
     (block,) = (node for node in tree.body if isinstance(node, ast.If))
     imports = [node for node in block.body if isinstance(node, ast.ImportFrom)]
@@ -31,7 +31,7 @@ def written_out(package: str) -> dict[str, tuple[str, str]]:
 
 @pytest.mark.parametrize("package", LAZY)
 def test_names_are_those_of_the_imports_written_out(package: str) -> None:
-    """Each name of `__all__` is the object that the import for type checkers names, and there is no other."""
+    """Each name of `__all__` is the object that the import for type checkers names, without other names."""
     module, names = import_module(package), written_out(package)
     assert sorted(names) == sorted(module.__all__)
     for public, (place, own) in names.items():
@@ -42,7 +42,7 @@ def test_names_are_those_of_the_imports_written_out(package: str) -> None:
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_a_name_needs_no_name_before_it(package: str) -> None:
-    """Each name can be the first that a program imports, and each module of the package the first, too."""
+    """Each name, and each module of the package, can be the first that a program imports."""
     folder = ROOT / package.replace(".", "/")
     modules = sorted(
         ".".join(path.relative_to(ROOT).with_suffix("").parts)
@@ -72,7 +72,7 @@ def test_an_unknown_name_is_an_attribute_error() -> None:
 
 
 def test_a_name_is_looked_up_once() -> None:
-    """The first use of a name puts it into the package."""
+    """The first use of a name stores it in the package."""
     host = import_module("openppmc.host")
     vars(host).pop("Ppmc104", None)
     assert host.Ppmc104 is vars(host)["Ppmc104"]

@@ -1,4 +1,4 @@
-"""The table of parts against the tree: places in it load, folders of parts have rows, rows their folders."""
+"""The table of devices against the tree: places load, folders have rows, rows have folders."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from cocotb_tests.harness.paths import ROOT
 from openppmc import parts
 from openppmc.parts import LAYER_OF, PARTS, Row, UnknownPartError, folders, tops
 
-# Rooms that parts share: the only folders of a layer that are not a part's.
+# Shared folders: the only folders of a layer that do not belong to one device.
 SHARED = {
     "openppmc/model": {"motion", "single", "carrier"},
     "openppmc/host": {"selftest"},
@@ -39,31 +39,31 @@ every = pytest.mark.parametrize("row", PARTS.values(), ids=lambda row: row.name)
 
 
 def subfolders(layer: str) -> set[str]:
-    """Folders with files of this project in a layer."""
+    """Return the folders with files of this project in a layer."""
     found = (path for path in (ROOT / layer).iterdir() if path.is_dir() and path.name != "__pycache__")
     return {path.name for path in found if any(file.suffix != ".pyc" for file in path.rglob("*.*"))}
 
 
 def modules(layer: str) -> set[str]:
-    """Modules of Python in a layer."""
+    """Return the Python modules of a layer."""
     return {path.stem for path in (ROOT / layer).glob("*.py")}
 
 
 @pytest.mark.parametrize(("name", "column"), PLACES)
 def test_every_place_loads(name, column):
-    """Given a place in the table, then there is something of that name."""
+    """Each place in the table loads."""
     assert parts.part(name).load(column) is not None
 
 
 @pytest.mark.parametrize("layer", SHARED)
 def test_every_folder_has_a_row(layer):
-    """Given a layer, then its folders are the rooms that all share and those of parts in the table."""
+    """The folders of a layer are the shared folders and those of devices in the table."""
     assert subfolders(layer) - SHARED[layer] <= {row.name for row in folders()}
 
 
 @own
 def test_every_row_has_its_folders(row):
-    """Given a part, then it has RTL, a manual and a golden model, and what else its columns speak of."""
+    """Each device has RTL, a manual and a golden model, and the folders that its columns require."""
     wanted = {
         "rtl",
         "docs",
@@ -74,7 +74,7 @@ def test_every_row_has_its_folders(row):
 
 @every
 def test_rtl_and_carrier(row):
-    """Given a part, then its top is in its group of rtl/files.yml; it has a carrier if the table says so."""
+    """The top of a device is in its group of rtl/files.yml; it has a carrier if the table says so."""
     assert project.top_file(row).stem == row.top
     assert row.families and set(row.families) <= {"ecp5", "ice40"}
     carrier = (f"{row.rtl}_carrier" in project.listed()) and not row.of
@@ -83,7 +83,7 @@ def test_rtl_and_carrier(row):
 
 @own
 def test_docs(row):
-    """Given a part, then its pages are those of the table, and indexes of the documents lead to them."""
+    """The pages of a device are those of the table, and the indexes link to them."""
     pages = {"README.md", *row.docs}
     there = {path.name for path in (ROOT / "docs" / row.name).glob("*.md")} - {"traceability.md"}
     assert there == pages
@@ -94,14 +94,14 @@ def test_docs(row):
 
 @own
 def test_rules(row):
-    """Given a part, then the rules in its manual have its prefixes, all of them."""
+    """The rules in the manual of a device have its prefixes, and all prefixes are used."""
     rules = {rule for rule in manual_rules(row.name) if not rule.startswith("AC-")}
     assert {part_of_rule(rule) for rule in rules} <= {row.name}
     assert {rule.split("-")[0] for rule in rules} == (set(row.rules) if rules else set())
 
 
 def test_names_and_numbers_are_unique():
-    """Given the table, then no name and no number stands twice, and `of` names a part with folders."""
+    """No name and no number occurs twice, and `of` names a device with folders."""
     assert len(PARTS) == len(parts.ROWS)
     numbers = [row.number for row in PARTS.values() if row.number]
     assert len(set(numbers)) == len(numbers)
@@ -112,13 +112,13 @@ def test_names_and_numbers_are_unique():
 
 
 def asked(*words: str, root: Path = ROOT) -> subprocess.CompletedProcess[str]:
-    """The table as make asks it: by a Python that knows nothing of the project."""
+    """Run the table as make does: with a Python that has no access to the project."""
     command = [sys.executable, "-I", "-S", str(root / "openppmc/parts.py"), *words]
     return subprocess.run(command, capture_output=True, text=True, cwd="/", check=False)
 
 
 def test_command_line():
-    """Given its options, then it lists names, or says in one line what is wrong."""
+    """The command lists names, or reports a mistake in one line."""
     assert asked("names").stdout.split() == list(PARTS)
     assert asked("names", "--tops").stdout.split() == [row.name for row in tops()]
     assert asked("names", "--folders").stdout.split() == [row.name for row in folders()]
@@ -135,7 +135,7 @@ def test_command_line():
 
 
 def test_an_old_python_reads_it():
-    """Given the file, then Python 3.7 parses it, and it needs the standard library alone."""
+    """Python 3.7 can parse the file, which needs only the standard library."""
     tree = ast.parse((ROOT / "openppmc/parts.py").read_text(encoding="utf-8"), feature_version=(3, 7))
     found = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     found |= {name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names}
@@ -177,14 +177,14 @@ GROUP = "tiny:\n  about: Tiny 1, nothing\n  needs: [common]\n  files:\n    - tin
 
 
 def append(path: Path, before: str, text: str) -> None:
-    """Put text before the first such line of a file; at its end if `before` is empty."""
+    """Insert text before the first such line of a file; at its end if `before` is empty."""
     lines = path.read_text(encoding="utf-8")
     place = lines.index(before) if before else len(lines)
     path.write_text(lines[:place] + text + lines[place:], encoding="utf-8")
 
 
 def test_a_part_of_three_files_and_a_row(tmp_path):
-    """Given a copy of the tree with another part, when it has a row and a group, then all readers know it."""
+    """In a copy of the tree, another device with a row and a group is known to all readers of the table."""
     left = shutil.ignore_patterns(".git", ".venv", "build", "__pycache__", "*.png", ".*_cache", ".hypothesis")
     root = tmp_path / "copy"
     shutil.copytree(ROOT, root, ignore=left)
@@ -218,6 +218,8 @@ def test_a_part_of_three_files_and_a_row(tmp_path):
     assert "failed" not in told and re.search(r"\d+ passed", told), told
     assert "openppmc_tiny.core" in run("-m", "scripts.fpga.packages")
     assert "CLK_HZ" in (root / "rtl/tiny/openppmc_tiny.core").read_text(encoding="utf-8")
-    listed = "from scripts.measure.sizes import designs; print({'tiny'} & {d.part for d in designs.of_parts()})"
+    listed = (
+        "from scripts.measure.sizes import designs; print({'tiny'} & {d.part for d in designs.of_parts()})"
+    )
     told = run("-c", listed)
     assert told.strip() == "{'tiny'}"

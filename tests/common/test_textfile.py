@@ -18,7 +18,7 @@ TEXT = "# größer als 5 µs\nposition\n"
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_all_encodings(encoding: str, tmp_path: Path) -> None:
-    """The text is the same in each encoding, with either end of a line."""
+    """The text is the same in each encoding, with either line ending."""
     path = tmp_path / "a.txt"
     for end in ("\n", "\r\n"):
         path.write_bytes(TEXT.replace("\n", end).encode(encoding))
@@ -52,6 +52,6 @@ def test_programs(encoding: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("data", [b"\xff\xfe", b"a\nb\0c", b"\xff\xfea", b"\x7fELF\x02"])
 def test_no_text(data: bytes) -> None:
-    """Bytes that are no text are refused with their line."""
+    """Bytes that are not text are rejected with their line."""
     with pytest.raises(NotTextError, match=r"^line \d: .*save it as UTF-8$"):
         decode_text(data)

@@ -1,7 +1,7 @@
-"""How much a command or an import loads, and how many files and calls it passes: bounds, one process each.
+"""Limits for the modules, files and calls of a command or an import; each is measured in its own process.
 
-A bound that is passed says that something is loaded which this command does not use, or that a layer has come
-between. docs/architecture.md describes the way of a byte. Lower a bound when a change allows it.
+If a limit is exceeded, this command loads a module that it does not use, or there is an additional layer.
+docs/architecture.md describes the path of a byte. Lower a limit when a change allows it.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from openppmc.host import Ppmc104
 HELP = "from openppmc.cli import main; main(['--help'])"
 MOVE = ("--port", "model:speed=max", "move", "3000")
 SIMULATION = "import cocotb_tests.ppmc104.tb_ext_clock"
-"""What a simulator imports for a file of directed tests."""
+"""Import of a simulator for a file of directed tests."""
 
 
 @cache
 def measured(way: str, *words: str) -> list[str]:
-    """The answer of `ways`, from a process of its own."""
+    """Return the result of `ways` in a separate process."""
     command = [sys.executable, "-m", "tests.common.ways", way, *words]
     done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr
@@ -33,12 +33,12 @@ def measured(way: str, *words: str) -> list[str]:
 
 
 def below(names: list[str], *folders: str) -> list[str]:
-    """Those modules or files that are in these packages or folders."""
+    """Return the modules or files that are in these packages or folders."""
     return [name for name in names if name.startswith(folders)]
 
 
 def few(names: list[str], bound: int) -> None:
-    """Fails with the list of names if there are more than the bound."""
+    """Fail with the list of names if there are more than the limit."""
     if not 0 < len(names) <= bound:
         pytest.fail(f"{len(names)}, not {bound}: {', '.join(names)}", pytrace=False)
 
@@ -79,7 +79,7 @@ def test_a_move_makes_few_calls() -> None:
 
 
 def _cpu(*words: str) -> float:
-    """CPU seconds of a Python process."""
+    """Return the CPU time of a Python process in seconds."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([sys.executable, *words], cwd=ROOT, check=True, stdout=subprocess.DEVNULL, timeout=120)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -87,15 +87,15 @@ def _cpu(*words: str) -> float:
 
 
 def test_help_costs_little_more_than_typer() -> None:
-    """`openppmc --help` takes few times the CPU time of `import typer`, each the least of five runs."""
+    """`openppmc --help` takes at most 2.5 times the CPU time of `import typer` (minima of five runs)."""
     pairs = [(_cpu("-m", "openppmc.cli", "--help"), _cpu("-c", "import typer")) for _ in range(5)]
     help_seconds, typer_seconds = map(min, zip(*pairs, strict=True))
     assert help_seconds <= 2.5 * typer_seconds, f"{help_seconds:.3f} s, {typer_seconds:.3f} s"
 
 
 def test_a_part_has_few_bases_and_names() -> None:
-    """A `Ppmc104` is read in few classes, and has few public names."""
-    few([base.__name__ for base in Ppmc104.__mro__[1:-1]], 8)
+    """A `Ppmc104` has few base classes and few public names."""
+    few([base.__name__ for base in Ppmc104.__mro__[1:-1]], 5)
     few([name for name in dir(Ppmc104) if not name.startswith("_")], 53)
 
 
@@ -104,7 +104,10 @@ def test_a_part_has_few_bases_and_names() -> None:
     [("openppmc/host", 0, 65), ("cocotb_tests/harness", 0, 36), ("openppmc", 0, 275), ("openppmc", 60, 75)],
 )
 def test_few_files(folder: str, longest: int, bound: int) -> None:
-    """A folder has few files, and few of them are short. longest: lines of those that count, 0 counts all."""
+    """A folder has few files, and few of them are short.
+
+    longest: only files with at most this number of lines count; 0 counts all files.
+    """
     found = sorted((ROOT / folder).rglob("*.py"))
     lines = {
         str(path.relative_to(ROOT)): len(path.read_text(encoding="utf-8").splitlines()) for path in found

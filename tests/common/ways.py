@@ -1,10 +1,10 @@
-"""Measures one command or import in a process that has loaded nothing yet; prints one JSON object.
+"""Measures one command or import in a process that has loaded no module yet; prints one JSON object.
 
     python -m tests.common.ways modules CODE          modules of the project that CODE loads
     python -m tests.common.ways files WORD...         files whose functions `openppmc WORD...` enters
     python -m tests.common.ways frames WORD...        frames of its deepest call of `Link._run`
 
-Imports the standard library only, so that nothing is loaded before it counts.
+It imports only the standard library, so that no module is loaded before the count begins.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ ROOT = Path(__file__).parents[2]
 
 
 def modules(code: str) -> list[str]:
-    """Names of the modules of `openppmc` and `cocotb_tests` that the code loads."""
+    """Return the names of the modules of `openppmc` and `cocotb_tests` that the code loads."""
     exec(compile(code, "ways", "exec"), {"__name__": "ways"})
     return sorted(name for name in sys.modules if name.partition(".")[0] in ("openppmc", "cocotb_tests"))
 
 
 def files(words: list[str]) -> list[str]:
-    """Files of `openppmc` in which a function is entered, relative to the root; imports do not count."""
+    """Return the files of `openppmc`, relative to the root, in which a function is entered after import."""
     root, entered, importing = f"{ROOT / 'openppmc'}/", set(), 0
 
     def profile(frame: FrameType, event: str, _: Any) -> None:
@@ -48,7 +48,7 @@ def files(words: list[str]) -> list[str]:
 
 
 def frames(words: list[str]) -> list[list[str]]:
-    """File and function of each frame of the project, from `main` to `Link._run`, at the deepest call."""
+    """Return file and function of each project frame from `main` to `Link._run`, at the deepest call."""
     from openppmc.cli import main
     from openppmc.host import Link
 

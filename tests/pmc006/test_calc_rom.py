@@ -1,4 +1,4 @@
-"""The assembler of the planner's program (`make rom`): words, labels, one line for each mistake."""
+"""The assembler of the planner's program (`make rom`): words, labels, one line for each error."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ MISTAKES = [
 
 
 def program(*lines: str) -> Program:
-    """A program of these lines, with the package's names."""
+    """Return a program of these lines, with the names of the package."""
     return assemble("\n".join(lines), NAMES)
 
 
 def code(told: str) -> int:
-    """Code of "operation aux operand" by the names of the package."""
+    """Return the code of "operation aux operand" with the names of the package."""
     op, aux, operand = told.split()
     enums = ("where_e", "steps_e", "out_e")
     return (
@@ -66,20 +66,20 @@ def code(told: str) -> int:
 
 
 def test_enumerations() -> None:
-    """Given an enumeration with and without numbers, then the codes count on as in SystemVerilog."""
+    """Codes of enumerations with and without numbers count as in SystemVerilog."""
     text = "\n".join(f"typedef enum logic [3:0] {{ A, B = 4'h7,  // b\n C }} {name};" for name in NAMES)
     assert all(codes == {"A": 0, "B": 7, "C": 8} for codes in names_of(text).values())
 
 
 def test_package_without_enumeration() -> None:
-    """Given a package that lacks an enumeration, then that is told."""
+    """A package that lacks an enumeration is reported."""
     with pytest.raises(AsmError, match="the package has no op_e"):
         names_of("package p; endpackage")
 
 
 @pytest.mark.parametrize(("line", "told"), FORMS)
 def test_instructions(line: str, told: str) -> None:
-    """Given an instruction, then its word is that of the package's names; comment and spaces do not count."""
+    """The word of an instruction has the codes of the package; comments and spaces are ignored."""
     words = program(f"   {line}   ; as told: here", "halt").words
     assert (words[0].code, words[0].text, words[0].line) == (code(told), line, 1)
 
@@ -94,12 +94,12 @@ def test_instructions(line: str, told: str) -> None:
     ],
 )
 def test_shapes(line: str, puts: int, low: int) -> None:
-    """Given a set, then aux says what is set and the operand to what."""
+    """In the word of a set, aux states which fields are set, and the operand states their values."""
     assert program(line, "halt").words[0].code == NAMES["op_e"]["OpSet"] << 13 | puts << 9 | low
 
 
 def test_labels_and_jumps() -> None:
-    """Given labels before and behind their jumps, then targets are addresses; Entry… are entries."""
+    """Labels before and after their jumps become addresses; labels Entry… are entries."""
     made = program(
         "EntryA: ; first", " jump End if NotCarry", "Back:", " load RV", " jump Back", "End:", " halt"
     )
@@ -112,7 +112,7 @@ def test_labels_and_jumps() -> None:
 
 @pytest.mark.parametrize(("line", "told"), MISTAKES)
 def test_mistakes(line: str, told: str) -> None:
-    """Given a wrong line, then one line says where it is and what is wrong."""
+    """The error message of a wrong line is one line with its number and the error."""
     with pytest.raises(AsmError) as caught:
         program("EntryA:", "jump Here", "Here:", line, "halt")
     where, _, text = str(caught.value).partition(": ")
@@ -131,31 +131,31 @@ def test_mistakes(line: str, told: str) -> None:
     ],
 )
 def test_ends(lines: tuple[str, ...], told: str) -> None:
-    """Given a program that runs out of its words, then it is refused."""
+    """A program that runs past its last word is rejected."""
     with pytest.raises(AsmError) as caught:
         program(*lines)
     assert str(caught.value) == told
 
 
 def test_full_rom() -> None:
-    """Given as many words as the ROM has, then they are taken."""
+    """A program with exactly the words of the ROM is accepted."""
     assert len(program(*["load RV"] * (WORDS - 1), "halt").words) == WORDS
 
 
 def test_files_are_fresh() -> None:
-    """Given the files of the tree, then they are what `make rom` writes."""
+    """The files of the tree are those that `make rom` writes."""
     for path, text in calc_rom.wanted().items():
         assert path.read_text() == text, path
 
 
 def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given a mistake in the listing, then file, line and what is wrong come in one line."""
+    """The message of an error in the listing is one line with file, line and error."""
     monkeypatch.setattr(calc_rom, "ASM", calc_rom.PACKAGE)
     with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is not an instruction$"):
         calc_rom.wanted()
 
 
 def test_package_without_marks() -> None:
-    """Given a package without the marks, then it is not touched."""
-    with pytest.raises(ProjectError, match="the marks of `make rom` are missing"):
+    """A package without the marks is rejected and not changed."""
+    with pytest.raises(ProjectError, match="the marks of `make rom` are gone"):
         calc_rom.package_text("package p; endpackage", program("halt"))

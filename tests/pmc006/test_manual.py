@@ -1,4 +1,4 @@
-"""What docs/pmc006/README.md prints, on the golden model."""
+"""The examples and tables of docs/pmc006/README.md, run on the golden model."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from tests.common.pages import DOCS, chapters
 
 TEXT = (DOCS / "pmc006/README.md").read_text(encoding="utf-8")
 LONG = 60_000_000
-"""us; no motion of the page takes longer."""
+"""us; no motion of the page lasts longer."""
 
 
 class Session:
-    """A controller as it leaves the factory, and what a session of the page does to it."""
+    """A controller in factory state that plays a session of the page."""
 
     KINDS = {"m": "raw", "s": "reply", ">": "order", "<": "data", "idle": "idle", "at": "at", "=": "count",
              "pin": "pin", "ms": "ms"}  # fmt: skip
@@ -30,7 +30,7 @@ class Session:
         self.since = 0
 
     def play(self, lines: list[str], where: str) -> None:
-        """All lines; an AssertionError names the first that is not as printed."""
+        """Play all lines; an AssertionError names the first that differs from the page."""
         for number, line in enumerate(lines, 1):
             # Two spaces begin a comment.
             kind, _, words = re.split(r"\s{2,}", line.strip())[0].partition(" ")
@@ -59,7 +59,7 @@ class Session:
         await self.host.until("mon_busy", 0, LONG)
 
     def made(self) -> int:
-        """Steps since the last `=`."""
+        """Return the steps since the last `=`."""
         return self.host.made(self.since)
 
     async def at(self, words: str) -> None:
@@ -88,14 +88,14 @@ SESSIONS = {
 
 @pytest.mark.parametrize("title", SESSIONS, ids=lambda title: title.split()[0])
 def test_session(title: str) -> None:
-    """Given a session of the page, when its lines are played one after the other, then all is as printed."""
+    """The lines of a session of the page, played one after the other, have the printed results."""
     assert SESSIONS[title]
     for block in SESSIONS[title]:
         Session().play(block, title)
 
 
 def test_a_wrong_byte_is_found() -> None:
-    """Given a reply that is printed wrong, then the line is named."""
+    """A wrong reply on the page is reported with its line."""
     with pytest.raises(AssertionError, match="line 2: '< 17' gave 16"):
         Session().play(["> k", "< 17"], "x")
     with pytest.raises(AssertionError, match="gave 0"):
@@ -105,7 +105,7 @@ def test_a_wrong_byte_is_found() -> None:
 
 
 def test_frames_of_the_text_have_their_sums() -> None:
-    """Given the frames of the first chapter, then each is what the model makes of its parts."""
+    """Each frame of the first chapter equals the frame that the model makes of its fields."""
     frames = [bytes.fromhex(text) for text in re.findall(r"`(A5(?: [0-9A-F]{2}){7})`", TEXT)]
     assert len(frames) >= 8
     for frame in frames:
@@ -115,7 +115,7 @@ def test_frames_of_the_text_have_their_sums() -> None:
 
 
 def test_first_frames_get_their_replies() -> None:
-    """Given the table of the first chapter, then a controller answers as printed."""
+    """A controller answers the frames of the first chapter as printed."""
     chapter = TEXT.split("## 1 In five minutes")[1].split("\n## ")[0]
     frames = re.findall(r"`(A5(?: [0-9A-F]{2}){7})`", chapter)
     session = Session()
@@ -124,7 +124,7 @@ def test_first_frames_get_their_replies() -> None:
 
 
 def test_codes_of_the_page() -> None:
-    """Given the table of instructions, then it has all codes that do anything, with their letters."""
+    """The table of instructions has all codes that have an effect, with their letters."""
     table = TEXT.split("| Code | Letter |")[1].split("\n\n")[0]
     rows = re.findall(r"^\| 0x([0-9A-F]{2}) \| (.) \|", table, re.M)
     assert all(chr(int(code, 16)) == letter for code, letter in rows)
@@ -132,7 +132,7 @@ def test_codes_of_the_page() -> None:
 
 
 def test_program_of_the_page() -> None:
-    """Given the program of chapter 13, then the assembler makes the session's kind of words of it."""
+    """The program of chapter 13 assembles to the words of the session."""
     (text,) = re.findall(r"^```asm\n(.*?)^```", TEXT, re.S | re.M)
     words = assemble(text).words
     assert words[:20] == (

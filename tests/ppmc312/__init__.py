@@ -1,1 +1,1 @@
-"""Tests of the PPMC-312: golden model, host on both fronts, command line, virtual boards."""
+"""Tests of the PPMC-312: golden model, host drivers of both interfaces, command line, virtual boards."""

@@ -1,4 +1,4 @@
-"""What docs/ppmc312/examples.md and chapter 1 of docs/ppmc312/README.md print, on the golden model."""
+"""Examples of docs/ppmc312/examples.md and chapter 1 of docs/ppmc312/README.md, run on the golden model."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.common.pages import DOCS, chapters
 
 PAGE = DOCS / "ppmc312/examples.md"
 MS = 16_000
-LONG = 60_000_000  # clk; nothing on the page takes longer
+LONG = 60_000_000  # cycles; no step of the page lasts longer
 
 
 class Player:
@@ -35,7 +35,7 @@ class Player:
         self.host = on_model(Host.start(OnModel()))
 
     def play(self, lines: list[str], where: str) -> None:
-        """All lines; an AssertionError names the first that is not as printed."""
+        """Play all lines; an AssertionError names the first that differs from the page."""
         for number, line in enumerate(lines, 1):
             kind, _, rest = line.partition(" ")
             # Two spaces begin a comment.
@@ -83,14 +83,14 @@ CHAPTERS = chapters(PAGE)
 
 @pytest.mark.parametrize("title", CHAPTERS, ids=lambda title: title.split()[0])
 def test_session(title):
-    """Given a chapter of the page, when its lines are played one after the other, then all is as printed."""
+    """The lines of a chapter of the page, played one after the other, have the printed results."""
     player = Player()
     for block in CHAPTERS[title]:
         player.play(block, title)
 
 
 def test_a_wrong_byte_is_found():
-    """Given an answer that is printed wrong, then the line is named."""
+    """A wrong byte on the page is reported with its line."""
     with pytest.raises(AssertionError, match="line 2: '< 03 02 40 13' gave 03 02 40 12"):
         Player().play(["> 03 01 40", "< 03 02 40 13"], "x")
     with pytest.raises(AssertionError, match="gave 0 04"):
@@ -100,7 +100,7 @@ def test_a_wrong_byte_is_found():
 
 
 def test_first_move_of_the_manual_is_that_of_the_examples():
-    """Given the ten-byte chapter of the manual, then its writes and blocks are those of example 1."""
+    """The writes and blocks of the ten-byte chapter of the manual are those of example 1."""
     text = (DOCS / "ppmc312/README.md").read_text(encoding="utf-8")
     chapter = text.split("### 1.1 ")[1].split("\n## ")[0]
     writes = [line[2:].split("  ")[0].strip() for line in CHAPTERS["1 The first move, every access"][0]
@@ -115,7 +115,7 @@ def test_first_move_of_the_manual_is_that_of_the_examples():
 
 
 def test_free_curve_of_the_instructions_page():
-    """Given the transfer printed there, then each block has the answer that is indented below it."""
+    """Each block of the transfer on the instructions page has the answer printed below it."""
     text = (DOCS / "ppmc312/instructions.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```\n(.*?)^```", text, re.S | re.M)
     lines = [line.strip() for line in block.splitlines()]
@@ -126,7 +126,7 @@ STATES = (State.INI, State.NOR, State.ACC, State.FIX, State.ABN, State.WRN)
 
 
 def accepted() -> dict[int, list[str]]:
-    """Code -> cells of the manual's table of what each state accepts."""
+    """Return code -> cells of the manual's table of accepted instructions in each state."""
     text = (DOCS / "ppmc312/README.md").read_text(encoding="utf-8")
     head = "| Instruction | INI | NOR | ACC | FIX | ABN | WRN |\n"
     rows = text.split(head)[1].split("\n\n")[0].splitlines()[1:]
@@ -139,7 +139,7 @@ def accepted() -> dict[int, list[str]]:
 
 
 def test_table_of_states_is_that_of_the_model():
-    """Given each instruction in each state, then the manual's table says what the model does."""
+    """The manual's table of states agrees with the model for each instruction in each state."""
     table = accepted()
     assert set(table) == set(LENGTHS)
     for code, cells in table.items():
@@ -156,7 +156,7 @@ def test_table_of_states_is_that_of_the_model():
 
 
 def test_lengths_of_the_instructions_page():
-    """Given the list of instructions, then each has the lengths that the model accepts, and a chapter."""
+    """The list of instructions has the lengths that the model accepts, and each instruction has a chapter."""
     text = (DOCS / "ppmc312/instructions.md").read_text(encoding="utf-8")
     head = text.split("\n## ")[0]
     rows = re.findall(r"\| \[([0-9A-F, ]+)\]\(#[^)]+\) \| [^|]+ \| ([^|]+) \|", head)

@@ -1,11 +1,12 @@
-"""Sixteen stations of the PPMC-312 in serial mode on one line, and a master with all bad habits.
+"""Sixteen PPMC-312 stations in serial mode on one line, and a master that makes every kind of mistake.
 
 setting.py     ports and build of tb/ppmc312/line; library.py compiles the station that all sixteen share
-wave.py        characters as levels of a line, several of them over each other
-models.py      the same line of golden models, the same pins
-master.py      a master of the line: over the RTL or over the golden models
-compare.py     what each station saw on the RTL, replayed into a golden model of its own
-scenes.py      what goes wrong on a line; after each of them one poll brings every station back
-tb_line.py     the scenes on the RTL, all outputs compared; test_line.py runs them, and the models alone
+wave.py        characters as levels of a line, also several that overlap
+models.py      the same line made of golden models, with the same pins
+master.py      a master of the line, for the RTL and for golden models
+compare.py     compares each RTL station with a golden model that receives the same input levels
+scenes.py      disturbances on a line; after each of them one poll recovers every station
+tb_line.py     runs the scenes on the RTL and compares all outputs; test_line.py runs them,
+               also on models alone
 stream.py      random characters for `make soak PART=ppmc312-serial`; tb_stream.py: samples on the RTL
 """

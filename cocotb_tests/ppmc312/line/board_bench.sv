@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_board_bench: a PPMC-312 on its serial line with reset and lamps of a board; what is not of the line is quiet.
+// ppmc312_board_bench: a PPMC-312 on its serial line with reset and LEDs of a board.
+//         All inputs that the serial line does not need are idle.
 `default_nettype none
 
 module ppmc312_board_bench (
@@ -51,7 +52,7 @@ module ppmc312_board_bench (
       .hsp    (1'b1),
       .mod,
       .adr,
-      // a read strobe, which the part must not see
+      // A constant read strobe on the bus, which the part must ignore in serial mode.
       .rs     ('1),
       .cs_n   (1'b0),
       .oe_n   (1'b0),

@@ -1,4 +1,4 @@
-"""What each station of the RTL saw and did, compared edge by edge with a golden model of its own."""
+"""Compare each RTL station edge by edge with a golden model that receives the same input levels."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from .setting import ALL, LINE, OUTPUTS, SINGLE, STATIONS
 
 
 def line_recording(bench: Bench) -> Recording:
-    """Everything that a bench of the line has seen. It has not been reset since its start."""
+    """Return everything that a bench of the line has recorded. The bench was not reset after its start."""
     recording = bench.recording()
     recording.part = LINE.name
     return recording
 
 
 def driven(edges: Mapping[str, list[tuple[int, int]]]) -> Iterator[tuple[int, int]]:
-    """(edge, levels) of what the stations' drivers let through."""
+    """Yield (edge, levels) that the drivers of the stations put on the line."""
     txd, snd = ALL, 0
     changes = [(t, name, value) for name in ("txd", "snd") for t, value in edges[name]]
     for t, group in groupby(sorted(changes), key=lambda change: change[0]):
@@ -34,9 +34,9 @@ def driven(edges: Mapping[str, list[tuple[int, int]]]) -> Iterator[tuple[int, in
 
 
 def stimulus(recording: Recording, outputs: Mapping[str, list[tuple[int, int]]]) -> list[list[Change]]:
-    """Pin changes of each station: its own pins, and what it hears of master and stations.
+    """Return the pin changes of each station: its own pins, and rxd with the levels of master and stations.
 
-    What a station drives at an edge is heard at the next one.
+    A level that a station drives at an edge is received by the others at the next edge.
     """
     levels, level = dict(LINE.inputs), ALL
     steps = [(t + 1, "", value) for t, value in driven(outputs)]
@@ -60,7 +60,7 @@ def stimulus(recording: Recording, outputs: Mapping[str, list[tuple[int, int]]])
 
 
 def station_edges(outputs: Mapping[str, list[tuple[int, int]]], number: int) -> list[Edge]:
-    """Output edges of one station."""
+    """Return the output edges of one station."""
     rows: list[Edge] = []
     for name, (width, first) in OUTPUTS.items():
         level = first
@@ -73,7 +73,7 @@ def station_edges(outputs: Mapping[str, list[tuple[int, int]]], number: int) -> 
 
 
 def compare_line(recording: Recording) -> list[Comparison]:
-    """All outputs of all stations against golden models with their addresses and speeds."""
+    """Compare all outputs of all stations with golden models that have the same addresses and speeds."""
     outputs = by_signal(recording.edges, {name: level for name, (_, level) in LINE.outputs.items()})
     first = {**LINE.inputs, **{c.pin: c.value for c in recording.stimulus if c.t == 0}}
     params = {name: v for name, v in recording.params.items() if name in PPMC312.parameters + ("SUM_MODE",)}
@@ -88,9 +88,9 @@ def compare_line(recording: Recording) -> list[Comparison]:
 
 
 def check_line(bench: Bench, at_least: int = 0) -> list[Comparison]:
-    """Every station equals its model; AssertionError with a report at the first one that does not.
+    """Check that every station equals its model; AssertionError with a report at the first that does not.
 
-    `at_least`: so many edges in all must have been there to compare.
+    `at_least`: least number of edges compared in total.
     """
     recording = line_recording(bench)
     comparisons = compare_line(recording)
@@ -105,7 +105,7 @@ def check_line(bench: Bench, at_least: int = 0) -> list[Comparison]:
 
 
 def check_wire(recording: Recording) -> None:
-    """The line is low if and only if the master or a driver that is on makes it so."""
+    """Check that the line is low if and only if the master or an enabled driver pulls it low."""
     outputs = by_signal(recording.edges, {name: level for name, (_, level) in LINE.outputs.items()})
     steps = [(t, 0, int(level == ALL)) for t, level in driven(outputs)]
     steps += [(change.t, 1, change.value) for change in recording.stimulus if change.pin == "master"]

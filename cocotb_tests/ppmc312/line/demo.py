@@ -1,5 +1,8 @@
-"""What `make demo PART=ppmc312-serial` plays: sixteen axes on one line are set, started one after the other,
-polled until each has stopped, and read back. All stop at about the same time."""
+"""Program of `make demo PART=ppmc312-serial`.
+
+Sixteen axes on one line are set up, started one after the other, polled until each has stopped, and read
+back. All stop at about the same time.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +21,13 @@ from cocotb_tests.ppmc312.line.setting import LINE, STATIONS
 SETTING = "00 00 0140 00A0 000360"
 """8 MHz, rates 320 to 160 (25 to 50 kpps) in 864 pulses."""
 PULSES = [2080 - 112 * number for number in range(STATIONS)]
-"""The later an axis starts, the shorter its way."""
+"""The later an axis starts, the fewer pulses it makes."""
 EVERY = range(STATIONS)
 ROUNDS = 12
 
 
 def ccw(station: int) -> bool:
-    """Every other axis goes the other way."""
+    """Return whether an axis moves counterclockwise: every other one does."""
     return bool(station & 1)
 
 
@@ -32,12 +35,12 @@ Chapter = Callable[[str, str], AbstractContextManager[None]]
 
 
 def no_chapter(key: str, title: str) -> AbstractContextManager[None]:
-    """For a run without a story."""
+    """Replace `Story.chapter` in a run without a story."""
     return nullcontext()
 
 
 async def program(master: Master, chapter: Chapter = no_chapter) -> list[int]:
-    """What the master does, over RTL or models; the positions that it has read back."""
+    """Run the program of the master on RTL or models and return the positions that it reads back."""
     with chapter("scan", "who is there"):
         for station in EVERY:
             reply = await master.poll(station)
@@ -64,7 +67,7 @@ async def program(master: Master, chapter: Chapter = no_chapter) -> list[int]:
 
 @cocotb.test()
 async def demo_line(dut: Any) -> None:
-    """Given sixteen stations just powered up, when the master's program runs, then all of it is recorded."""
+    """The master's program runs on sixteen stations that were just powered up, and the run is recorded."""
     bench = await Bench.start(dut, LINE, settle=8)
     master, story = Master(RtlPort(bench)), Story(bench)
     found = await program(master, story.chapter)

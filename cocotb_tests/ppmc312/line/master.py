@@ -1,4 +1,4 @@
-"""A master of the line, over the RTL (`RtlPort`) or over golden models (`models.ModelLine`), bit by bit."""
+"""Bit-level master of the line, on the RTL (`RtlPort`) or on golden models (`models.ModelLine`)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .wave import Wave, length, wave
 
 T = TypeVar("T")
 T_EXEC, T_INIT = 4096, 65_536
-"""clk from a checksum's stop bit to the reply (P312-PRT-04)."""
+"""Cycles from the stop bit of a checksum to the reply (P312-PRT-04)."""
 KINDS = {0x80: "busy", 0x90: "ready", 0xA0: "data", 0xB0: "specific"}
 
 
@@ -29,13 +29,13 @@ class Port(Protocol):
         """Go to just before an edge."""
 
     def set(self, **levels: int) -> int:
-        """Pins from edge `now` on."""
+        """Set pins from edge `now` on."""
 
     async def fall(self, limit: int) -> int | None:
-        """The edge that makes the line low, None if it does not happen in so many clk."""
+        """Return the edge that makes the line low, `None` if it does not occur within `limit` cycles."""
 
     def line_at(self, edge: int) -> int:
-        """Level of the line just after an edge."""
+        """Return the level of the line just after an edge."""
 
 
 class RtlPort:
@@ -54,11 +54,11 @@ class RtlPort:
         return await self.bench.until(max(edge, self.bench.now))
 
     def set(self, **levels: int) -> int:
-        """Pins from edge `now` on."""
+        """Set pins from edge `now` on."""
         return self.bench.set(**levels)
 
     async def fall(self, limit: int) -> int | None:
-        """The edge that makes the line low."""
+        """Return the edge that makes the line low, `None` if it does not occur within `limit` cycles."""
         if self.bench.level("line"):
             try:
                 return await self.bench.edge("line", 0, limit)
@@ -68,12 +68,12 @@ class RtlPort:
         return self.bench.falls("line")[-1]
 
     def line_at(self, edge: int) -> int:
-        """Level of the line just after an edge."""
+        """Return the level of the line just after an edge."""
         return self.bench.level_at("line", edge)
 
 
 def at_once(work: Coroutine[Any, Any, T]) -> T:
-    """Result of a coroutine that never waits, as those over golden models."""
+    """Return the result of a coroutine that never waits, such as one that runs on golden models."""
     try:
         work.send(None)
     except StopIteration as done:
@@ -82,7 +82,7 @@ def at_once(work: Coroutine[Any, Any, T]) -> T:
 
 
 class Reply(NamedTuple):
-    """A reply: "busy", "ready", "data" or "specific", number of the station, data."""
+    """Reply: "busy", "ready", "data" or "specific", number of the station, data."""
 
     kind: str
     station: int
@@ -94,7 +94,7 @@ class Reply(NamedTuple):
 
 @dataclass(frozen=True)
 class Said:
-    """Characters on the line: time of the first start bit, of the last stop bit's end."""
+    """Characters on the line: start of the first start bit, end of the last stop bit."""
 
     begin: int
     end: int
@@ -102,11 +102,11 @@ class Said:
 
 
 class NoFrameError(AssertionError):
-    """What came back is no frame."""
+    """The characters received are not a frame."""
 
 
 def understood(data: bytes, mode: str = "BINARY") -> Reply:
-    """A reply frame taken apart; NoFrameError if it is none (P312-SER-02, -13)."""
+    """Decode a reply frame; NoFrameError if it is not one (P312-SER-02, -13)."""
     text = data[1:-1]
     good = len(data) >= 2 and data[0] & 0xC0 == 0x80 and not len(text) % 2
     if not good or not all(character in b"0123456789abcdef" for character in text):
@@ -118,7 +118,7 @@ def understood(data: bytes, mode: str = "BINARY") -> Reply:
 
 
 class Master:
-    """bit: clk of one bit of the master. `said` and `heard` keep what was on the line."""
+    """Master of the line. bit: cycles of one bit. `said` and `heard` record what was on the line."""
 
     def __init__(self, port: Port, bit: float = BIT, mode: str = "BINARY") -> None:
         self.port, self.bit, self.mode = port, bit, mode
@@ -128,13 +128,13 @@ class Master:
     # ------------------------------------------------------------------ characters
 
     async def drive(self, levels: Wave) -> None:
-        """Make the line so."""
+        """Drive these levels on the line."""
         for t, level in levels:
             await self.port.until(t)
             self.port.set(master=level)
 
     async def send(self, data: bytes, gap: float = 0.0) -> None:
-        """Characters, and `gap` bits behind each; returns in the middle of the last stop bit."""
+        """Send characters with `gap` bits after each; return in the middle of the last stop bit."""
         begin = self.port.now
         end = begin + length(data, self.bit, gap)
         await self.drive(wave(data, begin, self.bit, gap))
@@ -142,7 +142,7 @@ class Master:
         self.said.append(Said(begin, round(end), data))
 
     async def hear(self, limit: int) -> bytes:
-        """Characters until the line stays high for two bits; nothing if none begins within `limit` clk."""
+        """Receive characters until the line stays high for two bits; b"" if none begins in `limit` cycles."""
         data, begin, wait = bytearray(), 0, limit
         while (start := await self.port.fall(wait)) is not None:
             begin = begin or start
@@ -157,28 +157,28 @@ class Master:
         return bytes(data)
 
     async def quiet(self, bits: float = 20) -> None:
-        """Say nothing until the line has been high for so long."""
+        """Send nothing until the line has been high for `bits` bits."""
         while await self.port.fall(round(bits * self.bit)) is not None:
             await self.rest(1)
 
     async def rest(self, bits: float) -> None:
-        """Say nothing."""
+        """Send nothing for `bits` bits."""
         await self.port.until(self.port.now + round(bits * self.bit))
 
     # ------------------------------------------------------------------ frames
 
     def frame(self, control: int, data: bytes = b"") -> bytes:
-        """A frame with its checksum."""
+        """Return a frame with its checksum."""
         return frame(control, data, self.mode)
 
     async def exchange(self, message: bytes, limit: int = T_EXEC) -> Reply | None:
-        """Send characters; the reply, None if nothing comes. NoFrameError if it is no frame."""
+        """Send characters and return the reply, None if there is none. NoFrameError if it is not a frame."""
         await self.send(message)
         data = await self.hear(limit + round(1.2 * self.bit))
         return understood(data, self.mode) if data else None
 
     async def ask(self, station: int, text: str) -> Reply:
-        """An instruction (hexadecimal text); its reply. NoFrameError if none comes."""
+        """Send an instruction (hexadecimal text) and return its reply. NoFrameError if there is no reply."""
         data = bytes.fromhex(text)
         reply = await self.exchange(self.frame(INSTRUCTION | station, data), T_EXEC if data[0] else T_INIT)
         if reply is None or reply.station != station:
@@ -186,10 +186,10 @@ class Master:
         return reply
 
     async def poll(self, station: int) -> Reply | None:
-        """One poll."""
+        """Poll a station once."""
         return await self.exchange(self.frame(POLL | station))
 
 
 def start_end(begin: int, count: int, bit: float) -> float:
-    """Time at which the last stop bit of characters back to back ends."""
+    """Return the time at which the last stop bit of back-to-back characters ends."""
     return begin + 10 * count * bit

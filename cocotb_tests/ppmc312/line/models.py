@@ -1,6 +1,6 @@
 """A line of golden models: the pins of `ppmc312_line`, without a simulator.
 
-The models work on their own; what one drives at an edge the others hear at the next one.
+The models run independently; the level that one drives at an edge is received by the others at the next edge.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .setting import ALL, F8L, LINE, SEVERAL, SINGLE, STATIONS
 
 
 def straps(levels: Mapping[str, int], station: int) -> dict[str, int]:
-    """Pins of one station from the pins of the line, without the line itself."""
+    """Return the pins of one station, taken from the pins of the line; the line itself is not included."""
     rows = {pin: levels[pin] >> station & 1 for pin in SINGLE}
     for pin, width in SEVERAL.items():
         rows[pin] = levels[pin] >> width * station & (1 << width) - 1
@@ -23,7 +23,10 @@ def straps(levels: Mapping[str, int], station: int) -> dict[str, int]:
 
 
 def heard(levels: Mapping[str, int], driven: int, station: int) -> int:
-    """Level that a station hears. driven: bit by bit, 0 where a station's driver makes the line low."""
+    """Return the level that a station receives.
+
+    driven: one bit for each station, 0 where its driver makes the line low.
+    """
     low = ALL & ~driven
     pulled = not levels["master"]
     pulled |= bool(levels["hear_others"] and low & ~(1 << station))
@@ -32,9 +35,10 @@ def heard(levels: Mapping[str, int], driven: int, station: int) -> int:
 
 
 class ModelLine:
-    """`now` is the next edge: what is set now is sampled by it. Sixteen stations unless `count` says less.
+    """Line of `count` golden models.
 
-    Keyword arguments are pins of the line (`setting.LINE`) from edge 0 on.
+    `now` is the next edge: it samples the levels that are set now. Keyword arguments are pins of the line
+    (`setting.LINE`) from edge 0 on.
     """
 
     def __init__(
@@ -65,13 +69,13 @@ class ModelLine:
     # ------------------------------------------------------------------ as a bench
 
     async def until(self, edge: int) -> int:
-        """Go to just before this edge; nothing happens if it has passed."""
+        """Go to just before this edge; do nothing if it has passed."""
         self.now = max(self.now, edge)
         self._run(self.now - 1)
         return self.now
 
     def set(self, **levels: int) -> int:
-        """Pins from edge `now` on; returns it."""
+        """Set pins from edge `now` on; return `now`."""
         changed = {pin: level for pin, level in levels.items() if self.levels[pin] != level}
         before, self.levels = self.levels, {**self.levels, **changed}
         for pin in changed.keys() & SINGLE.keys():
@@ -85,7 +89,11 @@ class ModelLine:
         return self.now
 
     async def fall(self, limit: int) -> int | None:
-        """Wait until the line is low; the edge that made it so, None if it does not happen in `limit` clk."""
+        """Wait until the line is low.
+
+        Returns:
+            The edge that made it low, None if that does not occur within `limit` cycles.
+        """
         end = self.now + limit
         while self._line:
             due = self._next()
@@ -97,7 +105,7 @@ class ModelLine:
         return self.edges[-1][0]
 
     def line_at(self, edge: int) -> int:
-        """Level of the line just after an edge."""
+        """Return the level of the line just after an edge."""
         return next((level for t, level in reversed(self.edges) if t <= edge), 1)
 
     # ------------------------------------------------------------------ inside
@@ -108,13 +116,13 @@ class ModelLine:
             heapq.heappush(self._heap, (due, number))
 
     def _next(self) -> int | None:
-        """The next edge on which a station has something to do."""
+        """Return the next edge at which a station has an event."""
         while self._heap and self._due[self._heap[0][1]] != self._heap[0][0]:
             heapq.heappop(self._heap)
         return self._heap[0][0] if self._heap else None
 
     def _run(self, last: int) -> None:
-        """All edges up to this one."""
+        """Process all edges up to this one."""
         while (edge := self._next()) is not None and edge <= last:
             driven = self._driven
             while self._heap and self._heap[0][0] == edge:

@@ -1,6 +1,6 @@
-"""What happens on a line of sixteen stations, good and bad. A scene gets the master and a source of chance.
+"""Scenes on a line of sixteen stations, valid and disturbed; each has a master and a random generator.
 
-After each bad one the first poll brings every station back.
+After each disturbance the first poll recovers every station.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ EVERY = range(STATIONS)
 
 
 def polled(station: int, control: int = POLL) -> bytes:
-    """A poll as it is on the line."""
+    """Return a poll as sent on the line."""
     return bytes([control | station, ~(control | station) & 0x7F])
 
 
 def check(got: object, want: object, what: str) -> None:
-    """AssertionError with both."""
+    """Raise an AssertionError that states both values if they differ."""
     assert got == want, f"{what}: expected {want}, got {got}"
 
 
 async def all_back(master: Master, number: int = STATIONS) -> list[Reply]:
-    """One poll brings every station back: each answers its first one."""
+    """Check that one poll recovers every station: each answers its first one."""
     await master.quiet()
     replies = []
     for station in range(number):
@@ -44,21 +44,21 @@ async def all_back(master: Master, number: int = STATIONS) -> list[Reply]:
 
 
 async def counts(master: Master, station: int) -> tuple[int, ...]:
-    """Framing errors, overruns, wrong checksums since the last time."""
+    """Read the numbers of framing errors, overruns and wrong checksums since the last read."""
     return tuple((await master.ask(station, "4f")).data)
 
 
 async def forget(master: Master, *stations: int) -> None:
-    """Clear the counters."""
+    """Clear the error counters."""
     for station in stations:
         await counts(master, station)
 
 
-# -------------------------------------------------------------------- as it should be
+# -------------------------------------------------------------------- valid traffic
 
 
 async def start_all(master: Master, rng: random.Random) -> None:
-    """Sixteen axes are set, started, polled until they have stopped, read back."""
+    """Sixteen axes are set up, started, polled until they have stopped, and read back."""
     pulses = [40 + 20 * number + rng.randrange(20) for number in EVERY]
     for station in EVERY:
         check((await master.ask(station, SETTING)).kind, "ready", "setting")
@@ -82,7 +82,7 @@ async def start_all(master: Master, rng: random.Random) -> None:
 
 
 async def speeds(master: Master, rng: random.Random) -> None:
-    """The master's clock is 2 % off, either way: everything is understood."""
+    """With a master clock that is 2 % slow or fast, every frame is received."""
     exact = master.bit
     for factor in (0.98, 1.02):
         master.bit = exact * factor
@@ -93,11 +93,11 @@ async def speeds(master: Master, rng: random.Random) -> None:
     master.bit = exact
 
 
-# -------------------------------------------------------------------- as it should not be
+# -------------------------------------------------------------------- disturbed traffic
 
 
 async def bad_checksums(master: Master, rng: random.Random) -> None:
-    """A wrong checksum is answered with 41 and counted, and nothing is done."""
+    """A wrong checksum is answered with 41 and counted; the instruction is not executed."""
     for station in (1, 14):
         good = master.frame(INSTRUCTION | station, b"\x26\x15")
         bad = good[:-1] + bytes([good[-1] ^ 1 << rng.randrange(7)])
@@ -109,7 +109,7 @@ async def bad_checksums(master: Master, rng: random.Random) -> None:
 
 
 async def foreign(master: Master, rng: random.Random) -> None:
-    """Undefined kinds, bit 6, frames without a control code, cut frames: silence."""
+    """Undefined kinds, bit 6, frames without a control code, and cut frames are not answered."""
     for station in (0, 9):
         for control in (0xA0, 0xB0, 0xC0, 0xD0, 0xE0, 0xF0):
             check(await master.exchange(polled(station, control)), None, f"control code {control:02X}")
@@ -122,7 +122,7 @@ async def foreign(master: Master, rng: random.Random) -> None:
 
 
 async def two_masters(master: Master, rng: random.Random) -> None:
-    """Two masters' frames over each other, at several distances."""
+    """Frames of two masters overlap at several distances; then one poll recovers every station."""
     for _ in range(4):
         a, b = rng.sample(EVERY, 2)
         one = master.frame(INSTRUCTION | a, b"\x26\x2a")
@@ -136,7 +136,10 @@ async def two_masters(master: Master, rng: random.Random) -> None:
 
 
 async def out_of_turn(master: Master, rng: random.Random) -> None:
-    """The master talks while a station replies: to the same one (an overrun) and to others."""
+    """The master sends while a station replies, to the same station (an overrun) and to others.
+
+    Each of the two frames to the station that replies counts as one overrun.
+    """
     await forget(master, 7)
     for message in (polled(7), master.frame(INSTRUCTION | 7, b"\x26\x3f"), polled(8)):
         await master.send(polled(7))
@@ -153,7 +156,7 @@ async def out_of_turn(master: Master, rng: random.Random) -> None:
 
 
 async def noise(master: Master, rng: random.Random) -> None:
-    """Bits that turn round, for all stations or some: glitches between characters, bits inside of them."""
+    """Noise at all or some stations, between and within characters, leaves every station recoverable."""
     port, bit = master.port, master.bit
     for _ in range(6):
         message = master.frame(INSTRUCTION | rng.randrange(STATIONS), b"\x26" + bytes([rng.randrange(64)]))
@@ -175,7 +178,7 @@ async def noise(master: Master, rng: random.Random) -> None:
 
 
 async def breaks(master: Master, rng: random.Random) -> None:
-    """The line is low for longer than a character, alone and in the middle of a frame."""
+    """Each low level that is longer than a character, alone or within a frame, is one framing error."""
     await forget(master, 2)
     whole = master.frame(INSTRUCTION | 2, b"\x26\x01")
     cut, rest = whole[:4], whole[4:]
@@ -193,7 +196,7 @@ async def breaks(master: Master, rng: random.Random) -> None:
 
 
 async def babble(master: Master, rng: random.Random) -> None:
-    """Any characters, back to back and with pauses."""
+    """Any characters, back to back and with pauses, leave every station recoverable."""
     await master.send(rng.randbytes(30))
     await master.send(rng.randbytes(8), gap=rng.uniform(0, 3))
     await all_back(master)
@@ -210,16 +213,19 @@ MUTE = 15
 TWINS = sum((TWIN if number == 6 else number) << 4 * number for number in EVERY)
 """adr: station 6 has the address of station 5."""
 ONE_MUTE = sum((0 if number == MUTE else 7) << 3 * number for number in EVERY)
-"""mod: the last one has none."""
+"""mod: the last station has no speed."""
 
 
 async def twins(master: Master, rng: random.Random) -> None:
-    """Two stations with one address answer at once: alike as one, else garbled. The others do not mind."""
+    """Two stations with one address answer together: equal answers are valid, different ones are garbled.
+
+    The other stations are not affected.
+    """
     check(await master.poll(6), None, "nobody has address 6")
     check(await master.poll(MUTE), None, "a station without a speed")
     check(await master.poll(TWIN), Reply("ready", TWIN, b""), "both answer alike")
     check(await master.ask(TWIN, SETTING), Reply("ready", TWIN, b""), "both are set")
-    # An input makes one of them ALARM-ing: their answers differ from now on.
+    # The alarm input of one of the two is asserted: their answers differ from now on.
     master.port.set(alm_n=ALL & ~(1 << 6))
     await master.rest(4)
     await master.send(polled(TWIN))
@@ -232,7 +238,7 @@ async def twins(master: Master, rng: random.Random) -> None:
     await master.quiet()
     for station in (4, 7):
         check(await master.poll(station), Reply("ready", station, b""), "a neighbour")
-    # The report is gone with the answer that nobody understood.
+    # The report was sent in the garbled answer and is not repeated.
     check(await master.poll(TWIN), Reply("ready", TWIN, b""), "both alike again")
     for _ in range(3):
         await master.send(rng.randbytes(12))

@@ -1,4 +1,4 @@
-"""Sixteen stations of the PPMC-312 on one line as the harness sees them: ports, build, single pins."""
+"""Harness settings for sixteen PPMC-312 stations on one line: ports, build, pins of each station."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from .library import FOLDER, station_library
 STATIONS = 16
 ALL = (1 << STATIONS) - 1
 FASTEST = 0b111
-"""mod of 83 333 bps."""
+"""mod for 83 333 bps."""
 BIT = 96
-"""clk of a bit at that speed and 8 MHz."""
+"""Cycles of a bit at that speed and 8 MHz."""
 F8L = Config("f8m", clk_hz=8_000_000)
 
 IN_TURN = sum(number << 4 * number for number in range(STATIONS))
 """adr of stations 0 … 15."""
 
-# Inputs that each station has for itself, by their idle level; its address and speed have more bits.
+# Single-bit inputs of each station with their idle levels; address and speed have more bits.
 SINGLE = {"evt0_n": 1, "evt1_n": 1, "fl_n": 1, "bl_n": 1, "org_n": 1, "alm_n": 1, "end_n": 1, "run": 1}
 SEVERAL = {"adr": 4, "mod": 3}
 OUTPUTS = PPMC312.outputs
 
 
 def repeat(level: int, width: int) -> int:
-    """The same level at every station."""
+    """Return a vector with the same level at every station."""
     return sum(level << width * number for number in range(STATIONS))
 
 
@@ -52,7 +52,7 @@ LINE = Part(
 
 
 def design(config: Config, args: tuple[str, ...] | None = None, **params: int | str) -> Design:
-    """The line with its stations, whose library is built if it is not there.
+    """Return the line with its stations; their library is built if it does not exist.
 
     `args` are those of Verilator for the stations; `params` overrides or adds parameters of the part.
     """

@@ -1,9 +1,9 @@
 """Seeds of `make soak PART=ppmc312-serial`: random streams on a line of PPMC-312 stations.
 
-Each seed: SIZE characters, bit by bit with noise, collisions and breaks, on 4 to 16 golden models on a line;
-then SINGLE characters, as whole ones, for one station after the other. After every few dozen of them one poll
-at most must bring every station back. Every RTL_EACHth seed goes to sixteen stations of RTL as well, and all
-their outputs are compared.
+Each seed sends SIZE characters, bit by bit with noise, collisions and breaks, on a line of 4 to 16 golden
+models. Then it sends SINGLE whole characters to one station after the other. After every few dozen
+characters, at most one poll must recover every station. Every RTL_EACHth seed also runs on sixteen stations
+of RTL, and all their outputs are compared.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Streams:
     """Random streams on the line, for `make soak`."""
 
     def some(self, seeds: Sequence[int]) -> Played:
-        """Some seeds in this process."""
+        """Run seeds in this process."""
         return all_of(map(self._one, seeds))
 
     def _one(self, seed: int) -> Played:

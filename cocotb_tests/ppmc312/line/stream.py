@@ -1,6 +1,6 @@
 """Random characters, frames, noise and silence on a line, for tests and for `make soak PART=ppmc312-serial`.
 
-After each part of a stream at most one poll brings every station back.
+After each part of a stream at most one poll recovers every station.
 """
 
 from __future__ import annotations
@@ -40,15 +40,19 @@ INSTRUCTIONS = (
         "7f 00",
     ),
 )
-"""With rates that even sixteen models keep up with."""
+"""Instructions with rates low enough for sixteen models to simulate."""
 PART = 60
-"""Characters between two looks at the stations."""
+"""Characters between two checks of the stations."""
 
 
 async def disorder(master: Master, rng: random.Random, size: int, count: int = STATIONS) -> int:
-    """At least `size` characters for `count` stations, in parts; how many stations needed a second poll.
+    """Send at least `size` characters to `count` stations, in parts.
 
-    AssertionError if that was not enough.
+    Returns:
+        The number of stations that needed a second poll.
+
+    Raises:
+        AssertionError: A station does not answer its second poll.
     """
     late = sent = 0
     exact = master.bit
@@ -63,7 +67,7 @@ async def disorder(master: Master, rng: random.Random, size: int, count: int = S
 
 
 async def recovered(master: Master, count: int) -> int:
-    """Each station answers its first poll, or its second one; the number of the latter."""
+    """Check that each station answers its first or second poll; return how many needed the second."""
     late = 0
     await master.quiet()
     for station in range(count):
@@ -80,7 +84,7 @@ async def recovered(master: Master, count: int) -> int:
 
 
 async def _some(master: Master, rng: random.Random, count: int) -> int:
-    """One thing; the number of characters it took."""
+    """Send one random item; return its number of characters."""
     station, kind = rng.randrange(count), rng.random()
     text = bytes.fromhex(rng.choice(INSTRUCTIONS))
     frame = master.frame(INSTRUCTION | station, text)
@@ -114,7 +118,7 @@ async def _some(master: Master, rng: random.Random, count: int) -> int:
 
 
 async def _collision(master: Master, rng: random.Random, one: bytes, other: bytes) -> int:
-    """Two masters at once."""
+    """Send the frames of two masters that overlap."""
     begin, bit = master.port.now, master.bit
     later = begin + rng.randrange(round(length(one, bit)))
     await master.drive(merged(wave(one, begin, bit), wave(other, later, bit * rng.uniform(0.98, 1.02))))
@@ -123,7 +127,7 @@ async def _collision(master: Master, rng: random.Random, one: bytes, other: byte
 
 
 async def _noisy(master: Master, rng: random.Random, frame: bytes) -> int:
-    """A frame of which some stations hear some bits wrong."""
+    """Send a frame of which some stations receive some bits inverted."""
     begin, port = master.port.now, master.port
     steps = [(t, {"master": level}) for t, level in wave(frame, begin, master.bit)]
     for _ in range(rng.choice((1, 1, 3))):
@@ -139,17 +143,17 @@ async def _noisy(master: Master, rng: random.Random, frame: bytes) -> int:
 
 
 def pins_of(seed: int) -> dict[str, int]:
-    """What the stations of a seed hear beside the master."""
+    """Return the pins that decide which drivers the stations of a seed hear in addition to the master."""
     rng = random.Random(f"pins {seed}")
     return {"hear_others": int(rng.random() < 0.8), "hear_self": int(rng.random() < 0.2)}
 
 
 async def play(master: Master, seed: int, size: int, count: int = STATIONS) -> int:
-    """The stream of a seed; the number of stations that needed a second poll."""
+    """Play the stream of a seed; return the number of stations that needed a second poll."""
     await master.port.until(8)
     return await disorder(master, random.Random(f"line {seed}"), size, count)
 
 
 def model_line(seed: int, count: int) -> ModelLine:
-    """A line of models with the pins of a seed."""
+    """Return a line of models with the pins of a seed."""
     return ModelLine(count=count, **pins_of(seed))

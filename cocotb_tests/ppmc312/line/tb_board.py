@@ -1,4 +1,4 @@
-"""A board with a PPMC-312 on its serial line: straps, both lines, DE, lamps, the button, pulses."""
+"""A board with a PPMC-312 on its serial line: straps, both lines, DE, LEDs, the button, pulses."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL
 
 OPEN = {"mod": 7, "adr": 15}
 INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "fl_n": 1, "alm_n": 1, "auxi": 0xA5} | OPEN
-LINK, MOVING, SWITCH, RUNNING = range(4)  # lamps
+LINK, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
 class Master(Wire):
-    """A master on one of the two lines."""
+    """Master on one of the two lines."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
         super().__init__(rxd, txd, 1.0)
@@ -28,12 +28,16 @@ class Master(Wire):
         self.bytes = bytearray()
 
     def came(self, byte: int) -> None:
-        """Collect a reply; DE must be on."""
+        """Collect a reply; DE must be asserted."""
         same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
 
     async def ask(self, station: int, text: str = "") -> str:
-        """The reply to an instruction, or a poll: kind and station, then data; ends when the line is free."""
+        """Send an instruction, or a poll if `text` is empty; wait until the line is free.
+
+        Returns:
+            Kind and station of the reply, then its data.
+        """
         data = bytes.fromhex(text)
         self.bytes.clear()
         await self.send(summed((INSTRUCTION if data else POLL) | station, data))
@@ -57,22 +61,22 @@ class Board:
         self.speed(7)
 
     def speed(self, mod: int) -> None:
-        """Both masters take the speed of these straps."""
+        """Set both masters to the speed of these straps."""
         self.usb.rate = self.rs485.rate = float(SPEEDS[mod])
 
     def lamp(self, which: int) -> int:
-        """A lamp, 1 = on."""
+        """Return the state of an LED, 1 = on."""
         return int(self.dut.lamps.value) >> which & 1
 
     async def boot(self) -> None:
-        """Until the lamp "running" is lit."""
+        """Wait until the LED "running" is on."""
         while not self.lamp(RUNNING):
             await Timer(50, "us")
         await Timer(50, "us")
 
 
 async def start(dut: Any, **straps: int) -> Board:
-    """Power-on; both lines are listened to from then on."""
+    """Power on the board; both lines are recorded from then on."""
     board = Board(dut, **straps)
     await board.boot()
     for master in (board.usb, board.rs485):
@@ -82,7 +86,10 @@ async def start(dut: Any, **straps: int) -> Board:
 
 @cocotb.test()
 async def board312_serial_open_straps(dut: Any) -> None:
-    """Open straps are 83 333 baud and station 15; either master is answered, on both lines, framed by DE."""
+    """Open straps select 83 333 baud and station 15.
+
+    The station answers either master on both lines, and DE frames the answer.
+    """
     board = await start(dut)
     same("lamp before", board.lamp(LINK), 0)
     for master, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
@@ -98,7 +105,7 @@ async def board312_serial_open_straps(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_half_a_bit(dut: Any) -> None:
-    """DE comes half a bit or more after the master's stop bit, the start bit a bit later."""
+    """DE is asserted half a bit after the master's stop bit, the start bit follows a bit later (+ 1 us)."""
     board = await start(dut)
     bit = 1e6 / board.rs485.rate
     for master in (board.usb, board.rs485):
@@ -116,7 +123,10 @@ async def board312_serial_half_a_bit(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_straps_and_button(dut: Any) -> None:
-    """The straps count at the end of a reset, by the button too, which stops and forgets everything."""
+    """The straps are sampled at the end of a reset, also of one by the button.
+
+    This reset stops everything and clears all state.
+    """
     board = await start(dut, adr=3, mod=6)
     rs485 = board.rs485
     board.speed(6)
@@ -137,7 +147,7 @@ async def board312_serial_straps_and_button(dut: Any) -> None:
 
 @cocotb.test()
 async def board312_serial_motion_and_lamps(dut: Any) -> None:
-    """A move ordered by USB, polls on the line; the pulses are counted; limit and alarm have their lamp."""
+    """A move commanded by USB makes its pulses and is polled on RS-485; limit and alarm light an LED."""
     board = await start(dut)
     usb, pulses = board.usb, []
 

@@ -1,4 +1,4 @@
-"""The scenes on sixteen stations of RTL; then each station against a golden model of its own."""
+"""Run the scenes on sixteen RTL stations, then compare each station with its own golden model."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .setting import F8L, LINE
 
 
 async def play(dut: Any, scenes: Sequence[Scene], at_least: int, **pins: int) -> None:
-    """All scenes one after the other, then the comparison of every output."""
+    """Run all scenes one after the other, then compare every output."""
     bench = await Bench.start(dut, LINE, settle=8, **pins)
     cocotb.log.info("seed %d", bench.seed)
     master = Master(RtlPort(bench))
@@ -35,7 +35,7 @@ async def play(dut: Any, scenes: Sequence[Scene], at_least: int, **pins: int) ->
 @configs(F8L)
 @verifies("P312-SER-01", "P312-SER-02", "P312-SER-18", "P312-SER-19", "P312-SER-20", "P312-SER-30")
 async def line_sixteen_axes(dut: Any) -> None:
-    """Given sixteen stations, when they are set, started, polled and read, then all goes as ordered."""
+    """Sixteen axes that are set up, started, polled and read back on one line move as commanded."""
     await play(dut, GOOD, 8_000)
 
 
@@ -43,7 +43,7 @@ async def line_sixteen_axes(dut: Any) -> None:
 @configs(F8L)
 @verifies("P312-SER-10", "P312-SER-12", "P312-SER-14", "P312-SER-15", "P312-BAD-16")
 async def line_bad_input(dut: Any) -> None:
-    """Given sixteen stations, when the line sees everything bad, then each is back with its first poll."""
+    """After each disturbance of the line, all sixteen stations answer their first poll."""
     await play(dut, BAD, 1_500)
 
 
@@ -51,5 +51,5 @@ async def line_bad_input(dut: Any) -> None:
 @configs(F8L)
 @verifies("P312-PRT-03", "P312-BAD-16", "P312-BAD-17")
 async def line_twins(dut: Any) -> None:
-    """Given two stations with one address, when both answer at once, then the other fourteen do not mind."""
+    """Two stations with one address that answer together do not disturb the other fourteen."""
     await play(dut, (twins,), 400, adr=TWINS, mod=ONE_MUTE)

@@ -1,4 +1,4 @@
-"""The stream of one seed on sixteen stations of RTL; then each station against a golden model of its own."""
+"""Run the stream of one seed on sixteen RTL stations, then compare each station with its own golden model."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .setting import F8L, LINE
 from .stream import pins_of, play
 
 SIZE = 120
-"""Characters."""
+"""Length of the stream in characters."""
 
 
 @cocotb.test()
 @configs(F8L)
 @verifies("P312-BAD-16", "P312-SER-10", "P312-SER-15", "P312-SER-19")
 async def line_stream(dut: Any) -> None:
-    """Given sixteen stations, when anything is on the line, then at most one poll brings each back."""
+    """After each part of a random stream on the line, every station answers its first or second poll."""
     seed = int(os.environ.get("OPENPPMC_SEED", "1"))
     bench = await Bench.start(dut, LINE, settle=8, **pins_of(seed))
     cocotb.log.info("seed %d", seed)

@@ -1,4 +1,4 @@
-"""Sixteen stations on one line: the RTL with its models, and the line of models alone under more seeds."""
+"""Sixteen stations on one line: the RTL compared with its models, and the models alone with more seeds."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ ITEMS = cocotb_items("cocotb_tests.ppmc312.line", "tb_line", "tb_stream", part=L
 
 
 def stream_item(seed: int) -> Item:
-    """The stream of one seed on the RTL."""
+    """Return the item that runs the stream of one seed on the RTL."""
     return next(p.values[0] for p in ITEMS if p.values[0].test == "line_stream").with_seed(seed)
 
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_line(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation of the line."""
+    """One simulation of the line passes."""
     run_item(item, sim_options, design=design(item.config))
 
 
 @pytest.fixture
 def seeds(request: pytest.FixtureRequest) -> list[int]:
-    """Two fixed ones, or that of the command line; printed when a test fails."""
+    """Return two fixed seeds, or that of the command line; they are printed when a test fails."""
     chosen = request.config.getoption("--seed")
     picked = [2, 3] if chosen is None else [chosen]
     print(f"seeds {picked}")
@@ -40,7 +40,7 @@ def seeds(request: pytest.FixtureRequest) -> list[int]:
 
 
 def test_scenes_on_models(seeds: list[int]) -> None:
-    """The bad scenes and the twins under other seeds, on golden models alone."""
+    """On golden models alone, the disturbances and the scene with twins pass with other seeds."""
     for seed in seeds:
         for scenes, line in ((BAD, ModelLine()), ((twins,), ModelLine(adr=TWINS, mod=ONE_MUTE))):
             at_once(line.until(8))
@@ -49,6 +49,9 @@ def test_scenes_on_models(seeds: list[int]) -> None:
 
 
 def test_streams_on_models(seeds: list[int]) -> None:
-    """Streams under other seeds: on an undisturbed line hardly a station needs a second poll."""
+    """On golden models alone, streams with other seeds leave every station recoverable.
+
+    On an undisturbed line few stations need a second poll.
+    """
     late = sum(at_once(play(Master(model_line(seed, 8)), seed, SIZE, 8)) for seed in seeds)
     assert late <= 8 * len(seeds)

@@ -5,11 +5,14 @@ from __future__ import annotations
 from math import ceil
 
 Wave = list[tuple[int, int]]
-"""(edge of clk from which on, level) changes of a line that is high before; the end is high again."""
+"""Changes of a line that is high at the beginning and at the end: (edge, level from that edge on)."""
 
 
 def wave(data: bytes, start: float, bit: float, gap: float = 0.0) -> Wave:
-    """Levels of characters from time `start` on, each followed by `gap` more bits; times in clk."""
+    """Return the levels of characters from time `start` on, each followed by `gap` more bits.
+
+    All times are in cycles.
+    """
     changes: Wave = []
     level, at = 1, start
     for byte in data:
@@ -22,12 +25,12 @@ def wave(data: bytes, start: float, bit: float, gap: float = 0.0) -> Wave:
 
 
 def length(data: bytes, bit: float, gap: float = 0.0) -> float:
-    """clk that characters take."""
+    """Return the duration of characters in cycles."""
     return len(data) * (10 + gap) * bit
 
 
 def merged(*waves: Wave) -> Wave:
-    """Several drivers at once: low as soon as one of them is low."""
+    """Return the levels of a line with several drivers: low while any of them is low."""
     changes: Wave = []
     levels = [1] * len(waves)
     for t, number, level in sorted((t, i, level) for i, one in enumerate(waves) for t, level in one):
@@ -36,7 +39,7 @@ def merged(*waves: Wave) -> Wave:
         if min(levels) == before:
             continue
         if changes and changes[-1][0] == t:
-            changes.pop()  # low for no time at all
+            changes.pop()  # a low pulse of length 0
         else:
             changes.append((t, min(levels)))
     return changes

@@ -1,1 +1,1 @@
-"""Simulations of the blocks in rtl/ppmc312/stages: curves, plans and intervals against the golden model."""
+"""Simulations of the blocks in rtl/ppmc312/stages, compared with the golden model."""

@@ -11,7 +11,7 @@ from ...harness import Block
 AREA = "stage"
 GROUPS = ("common", "motion", "stage")
 CLOCKS = (8_000_000, 16_000_000, 50_000_000)
-"""Clk of the instances of ppmc312_interval, at the crystal of 16 MHz."""
+"""Clock frequencies of the instances of ppmc312_interval, with a 16 MHz crystal."""
 PACKAGE = "ppmc312_stage_pkg::"
 INTERVAL = "base_i:3 extck_i arm_i first_i fire_i rate_i:16 due_o high_o"
 BLOCKS = {
@@ -44,7 +44,7 @@ BLOCKS = {
 
 
 def pack(*fields: tuple[int, int]) -> int:
-    """Packed struct of (value, width) fields, the first one uppermost."""
+    """Return a packed struct of (value, width) fields; the first field is the most significant."""
     number = 0
     for value, width in fields:
         assert 0 <= value < 1 << width, f"{value} does not fit {width} bits"
@@ -53,7 +53,10 @@ def pack(*fields: tuple[int, int]) -> int:
 
 
 class Target(NamedTuple):
-    """target_t: a rate and its look-up; ge: t(rate), one before the first stage in use if there is none."""
+    """target_t: a rate and its look-up result.
+
+    ge: t(rate); if there is no such stage, one before the first stage in use.
+    """
 
     rate: int
     slows: int
@@ -63,28 +66,28 @@ class Target(NamedTuple):
 
     @classmethod
     def of(cls, table: Table, rate: int) -> Target:
-        """What the look-up of a rate finds in a table."""
+        """Return the look-up result of a rate in a table."""
         at, above = table.stage(rate), table.stage(rate + 1)
         return cls(rate, int(rate < table.rates[table.sd]), at % 128, at + 1, above + 1)
 
     @classmethod
     def split(cls, number: int) -> Target:
-        """Fields of a packed one."""
+        """Return the fields of a packed target_t."""
         return cls(number >> 22, number >> 21 & 1, number >> 14 & 0x7F, number >> 7 & 0x7F, number & 0x7F)
 
     @property
     def packed(self) -> int:
-        """As a port carries it."""
+        """Value of the packed struct."""
         return pack((self.rate, 16), (self.slows, 1), (self.ge, 7), (self.ge1, 7), (self.gt1, 7))
 
 
 def walk_start(table: Table, pulses: int) -> tuple[int, int]:
-    """Stage of the first of the last `pulses` pulses of the deceleration, and how many of them it has."""
+    """Return the stage where the last `pulses` pulses of the deceleration begin, and their number in it."""
     stage = next(i for i in range(table.sd, LAST + 1) if table.sums_down[i] >= pulses)
     return stage, pulses - (table.sums_down[stage - 1] if stage else 0)
 
 
 def brief(table: Table) -> str:
-    """Used stages of a table."""
+    """Return a text of the used stages of a table."""
     first = table.first
     return f"{table.rates[first:]} up {table.pa[first:]} down {table.pd[first:]}, from {table.sa}, {table.sd}"

@@ -1,4 +1,4 @@
-"""Contract of ppmc312_interval: when pulses are due and how long they last, for every base clock."""
+"""Contract of ppmc312_interval: when pulses are scheduled and how long they last, for every base clock."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .stage_types import CLOCKS
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 XTAL = 16_000_000
 LONGEST = 12_000
-"""Clk of an interval at most."""
+"""Longest interval in cycles."""
 
 
 class Bench:
@@ -48,24 +48,24 @@ class Bench:
 
     @property
     def now(self) -> int:
-        """Number of the edge that was last."""
+        """Number of the last edge."""
         return int(get_sim_time("step") - self.since) // 2
 
     async def record(self, edge: type, times: list[int]) -> None:
-        """Edges of high_o."""
+        """Record the edges of high_o."""
         while True:
             await edge(self.u.pins["high_o"])
             times.append(self.now)
 
     async def strobe(self, **inputs: int) -> int:
-        """Inputs for the coming edge, then 0; returns its number."""
+        """Apply inputs for the next edge, then 0; return the number of that edge."""
         self.u.put(**inputs)
         await RisingEdge(self.u.pins["clk_i"])
         self.u.put(**dict.fromkeys(inputs, 0))
         return self.now
 
     async def fire(self, rate: int) -> int:
-        """The next pulse, in the cycle in which it is due; returns its edge."""
+        """Fire the next pulse in the cycle in which it is scheduled; return its edge."""
         await Timer(1, "step")  # due_o follows the inputs
         if not self.u.get("due_o"):
             await RisingEdge(self.u.pins["due_o"])
@@ -75,7 +75,7 @@ class Bench:
 
 
 def some_rates(rand: random.Random, tick: Fraction, count: int) -> list[int]:
-    """Rates of at least 4 clk: short ones, around twice the pulse width, longer ones."""
+    """Return rates of at least 4 cycles: short ones, some near twice the pulse width, longer ones."""
     least, most = max(2, ceil(4 / tick)), max(3, int(LONGEST / tick))
     around = int(10e-6 * XTAL / 16e6 * 16e6 / tick) if tick else 0
     picks = (lambda: least + rand.randrange(5), lambda: rand.randint(least, most), lambda: around)
@@ -85,7 +85,7 @@ def some_rates(rand: random.Random, tick: Fraction, count: int) -> list[int]:
 @cocotb.test()
 @cocotb.parametrize(clk=list(CLOCKS))
 async def interval_exact(dut, clk):
-    """Given every internal base clock, then pulse 1 comes after the set-up time, all others without drift."""
+    """For every internal base clock, pulse 1 follows after the set-up time and all others without drift."""
     rand = rng()
     u = Unit(dut, f"interval{clk // 1_000_000}", BLOCKS, limit=Unit.FREE)
     width = ceil(Fraction(80 * clk, XTAL))
@@ -113,7 +113,7 @@ async def interval_exact(dut, clk):
 
 @cocotb.test()
 async def interval_shortest(dut):
-    """Given intervals below 4 clk, then they last 4 clk and the next one counts from the actual pulse."""
+    """Intervals below 4 cycles last 4 cycles, and the next interval counts from the actual pulse."""
     u = Unit(dut, "interval8", BLOCKS)
     rates = [2, 2, 3, 2, 100, 3, 4, 5, 2, 7, 50]
     async with Bench(u) as bench:
@@ -125,8 +125,10 @@ async def interval_shortest(dut):
 
 @cocotb.test()
 async def interval_external(dut):
-    """Given clock edges at a pin, then pulse k + 1 comes with edge R_k after that of pulse k, within 3 clk; a
-    pulse ends with half of them or its width, though the clock stands still."""
+    """With clock edges at a pin, pulse k + 1 follows edge R_k after that of pulse k, within 3 cycles.
+
+    A pulse ends after half of these edges or after its width, even if the clock stops.
+    """
     rand = rng()
     for clk, base in ((8_000_000, 6), (16_000_000, 7), (50_000_000, 6)):
         u = Unit(dut, f"interval{clk // 1_000_000}", BLOCKS)
@@ -138,7 +140,7 @@ async def interval_external(dut):
             u.put(base_i=base, extck_i=base == 7)
 
             async def clock(bench=bench, u=u, base=base, ticks=ticks) -> None:
-                """Edges of both kinds; those that count are noted by the clk edge that takes them in."""
+                """Drive edges of both kinds; record the edge of `clk_i` that samples each active edge."""
                 slow = False
                 while True:
                     for level in (base == 6, base == 7):
@@ -148,7 +150,7 @@ async def interval_external(dut):
                         if level == (base == 6):
                             ticks.append(bench.now + 1)
 
-            await Timer(3, "step")  # between two clk edges
+            await Timer(3, "step")  # between two edges of `clk_i`
             task = cocotb.start_soon(clock())
             armed = await bench.strobe(arm_i=1)
             for rate in rates:

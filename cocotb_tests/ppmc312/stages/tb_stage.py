@@ -23,8 +23,8 @@ from .stage_types import Target, brief, pack, walk_start
 
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LONGEST_BUILD, LONGEST_PLAN = 127 * 300, 135 + 5 * 131 + 53
-# start, stop, high, acceleration, deceleration, sigmoid, separate: T1..T5 of the specification, its error
-# boundaries, the fastest and the slowest rates, the most pulses.
+# start, stop, high, acceleration, deceleration, sigmoid, separate: T1..T5 of the specification, the
+# boundaries of its error conditions, the fastest and the slowest rates, the most pulses.
 SETTINGS = [
     (1000, 0, 200, 2000, 0, 0, 0),
     (1000, 0, 200, 2000, 0, 1, 0),
@@ -48,7 +48,7 @@ SETTINGS = [
 
 @cocotb.test()
 async def muldiv_exact(dut):
-    """Given random and extreme operands, then products, quotients and remainders are exact, in time."""
+    """For random and extreme operands, products, quotients and remainders are exact and in time."""
     rand = rng()
     u = Unit(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
@@ -58,7 +58,7 @@ async def muldiv_exact(dut):
         bits = 39 + mul  # the remainder needs one bit more
         operand = rand.choice(((1 << bits) - 1, rand.getrandbits(rand.randint(1, bits)) | 1))
         if mul:
-            hi, lo = 0, small  # the product comes out with its low bits on top of lo
+            hi, lo = 0, small  # the low bits of the product are output in the top bits of lo
         else:
             hi = rand.randrange(operand)
             lo = small << 24 - steps
@@ -78,7 +78,7 @@ async def muldiv_exact(dut):
 
 @cocotb.test()
 async def muldiv_product_is_divided(dut):
-    """Given a product that is kept, then it can be divided as it stands."""
+    """A product that is kept can be divided without a reload."""
     rand = rng()
     u = Unit(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
@@ -99,7 +99,7 @@ async def muldiv_product_is_divided(dut):
 
 @cocotb.test()
 async def cosine_weights(dut):
-    """Given every stage, in any order, then its weight stands two clk later, or its number."""
+    """Two cycles after its index, the weight of a stage is valid; with linear_i = 1 it is the index."""
     u = Unit(dut, "rom", BLOCKS, "weight_o")
     u.choose()
     order = [*range(STAGES), *rng().sample(range(STAGES), STAGES)]
@@ -110,13 +110,13 @@ async def cosine_weights(dut):
 
 
 async def _idle(u: Unit, port: str) -> int:
-    """Free running clk until this output is low; returns how many."""
+    """Run until this output is low; return the number of cycles."""
     await u.settle()
     return await u.run_until(port, 0) if u.get(port) else 0
 
 
 def curve_word(setting: tuple[int, ...]) -> int:
-    """curve_t of a setting, base clock 5."""
+    """Return curve_t of a setting, with base clock 5."""
     start, stop, high, acc, dec, sigmoid, separate = setting
     stop, dec = (stop, dec) if separate else (start, acc)
     return pack(
@@ -125,7 +125,7 @@ def curve_word(setting: tuple[int, ...]) -> int:
 
 
 async def _read(u: Unit) -> list[list[tuple[int, ...]]]:
-    """Rate, acceleration and deceleration pulses of all stages, from both read ports."""
+    """Return rate, acceleration and deceleration pulses of all stages, from both read ports."""
     words: list[list[tuple[int, ...]]] = []
     for side in (0, 1):
         seen = []
@@ -133,14 +133,14 @@ async def _read(u: Unit) -> list[list[tuple[int, ...]]]:
             u.put(read_i=pack((side, 1), (i, 7)), look_i=pack((side, 1), (LAST - i, 7)))
             await u.clk()
             seen.append((*divmod(u.get("read_o"), 1 << 24), *divmod(u.get("stage_o"), 1 << 24)))
-        words.append(seen[1:-1])  # read after the edge: one clk less
+        words.append(seen[1:-1])  # read after the edge, thus one cycle less
     planner = [(*up[:2], down[1]) for up, down in zip(*words, strict=True)]
     motion = [(*up[2:], down[3]) for up, down in zip(*words, strict=True)]
     return [planner, motion[::-1]]
 
 
 async def _check(u: Unit, table: Table, what: str, clk: int, pulses: tuple[int, int]) -> None:
-    """Description, look-ups and words of the table in force."""
+    """Check description, look-ups and words of the active table."""
     want = pack(
         (1, 1), (table.separate, 1), (clk, 3), (table.sa, 7), (table.sd, 7), (table.rates[table.sa], 16)
     )
@@ -149,14 +149,14 @@ async def _check(u: Unit, table: Table, what: str, clk: int, pulses: tuple[int, 
     same(f"{what}: home_o", Target.split(u.get("home_o")), Target.of(table, table.rates[table.sa]))
     for port, got in zip(("planner", "motion"), await _read(u), strict=True):
         for i in range(table.first, STAGES):
-            # Below the first stage of a side its pulses mean nothing.
+            # Below the first stage of a ramp, its pulse numbers have no meaning.
             rate, acc, dec = got[i]
             seen = (rate, acc if i >= table.sa else 0, dec if i >= table.sd else 0)
             same(f"{what}: stage {i}, port of the {port}", seen, (table.rates[i], table.pa[i], table.pd[i]))
 
 
 def settings(rand: random.Random, count: int) -> list[tuple[int, ...]]:
-    """The corners and random settings that are refused at most for thin stages."""
+    """Return the corner settings and random ones that can be rejected only for stages with too few pulses."""
     found = list(SETTINGS)
     while len(found) < len(SETTINGS) + count:
         high = int(2 ** rand.uniform(1, 15.9))
@@ -169,7 +169,7 @@ def settings(rand: random.Random, count: int) -> list[tuple[int, ...]]:
 
 @cocotb.test()
 async def stage_tables_exact(dut):
-    """Given reference and random settings, then all stages are those of the model, or it is refused."""
+    """For reference and random settings, all stages equal those of the model, or both reject the setting."""
     u = Unit(dut, "unit", BLOCKS, limit=Unit.FREE)
     await u.reset()
     thin = longest = 0
@@ -196,7 +196,7 @@ async def stage_tables_exact(dut):
 
 
 def curves(rand: random.Random) -> Table:
-    """A free curve: few or all stages, one side or two, rates that mostly fall."""
+    """Return a free curve: few or all stages, one table or two, mostly descending rates."""
     counts = [rand.choice((2, 3, rand.randint(2, 12), rand.randint(2, 127), 127)) for _ in range(2)]
     split = rand.random() < 0.7
     if rand.random() < 0.2:
@@ -211,7 +211,7 @@ def curves(rand: random.Random) -> Table:
 
 
 async def _load(u: Unit, table: Table) -> None:
-    """A free curve, word by word, fastest stage first."""
+    """Load a free curve, word by word, fastest stage first."""
     await u.clk(
         open_i=1,
         open_acc_i=table.sa,
@@ -233,7 +233,7 @@ async def _load(u: Unit, table: Table) -> None:
 
 
 def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
-    """Rate and pulses (None: endless) where kinds of plans meet."""
+    """Return rate and pulses (None: endless) near the limits between the kinds of plans."""
     used = table.rates[table.first :]
     rate = rand.choice((table.high, rand.choice(used), rand.choice(used) + 1, rand.randint(2, 0xFFFF)))
     if rand.random() < 0.1:
@@ -247,7 +247,7 @@ def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
 
 @cocotb.test()
 async def stage_plans_exact(dut):
-    """Given random curves, rates and pulse counts, then the plan is the model's; a look-up is one without."""
+    """For random curves, rates and pulse counts, plans and rate look-ups equal those of the model."""
     rand = rng()
     u = Unit(dut, "unit", BLOCKS)
     await u.reset()

@@ -1,4 +1,4 @@
-"""Contract of ppmc312_stage_seq: which rate the next pulse has, or why there is none."""
+"""Contract of ppmc312_stage_seq: the rate of the next pulse, or the reason why there is no next pulse."""
 
 from __future__ import annotations
 
@@ -17,17 +17,19 @@ from .stage_types import Target, brief, pack, walk_start
 
 AREA, GROUPS, BLOCKS = stage_types.AREA, stage_types.GROUPS, stage_types.BLOCKS
 LEADS = {"slow": 2, "jump": 5, "ramp": 9}
-"""How many clk before a boundary a request must come at least to count for it."""
+"""Least number of cycles before a boundary at which a request takes effect at this boundary."""
 SHORTEST, TARGET_CLK = 4, 2
-"""Clk of an interval; clk after change_i in which target_i is taken."""
+"""Cycles of an interval; cycles after change_i in which target_i is sampled."""
 FLAT, SEARCH, FOUND = 7, 129, 3
-"""Clk of constant rate before a ramp begins; clk of a search, and after it before a walk begins."""
+"""Cycles of constant rate before a ramp can begin; of a search; from its end to the final deceleration."""
 WATCH = "next_end_o next_low_o next_count_o next_rate_o"
 
 
 def small_curve(rand: random.Random) -> Table:
-    """A curve of a few stages with a few pulses each, mostly falling, half with equal neighbours; the sides
-    may differ."""
+    """Return a curve of a few stages with a few pulses each.
+
+    The rates mostly descend, half of the curves have equal neighbours, and the two ramps may differ.
+    """
     counts = [rand.choice((2, 3, 5)), rand.choice((2, 3, 4))]
     split = rand.random() < 0.7
     most = max(counts) if split else counts[0]
@@ -41,14 +43,14 @@ def small_curve(rand: random.Random) -> Table:
 
 
 def some_rate(rand: random.Random, table: Table) -> int:
-    """A rate that an instruction may ask for; often one of the table, or next to it."""
+    """Return a rate that an instruction may request; often one of the table, or next to it."""
     low, high = sorted((table.high, table.slowest))
     near = rand.choice(table.rates[table.first :]) + rand.choice((0, 0, 1, -1))
     return rand.choice((min(max(near, low), high), rand.randint(low, high)))
 
 
 class Walker:
-    """The sequencer in a motion, with a table that answers two clk after the address."""
+    """The sequencer during a motion, with a table that responds two cycles after the address."""
 
     def __init__(self, u: Unit, table: Table, plan: Plan, rand: random.Random) -> None:
         self.u, self.table, self.plan, self.rand = u, table, plan, rand
@@ -60,7 +62,7 @@ class Walker:
         self.what = f"{brief(table)}: {plan.n} pulses at {plan.rate}, {plan.up} up, {plan.down} down"
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
-        """One clk; returns the watched outputs before it."""
+        """Run one cycle; return the watched outputs before its edge."""
         out = await self.look(**inputs)
         self.asked.popleft()
         self.asked.append(divmod(self.u.get("look_o"), 128))
@@ -68,7 +70,7 @@ class Walker:
         return out
 
     async def look(self, **inputs: int) -> tuple[int, ...]:
-        """Watched outputs with these inputs and the table's answer of this clk."""
+        """Return the watched outputs with these inputs and the response of the table in this cycle."""
         side, i = self.asked[0]
         table, i = self.table, min(i, STAGES - 1)
         pulses = table.pd if side else table.pa
@@ -91,11 +93,11 @@ class Walker:
             await self.clk()
 
     def plan_word(self, target: int) -> int:
-        """plan_t after the load: only its target means something."""
+        """Return plan_t after the load: only its target has a meaning."""
         return self.rand.getrandbits(90) << 38 | target
 
     def plan_requests(self) -> dict[int, str]:
-        """Requests in the coming interval, by their lead in clk; at most one change."""
+        """Return the requests in the coming interval, by their lead in cycles; at most one change."""
         rand, found = self.rand, {}
         if rand.random() < 0.08:
             found[LEADS["slow"] + rand.choice((0, 0, 1, 7))] = "slow"
@@ -107,15 +109,15 @@ class Walker:
         return found
 
     def aim(self) -> int:
-        """Rate of a change."""
+        """Return the rate of a change."""
         return some_rate(self.rand, self.table)
 
     async def interval(self) -> None:
-        """All clk of an interval but the last one."""
+        """Run all cycles of an interval except the last."""
         requests = self.plan_requests()
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.sought and self.rand.random() < 0.3:
-            # A boundary where what the search finds just counts, or just not yet.
+            # A boundary at which the result of the search just takes effect, or just does not.
             wanted = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
             longest = max(longest, wanted - self.flat_for)
         self.flat_for += longest
@@ -138,7 +140,7 @@ class Walker:
         self.u.put(change_i=0)
 
     async def run(self, limit: int = 200) -> str:
-        """All pulses; returns why there are no more."""
+        """Output all pulses; return the reason why they end."""
         for _ in range(limit):
             await self.interval()
             where = f"{self.what}, {self.story}, boundary {self.sequence.done + 1}"
@@ -164,7 +166,7 @@ class Walker:
 
 
 def some_plan(rand: random.Random, table: Table) -> Plan:
-    """82, 85, 83 or 86 with as many pulses as make it interesting."""
+    """Return an 82, 85, 83 or 86 with a number of pulses near the interesting limits."""
     rate = some_rate(rand, table)
     most = table.na + table.nd + 12
     n = rand.choice((None, rand.randint(1, most), rand.randint(1, most), rand.randint(1, 4)))
@@ -173,7 +175,7 @@ def some_plan(rand: random.Random, table: Table) -> Plan:
 
 @cocotb.test()
 async def stage_seq_walks(dut):
-    """Given random curves, operations and requests, then each pulse and the end are those of the model."""
+    """For random curves, operations and requests, each pulse and the end equal those of the model."""
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, WATCH)
     await u.reset()
@@ -188,10 +190,10 @@ async def stage_seq_walks(dut):
 
 
 class Meeting(Walker):
-    """A ramp of 87 is sent to meet the deceleration point; what comes after it is random."""
+    """An 87 ramp that collides with the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
-        """88 some pulses before that point, 87 closer to it."""
+        """Request 88 some pulses before that point and 87 closer to it."""
         plan = self.plan
         before = (plan.n or 0) - plan.down - self.sequence.done
         if before in (self.jump, self.ramp):
@@ -199,7 +201,7 @@ class Meeting(Walker):
         return {} if 0 < before else super().plan_requests()
 
     def aim(self) -> int:
-        """Down to where a ramp has stages, then up."""
+        """Return a rate where a ramp has stages, then a higher speed."""
         before = (self.plan.n or 0) - self.plan.down - self.sequence.done
         if self.rand.random() < 0.2 or before < 1:
             return super().aim()
@@ -207,7 +209,7 @@ class Meeting(Walker):
 
     @classmethod
     def some(cls, u: Unit, rand: random.Random) -> Meeting:
-        """A table and an operation with so many pulses of deceleration that much can happen in them."""
+        """Return a table and an operation with a deceleration of enough pulses for several requests."""
         while True:
             table = small_curve(rand)
             rate = some_rate(rand, table)
@@ -215,7 +217,8 @@ class Meeting(Walker):
             n = plan.up + sum(table.pd[table.sd : table.stage(rate) + 1]) + rand.randint(12, 18)
             plan = ramped(table, rate, n)
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
-                break  # often with stages that only the acceleration has, where there is no walk
+                # often with stages that only the acceleration ramp has, where no final deceleration starts
+                break
         walker = cls(u, table, plan, rand)
         walker.jump, walker.ramp, walker.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
         return walker
@@ -223,7 +226,7 @@ class Meeting(Walker):
 
 @cocotb.test()
 async def stage_seq_searches(dut):
-    """Given a stage that becomes a constant rate, then t(rate) is found for what comes after it."""
+    """When a stage becomes a constant rate, t(rate) is found for the requests that follow."""
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, WATCH)
     await u.reset()
@@ -237,11 +240,14 @@ async def stage_seq_searches(dut):
 
 
 class Forgotten(Walker):
-    """A stage of the acceleration side becomes a constant rate, 88 is decided within the search for it, and
-    81 comes before the boundary."""
+    """A change is decided during a search, and a deceleration stop follows.
+
+    A stage of the acceleration ramp becomes a constant rate. 88 is decided during the search for this rate,
+    and 81 arrives before the boundary.
+    """
 
     def plan_requests(self) -> dict[int, str]:
-        """88 and 87 to where the search begins; in it 88, then 81."""
+        """Request 88 and 87 to begin the search; during it 88, then 81."""
         if self.sequence.sought and self.jump:
             requests = {self.jump: "jump", LEADS["slow"]: "slow"}
             self.jump = 0
@@ -249,13 +255,13 @@ class Forgotten(Walker):
         return {37: {LEADS["jump"]: "jump"}, 44: {LEADS["ramp"]: "ramp"}}.get(self.sequence.done, {})
 
     def aim(self) -> int:
-        """Slower than all stages, then along the first one."""
+        """Return a rate slower than all stages, then that of the first stage."""
         return 169 if self.sequence.done == 44 else 363
 
 
 @cocotb.test()
 async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
-    """Given 88 within a search, then 81 forgets it if the search has ended, and waits for it if not."""
+    """81 discards an 88 decided within a search if the search has ended; otherwise it waits for the 88."""
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, WATCH)
     await u.reset()
@@ -267,5 +273,6 @@ async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
         await walker.load()
         end = await walker.run(80)
         ends.add((end, walker.searched > 0))
-    # At 363, taken where 81 waits, there is nothing to decelerate; the walk lasts until the count ends.
+    # At 363, loaded where 81 waits, no deceleration is left; the final deceleration lasts
+    # until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])

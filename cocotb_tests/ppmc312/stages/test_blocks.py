@@ -15,5 +15,5 @@ ITEMS = cocotb_items(
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_block(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation."""
+    """One simulation of a block passes."""
     run_block(item, sim_options)

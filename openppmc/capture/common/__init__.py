@@ -1,1 +1,1 @@
-"""What captures of all parts have in common."""
+"""Shared code of the captures of all parts."""

@@ -1,8 +1,10 @@
-"""A capture beside the golden model: its inputs played into the model, each output edge compared.
+"""Comparison of a capture with the golden model.
 
-Sampling, the phase of the old chip's base clock and its processing times make edges come a little earlier or
-later: within `tolerance` they are the same edge. The crystals of chip and analyser differ by some ppm; from
-the moves it is known by how much, and that is taken out.
+The inputs of the capture drive the model, and each output edge is compared.
+
+Sampling, the phase of the original chip's base clock and its processing times shift edges slightly. Within
+`tolerance` two edges count as the same edge. The crystals of chip and analyser differ by some ppm; this
+difference is measured in the moves and compensated.
 """
 
 from __future__ import annotations
@@ -27,23 +29,26 @@ if TYPE_CHECKING:
     from .signals import Column
 
 SETTLED = 100 * US
-"""ps from the end of an initialisation to the first pattern, at most."""
+"""Longest time from the end of an initialisation to the first pattern, ps."""
 LEAD_S = 0.2
-"""The model has been on for so long before the capture begins."""
+"""Time that the model runs before the capture begins, s."""
 MOST_PPM = 1000
 MOST_EDGES = 10_000
-"""Edges of the model that are kept as objects."""
+"""Number of edges of the model that are stored as objects."""
 STEP = 1_000_000
-"""Cycles that the model runs at a time."""
+"""Number of cycles that the model runs per call."""
 CLK_HZ = 16_000_000
 WINDOW = 256
-"""Edges that are matched one by one after a difference."""
+"""Number of edges that are matched one by one after a difference."""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """An edge that only one side has, or that comes too late or too early. t: ps of the capture.
-    steady: not an edge but a level of the chip, which the model does not have there."""
+    """Edge that only the chip or only the model has, or that occurs too late or too early.
+
+    t: ps of the capture. steady: not an edge but a stable level of the chip, which the model does not have
+    there.
+    """
 
     pin: str
     t: int
@@ -52,7 +57,7 @@ class Difference:
     steady: bool = False
 
     def text(self) -> str:
-        """One line."""
+        """Return the difference in one line."""
         if self.steady:
             return f"{self.t / SECOND:.6f} s: {self.pin} is {self.level}: the model has {1 - self.level}"
         who = (
@@ -64,14 +69,14 @@ class Difference:
 
 
 class Differences(Sequence[Difference]):
-    """Differences in columns, in the order of their times once they are sorted."""
+    """Differences, stored in columns; in order of time after `sort`."""
 
     def __init__(self) -> None:
         self._times, self._forms = array("q"), array("q")
         self._pins: list[str] = []
 
     def add(self, one: Difference) -> None:
-        """Append one."""
+        """Append a difference."""
         if self._pins[-1:] != [one.pin]:
             self._pins.append(one.pin)
         self._times.append(one.t)
@@ -102,9 +107,17 @@ class Differences(Sequence[Difference]):
 
 @dataclass
 class Result:
-    """compared: pairs of edges; worst: ps between two of a pair, on this pin; total: of all. begin: ps from
-    which edges count. ppm: how much faster the chip's crystal ran by the analyser's clock. skipped: outputs
-    that could not be compared, with the reason. pins: those that were."""
+    """Result of a comparison.
+
+    Attributes:
+        compared: number of pairs of edges.
+        worst: largest distance of a pair in ps, on the pin `worst_pin`.
+        begin: ps from which edges count.
+        ppm: how much faster the chip's crystal ran, measured with the analyser's clock.
+        skipped: outputs that could not be compared, with the reason.
+        pins: outputs that were compared.
+        total: sum of the distances of all pairs in ps.
+    """
 
     compared: int = 0
     differences: Differences = field(default_factory=Differences)
@@ -118,11 +131,11 @@ class Result:
 
     @property
     def mean(self) -> float:
-        """ps between two of a pair on average."""
+        """Mean distance of a pair in ps."""
         return self.total / max(1, self.compared)
 
     def add_pairs(self, pin: str, apart: Column) -> None:
-        """Count pairs. apart: ps between the two of each."""
+        """Count pairs. apart: distance of each pair in ps."""
         self.compared += len(apart)
         self.total += int(apart.sum())
         if (worst := int(apart.max(initial=0))) > self.worst:
@@ -130,7 +143,14 @@ class Result:
 
 
 def compare(decoded: Decoded, tolerance: int) -> Result:
-    """tolerance: ps. CaptureError for a capture that begins nowhere."""
+    """Compare a capture with the golden model.
+
+    Args:
+        tolerance: largest distance of a pair in ps.
+
+    Raises:
+        CaptureError: the capture contains no defined beginning.
+    """
     begin, starts, reset = _begin(decoded)
     first = _run(decoded, begin, 1.0)
     ratio = _ratio(decoded, first, begin)
@@ -144,7 +164,10 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
 
 
 def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
-    """If most edges differ and the other TIMING fits: the line that says so; else nothing."""
+    """Return a line that proposes the other TIMING, or an empty text.
+
+    It is proposed if most edges differ and the other TIMING matches.
+    """
     if len(result.differences) <= result.compared:
         return ""
     other = "DATASHEET" if decoded.timing == "FAST" else "FAST"
@@ -155,8 +178,11 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """From where on the model can follow, from where on the edges of each axis count, and whether a reset is
-    there."""
+    """Return the beginning of a comparison.
+
+    It consists of the time from which the model can follow, the times from which the edges of each axis
+    count, and whether the capture contains a reset.
+    """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
         falls, rises = reset.times[reset.levels == 0], reset.times[reset.levels == 1]
@@ -181,13 +207,13 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
 
 @dataclass
 class _Played:
-    """What the model did, in ps of the capture."""
+    """Outputs of the model in ps of the capture."""
 
     outputs: dict[str, Channel]
 
 
 def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
-    """Inputs into a fresh model. ratio: time of the model for one of the capture."""
+    """Drive a new model with the inputs. ratio: time of the model divided by time of the capture."""
     kind, wires = decoded.kind, decoded.wires
     straps = kind.straps(wires)
     clk_hz = _clk_hz(decoded)
@@ -231,7 +257,7 @@ def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]
 
 
 class _Outputs:
-    """Outputs of a model in columns; the model's own list is emptied as they are taken."""
+    """Outputs of a model in columns; the list of the model is cleared when they are fetched."""
 
     def __init__(self, model: Any, kind: DecodeKind, lead: int, stamp: Callable[[int], int]) -> None:
         self.model, self.kind, self.lead, self.stamp = model, kind, lead, stamp
@@ -240,14 +266,14 @@ class _Outputs:
         self.levels = {name: array(level_code(kind.pins.widths[name])) for name in kind.outputs}
 
     def run(self, until: int) -> None:
-        """Run the model, and take its edges before they are many."""
+        """Run the model, and fetch its edges before there are too many."""
         while self.model.now < until:
             self.model.run_until(min(until, self.model.now + STEP))
             if len(self.model.log.edges) > MOST_EDGES:
                 self.take()
 
     def take(self, rest: int = 1000) -> None:
-        """Take all edges but the last ones, which the model may still change."""
+        """Fetch all edges except the last ones, which the model may still change."""
         log = self.model.log
         ready = log.edges[: max(0, len(log.edges) - rest)]
         for one in ready:
@@ -262,7 +288,7 @@ class _Outputs:
         del log.edges[: len(ready)]
 
     def channels(self) -> dict[str, Channel]:
-        """All outputs."""
+        """Return all outputs."""
         np = numpy()
         self.take(0)
         return {
@@ -277,7 +303,10 @@ class _Outputs:
 
 
 def _clk_hz(decoded: Decoded) -> int:
-    """Of the model: the map's, that of a captured clk (our own captures are exact then), or fine enough."""
+    """Return the clock frequency of the model.
+
+    It is that of the map, that of a captured clk (then our own captures are exact), or a high default.
+    """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))
     clk = decoded.wires.bits.get("clk", {}).get(0)
@@ -291,7 +320,10 @@ def _clk_hz(decoded: Decoded) -> int:
 
 
 def _inputs(decoded: Decoded) -> dict[str, Channel]:
-    """Captured inputs but those of the host; bits of a port that were not captured rest."""
+    """Return the captured inputs except those of the host.
+
+    Bits that were not captured are inactive.
+    """
     found: dict[str, Channel] = {}
     kind = decoded.kind
     for port, places in decoded.wires.bits.items():
@@ -306,12 +338,14 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 
 
 def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
-    """Time of the model for one of the capture, from long moves that both have made alike; 1 if there is
-    nothing to learn."""
+    """Return the time of the model divided by the time of the capture.
+
+    It is measured in long moves that both have in common; without such moves it is 1.
+    """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.kind.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # A pulse may be a sample off at both ends: less than that says nothing.
+    # A pulse may be a sample off at both ends: a smaller difference has no meaning.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -322,11 +356,14 @@ def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
 
 
 def learned(alike: list[tuple[int, int]], slack: int) -> float:
-    """Time of the model for one of the capture from the lengths of moves of both, ps; 1 if they say nothing.
-    slack: ps by which a length may be off."""
+    """Return the time of the model divided by the time of the capture.
+
+    It is measured in the lengths of moves of both in ps, and is 1 if they do not define it. slack: possible
+    error of a length in ps.
+    """
     if not alike:
         return 1.0
-    # A switch or a stop may have ended a move, not its pulses: then it is not as long as the others say.
+    # A move that a switch or a stop ended, not its pulses, has another length than the others indicate.
     middle = _middle([(other / mine, mine) for mine, other in alike])
     alike = [(mine, other) for mine, other in alike if abs(other - middle * mine) <= 2 * slack]
     chip, model = (sum(times) for times in zip(*alike, strict=True)) if alike else (0, 0)
@@ -336,7 +373,7 @@ def learned(alike: list[tuple[int, int]], slack: int) -> float:
 
 
 def _middle(rows: list[tuple[float, int]]) -> float:
-    """Median of values with weights."""
+    """Return the median of weighted values."""
     ordered = sorted(rows)
     sums = list(accumulate(weight for _, weight in ordered))
     return ordered[bisect_left(sums, sums[-1] / 2)][0]
@@ -398,7 +435,7 @@ def _judge(
 def _same_place(
     port: str, places: Mapping[int, Channel], played: _Played, starts: dict[int, int], kind: DecodeKind
 ) -> bool:
-    """Whether chip and model show the same phases when the comparison begins."""
+    """Return True if chip and model have the same phases at the beginning of the comparison."""
     start = starts.get(kind.axis_of(port, 0), starts[0]) + SETTLED
     return all(
         level_at(channel, start) == level_at(played.outputs[port].bit(bit), start)
@@ -416,13 +453,16 @@ def match_edges(
     known: bool,
     result: Result,
 ) -> None:
-    """Add pairs of edges, and edges without a partner. known: both sides began alike; else they count from
-    where they agree first."""
+    """Add pairs of edges, and edges without a partner.
+
+    known: both sides have the same first level; otherwise edges count from the first time at which they
+    agree.
+    """
     np = numpy()
     mine, levels = chip.since(start)
     other, theirs = model.since(start)
     if not known and level_at(chip, start) != level_at(model, start):
-        # The side that changes first agrees with the other from then on.
+        # The side that changes first agrees with the other one from then on.
         if int(mine[0] if len(mine) else end + 1) < int(other[0] if len(other) else end + 1):
             mine, levels = mine[1:], levels[1:]
         else:
@@ -451,8 +491,12 @@ def _unlike(
     tolerance: int,
     result: Result,
 ) -> tuple[int, int]:
-    """Match edges where the sides are not alike, one by one; return how many of each side. more: whether a
-    side has edges after these."""
+    """Match edges one by one where the sides differ.
+
+    It returns the number of matched edges of each side.
+
+    more: whether a side has further edges.
+    """
     mine, levels, other, theirs = sides
     pairs: list[int] = []
     never = end + 2 * tolerance + 1
@@ -480,7 +524,7 @@ def _unlike(
 def _constant(
     name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int, result: Result
 ) -> None:
-    """Add the first of these times at which both sides are steady at different levels."""
+    """Add the first of these times at which both sides are stable at different levels."""
     np = numpy()
     at = np.array(points, np.int64)
     steady = np.ones(len(at), bool)

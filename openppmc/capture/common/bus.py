@@ -1,4 +1,4 @@
-"""Strobes on a parallel bus: when, which register, which byte."""
+"""Strobes on a parallel bus: time, register and byte of each access."""
 
 from __future__ import annotations
 
@@ -9,18 +9,25 @@ from .kind import Accesses, Wires
 from .signals import Channel, numpy, slices
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
-"""Whether these levels are a write strobe, a read strobe."""
+"""Function that tests whether levels are a write strobe, and a read strobe."""
 
 
 def accesses(
     wires: Wires, pins: Sequence[str], address: str, idle: Mapping[str, int], strobes: Strobe, bus: str = "d"
 ) -> Accesses:
-    """All strobes of a capture, in order. pins: those that make a strobe. idle: levels of pins that were not
-    captured. bus: name of the data. A strobe that the capture begins or ends in is left out."""
+    """Return all strobes of a capture in order.
+
+    A strobe at the beginning or end of the capture that is incomplete is omitted.
+
+    Args:
+        pins: pins that make a strobe.
+        idle: levels of pins that were not captured.
+        bus: name of the data bus.
+    """
     np = numpy()
     data, where = _bus(wires, bus), wires.ports.get(address)
     channels = {pin: wires.ports[pin] for pin in pins if pin in wires.ports}
-    # Each combination of levels is decoded once: it is a number with the levels of one pin after the other.
+    # Each combination of levels is decoded once: it is a number that consists of the levels of all pins.
     places: dict[str, int] = {}
     width = start = 0
     for pin, channel in channels.items():
@@ -49,13 +56,14 @@ def accesses(
         turn = np.empty(len(kinds), bool)
         turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
         last = int(kinds[-1]) if len(kinds) else last
-        # The strobe in the lowest bits of the time.
+        # The lowest bits of the time contain the strobe.
         turned = np.concatenate((before, times[turn] << 2 | kinds[turn]))
         before = turned[-1:]
         whole = np.flatnonzero(turned[:-1] & 3)
         begin, end, write = turned[whole] >> 2, turned[whole + 1] >> 2, turned[whole] & 1 == 1
-        # What the bus had while the strobe was still there. Sampled wires that change together may be a
-        # sample apart: before the last sample of the strobe, or in its middle if it is that short.
+        # Sample the bus while the strobe is still active. Sampled wires that change together may be a
+        # sample apart. Therefore use the value before the last sample of the strobe, or in its middle if it
+        # is that short.
         seen = np.maximum((begin + end) // 2, end - wires.sample - 1)
         place = where.at_all(seen) if where else seen & 0
         byte = np.where(write, data[True].at_all(seen), data[False].at_all(seen))
@@ -67,7 +75,7 @@ def accesses(
 
 
 def _bus(wires: Wires, bus: str) -> dict[bool, Channel]:
-    """Data bus by direction, True = write: one bus of the chip, or two of the core."""
+    """Return the data bus by direction, True = write: one bus of the chip, or two of the core."""
     if bus in wires.ports:
         return {True: wires.ports[bus], False: wires.ports[bus]}
     nothing = Channel()

@@ -1,4 +1,4 @@
-"""Parts with the registers A0 = 0 (data) and 1 (command, status): what their kinds have in common."""
+"""Parts with the registers A0 = 0 (data) and 1 (command, status): their shared capture code."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .registers import Judged, cycle, spoken_bytes
 from .words import Exchange, Words
 
 SHORTEST = 250_000
-"""ps; the shortest strobe that an old host may make and an analyser must see."""
+"""Shortest strobe of an old host, which an analyser must sample, ps."""
 STEADY = ("busc", "aen")
-"""Pins of strobes that may be left out of a capture: they stand still."""
+"""Pins of strobes that may be missing in a capture, because they do not change."""
 
 
 def byte_part(
@@ -33,10 +33,18 @@ def byte_part(
     bus: str = "d",
     aliases: Mapping[str, str] | None = None,
 ) -> DecodeKind:
-    """model: inputs, outputs, widths of the golden model. strobe_pins: those of which a strobe is made.
-    words: the meaning of bytes, of this capture if it is a function. code: a command byte decoded.
-    levels: of these pins and the address during an access. address: the port whose bit 0 chooses the
-    register. bus: name of the data. aliases: other names of pins."""
+    """Return the capture functions of a part on a byte bus.
+
+    Args:
+        model: inputs, outputs, widths of the golden model.
+        strobe_pins: pins that make a strobe.
+        words: meaning of bytes; a function returns it for a capture.
+        code: decodes a command byte.
+        levels: returns the levels of these pins and the address during an access.
+        address: port whose bit 0 selects the register.
+        bus: name of the data bus.
+        aliases: other names of pins.
+    """
     inputs, outputs, widths = model
 
     def seen(wires: Wires) -> Accesses:

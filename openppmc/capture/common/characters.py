@@ -12,11 +12,14 @@ if TYPE_CHECKING:
     from .signals import Column
 
 GAP = 2.0
-"""Characters that are farther apart belong to different frames, in characters."""
+"""Gap in characters between different frames, at least."""
 
 
 class Character(NamedTuple):
-    """begin: ps of the start bit, end: of the stop bit. byte: None without a stop bit."""
+    """Character. begin: ps of the start bit.
+
+    end: ps of the stop bit. byte: `None` without a stop bit.
+    """
 
     begin: int
     end: int
@@ -24,7 +27,7 @@ class Character(NamedTuple):
 
 
 def characters(channel: Channel, rate: float) -> list[Character]:
-    """All characters; a start bit shorter than half a bit is none."""
+    """Return all characters; a start bit shorter than half a bit is ignored."""
     np = numpy()
     bit = SECOND / rate
 
@@ -46,7 +49,11 @@ def characters(channel: Channel, rate: float) -> list[Character]:
 
 
 def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
-    """The rate whose characters fit best: start and stop bits where they must be. CaptureError if none."""
+    """Return the rate whose characters match best, with start and stop bits where they must be.
+
+    Raises:
+        CaptureError: no rate matches.
+    """
     np = numpy()
     best, most = 0.0, 0.0
     for rate in rates:
@@ -54,14 +61,14 @@ def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
         if not found:
             continue
         bit = SECOND / rate
-        # Every change lies near a border of a bit; at a wrong rate few do.
+        # Every change is near a border of a bit; at a wrong rate only few changes are.
         begin, end = (np.array([one[side] for one in found]) for side in (0, 1))
         place = begin.searchsorted(channel.times, "right") - 1
         inside = (place >= 0) & (channel.times < end[place] - bit / 2)
         bits = (channel.times[inside] - begin[place[inside]]) / bit
         near = (np.abs(bits - np.rint(bits)) < 0.25).mean() if len(bits) else 0.0
         good = sum(one.byte is not None for one in found) / len(found) * near
-        # Slower rates swallow whole characters: the number of characters decides between those that fit.
+        # Slower rates swallow whole characters: among matching rates, the number of characters decides.
         score = good if good > 0.95 else 0.0
         if score and (score > most + 0.02 or (score > most - 0.02 and rate < best)):
             best, most = rate, score

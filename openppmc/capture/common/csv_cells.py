@@ -1,4 +1,4 @@
-"""Single cells of a capture in CSV: times, levels, heads of columns."""
+"""Single cells of a capture in CSV: times, levels, column headings."""
 
 from __future__ import annotations
 
@@ -27,11 +27,14 @@ _ISO = re.compile(
 _CLOCK = re.compile(r"(?P<second>\d+:\d\d:\d\d)(?:[.,](?P<part>\d+))?(?P<zone>)")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([^\W\d]*)", re.I)
 _SIGROK = {1: 12, 1000: 9, 10**6: 6, 10**9: 3, 10**12: 0}
-"""ps (as 10**n) of the unit in which sigrok writes a sample rate up to that number of Hz."""
+"""ps (as 10**n) of the unit in which sigrok writes times, by sample rate.
+
+A unit is valid up to this number of Hz.
+"""
 
 
 def text_of(data: bytes) -> str:
-    """Return text in UTF-8, or in Latin-1 if it is not."""
+    """Return text in UTF-8, or in Latin-1 if it is no UTF-8."""
     try:
         return data.decode()
     except UnicodeDecodeError:
@@ -39,7 +42,7 @@ def text_of(data: bytes) -> str:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """Return the cells of a line; a cell that is very long makes it one."""
+    """Return the cells of a line; a very long cell makes the line one cell."""
     try:
         return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
     except csv.Error:
@@ -47,7 +50,7 @@ def cells_of(line: str, separator: str) -> list[str]:
 
 
 def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
-    """A time or number of a sample, and whether it is in ps; None if it is neither."""
+    """Return a time or sample number, and whether it is in ps; `None` for other text."""
     text = text.strip().strip('"')
     if separator != ",":
         text = text.replace(",", ".")
@@ -72,7 +75,7 @@ def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
 
 @lru_cache(maxsize=1000)
 def _second(text: str) -> int | None:
-    """Seconds of a time stamp without its decimals; None for a date or time that does not exist."""
+    """Return the seconds of a time stamp without decimals, `None` for an invalid date or time."""
     match = _ISO.fullmatch(text)
     if match is None:
         hours, minutes, seconds = map(int, text.split(":"))
@@ -86,7 +89,7 @@ def _second(text: str) -> int | None:
 
 
 def level_of(text: str) -> int | None:
-    """0, 1, 2 for an unknown level; None if it is no level."""
+    """Return 0, 1, or 2 for an unknown level; `None` for other text."""
     text = text.strip().strip('"')
     found = LEVELS.get(text)
     if found is None and (found := LEVELS.get(text.lower())) is None:
@@ -96,7 +99,7 @@ def level_of(text: str) -> int | None:
 
 
 def is_time(head: str) -> bool:
-    """Return whether this is the head of a column of times."""
+    """Return whether this is the heading of a column of times."""
     text = head.strip().strip('"')
     match = _TIME.fullmatch(text)
     if match is None:
@@ -105,12 +108,15 @@ def is_time(head: str) -> bool:
 
 
 def is_samples(head: str) -> bool:
-    """Return whether this is the head of a column of numbers of samples."""
+    """Return whether this is the heading of a column of sample numbers."""
     return bool(_SAMPLES.fullmatch(head.strip().strip('"')))
 
 
 def unit_of(head: str) -> Fraction | None:
-    """ps of the unit in `Time [s]`, `Time (ms)`, `nanoseconds`; None if it names none, 0 if it is unknown."""
+    """Return ps of the unit in `Time [s]`, `Time (ms)`, `nanoseconds`.
+
+    It is None without a unit, and 0 for an unknown unit.
+    """
     match = _TIME.fullmatch(head.strip().strip('"'))
     if match is None:
         return None
@@ -121,5 +127,8 @@ def unit_of(head: str) -> Fraction | None:
 
 
 def sigrok_unit(rate: Fraction) -> int:
-    """ps (as 10**n) of the unit in which sigrok writes times at this rate; whole times of others, too."""
+    """Return ps (as 10**n) of the unit in which sigrok writes times at this rate.
+
+    Whole times of other programs have the same unit.
+    """
     return next((ps for hz, ps in _SIGROK.items() if rate <= hz), 0)

@@ -1,7 +1,9 @@
-"""Captures in CSV: Saleae Logic, sigrok, DSView, KingstVIS, WaveForms and others with a column per channel.
+"""Captures in CSV with one column per channel.
 
-A row is a sample or a change. Times are in a first column, in a stated unit, as ISO time stamps or as numbers
-of samples; without one a sample rate in the head gives them. Times count from the first row.
+The files are those of Saleae Logic, sigrok, DSView, KingstVIS, WaveForms and others.
+
+A row is a sample or a change. The first column contains times in a stated unit, ISO time stamps or sample
+numbers. Without this column, a sample rate in the header defines the times. Times count from the first row.
 """
 
 from __future__ import annotations
@@ -25,11 +27,11 @@ if TYPE_CHECKING:
     from .signals import Column
 
 PREAMBLE = 100
-"""Lines before the table, at most."""
+"""Largest number of lines before the table."""
 
 
 def read_csv(path: Path) -> Capture:
-    """CaptureError for a file that is none of these, or cut."""
+    """Read a capture. Raises CaptureError for another or incomplete file."""
     needs("decode", f"{path.name}: a capture in CSV", "numpy")
     try:
         return _Table(path.name, _Lines(path)).read()
@@ -40,7 +42,7 @@ def read_csv(path: Path) -> Capture:
 
 
 class _Lines:
-    """Lines of a file, one after the other; then the rest in blocks of whole lines."""
+    """Lines of a file one by one, then the rest in blocks of whole lines."""
 
     def __init__(self, path: Path) -> None:
         self._blocks = _blocks(path)
@@ -57,14 +59,14 @@ class _Lines:
             yield text_of(self._block[self._place : self._next])
 
     def rest(self) -> Iterator[bytes]:
-        """Yield all from the line that was read last."""
+        """Yield everything from the line that was read last."""
         yield self._block[self._place :]
         self._block = b""
         yield from self._blocks
 
 
 def _blocks(path: Path) -> Iterator[bytes]:
-    """Whole lines that end in a line feed; only the last one of a file may have none."""
+    """Yield whole lines that end in a line feed; only the last one of a file may have none."""
     rest = b""
     for piece in chunks(path):
         if b"\0" in piece:
@@ -82,7 +84,7 @@ def _blocks(path: Path) -> Iterator[bytes]:
 
 
 class _Table:
-    """A file while it is read."""
+    """File that is being read."""
 
     def __init__(self, name: str, lines: _Lines) -> None:
         self.name, self.lines = name, lines
@@ -95,11 +97,11 @@ class _Table:
         """Number of the line that was read last."""
 
     def fail(self, what: str) -> CaptureError:
-        """The error at the current line."""
+        """Return the error for the current line."""
         return CaptureError(f"{self.name}: line {self.line}: {what}")
 
     def read(self) -> Capture:
-        """All of it. CaptureError."""
+        """Read the whole file. Raises CaptureError."""
         heads = self._head()
         names = heads[1:] if self.timed else heads
         if len(set(names)) < len(names):
@@ -112,7 +114,7 @@ class _Table:
         return self._rows(names)
 
     def _head(self) -> list[str]:
-        """Names of all columns. The line that was read last is the first row."""
+        """Return the names of all columns. The line that was read last is the first row."""
         before: list[tuple[str, int]] = []
         for line in self.lines:
             self.line += 1
@@ -137,7 +139,7 @@ class _Table:
         )
 
     def _blame(self, before: list[tuple[str, int]]) -> None:
-        """CaptureError that says why there is no table, if that is known."""
+        """Raise a CaptureError that states why there is no table, if that is known."""
         for (head, _), (row, number) in zip(before, [*before[1:], ("", 0)], strict=True):
             for separator in "\t;,":
                 heads = cells_of(head, separator)
@@ -159,7 +161,7 @@ class _Table:
             self.told = [name.strip() for name in match[1].split(",")]
 
     def _shape(self, head: str, row: str) -> list[str] | None:
-        """Names if these two lines are the head and the first row of a table."""
+        """Return the names if these two lines are the heading and the first row of a table."""
         for separator in "\t;,":
             heads, cells = cells_of(head, separator), cells_of(row, separator)
             # A row with a comma is not a level with a decimal comma.
@@ -193,13 +195,13 @@ class _Table:
         return None
 
     def _names(self, count: int) -> list[str]:
-        """Names of the comment, or numbers."""
+        """Return the names of the comment, or numbers."""
         if len(self.told) in (count, count - 1):
             return [*self.told, "Trigger"][:count]
         return [f"logic{place}" for place in range(count)]
 
     def _headless(self, row: str) -> list[str] | None:
-        """Names if this is a row of a table of sigrok without a line of names."""
+        """Return the names if this is a row of a sigrok table without a line of names."""
         for separator in "\t;,":
             cells = cells_of(row, separator)
             if len(cells) < 2 and separator != ",":
@@ -222,7 +224,7 @@ class _Table:
         return None
 
     def _rows(self, names: list[str]) -> Capture:
-        """Channels from all rows. CaptureError."""
+        """Read the channels from all rows. Raises CaptureError."""
         layout = Layout(
             self.name,
             self.line,
@@ -259,7 +261,7 @@ class _Table:
         return Capture(self.name, channels, end, 0 if self.rate is None else round(SECOND / self.rate))
 
     def _unit_of_times(self, rows: Rows) -> Fraction:
-        """ps of 1 in the columns. CaptureError if it is not known."""
+        """Return ps of 1 in the columns. Raises CaptureError if it is unknown."""
         if not self.timed or self.counted:
             if not rows.whole:
                 raise CaptureError(f"{self.name}: numbers of samples that are not whole: export it again")
@@ -285,12 +287,15 @@ class _Table:
         return unit / Fraction(10**rows.decimals)
 
     def _sampled(self, rows: Rows, scale: _Scale) -> _Scale:
-        """Times by the numbers of samples, if the head states the sample rate and the times are rounded."""
+        """Return the scale of sample numbers if the times are rounded.
+
+        This requires a sample rate in the header.
+        """
         if self.rate is None or not self.timed or self.counted:
             return scale
         period, part = SECOND / self.rate, 10**rows.decimals
         unit = scale.unit * part
-        # sigrok counts in periods that are cut to a whole number of units.
+        # sigrok counts in periods that are truncated to a whole number of units.
         cut = int(period / unit)
         if rows.whole and cut and period != cut * unit:
             offset = (rows.base or 0) % cut * part
@@ -303,8 +308,10 @@ class _Table:
 
 
 class _Scale:
-    """Turns times of a table into ps from the first row. unit: ps of 1. period: ps of a sample if the times
-    are rounded times of samples."""
+    """Conversion of times of a table to ps from the first row.
+
+    unit: ps of 1. period: ps of a sample if the times are rounded times of samples.
+    """
 
     def __init__(self, first: int, unit: Fraction, period: Fraction | None = None) -> None:
         self.first, self.unit, self.period = first, unit, period
@@ -317,7 +324,7 @@ class _Scale:
         return found
 
     def column(self, times: array[int]) -> Column:
-        """Return a whole column in ps; it takes the place of `times`."""
+        """Return a whole column in ps; it replaces `times`."""
         found: Column = numpy().frombuffer(times, "i8")
         for at in range(0, len(found), BLOCK):
             found[at : at + BLOCK] = self.of(found[at : at + BLOCK])

@@ -1,4 +1,4 @@
-"""Rows of a capture in CSV: all cells of a block at once, lines of another form one by one."""
+"""Rows of a capture in CSV: all cells of a block together, lines of another form one by one."""
 
 from __future__ import annotations
 
@@ -18,14 +18,19 @@ if TYPE_CHECKING:
 
 LONGEST = 1 << 62
 _DIGITS = 18
-"""A number of that many digits fits into an int64."""
+"""A number with this number of digits fits into an int64."""
 _NONE = 255
 """Not a level."""
 
 
 class Layout(NamedTuple):
-    """Form of a table. first: number of the line of its first row. counted: times are numbers of samples.
-    unit: of the times, ps; None if the head states none."""
+    """Form of a table.
+
+    Attributes:
+        first: number of the line of its first row.
+        counted: times are sample numbers.
+        unit: unit of the times in ps, `None` if the header states no unit.
+    """
 
     name: str
     first: int
@@ -37,13 +42,18 @@ class Layout(NamedTuple):
 
     @property
     def width(self) -> int:
-        """Bytes of the levels of a row with their separators."""
+        """Number of bytes of the levels of a row with their separators."""
         return 2 * self.channels - (not self.timed)
 
 
 class _Block:
-    """Lines that are read together. changed: the levels are not those of the line before; odd: the line is
-    of another form than time and levels of one character. levels: of the lines that changed."""
+    """Lines that are read together.
+
+    Attributes:
+        changed: the levels differ from those of the previous line.
+        odd: the line has another form than time and levels of one character.
+        levels: levels of the lines that changed.
+    """
 
     def __init__(self, block: bytes, layout: Layout, level: Column) -> None:
         np = numpy()
@@ -87,7 +97,7 @@ class _Block:
         marks = cells[:, 1 - timed :: 2] == separator[0]
         if not marks.all() or (self.levels == _NONE).any():
             bad = ~marks.all(axis=1) | (self.levels == _NONE).any(axis=1)
-            # A line that equals the one before is as good as that.
+            # A line that equals the previous one is as good or bad as that.
             self.odd |= bad[np.cumsum(self.changed) - 1]
         self.levels = self.levels[~self.odd[self.changed]]
         self.ends = ends - width
@@ -101,17 +111,17 @@ class _Block:
         return found
 
     def line(self, row: int) -> str:
-        """Text of a line."""
+        """Return the text of a line."""
         self._lines = self._lines or self.block.split(b"\n")
         return text_of(self._lines[row])
 
     def cell(self, row: int) -> str:
-        """Text of the time of a line that is not odd."""
+        """Return the text of the time of a line that is not odd."""
         return text_of(self.buf[self.starts[row] : self.ends[row]].tobytes())
 
 
 class _Numbers(NamedTuple):
-    """value / 10**decimals; valid: whether the cell is a plain number."""
+    """Number value / 10**decimals; valid: the cell is a plain number."""
 
     value: Column
     decimals: Column
@@ -119,11 +129,15 @@ class _Numbers(NamedTuple):
 
 
 class Rows:
-    """Changes of all channels, in columns that grow.
+    """Changes of all channels, in growing columns.
 
-    times: whole numbers, from `base` on, in units of 10**-decimals of the file's; without times the numbers
-    of the rows. levels: 0, 1, 2 (unknown). count: rows so far. whole: no time has decimals. absolute: the
-    times have a unit or a date.
+    Attributes:
+        times: whole numbers from `base` on, in units of 10**-decimals of the file's unit; without times the
+            numbers of the rows.
+        levels: 0, 1, 2 (unknown).
+        count: rows so far.
+        whole: no time has decimals.
+        absolute: the times have a unit or a date.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -151,12 +165,12 @@ class Rows:
         self._powers = np.array([10**n for n in range(_DIGITS + 1)], np.int64)
 
     def fail(self, line: int, what: str) -> CaptureError:
-        """The error at a line."""
+        """Return the error for a line."""
         return CaptureError(f"{self.layout.name}: line {line}: {what}")
 
     @property
     def end(self) -> int:
-        """Time of the last row. CaptureError."""
+        """Time of the last row. Raises CaptureError."""
         if self._last is not None:
             value = self._time(*self._last)
             self._rescale(value.denominator == 1)
@@ -167,7 +181,7 @@ class Rows:
         return self._end or 0
 
     def pieces(self) -> Iterator[Column]:
-        """Yield all times, in short columns."""
+        """Yield all times in short columns."""
         for column in self.times:
             times = self.np.frombuffer(column, self.np.int64)
             for at in range(0, len(times), BLOCK):
@@ -175,7 +189,7 @@ class Rows:
         yield self.np.array([self.end])
 
     def add(self, data: bytes) -> None:
-        """Read whole lines; only the last one of a file may lack its line feed. CaptureError."""
+        """Read whole lines; only the last one of a file may lack its line feed. Raises CaptureError."""
         np = self.np
         block = _Block(data, self.layout, self._level)
         kept = np.flatnonzero(block.changed | block.odd)
@@ -246,7 +260,7 @@ class Rows:
         return levels, self._time(line, cells[0]) if timed else Fraction(0)
 
     def _time(self, line: int, text: str) -> Fraction:
-        """Read a single time. CaptureError."""
+        """Read a single time. Raises CaptureError."""
         found = time_of(text, self.layout.separator)
         if found is None:
             raise self.fail(line, f"{text.strip()[:30]!r} is no time: export it again")
@@ -263,7 +277,7 @@ class Rows:
             raise self.fail(line, "times with and without a unit: write all of them alike")
 
     def _times(self, block: _Block, kept: Column, exact: dict[int, Fraction]) -> Column:
-        """Return the times of these lines. exact: those that are known."""
+        """Return the times of these lines. exact: known times."""
         np = self.np
         plain = kept[~block.odd[kept]]
         value, decimals, valid = self._numbers(block, block.starts[plain], block.ends[plain])
@@ -275,7 +289,7 @@ class Rows:
             exact |= {row: self._time(self._line + row, block.cell(row)) for row in dated.tolist()}
         plain, value, decimals = plain[valid], value[valid], decimals[valid]
         if len(decimals) and int(decimals.min()) == int(decimals.max()):
-            # The same for all: the columns below have a single row.
+            # The decimals are the same for all: the columns below have a single row.
             decimals = decimals[:1]
         power = self._powers[decimals.clip(0, _DIGITS)]
         whole = not (self.whole and (value % power).any())
@@ -301,7 +315,7 @@ class Rows:
         return times
 
     def _stamps(self, block: _Block, rows: Column) -> Column | None:
-        """Read time stamps of one form, as hh:mm:ss.fff. None if they are not."""
+        """Read time stamps of one form, such as hh:mm:ss.fff; return `None` for another form."""
         np = self.np
         size = block.ends[rows] - block.starts[rows]
         form = (
@@ -329,14 +343,17 @@ class Rows:
         return found
 
     def _scaled(self, value: Fraction) -> int:
-        """Return a time from `base` on. CaptureError."""
+        """Return a time from `base` on. Raises CaptureError."""
         found: int = round((value - (self.base or 0)) * 10**self.decimals)
         if abs(found) >= LONGEST:
             raise too_long(self.layout.name)
         return found
 
     def _rescale(self, whole: bool) -> None:
-        """Note whether times are whole. The first that is not makes the unit of `times` smaller."""
+        """Record whether times are whole.
+
+        The first time that is not whole makes the unit of `times` smaller.
+        """
         self.whole &= whole
         layout = self.layout
         if self.whole or self.decimals or self.absolute or layout.counted or layout.unit is not None:
@@ -355,7 +372,7 @@ class Rows:
         np = self.np
         size = ends - starts
         widest = max(1, min(int(size.max(initial=0)), _DIGITS + 6))
-        # A row for each place, so that all cells are read together.
+        # One row per place, so that all cells are read together.
         chars = np.ascontiguousarray(block.gather(ends, widest).view(np.uint8).reshape(-1, widest).T)
         value, decimals = np.zeros(len(size), np.int64), np.zeros(len(size), np.int64)
         points, signs = np.zeros(len(size), np.int64), np.zeros(len(size), bool)
@@ -389,7 +406,7 @@ class Rows:
 
 
 def too_long(name: str) -> CaptureError:
-    """The error for times that do not fit."""
+    """Return the error for times that do not fit."""
     return CaptureError(f"{name}: longer than 50 days: is the unit of the times right?")
 
 

@@ -1,4 +1,4 @@
-"""A capture by the pins of a part: pin map, clean-up, and what can be wrong with it."""
+"""Capture with the pins of a part: pin map, clean-up, and checks."""
 
 from __future__ import annotations
 
@@ -13,14 +13,22 @@ from .pulses import Move, moves
 from .signals import US, Bits, Capture, Channel, joined, without_glitches
 
 GLITCH = 30_000
-"""ps; shorter pulses are none: no strobe, bit or pulse of these chips is that short."""
+"""Shortest pulse in ps; shorter ones are ignored.
+
+No strobe, bit or pulse of these chips is that short.
+"""
 
 
 @dataclass
 class Decoded:
-    """A capture in words. glitches: pulses that were left out, by pin. missing: pins that were not captured.
-    crystal, timing: what the model gets. notes: on the file,
-    each once."""
+    """Decoded capture.
+
+    Attributes:
+        glitches: number of pulses that were ignored, by pin.
+        missing: pins that were not captured.
+        crystal, timing: parameters of the model.
+        notes: remarks on the file, each once.
+    """
 
     part: str
     kind: DecodeKind
@@ -37,17 +45,17 @@ class Decoded:
 
     @property
     def pause(self) -> int:
-        """ps between two moves."""
+        """Shortest time between two moves in ps."""
         return self.kind.pause * 16_000_000 // self.crystal
 
     @property
     def strange(self) -> int:
-        """Lines that make no sense for this part."""
+        """Number of lines that are invalid for this part."""
         return sum(line.strange for line in self.lines)
 
     @property
     def complaint(self) -> str:
-        """One line if this cannot be a capture of this part; empty if it may be."""
+        """Message if this cannot be a capture of this part; otherwise empty."""
         spoken = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
         if len(spoken) < 3 or 2 * self.strange <= len(spoken):
             return ""
@@ -63,14 +71,17 @@ class Decoded:
 
 
 def decoder(part: str) -> DecodeKind:
-    """What a part's own `decode.py` says. UnknownPartError."""
+    """Return the capture functions of a part (`decode.py`). Raises UnknownPartError."""
     kind: DecodeKind = parts.part(part).load("decode")
     return kind
 
 
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
-    """ "; it has the pins of …", if a pin that `without` needs is not there and the channels' names are those
-    of other parts; else nothing."""
+    """Return "; it has the pins of …" if the capture lacks a required pin and matches other parts.
+
+    It matches a part if the channels have the names of its pins. without: the requested part. In other cases
+    the text is empty.
+    """
     if chosen.pins is not None or _has_pins(capture, chosen, without):
         return ""
     found = [
@@ -82,7 +93,7 @@ def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
 
 
 def _has_pins(capture: Capture, chosen: PinMap, part: str) -> bool:
-    """Whether the channels are called like all pins that this part needs."""
+    """Return True if the channels have the names of all pins that this part needs."""
     kind = decoder(part)
     try:
         bits = wired(capture, chosen, kind.pins)
@@ -93,7 +104,16 @@ def _has_pins(capture: Capture, chosen: PinMap, part: str) -> bool:
 
 
 def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: int = GLITCH) -> Decoded:
-    """Pins, words, moves. part: wins over the map's. glitch: ps. CaptureError; UnknownPartError."""
+    """Decode a capture: pins, text, moves.
+
+    Args:
+        part: part, overrides that of the map.
+        glitch: shortest pulse in ps.
+
+    Raises:
+        CaptureError: the capture cannot be decoded.
+        UnknownPartError: there is no such part.
+    """
     name = part or chosen.part or capture.part
     if not name:
         names = ", ".join(row.name for row in parts.having("decode"))
@@ -119,7 +139,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
     crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))
     params = {**told, "XTAL_HZ": crystal, **chosen.parameters}
-    # Our own files have each edge at its clk: nothing is sampled there.
+    # In our own files each edge has the time of its clk edge, so nothing is sampled.
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:
@@ -158,7 +178,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
 
 
 def _remarks(doubtful: Sequence[str], blank: Sequence[str]) -> list[str]:
-    """One line on pins with unknown levels."""
+    """Return one line on pins with unknown levels."""
     if not doubtful and not blank:
         return []
     return [f"unknown levels (x, z, none), assumed inactive: {', '.join([*blank, *doubtful])}"]
@@ -167,14 +187,18 @@ def _remarks(doubtful: Sequence[str], blank: Sequence[str]) -> list[str]:
 def _clean(
     bits: Mapping[str, Mapping[int, Channel]], kind: DecodeKind, glitch: int
 ) -> tuple[dict[str, Mapping[int, Channel]], dict[str, int], list[str], list[str]]:
-    """Wires with known levels and without glitches; the number of glitches by port; pins with some unknown
-    levels, pins without a known level."""
+    """Return cleaned wires.
+
+    Returns:
+        Wires with known levels and without glitches; the number of glitches by port; pins with some unknown
+        levels; pins without a known level.
+    """
     clean: dict[str, Mapping[int, Channel]] = {}
     glitches: dict[str, int] = {}
     doubtful: list[str] = []
     blank: list[str] = []
     for port, places in bits.items():
-        # A clock is as fast as it is.
+        # A clock may be faster than the limit.
         shortest = 0 if port == "clk" else glitch
         idle = {"rst_n": 1, **kind.rests, **kind.inputs}.get(port, 0)
         own: dict[int, Channel] = {}
@@ -203,7 +227,7 @@ def _clean(
 
 
 def _check(kind: DecodeKind, wires: Wires, capture: Capture, blank: Sequence[str]) -> None:
-    """CaptureError if what must be there is not, or was sampled too slowly."""
+    """Raise CaptureError if a required pin is missing or was sampled too slowly."""
     needs = kind.needs(wires)
     for pin in needs.pins:
         if pin in wires.ports:

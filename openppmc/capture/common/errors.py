@@ -1,4 +1,4 @@
-"""What can be wrong with a capture or its pin map. One line that says what to do."""
+"""Error of a capture or its pin map. Its message is one line that states what to do."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from ...errors import PpmcError
 
 
 class CaptureError(PpmcError):
-    """The file, the pin map, or what the pins did."""
+    """The file, the pin map or the levels of the pins are invalid."""

@@ -1,4 +1,4 @@
-"""Opening a capture, whatever wrote it."""
+"""Opening of a capture of any program."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ MENUS = {
     ".kvdat": "in KingstVIS: File, Export, CSV",
     ".dwf3logic": "in WaveForms: File, Export, Acquisition, CSV",
 }
-"""Where the programs that write other files export a CSV."""
+"""Menu entries for the CSV export of programs that write other files."""
 
 
 def read_capture(path: Path) -> Capture:
-    """A VCD, a CSV of Saleae or sigrok, a .sr. CaptureError."""
+    """Read a VCD, a CSV of Saleae or sigrok, or a .sr. Raises CaptureError."""
     if not path.is_file():
         raise CaptureError(f"{path}: there is no such file")
     reader = READERS.get(path.suffix.lower())

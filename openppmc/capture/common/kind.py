@@ -1,4 +1,4 @@
-"""What a part says about captures of it, and what a decoded capture consists of."""
+"""Capture functions of a part, and the content of a decoded capture."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Access(NamedTuple):
-    """A strobe on the bus: from begin to end in ps. reg: level of the address pins."""
+    """Strobe on the bus from begin to end in ps. reg: level of the address pins."""
 
     begin: int
     end: int
@@ -24,7 +24,7 @@ class Access(NamedTuple):
 
 
 class Accesses:
-    """Strobes in order, a column for each field of `Access`. mask: as of numpy."""
+    """Strobes in order, a column for each field of `Access`. mask: as in numpy."""
 
     __slots__ = ("begin", "byte", "end", "reg", "write")
 
@@ -43,7 +43,7 @@ class Accesses:
             yield from map(Access._make, zip(*piece, strict=True))
 
     def without_polls(self, register: int) -> Accesses:
-        """Return them without reads of this register that repeat the read before."""
+        """Return the strobes without reads of this register that repeat the previous read."""
         polls = ~self.write & (self.reg == register)
         polls[1:] &= polls[:-1] & (self.byte[1:] == self.byte[:-1])
         polls[:1] = False
@@ -51,9 +51,15 @@ class Accesses:
 
 
 class Line(NamedTuple):
-    """What was said, in words. t: ps of its beginning. data: the bytes, as they were on the bus or line.
-    strange: this makes no sense for the part; initialises: from its end on the state of the part is known, or
-    of this axis. end: ps at which the last of its bytes was over."""
+    """Line of text of a capture.
+
+    Attributes:
+        t: ps of its beginning.
+        data: bytes as they were on the bus or line.
+        strange: the line is invalid for the part.
+        initialises: the state of the part, or of this axis, is known from the end of the line on.
+        end: ps at which the last of its bytes was over.
+    """
 
     t: int
     data: str
@@ -66,8 +72,13 @@ class Line(NamedTuple):
 
 @dataclass
 class Wires:
-    """A capture by the names of the pins. ports: complete ones, as numbers. bits: single ones, by port and
-    bit. end, sample: of the capture, ps."""
+    """Capture by the names of the pins.
+
+    Attributes:
+        ports: complete ports, as numbers.
+        bits: single bits, by port and bit.
+        end, sample: end and sample period of the capture, ps.
+    """
 
     ports: dict[str, Channel]
     bits: Mapping[str, Mapping[int, Channel]]
@@ -77,7 +88,10 @@ class Wires:
 
 
 class Train(NamedTuple):
-    """Pulses of an axis: times in ps, with the direction of each (1 = CCW); None if it is not known."""
+    """Pulses of an axis.
+
+    times: in ps. ways: direction of each pulse (1 = CCW), `None` if it is unknown.
+    """
 
     axis: int
     times: Column
@@ -85,7 +99,7 @@ class Train(NamedTuple):
 
 
 class Needs(NamedTuple):
-    """Pins without which nothing can be read, and the shortest strobe or bit on them, ps."""
+    """Required pins, and the shortest strobe or bit on them in ps."""
 
     pins: tuple[str, ...]
     shortest: int
@@ -93,17 +107,27 @@ class Needs(NamedTuple):
 
 @dataclass(frozen=True)
 class DecodeKind:
-    """called: the part in messages. pins: names for the map; the data bus is `d` where it is one. inputs:
-    those of the model, with the levels in which they rest.
-    needs: what must be there. lines: what was said, in words. stimulus: what the host did, as (ps, levels) of
-    pins of the model. trains: pulses per axis. host_pins: inputs of the model that `stimulus` and `straps`
-    set. outputs: those that are compared. phases: among them, those whose place in the ring is not known when
-    a capture begins in the middle. straps: levels that the model has from the beginning. parameters: of
-    the model, that the capture tells. prelude: brings a
-    fresh model to where a capture begins. axis_of: to which axis a bit of a port belongs, 0: to all.
-    rests: levels of the outputs in a reset. initialised: without a reset or an initialisation nothing can
-    be compared. pause: ps at a 16 MHz crystal between two moves (the slowest rate of a byte makes 2.05 ms);
-    more if the pulses are that slow.
+    """Capture functions of a part.
+
+    Attributes:
+        called: name of the part in messages.
+        pins: names for the map; the data bus is `d` if it is one bus.
+        inputs: inputs of the model with their idle levels.
+        needs: returns the required pins.
+        lines: returns the content as text.
+        stimulus: returns the actions of the host as (ps, levels) of pins of the model.
+        trains: returns the pulses per axis.
+        host_pins: inputs of the model that `stimulus` and `straps` set.
+        outputs: outputs that are compared.
+        phases: those outputs whose place in the ring is unknown if the capture begins during operation.
+        straps: returns levels that the model has from the beginning.
+        parameters: returns parameters of the model that the capture contains.
+        prelude: brings a new model to the beginning of a capture.
+        axis_of: returns the axis of a bit of a port, 0: all axes.
+        rests: levels of the outputs in a reset.
+        initialised: without a reset or an initialisation nothing can be compared.
+        pause: ps at a 16 MHz crystal between two moves; more if the pulses are that slow. The slowest rate of
+            a byte makes 2.05 ms.
     """
 
     called: str

@@ -1,14 +1,16 @@
-"""Which channel of a capture is which pin: a YAML or TOML file, or the channels' own names.
+"""Assignment of the channels of a capture to pins.
+
+Source is a YAML or TOML file, or the channels' own names.
 
 part: ppmc104            # or --part
-crystal: 16000000        # of the old chip, Hz
+crystal: 16000000        # of the original chip, Hz
 timing: DATASHEET        # FAST for a capture of our own core
-scope: station3          # of a VCD that has the same names in several: whose channels
+scope: station3          # of a VCD that has the same names in several scopes
 pins:
   d: [D0, D1, D2, D3, D4, D5, D6, D7]      # a port: bit 0 first
   a0: "ch 8"
-  cs_n: 9                # the channel's place in the file, from 0 on
-  alm_n: "!ALARM"        # behind an inverter
+  cs_n: 9                # place of the channel in the file, from 0 on
+  alm_n: "!ALARM"        # inverted
   s[1]: PH1              # one bit of a port
 """
 
@@ -36,15 +38,20 @@ _PIECE = re.compile(r"(.+?)\[(-?\d+):(-?\d+)\]")
 
 @dataclass(frozen=True)
 class Pins:
-    """Pins of a part that a map may name. widths: bits by name. lowest: number of the lowest bit where it is
-    not 0. aliases: other names."""
+    """Pins of a part that a map may contain.
+
+    Attributes:
+        widths: bits by name.
+        lowest: number of the lowest bit if it is not 0.
+        aliases: other names.
+    """
 
     widths: Mapping[str, int]
     lowest: Mapping[str, int] = field(default_factory=dict)
     aliases: Mapping[str, str] = field(default_factory=dict)
 
     def place(self, pin: str) -> tuple[str, int]:
-        """Port and bit of `s[1]` or `cs_n`. ValueError."""
+        """Return port and bit of `s[1]` or `cs_n`. Raises ValueError."""
         pin = self.aliases.get(pin, pin)
         match = _PLACE.fullmatch(pin)
         port, number = (match[1], int(match[2])) if match else (pin, -1)
@@ -63,18 +70,22 @@ class Pins:
         return port, bit
 
     def shown(self, port: str, bit: int) -> str:
-        """A pin as the manual writes it."""
+        """Return the name of a pin as in the manual."""
         return f"{port}[{bit + self.low(port)}]" if self.widths[port] > 1 else port
 
     def low(self, port: str) -> int:
-        """Number of the lowest bit, as the data sheet has it."""
+        """Return the number of the lowest bit as in the data sheet."""
         return self.lowest.get(port, 0)
 
 
 @dataclass
 class PinMap:
-    """A map as it was read. pins: text of the channel by pin, as written; None: by the channels' names.
-    scope: of a VCD, whose channels go before others of the same name."""
+    """Pin map from a file.
+
+    Attributes:
+        pins: text of the channel by pin, as written; `None`: the channels' own names are used.
+        scope: scope of a VCD, whose channels have priority over others of the same name.
+    """
 
     name: str = "the channels' names"
     part: str | None = None
@@ -86,7 +97,7 @@ class PinMap:
 
 
 def _yaml(text: str, name: str) -> Any:
-    """ValueError for what is no YAML."""
+    """Parse YAML. Raises ValueError for other text."""
     needs("decode", f"{name}: a pin map in YAML", "yaml")
     import yaml
 
@@ -97,7 +108,7 @@ def _yaml(text: str, name: str) -> Any:
 
 
 def read_map(path: Path) -> PinMap:
-    """CaptureError for a file that is no map."""
+    """Read a map. Raises CaptureError for another file."""
     try:
         text = read_text(path)
         values = _toml(text) if path.suffix.lower() == ".toml" else _yaml(text, path.name)
@@ -145,7 +156,10 @@ def _toml(text: str) -> Any:
 
 
 def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int, Channel]]:
-    """Channels by port and bit. CaptureError for a map that does not fit capture or part."""
+    """Return channels by port and bit.
+
+    Raises CaptureError for a map that does not match capture or part.
+    """
     found: dict[str, Mapping[int, Channel]] = {}
     used: dict[str, str] = {}
     capture = _scoped(capture, chosen.scope)
@@ -179,7 +193,11 @@ def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int
 
 
 def _scoped(capture: Capture, scope: str) -> Capture:
-    """The capture with the channels of a scope by their plain names. CaptureError if it has no such scope."""
+    """Return the capture with the channels of a scope by their plain names.
+
+    Raises:
+        CaptureError: the capture has no such scope.
+    """
     if not scope:
         return capture
     own = {
@@ -195,7 +213,7 @@ def _scoped(capture: Capture, scope: str) -> Capture:
 
 
 def _channel(capture: Capture, what: object) -> tuple[str, Channel]:
-    """By name or place; `!` in front turns it round."""
+    """Return a channel by name or place; `!` before it inverts it."""
     names = list(capture.channels)
     if isinstance(what, int) and not isinstance(what, bool):
         if not 0 <= what < len(names):
@@ -221,7 +239,7 @@ def _channel(capture: Capture, what: object) -> tuple[str, Channel]:
 
 
 def _indexed(capture: Capture, name: str, index: int) -> Channel:
-    """Bit of a vector by its declared index. ValueError."""
+    """Return a bit of a vector by its declared index. Raises ValueError."""
     ranges = []
     for key, channel in capture.channels.items():
         piece = _PIECE.fullmatch(key)
@@ -239,7 +257,7 @@ def _indexed(capture: Capture, name: str, index: int) -> Channel:
 
 
 def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel]]) -> None:
-    """Channels that are called as the pins are."""
+    """Add the channels that have the names of pins."""
     used: dict[tuple[str, int], str] = {}
     for name, channel in capture.channels.items():
         plain = name.strip().lower()
@@ -249,7 +267,8 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel
                 port = piece[1] if piece else plain
                 width = pins.widths.get(port, 0)
                 if channel.width == width and not piece:
-                    # The lowest index is the port's lowest bit: [8:1] of a bus that the manual has as 7 to 0.
+                    # The lowest index is the lowest bit of the port: [8:1] of a bus that the manual numbers 7
+                    # to 0.
                     found[port] = Bits(channel)
                 elif width and piece:
                     own = found.setdefault(port, {})
@@ -282,13 +301,13 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel
 
 
 def _pieces(capture: Capture, port: str) -> list[tuple[str, Channel]]:
-    """Vectors that are parts of a port."""
+    """Return the vectors that are parts of a port."""
     rows = [(_PIECE.fullmatch(name.strip().lower()), name) for name in capture.channels]
     return [(name, capture.channels[name]) for piece, name in rows if piece and piece[1] == port]
 
 
 def _numbered(name: str, pins: Pins) -> str:
-    """`s1` is `s[1]`, `d0` is `d[0]`, `pout1_n` is `pout_n[1]`."""
+    """Return `s[1]` for `s1`, `d[0]` for `d0`, `pout_n[1]` for `pout1_n`."""
     match = re.fullmatch(r"([a-z]+?)_?(\d+)(_n)?", name)
     if match is None:
         match = re.fullmatch(r"([a-z]+\d*)\s*\[(\d+)\]()", name) or re.fullmatch(r"([a-z]+) (\d+)(_n)?", name)

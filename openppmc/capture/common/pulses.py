@@ -1,4 +1,4 @@
-"""Pulses in a capture: trains of an axis, and the moves that they make."""
+"""Pulses in a capture: pulses of an axis, and the moves that they form."""
 
 from __future__ import annotations
 
@@ -20,7 +20,13 @@ CHOPPED = 20 * 10**9
 
 @dataclass(frozen=True)
 class Move:
-    """Pulses without a pause. way: 1 CW, -1 CCW, 0 unknown. begin, end: ps. first, highest, last: pps."""
+    """Pulses without a pause.
+
+    Attributes:
+        way: 1 = CW, -1 = CCW, 0 = unknown.
+        begin, end: in ps.
+        first, highest, last: speeds in pps.
+    """
 
     axis: int
     begin: int
@@ -33,7 +39,7 @@ class Move:
 
 
 def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
-    """Pulses without a pause (ps), one way."""
+    """Return groups of pulses without a pause (ps) in one direction."""
     np = numpy()
     times = train.times
     if not len(times):
@@ -42,7 +48,7 @@ def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
     split = gaps > pause
     if train.ways is not None:
         split |= train.ways[1:] != train.ways[:-1]
-    # Slow pulses may be farther apart than a pause: up to 2.5 times the interval before.
+    # Slow pulses may have longer intervals than a pause: up to 2.5 times the previous interval.
     last_split = -1
     for place in np.flatnonzero(split).tolist():
         turned = train.ways is not None and train.ways[place] != train.ways[place + 1]
@@ -59,7 +65,10 @@ def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
 
 
 def moves(trains: list[Train], pause: int) -> list[Move]:
-    """In the order of their beginnings. pause: ps, between two of them at least."""
+    """Return the moves in the order of their beginnings.
+
+    pause: shortest time between two moves in ps.
+    """
     found = [_move(train.axis, *run) for train in trains for run in runs(train, pause)]
     return sorted(found, key=lambda move: move.begin)
 
@@ -71,7 +80,7 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
     gaps = np.diff(times)
     if not len(gaps):
         return Move(axis, begin, end, sign, len(times), 0.0, 0.0, 0.0)
-    # One interval alone may be short by a sample: the median of three says how fast it was.
+    # A single interval may be too short by a sample. Therefore the highest speed uses medians of three.
     least = min(gaps[:2].min(), gaps[-2:].min())
     if len(gaps) > 2:
         a, b, c = gaps[:-2], gaps[1:-1], gaps[2:]
@@ -81,13 +90,18 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
 
 
 def edges_of(channel: Channel, level: int) -> Column:
-    """Times at which a wire takes this level."""
+    """Return the times at which a wire changes to this level."""
     times: Column = channel.times[channel.levels == level]
     return times
 
 
 def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) -> Train | None:
-    """Pulses that begin with `level` on a bit of a port, `way` 1 = CCW; None if that pin was not captured."""
+    """Return pulses that begin with `level` on a bit of a port.
+
+    The result is `None` if that pin was not captured.
+
+    way: pin of the direction, 1 = CCW.
+    """
     pulses = wires.bits.get(port, {}).get(bit)
     if pulses is None:
         return None
@@ -97,8 +111,11 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
 
 
 def phase_train(wires: Wires, axis: int, port: str) -> Train | None:
-    """Steps of phases that were captured whole. Wires change one after the other within a few samples: what
-    they are 1 µs after a change is the pattern. All off or all on is the chopper."""
+    """Return the steps of phases that were captured completely.
+
+    Wires change one after the other within a few samples, so the pattern is the levels 1 µs after a change.
+    All off or all on is the chopper.
+    """
     phases = wires.ports.get(port)
     if phases is None:
         return None
@@ -115,8 +132,13 @@ def phase_train(wires: Wires, axis: int, port: str) -> Train | None:
 
 
 def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[int, Channel]:
-    """Phases without the off-times of a chopper: all off for a while, then the pattern of before. Wires
-    change one after the other within `window` ps. Without all wires: as they are."""
+    """Return phases without the off-times of a chopper.
+
+    An off-time is all phases off for a while, then the previous pattern.
+
+    Wires change one after the other within `window` ps. If a wire is missing, the phases are returned
+    unchanged.
+    """
     if len(bits) < width:
         return bits
     whole = joined([bits[bit] for bit in range(width)])

@@ -20,7 +20,7 @@ FINE = {"fs": 3, "femtosecond": 3, "femtoseconds": 3, "as": 6, "attosecond": 6, 
 
 
 def unit(name: str) -> Fraction | None:
-    """Return the ps of a unit of time, None if it is none."""
+    """Return the ps of a unit of time, `None` for other text."""
     name = name.strip().lower()
     if name in FINE:
         return Fraction(1, 10 ** FINE[name])
@@ -28,7 +28,7 @@ def unit(name: str) -> Fraction | None:
 
 
 def rate_in(line: str) -> Fraction | None:
-    """Return the sample rate in Hz that a line of a head states, None if it states none.
+    """Return the sample rate in Hz in a line of a header, `None` without one.
 
     >>> rate_in("; Samplerate: 24 MHz"), rate_in("#Sample rate: 1e+08Hz"), rate_in("; Channels: 3")
     (Fraction(24000000, 1), Fraction(100000000, 1), None)
@@ -38,7 +38,10 @@ def rate_in(line: str) -> Fraction | None:
 
 
 def hertz(text: str) -> Fraction | None:
-    """Return the Hz of `24 MHz`, `24000000` or `1.5k`; None if it is no rate from 1 mHz to 1 THz."""
+    """Return the rate in Hz of `24 MHz`, `24000000` or `1.5k`.
+
+    The result is `None` if the text is no rate from 1 mHz to 1 THz.
+    """
     match = re.fullmatch(rf"\s*{_NUMBER}", text, re.I)
     if match is None:
         return None

@@ -1,4 +1,4 @@
-"""Accesses to registers in words: rows of `Words`, with their times, and whether they make sense."""
+"""Accesses to registers as text: rows of `Words` with their times and a check."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from .signals import numpy
 from .words import END_STATUS, Exchange, Words
 
 KNOWN = 1000
-"""Rows whose texts are kept."""
+"""Number of rows whose texts are cached."""
 
 
 class Said(NamedTuple):
-    """An access as `Words` takes it."""
+    """Access in the form that `Words` accepts."""
 
     t: int
     kind: str
@@ -23,7 +23,7 @@ class Said(NamedTuple):
 
 
 class Judged(NamedTuple):
-    """What a row is. strange: nothing that this part knows."""
+    """Result of the check of a row. strange: invalid for this part."""
 
     strange: bool = False
     initialises: bool = False
@@ -36,7 +36,10 @@ def spoken(
     said: Callable[[Access], Said],
     judge: Callable[[Any], Judged],
 ) -> list[Line]:
-    """All accesses, a row a command with its answer. A row that the part's words cannot tell is strange."""
+    """Return all accesses as text, one row per command with its response.
+
+    A row that the part's words cannot describe is strange.
+    """
     rows = words.exchanges(map(said, accesses))
     begin, end = accesses.begin[accesses.write], accesses.end[accesses.write]
     found = []
@@ -51,9 +54,11 @@ def spoken(
 
 
 def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged]) -> list[Line]:
-    """The same for parts with commands and status in register 1, data in register 0; all rows at once.
+    """Return all accesses as text, from columns.
 
-    What `exchanges` does with one access after the other is done with columns here.
+    The function is for parts with commands and status in register 1 and data in register 0.
+
+    It does the work of `exchanges` with columns instead of single accesses.
     """
     np = numpy()
     accesses = accesses.without_polls(1)
@@ -61,7 +66,7 @@ def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged
         return []
     row = np.cumsum(accesses.write & (accesses.reg == 1))
     row -= row[0]
-    # The bytes of each row: what was sent, status, answers.
+    # The bytes of each row: bytes sent, status, responses.
     sort = 3 * row + np.where(accesses.write, 0, 2 - accesses.reg)
     content = accesses.byte.astype(np.uint8)[np.argsort(sort, kind="stable")].tobytes()
     bounds = [0, *np.cumsum(np.bincount(sort, minlength=3 * int(row[-1]) + 3)).tolist()]
@@ -108,7 +113,7 @@ def _hex(data: Sequence[int]) -> str:
 
 
 def cycle(access: Access, levels: dict[str, int], data: str = "d_i") -> list[tuple[int, dict[str, int]]]:
-    """A clean strobe for the golden model: levels at its begin, and those of its end."""
+    """Return a clean strobe for the golden model: levels at its begin, and those at its end."""
     begin = {**levels, data: access.byte} if access.write else levels
     idle = {pin: 1 for pin, level in levels.items() if pin.endswith("_n") and not level and pin != "rst_n"}
     return [(access.begin, begin), (access.end, idle)]

@@ -1,4 +1,7 @@
-"""Channels of a logic analyser with their changes, in columns. Times are whole ps from the first sample."""
+"""Channels of a logic analyser with their changes, in columns.
+
+Times are whole ps from the first sample.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ US = 1_000_000
 """Picoseconds of a microsecond."""
 SECOND = 10**12
 BLOCK = 1 << 16
-"""Rows of a column that are worked on at a time, so that temporary columns are short."""
+"""Number of rows of a column that are processed together, so that temporary columns are short."""
 
 
 def numpy(what: str = "a capture") -> Any:
@@ -35,16 +38,21 @@ def level_type(width: int) -> str:
 
 
 def level_code(width: int) -> str:
-    """Return the same type for an array."""
+    """Return the type code of an array for a level of `width` bits."""
     return {"u1": "B", "u2": "H", "u4": "I", "u8": "Q"}[level_type(width)]
 
 
 class Channel:
-    """A wire, or several of up to 64 as one number, in columns.
+    """Wire, or up to 64 wires as one number, in columns.
 
-    times: ps, int64, rising. levels: from each of these times on. initial: level before the first change.
-    width: bits. unknown: per change the bits that are unknown, or None; unknown_first: those of `initial`.
-    indices: declared indices of the bits, lowest bit first.
+    Attributes:
+        times: ps, int64, rising.
+        levels: levels from each of these times on.
+        initial: level before the first change.
+        width: number of bits.
+        unknown: per change the bits that are unknown, or `None`.
+        unknown_first: unknown bits of `initial`.
+        indices: declared indices of the bits, lowest bit first.
     """
 
     __slots__ = ("indices", "initial", "levels", "times", "unknown", "unknown_first", "width")
@@ -75,7 +83,7 @@ class Channel:
         unknown_first: int = 0,
         indices: range | None = None,
     ) -> Channel:
-        """Return a channel of columns in which levels may repeat and of equal times the last counts."""
+        """Return a channel of columns; levels may repeat, and of equal times the last one counts."""
         np = numpy()
         one = cls(initial, (), width, indices)
         levels = levels.astype(level_type(width), copy=False)
@@ -115,12 +123,12 @@ class Channel:
 
     @property
     def doubtful(self) -> bool:
-        """Whether any level is unknown."""
+        """True if any level is unknown."""
         return bool(self.unknown_first) or self.unknown is not None
 
     @property
     def blank(self) -> bool:
-        """Whether no level of it is known at all."""
+        """True if no level is known at all."""
         full = (1 << self.width) - 1
         return self.unknown_first == full and (
             not len(self) or (self.unknown is not None and bool((self.unknown == full).all()))
@@ -140,12 +148,12 @@ class Channel:
         return Channel.of(self.initial >> place & 1, self.times, levels, 1, unknown, first)
 
     def inverted(self) -> Channel:
-        """Return the wire at the other side of an inverter."""
+        """Return the inverted channel."""
         flip = self.levels ^ 1
         return Channel.of(1 - self.initial, self.times, flip, 1, self.unknown, self.unknown_first)
 
     def settled(self, idle: int, hold: bool) -> Channel:
-        """Return a channel whose unknown levels are `idle`; with hold, after a known level this one."""
+        """Return a channel whose unknown levels are `idle`; with hold, the last known level."""
         if not self.doubtful:
             return self
         np = numpy()
@@ -188,9 +196,16 @@ class Channel:
 
 @dataclass
 class Capture:
-    """A whole capture. name: of the file. end: time of the last sample. sample: distance of two samples if
-    the file states it, else 0. part, parameters: of the core, where the file states them (ours do).
-    doubled: names that several channels have; notes: remarks on the file for the user."""
+    """Complete capture.
+
+    Attributes:
+        name: name of the file.
+        end: time of the last sample.
+        sample: distance of two samples if the file states it, else 0.
+        part, parameters: of the core, if the file states them (our own files do).
+        doubled: names that several channels have.
+        notes: remarks on the file for the user.
+    """
 
     name: str
     channels: dict[str, Channel]
@@ -203,8 +218,12 @@ class Capture:
 
     @property
     def finest(self) -> int:
-        """Distance of two samples, as the file states it or as all changes are multiples of it, ps; 0: no
-        changes."""
+        """Distance of two samples in ps.
+
+        It is the distance that the file states, or a divisor of the times of all changes.
+
+        It is 0 without changes.
+        """
         if self.sample:
             return self.sample
         np = numpy()
@@ -230,7 +249,7 @@ def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
     np = numpy()
     if len(channel) < 2 or not (short := np.diff(channel.times) < shortest).any():
         return channel, 0
-    # A run of short intervals is walked through; all other changes stay.
+    # Only groups of short intervals are processed; all other changes stay.
     keep = np.ones(len(channel), bool)
     times, dropped = channel.times, 0
     for place in np.flatnonzero(short & ~np.concatenate(([False], short[:-1]))).tolist():
@@ -293,7 +312,10 @@ def moments(columns: Sequence[Column]) -> Column:
 
 
 class Bits(Mapping[int, Channel]):
-    """Single wires of a port that the file has as one number; each is made when it is used."""
+    """Single wires of a port that the file contains as one number.
+
+    Each wire is created when it is used.
+    """
 
     def __init__(self, whole: Channel) -> None:
         self.whole = whole
@@ -316,7 +338,10 @@ def level_at(channel: Channel, t: int) -> int:
 
 
 def merged(parts: Iterable[tuple[str, Channel]]) -> tuple[Column, Column, list[str]]:
-    """Return times of all changes in order, the number of the channel of each, and the channels' names."""
+    """Return the changes of all channels in order of time.
+
+    The result is the times, the number of the channel of each change, and the channels' names.
+    """
     np = numpy()
     rows = list(parts)
     times = np.concatenate([one.times for _, one in rows] or [np.zeros(0, np.int64)])

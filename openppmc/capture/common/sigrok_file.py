@@ -1,4 +1,4 @@
-"""Captures of sigrok and PulseView: a zip with `metadata` and the samples, so many bytes each."""
+"""Captures of sigrok and PulseView: a zip file with `metadata` and the samples."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PIECE = 1 << 20
 
 
 def read_sr(path: Path) -> Capture:
-    """CaptureError for a damaged file or one without logic channels."""
+    """Read a capture. Raises CaptureError for a damaged file or one without logic channels."""
     needs("decode", f"{path.name}: a capture of sigrok", "numpy")
     try:
         with zipfile.ZipFile(path) as archive:

@@ -1,10 +1,10 @@
-"""Captures in VCD: of sigrok, PulseView, GTKWave, our own simulations.
+"""Captures in VCD: of sigrok, PulseView, GTKWave, and our own simulations.
 
-Ours state in a comment which core made them, so that the golden model gets the same clock and parameters:
+Our own files state the core in a comment, so that the golden model has the same clock and parameters:
 
     $comment openppmc {"part": "pmc006", "parameters": {"CLK_HZ": 8000000, "TIMING": "FAST"}} $end
 
-The value changes are read in pieces of bounded size, all tokens of a piece at once.
+The value changes are read in pieces of bounded size, all tokens of a piece together.
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ _MOST_PS = 1 << 62
 
 
 def core_comment(part: str, parameters: Mapping[str, object]) -> str:
-    """Comment of a VCD that states which core made it: part and parameters of its top module."""
+    """Return the comment of a VCD that states its core: part and parameters of the top module."""
     return _MARK + json.dumps({"part": part, "parameters": dict(parameters)})
 
 
 def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
-    """Content of `core_comment`; empty for any other comment. CaptureError."""
+    """Return the content of `core_comment`; empty for any other comment. Raises CaptureError."""
     text = comment.strip()
     if not text.startswith(_MARK):
         return "", {}
@@ -63,7 +63,7 @@ def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
 
 
 class _Variable:
-    """A declared variable with its changes so far, in columns that grow."""
+    """Declared variable with its changes so far, in growing columns."""
 
     def __init__(self, width: int, indices: range) -> None:
         self.width, self.indices = width, indices
@@ -71,7 +71,7 @@ class _Variable:
         self.times, self.levels, self.unknown = array("q"), array(code), array(code)
 
     def add(self, times: Any, levels: Any, unknown: Any) -> None:
-        """More changes. unknown: None if all levels are known."""
+        """Add changes. unknown: `None` if all levels are known."""
         if unknown is not None:
             missing = len(self.levels) - len(self.unknown)
             self.unknown.frombytes(bytes(missing * self.unknown.itemsize))
@@ -80,7 +80,7 @@ class _Variable:
         self.levels.frombytes(levels.tobytes())
 
     def channel(self, start: int) -> Channel:
-        """The channel, its times from `start` on. Takes the columns."""
+        """Return the channel, with times from `start` on. The columns are empty afterwards."""
         import numpy as np
 
         full, kind = (1 << self.width) - 1, level_type(self.width)
@@ -93,7 +93,7 @@ class _Variable:
         self.times = self.levels = self.unknown = array("q")
         if start:
             times = times - start
-        # Levels at the first time stamp are those that the capture begins with.
+        # Levels at the first time stamp are the levels at the beginning of the capture.
         first = int(times.searchsorted(0, "right"))
         initial, hidden = (0, full) if not first else (int(levels[first - 1]), 0)
         if first and unknown is not None:
@@ -129,12 +129,12 @@ class _Head:
             self.scale = Fraction(1000)
             self.notes.append("no $timescale in it, 1 ns is assumed")
         if self.part:
-            # Our own files have curves of the speed for a viewer.
+            # Our own files contain curves of the speed for a viewer.
             self.notes = [note for note in self.notes if not note.endswith(_LEFT_OUT)]
         self._name(declared)
 
     def _sections(self, text: str) -> list[tuple[tuple[str, ...], str, int, list[str]]]:
-        """Read all sections: variables as (scopes, code, width, words of the name)."""
+        """Read all sections; return variables as (scopes, code, width, words of the name)."""
         scopes: list[str] = []
         declared = []
         tokens = [(one[0], one.start()) for one in re.finditer(r"\S+", text)]
@@ -225,8 +225,11 @@ class _Head:
             self._add(scopes, name, code)
 
     def _add(self, scopes: tuple[str, ...], name: str, code: str) -> None:
-        """A name counts in its outermost scope; if several are as deep, the first one's, and each as
-        `scope.name`."""
+        """Add a name, which refers to the variable in its outermost scope.
+
+        If several scopes have the same depth, it refers to the first one, and each variable has the name
+        `scope.name`.
+        """
         depth, home = len(scopes), ".".join(scopes)
         known = self._depths.get(name)
         if known is None or depth < known[0]:
@@ -247,8 +250,14 @@ class _Head:
 
 
 def read_vcd(path: Path) -> Capture:
-    """All variables; one that is in several scopes by its name in the outermost, and if there are more as
-    deep by the first one's and each as `scope.name`. CaptureError."""
+    """Read all variables of a VCD.
+
+    The name of a variable in several scopes refers to that in the outermost scope. If several scopes have the
+    same depth, it refers to the first one, and each variable has the name `scope.name`.
+
+    Raises:
+        CaptureError: the file is invalid.
+    """
     needs("decode", f"{path.name}: a capture in VCD", "numpy")
     try:
         pieces = chunks(path)
@@ -314,7 +323,7 @@ class _Body:
             return code.encode()
 
     def read(self, first: bytes, pieces: Iterator[bytes]) -> Capture:
-        """All of it. CaptureError."""
+        """Read the whole file. Raises CaptureError."""
         rest = self._piece(first, False) if first else b""
         for piece in pieces:
             rest = self._piece(rest + piece, False)
@@ -341,7 +350,7 @@ class _Body:
         return CaptureError(f"{self.head.name}: cut off or damaged at line {line}: {what}; export it again")
 
     def _piece(self, data: bytes, final: bool) -> bytes:
-        """Read all whole tokens; the rest, for the next piece."""
+        """Read all whole tokens; return the rest, which belongs to the next piece."""
         np = self.np
         if any(word in data for word in _TEXTS):
             data = _SECTION.sub(lambda match: b"\n" * match[0].count(b"\n") + b" ", data)
@@ -359,7 +368,7 @@ class _Body:
         if len(buf) and not space[0]:
             edge = np.concatenate(([0], edge))
         if len(edge) % 2:
-            # The last token may go on in the next piece.
+            # The last token may continue in the next piece.
             cut = int(edge[-1])
             edge = edge[:-1]
         else:
@@ -405,7 +414,10 @@ class _Body:
         return data[cut:]
 
     def _pairs(self, first: Any, size: Any) -> Any:
-        """Tokens whose variable is the next token: vectors, numbers, texts, a level that is alone."""
+        """Return the tokens whose variable is the next token.
+
+        These are vectors, numbers, texts, and a level as a separate token.
+        """
         np = self.np
         pair = np.isin(first, np.frombuffer(b"bBrR", np.uint8)) & (size > 1)
         # A text may be empty, as in our own recordings.
@@ -413,7 +425,7 @@ class _Body:
         pair |= (self.level[first] != 255) & (size == 1)
         if not pair.any():
             return pair
-        # The code after a value may look like a value: in a row of them every second one is.
+        # The code after a value may look like a value: in a sequence of them, every second one is a code.
         which = np.flatnonzero(pair)
         begins = np.concatenate(([True], np.diff(which) > 1))
         origin = np.maximum.accumulate(np.where(begins, np.arange(len(which)), 0))
@@ -428,7 +440,7 @@ class _Body:
                 raise self._fail(data, a, f"{shown!r} is neither a time nor a level")
 
     def _times(self, data: bytes, buf: Any, starts: Any, ends: Any) -> Any:
-        """Time stamps in ps."""
+        """Return the time stamps in ps."""
         np = self.np
         if not len(starts):
             return np.zeros(0, np.int64)
@@ -458,7 +470,7 @@ class _Body:
         return np.array(rounded, np.int64)
 
     def _lookup(self, data: bytes, buf: Any, starts: Any, ends: Any) -> Any:
-        """Numbers of the variables whose codes are these."""
+        """Return the numbers of the variables with these codes."""
         np = self.np
         size = ends - starts
         long = size > self.widest
@@ -510,7 +522,7 @@ class _Body:
     def _vectors(
         self, data: bytes, buf: Any, starts: Any, ends: Any, which: Any, stamps: Any, at: Any
     ) -> None:
-        """Changes of vectors: extended to the left as the format wants it."""
+        """Add changes of vectors, extended to the left as the format requires."""
         np = self.np
         variables = self._lookup(data, buf, starts[which + 1], ends[which + 1])
         first = buf[starts[which]]
@@ -536,7 +548,7 @@ class _Body:
             for place in range(one.width):
                 live = place < size
                 value = self.level[buf[np.where(live, end - 1 - place, 0)]]
-                # Bits that are not written are 0, or unknown if the leftmost one is.
+                # Bits that are not written are 0, or unknown if the leftmost bit is unknown.
                 value = np.where(live, value, left & 2)
                 if (value == 255).any():
                     bad = int(begin[np.flatnonzero(value == 255)[0]])
@@ -549,7 +561,7 @@ class _Body:
             one.add(times, levels, unknown if unknown.any() else None)
 
     def _turned(self, values: Any, width: int) -> Any:
-        """Numbers with their bits in the other order."""
+        """Return the numbers with their bits in reverse order."""
         kind = values.dtype.type
         turned = values & kind(0)
         for place in range(width):

@@ -1,4 +1,4 @@
-"""The bytes of a host in words: what all parts of the family have in common, and how accesses are grouped."""
+"""Bytes of a host as text: shared code of all parts, and grouping of accesses."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-# Operations by the low three bits of their code: name and number of data bytes.
+# Operations by the lowest three bits of their code: name and number of data bytes.
 OPERATIONS = {
     2: ("single step", 0),
     3: ("accelerate/decelerate", 3),
@@ -20,47 +20,50 @@ END_STATUS, INPUTS, OUTPUTS, REMAINING = 0x80, 0x81, 0x82, 0x83
 
 
 class Words:
-    """What the bytes of one part mean. A part says what differs: status, setting, the other codes, pins."""
+    """Meaning of the bytes of a part.
+
+    Subclasses define status, setting, the other codes, and pins.
+    """
 
     operations = OPERATIONS
     causes: Sequence[tuple[int, str]] = CAUSES
     reads: Mapping[int, tuple[str, int]] = {}
-    read_codes: Mapping[int, int] = {}  # where reads have other codes than END_STATUS, INPUTS, …: theirs
+    read_codes: Mapping[int, int] = {}  # codes of the reads that differ from END_STATUS, INPUTS, …
     switches: Sequence[tuple[int, str]] = ()
     unit, speed, rate = "pulse", "kpps", "rate"
     setting_names: Sequence[str] = ("RL", "RH", "PA")  # data of an initialisation; PA has two bytes
 
     def count(self, pulses: int) -> str:
-        """A number of pulses or steps."""
+        """Return a number of pulses or steps as text."""
         return f"{pulses} {self.unit}{'s' if pulses != 1 else ''}"
 
     def exchanges(self, accesses: Iterable[Any]) -> Sequence[Any]:
-        """The accesses of a host as rows of the table: see `Exchange` for what a row has."""
+        """Return the accesses of a host as rows of the table; see `Exchange` for the members of a row."""
         return exchanges(self, accesses)
 
     def axis(self, code: int) -> int:
-        """Bits of a code that name an axis."""
+        """Return the bits of a code that select an axis."""
         return 0
 
     def status(self, byte: int) -> str:
-        """The status register."""
+        """Return the status register as text."""
         raise NotImplementedError
 
     def setting(self, code: int, data: Sequence[int]) -> str:
-        """An initialisation with its data."""
+        """Return an initialisation with its data as text."""
         raise NotImplementedError
 
     def other(self, code: int, data: Sequence[int]) -> str:
-        """A code that is neither initialisation, read nor operation."""
+        """Return a code that is neither initialisation, read nor operation as text."""
         return {0x40: "immediate stop", 0x41: "decelerating stop"}.get(code, f"command {code:02X}")
 
     def phases(self, byte: int) -> str:
-        """The phase bits of the output register."""
+        """Return the phase bits of the output register as text."""
         high = [f"S{index + 1}" for index in range(5) if byte & 0x80 >> index]
         return f"{' '.join(high) or 'no phase'} high"
 
     def end(self, byte: int) -> str:
-        """The finish or end status: how the last operation ended."""
+        """Return the finish or end status as text: the end of the last operation."""
         name = self.operations.get(byte & 7, ("no operation yet", 0))[0]
         if not byte & 7:
             return name
@@ -68,23 +71,23 @@ class Words:
         return f"{name}: {'ended by ' + ' and '.join(causes) if causes else f'all {self.unit}s made'}"
 
     def inputs(self, byte: int) -> str:
-        """The input signals that are active (low)."""
+        """Return the active (low) input signals as text."""
         active = [name for bit, name in self.switches if not byte & bit]
         return f"active: {', '.join(active)}" if active else "no switch active"
 
     def outputs(self, byte: int) -> str:
-        """Phases, HOLD and DIR."""
+        """Return phases, HOLD and DIR as text."""
         hold, direction = "high" if byte & 4 else "low", "CCW" if byte & 2 else "CW"
         return f"{self.phases(byte)}, HOLD {hold}, {direction}"
 
     def ramp(self, data: Sequence[int]) -> str:
-        """The data of an initialisation, if they are complete."""
+        """Return the data of an initialisation as text if they are complete."""
         if len(data) < 4:
             return ""
         return f"; RL {data[0]}, RH {data[1]}, PA {data[2] | data[3] << 8}"
 
     def command(self, code: int, data: Sequence[int]) -> str:
-        """A command with its data bytes."""
+        """Return a command with its data bytes as text."""
         axis = self.axis(code)
         code &= ~axis
         if code < 0x40:
@@ -103,7 +106,10 @@ class Words:
         return self.other(code | axis, data)
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
-        """What the bytes after a read command mean; `stopped`: the last end status named a cause."""
+        """Return the bytes after a read command as text.
+
+        stopped: the last end status contained a cause.
+        """
         code = self.read_codes.get(code, code)
         if code == END_STATUS:
             return self.end(data[0])
@@ -118,14 +124,18 @@ class Words:
 
 
 class OneAxisWords(Words):
-    """Error number, or number of bytes expected, in the status register; a part has its list of `errors`, and
-    its name for the `clock` from outside."""
+    """Words of a part with one axis.
+
+    Its status register has an error number, or a number of expected bytes.
+
+    errors: texts of the errors. clock: name of the external clock.
+    """
 
     errors: Sequence[str] = ()
     clock = "CLOCK pin"
 
     def status(self, byte: int) -> str:
-        """Flags that are set, error or bytes still expected."""
+        """Return the set flags, and the error or the number of expected bytes, as text."""
         flags = [name for bit, name in ((4, "BUSY"), (2, "IBF"), (1, "OBF")) if byte & bit]
         number = byte >> 4 & 7
         if byte & 0x80:
@@ -135,7 +145,7 @@ class OneAxisWords(Words):
         return ", ".join(flags) or "ready, nothing pending"
 
     def setting(self, code: int, data: Sequence[int]) -> str:
-        """Motor, step, level, clock, chopping, ramp."""
+        """Return motor, step, level, clock, chopping and ramp as text."""
         step, level = "half" if code & 4 else "full", "high" if code & 8 else "low"
         phases = f"{(code & 3) + 2} phases, {step} step, {level} = on"
         clock = self.clock if code & 0x10 else "internal clock"
@@ -145,7 +155,7 @@ class OneAxisWords(Words):
 
 @dataclass
 class Exchange:
-    """A command with its data, the answer, and the status bytes seen meanwhile; `t` in clk."""
+    """Command with its data, its response, and the status bytes read during it. t: in cycles."""
 
     words: Words
     t: int
@@ -156,30 +166,36 @@ class Exchange:
 
     @property
     def read(self) -> int:
-        """The code without its axis; -1 without one."""
+        """Code without its axis; -1 without a code."""
         return self.sent[0] & ~self.words.axis(self.sent[0]) if self.sent else -1
 
     @property
     def meaning(self) -> str:
-        """What was sent, in words."""
-        return self.words.command(self.sent[0], self.sent[1:]) if self.sent else "look at the status register"
+        """Bytes sent as text."""
+        return self.words.command(self.sent[0], self.sent[1:]) if self.sent else "read the status register"
 
     @property
     def reply(self) -> str:
-        """The answer in words; without one, the last status."""
+        """Response as text; without one, the last status."""
         if self.sent and self.answer:
             return self.words.answer(self.read, self.answer, self.stopped)
         return self.words.status(self.polls[-1]) if self.polls else ""
 
     @property
     def statuses(self) -> list[int]:
-        """Status bytes with IBF = 0 in order, repeats dropped: what the chip made of each byte."""
+        """Status bytes with IBF = 0 in order, without repetitions.
+
+        They show the reaction of the chip to each byte.
+        """
         taken = [byte for byte in self.polls if not byte & 2]
         return [byte for index, byte in enumerate(taken) if index == 0 or byte != taken[index - 1]]
 
 
 def exchanges(words: Words, accesses: Iterable[Any]) -> list[Exchange]:
-    """Fold the accesses of a host (t, kind, reg, byte) into exchanges: each begins with a command byte."""
+    """Group the accesses of a host (t, kind, reg, byte) into exchanges.
+
+    Each exchange begins with a command byte.
+    """
     rows: list[Exchange] = []
     stopped: dict[int, bool] = {}
     for access in accesses:

@@ -1,4 +1,7 @@
-"""The line of PMC006B4 in words: frames of host and controllers. Their motor has no pulses to be captured."""
+"""Line of PMC006B4 as text: frames of host and controllers.
+
+The motor has no pulses that can be captured.
+"""
 
 from __future__ import annotations
 
@@ -85,7 +88,10 @@ def _trains(wires: Wires) -> list[Train]:
 
 
 def _named(model: Pmc006, wires: Wires) -> None:
-    """Gives a factory-fresh model the address of the controller that replies, or is spoken to."""
+    """Set the address of a new model.
+
+    It is the address of the controller that replies, or else of the one that receives frames.
+    """
     found = [line.data.split() for line in _lines(wires) if not line.strange]
     replies = [words[3] for words in found if words[0] == "→"]
     asked = [words[1] for words in found if words[0] != "→"]

@@ -1,4 +1,4 @@
-"""Frames of a PMC006B4 host in words."""
+"""Frames of a PMC006B4 host as text."""
 
 from __future__ import annotations
 
@@ -67,18 +67,18 @@ KIND = re.compile(r"(?:'(.)' to|reply of) (\w\w), data")
 
 
 def signed(data: int) -> int:
-    """32 bits as a number."""
+    """Return 32 bits as a signed number."""
     return data - (1 << 32) if data >> 31 else data
 
 
 def status(data: int) -> str:
-    """Status 1."""
+    """Return status 1 as text."""
     return ", ".join(text for bit, text in enumerate(FLAGS) if text and data >> bit & 1) or "at rest"
 
 
 @dataclass
 class Exchange006:
-    """A frame and its reply; repeated polls of the status are one row with the last answer."""
+    """Frame and its reply; repeated polls of the status are one row with the last reply."""
 
     t: int
     letter: str
@@ -92,7 +92,7 @@ class Exchange006:
 
     @property
     def meaning(self) -> str:
-        """The instruction in words."""
+        """Instruction as text."""
         text = MEANINGS.get(self.letter, f"{self.letter} {{}}").format(
             self.data if self.letter == "W" else signed(self.data)
         )
@@ -100,7 +100,7 @@ class Exchange006:
 
     @property
     def reply(self) -> str:
-        """What the data of the answer mean."""
+        """Data of the reply as text."""
         if self.letter == "j":
             return status(self.got)
         if self.letter == "s":
@@ -109,13 +109,15 @@ class Exchange006:
 
 
 class Words006(Words):
-    """Steps and pps."""
+    """Words of a PMC006B4, with steps and pps."""
 
     unit, speed, rate = "step", "thousand pps", "pps"
 
     def exchanges(self, accesses: Iterable[Any]) -> list[Exchange006]:
-        """Frames and replies as the script host notes them, a row each; polls of a moving motor, and words
-        of a program, are one row."""
+        """Return frames and replies, as the script host records them, one row each.
+
+        Polls of a moving motor are one row, and so are the words of a program.
+        """
         rows: list[Exchange006] = []
         for access in accesses:
             found = KIND.fullmatch(access.kind)

@@ -1,4 +1,4 @@
-"""Bus and pins of a PPMC-104 in words."""
+"""Bus and pins of a PPMC-104 as text."""
 
 from __future__ import annotations
 

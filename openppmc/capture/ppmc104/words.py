@@ -1,4 +1,4 @@
-"""The bytes of a PPMC-104 host in words."""
+"""Bytes of a PPMC-104 host as text."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ ERRORS = (
     "undefined command, or a stop at rest",
     "not allowed while BUSY",
     "not initialised",
-    "data byte nobody asked for",
+    "unexpected data byte",
     "PA above 11220",
     "RH above RL, or PA below 4",
-    "data byte nobody asked for while BUSY",
+    "unexpected data byte while BUSY",
     "already decelerating",
 )
 
 
 class Words104(OneAxisWords):
-    """One axis, error numbers in the status register."""
+    """Words of a PPMC-104: one axis, error numbers in the status register."""
 
     errors = ERRORS
     reads = {

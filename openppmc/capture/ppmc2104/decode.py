@@ -1,4 +1,4 @@
-"""Bus and pins of a PPMC-2104 in words. Ports of both axes: bit 1 is axis 1."""
+"""Bus and pins of a PPMC-2104 as text. Ports of both axes: bit 1 is axis 1."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _trains(wires: Wires) -> list[Train]:
 
 
 def _axis_of(port: str, bit: int) -> int:
-    """0, or the axis from 1 on."""
+    """Return 0, or the axis from 1 on."""
     return bit + 1 if port in AXIS_OUTPUTS else {"s1_n": 1, "s2_n": 2}.get(port, 0)
 
 

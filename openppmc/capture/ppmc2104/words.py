@@ -1,4 +1,4 @@
-"""The bytes of a PPMC-2104AFP host in words."""
+"""Bytes of a PPMC-2104AFP host as text."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FLAGS = (
 
 
 class Words2104(Words):
-    """Two axes, error numbers by a read of their own."""
+    """Words of a PPMC-2104: two axes, error numbers in a separate register."""
 
     reads = {
         0x80: ("read end status", 1),
@@ -30,25 +30,25 @@ class Words2104(Words):
     switches = ((0x80, "ORG"), (0x40, "ALM"), (8, "FL"), (4, "FHL"), (2, "BL"), (1, "BHL"))
 
     def axis(self, code: int) -> int:
-        """Bit 5, but for the auxiliary codes, which have no axis."""
+        """Return bit 5, except for auxiliary codes, which have no axis."""
         return 0 if code & 0xCF == 0xC1 or code == 0xC2 else code & 0x20
 
     def status(self, byte: int) -> str:
-        """Flags that are set."""
+        """Return the set flags as text."""
         flags = [name for bit, name in FLAGS if byte & bit]
         if byte & 0x80:
             flags.append("ERROR")
         return ", ".join(flags) or "ready, nothing pending"
 
     def setting(self, code: int, data: Sequence[int]) -> str:
-        """Motor, step, clock, switching, ramp."""
+        """Return motor, step, clock, chopping and ramp as text."""
         step = "half" if code & 4 else "full"
         clock = "EXTCK pin" if code & 0x08 else "internal clock"
         chop = "switched at rest" if code & 0x10 else "full current at rest"
         return f"initial setting: {(code & 3) + 2} phases, {step} step, {clock}, {chop}{self.ramp(data)}"
 
     def other(self, code: int, data: Sequence[int]) -> str:
-        """Auxiliary codes besides what the base knows."""
+        """Return auxiliary codes, or those of the base class, as text."""
         if code & 0xCF == 0xC1:
             return f"AUXO1 {'HL'[code >> 5 & 1]}, AUXO0 {'HL'[code >> 4 & 1]}"
         if code & 0xDF == 0xC0:
@@ -56,18 +56,18 @@ class Words2104(Words):
         return super().other(code & ~self.axis(code), data)
 
     def phases(self, byte: int) -> str:
-        """The phase bits of the output register: 0 = on."""
+        """Return the phase bits of the output register as text: 0 = on."""
         active = [f"S{index + 1}" for index in range(5) if not byte & 0x80 >> index]
         return f"{' '.join(active) or 'no phase'} on"
 
     def command(self, code: int, data: Sequence[int]) -> str:
-        """A command with its data bytes, and the axis that it is for."""
+        """Return a command with its data bytes and its axis as text."""
         number = 2 if self.axis(code) else 1
         text = super().command(code, data)
         return text if code & 0xCF == 0xC1 or code == 0xC2 else f"axis {number}: {text}"
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
-        """As in the base, and the error number."""
+        """Return the text of the base class, or the error number."""
         if code == 0x86:
             return f"error {data[0]}" if data[0] else "no error"
         return super().answer(code, data, stopped)

@@ -1,4 +1,4 @@
-"""Parallel bus and pins of a PPMC-312 in words: blocks through its windows."""
+"""Parallel bus and pins of a PPMC-312 as text: blocks through its windows."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
 
 
 def trains(wires: Wires) -> list[Train]:
-    """The pulses."""
+    """Return the pulses."""
     one = train(wires, 1, "pout", 0, 1, "dir")
     return [] if one is None else [one]
 

@@ -1,4 +1,4 @@
-"""The serial line of PPMC-312 in words, and one station of it beside the model."""
+"""Serial line of a PPMC-312 as text, and one station of it compared with the model."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ KINDS = {serial.BUSY: "busy", serial.READY: "ready", serial.DATA: "data", serial
 
 
 def _rate(wires: Wires) -> float:
-    """Line rate in bit/s, from the straps or from the bits."""
+    """Return the line rate in bit/s, from the straps or from the bits."""
     crystal = float(str(wires.params.get("XTAL_HZ", 16_000_000))) / 16e6
     if (mod := wires.ports.get("mod")) is not None:
         for rate, level in SPEEDS.items():
@@ -40,7 +40,10 @@ def _lines(wires: Wires) -> list[Line]:
 
 
 def _frames(found: list[Character], reply: bool, mode: str) -> list[Line]:
-    """A control code begins a frame; a frame ends with the next one, or with the line."""
+    """Return the frames of a line.
+
+    A control code begins a frame; the next control code or the end of the line ends it.
+    """
     lines: list[Line] = []
     run: list[Character] = []
     for one in [*found, None]:
@@ -89,7 +92,10 @@ def _frame(run: list[Character], reply: bool, mode: str) -> Line:
 
 
 def _station(wires: Wires) -> int:
-    """The one that the capture was taken at: its straps, the map's ADR, or the one that replies."""
+    """Return the station at which the capture was made.
+
+    The address is in the straps, in the parameter ADR of the map, or in the replies.
+    """
     if (straps := wires.ports.get("adr")) is not None:
         return straps.initial
     if "ADR" in wires.params:

@@ -1,4 +1,4 @@
-"""The blocks of a PPMC-312 host in words."""
+"""Blocks of a PPMC-312 host as text."""
 
 from __future__ import annotations
 
@@ -50,28 +50,28 @@ REFUSALS = {
     0xF9: "override interrupted",
 }
 STATES = {1: "INI", 2: "NOR", 4: "ACC", 8: "FIX", 16: "ABN", 32: "WRN"}
-REPORT_BITS = 0x38  # of a header: not the answer to an instruction of the host
+REPORT_BITS = 0x38  # of a header: no answer to an instruction of the host
 CUT = "cut short"
 FROM = {0x0B: "by the event: ", 0x1B: "by override: "}
 
 
 def number(data: bytes) -> int:
-    """Most significant byte first."""
+    """Return an unsigned number, most significant byte first."""
     return int.from_bytes(data, "big")
 
 
 def position(data: bytes) -> int:
-    """Signed."""
+    """Return a signed number, most significant byte first."""
     return int.from_bytes(data, "big", signed=True)
 
 
 def way(flags: int) -> str:
-    """The direction bit."""
+    """Return the direction bit as text."""
     return "CCW" if flags & DIR else "CW"
 
 
 def when(flags: int, rest: bytes) -> str:
-    """What a registered instruction waits for."""
+    """Return the condition that a registered instruction waits for as text."""
     if not flags & OV:
         return ""
     trigger = TRIGGERS[flags & 3]
@@ -79,7 +79,7 @@ def when(flags: int, rest: bytes) -> str:
 
 
 def initial(par: bytes) -> str:
-    """00."""
+    """Return the parameters of instruction 00 as text."""
     method = "sigmoid" if par[0] & FO else "linear"
     rates = f"{number(par[1:3])} to {number(par[3:5])}" if len(par) == 8 else "own stop rate"
     pulses = f", {number(par[5:8])} pulses" if len(par) == 8 else ""
@@ -87,7 +87,7 @@ def initial(par: bytes) -> str:
 
 
 def rate(data: bytes) -> str:
-    """A rate, 0 = high speed."""
+    """Return a rate as text, 0 = high speed."""
     return f"rate {number(data)}" if number(data) else "high speed"
 
 
@@ -119,7 +119,7 @@ INSTRUCTIONS: dict[int, Callable[[bytes], str]] = {
 
 
 def block_words(block: bytes) -> str:
-    """An instruction or data block."""
+    """Return an instruction or data block as text."""
     if block[0] < 2:
         return "free curve: data" + (", the last" if block[0] else "")
     try:
@@ -132,7 +132,7 @@ def block_words(block: bytes) -> str:
 
 
 def answer_words(block: bytes) -> str:
-    """An answer or report."""
+    """Return an answer or a report as text."""
     code, par = block[2], block[3:]
     who = FROM.get(block[0], "")
     if code == 0xE0:
@@ -158,7 +158,7 @@ def answer_words(block: bytes) -> str:
 
 @dataclass
 class Row:
-    """An instruction with its answer, or a report; `t` in clk, blocks in logical order."""
+    """Instruction with its answer, or a report. t: in cycles; blocks are in logical order."""
 
     t: int
     sent: list[int] = field(default_factory=list)
@@ -168,22 +168,22 @@ class Row:
 
     @property
     def reply(self) -> str:
-        """The answer in words."""
+        """Answer as text."""
         return answer_words(bytes(self.answer)) if self.answer else ""
 
     @property
     def statuses(self) -> list[int]:
-        """CSR values in order, repeats dropped."""
+        """CSR values in order, without repetitions."""
         return [byte for index, byte in enumerate(self.polls) if index == 0 or byte != self.polls[index - 1]]
 
 
 class Words312(Words):
-    """Blocks in place of single bytes."""
+    """Words of a PPMC-312: blocks instead of single bytes."""
 
     def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
-        """Fold register accesses into instructions and reports."""
+        """Group register accesses into instructions and reports."""
         rows: list[Row] = []
-        # Instructions that have no answer yet.
+        # Instructions without an answer so far.
         waiting: list[Row] = []
         data: list[int] = []
         wanted, polls, begin = 0, [], 0

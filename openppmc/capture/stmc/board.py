@@ -1,4 +1,4 @@
-"""ISA or PC/104 bus of a J105 STMC board in words."""
+"""ISA or PC/104 bus of a J105 STMC board as text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from .decode import read_map, trains
 from .words import WordsStmc
 
 BASE = 0x3B0
-"""Address of the data; a board at another one is decoded by what its map names as sa."""
+"""Address of the data register.
+
+For a board at another address, the map decides which channels are `sa`.
+"""
 
 
 def _strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:

@@ -1,4 +1,4 @@
-"""Bus and phases of a J105 STMC in words."""
+"""Bus and phases of a J105 STMC as text."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ def _levels(access: Access, wires: Wires) -> dict[str, int]:
 
 
 def read_map(wires: Wires) -> str:
-    """READ_MAP of the part, as the pin map says."""
+    """Return READ_MAP of the part from the pin map."""
     return str(wires.params.get("READ_MAP", "FAMILY"))
 
 
 def trains(wires: Wires) -> list[Train]:
-    """Steps of the phases."""
+    """Return the steps of the phases."""
     one = phase_train(wires, 1, "s")
     return [] if one is None else [one]
 

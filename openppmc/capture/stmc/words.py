@@ -1,4 +1,4 @@
-"""The bytes of a J105 STMC host in words."""
+"""Bytes of a J105 STMC host as text."""
 
 from __future__ import annotations
 
@@ -11,16 +11,19 @@ ERRORS = (
     "undefined command, or a stop at rest",
     "not allowed while BUSY",
     "not initialised",
-    "data byte nobody asked for",
+    "unexpected data byte",
     "unused",
     "divisor 0, or slow divisor below fast one",
-    "data byte nobody asked for while BUSY",
+    "unexpected data byte while BUSY",
     "already decelerating",
 )
 
 
 class WordsStmc(OneAxisWords):
-    """One axis with divisors, the read codes of `read_map`, error numbers in the status."""
+    """Words of a J105 STMC: one axis with divisors, error numbers in the status register.
+
+    read_map: name of the set of read codes.
+    """
 
     errors = ERRORS
     operations = {
@@ -56,19 +59,19 @@ class WordsStmc(OneAxisWords):
         self.read_codes = {code: kinds[name] for code, name in registers.items()}
 
     def ramp(self, data: Sequence[int]) -> str:
-        """The divisors and the length of the ramp, if they are complete."""
+        """Return the divisors and the length of the ramp as text, if they are complete."""
         if len(data) < 4:
             return ""
         return f"; slow {data[0]}, fast {data[1]}, {data[2] | data[3] << 8} steps of acceleration"
 
     def command(self, code: int, data: Sequence[int]) -> str:
-        """A command with its data bytes; bit 5 of a motion command does not matter."""
+        """Return a command with its data bytes as text; bit 5 of a motion command has no effect."""
         return super().command(code & ~0x20 if code & 0xC0 == 0x40 else code, data)
 
     def end(self, byte: int) -> str:
-        """How the last motion ended; the reference point has no bit of its own."""
+        """Return the end of the last motion as text; the reference point has no bit of its own."""
         return f"{self.operations[7][0]}: found" if byte & 0x7F == 7 else super().end(byte)
 
     def inputs(self, byte: int) -> str:
-        """The switches that are active, and MON."""
+        """Return the active switches and MON as text."""
         return super().inputs(byte) + (", motor on" if byte & 0x40 else ", motor off")

@@ -1,4 +1,4 @@
-"""One axis of a bank."""
+"""Axis of a bank."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Protocol
 
 from ...model.motion.codes import CONTINUOUS
 from .. import speeds
-from ..axis import CW, Axis, Chopping
+from ..axis import CW, Axis
 from ..check import within
 from ..ending import End
 from ..errors import Misused, ProtocolError
@@ -23,7 +23,7 @@ _HALF = 1 << 31
 
 
 class Whole(Protocol):
-    """What an axis needs of its bank, which is a `driver.PpmcBank`."""
+    """Members of a bank (`part.PpmcBank`) that an axis needs."""
 
     @property
     def link(self) -> Link: ...
@@ -35,14 +35,18 @@ class Whole(Protocol):
 
 
 class BankMotion(Motion):
-    """A motion of an axis of a bank; see `Motion`."""
+    """Motion of an axis of a bank; see `Motion`."""
 
     def __init__(self, axis: BankAxis, order: Order, begin: int) -> None:
         super().__init__(axis, order, begin)
         self._of = axis
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """As `Motion.wait`. Misused while the group that holds the motion is open: it would never end."""
+        """Wait as `Motion.wait` does.
+
+        Raises:
+            Misused: the group that holds the motion is still open, so the motion would never end.
+        """
         if not self.over and self._of.held:
             raise Misused(
                 f"{self._of.who}its group holds it until the end of the with block: start it there with "
@@ -51,11 +55,12 @@ class BankMotion(Motion):
         return super().wait(timeout, progress)
 
 
-class BankAxis(Chopping, Axis):
-    """An axis of a bank, 1 the first (axis 0 of the window); see `axis.Axis` for the motions.
+class BankAxis(Axis):
+    """Axis of a bank; axis 1 is axis 0 of the window. See `axis.Axis` for the motions.
 
-    `initialise`: figures of the PPMC-104, no external_clock. The position is counted by the bank itself, from
-    0 at its reset; `zero` and `home` are remembered by this object only (BANK-WIN-07: read only).
+    `initialise` accepts the values of the PPMC-104, without external_clock. The bank itself counts the
+    position, from 0 at its reset. `zero` and `home` store an offset in this object only, because the counter
+    is read-only (BANK-WIN-07).
     """
 
     def __init__(self, bank: Whole, number: int) -> None:
@@ -67,16 +72,16 @@ class BankAxis(Chopping, Axis):
 
     @property
     def held(self) -> bool:
-        """A group that is open holds its motion (BANK-GRP-01)."""
+        """True if an open group holds the motion of this axis (BANK-GRP-01)."""
         return self._bank.holds(self.number)
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
-        """Initialise with a setup that was planned before."""
+        """Initialise the axis with a set-up planned earlier."""
         self.link.execute(self.straps(setup.clock).call(setup.code, *setup.data))
         self.setup = setup
         return setup
 
-    # ------------------------------------------------------------------ what differs from other parts
+    # ------------------------------------------------------------------ differences to other parts
 
     def straps(self, clock: speeds.BaseClock | None) -> Script:
         script = Script()
@@ -88,7 +93,7 @@ class BankAxis(Chopping, Axis):
         return self._motion
 
     def foreign_end(self) -> End:
-        """The end of a motion of another program, whose interrupt is pending."""
+        """Return the end of a motion of another program, whose interrupt is pending."""
         motion = Motion(self, Order(CONTINUOUS, CW), 0, ours=False)
         motion.look(0)
         if not motion.over:
@@ -97,7 +102,8 @@ class BankAxis(Chopping, Axis):
         return motion.wait()
 
     def look(self, status: int) -> None:
-        # The end of another axis's motion would keep int_n low, and this one's would send no message.
+        # If the end of another axis's motion stays unread, int_n stays low, and the end of this motion sends
+        # no message.
         self._bank.settle(self.number)
 
     def where(self, script: Script) -> Script:
@@ -107,7 +113,7 @@ class BankAxis(Chopping, Axis):
         return (count - self._origin + _HALF) % (2 * _HALF) - _HALF
 
     def zero(self) -> None:
-        """Here is position 0, for this object."""
+        """Set the current position to 0, for this object only."""
         self._origin = self._count()
 
     def forget(self) -> None:
@@ -117,18 +123,20 @@ class BankAxis(Chopping, Axis):
     # ------------------------------------------------------------------ registers
 
     def status(self) -> Status:
-        """Status register; allowed at any time."""
+        """Return the status register; allowed at any time."""
         return Status.parse(self.link.execute(Script().read(STATUS)).byte(0))
 
     def inputs(self) -> Inputs:
         return Inputs.of_pins(self.link.execute(Script().pins()).byte(0))
 
     def config(self) -> Config:
-        """CONFIG; allowed at any time."""
+        """Return the CONFIG register; allowed at any time."""
         return Config.parse(self.link.execute(Script().read(CONFIG)).byte(0))
 
     def configure(self, csel: int = 1, vsel: int = 1) -> None:
-        """Write CONFIG, 0 or 1 each; the next operation takes it (BANK-GEN-04). `initialise` and motions at a
-        known speed write what they need."""
+        """Write CONFIG; csel and vsel are 0 or 1. The next operation uses it (BANK-GEN-04).
+
+        `initialise` and motions with a known speed write the values that they need.
+        """
         csel, vsel = within(csel, "csel", 0, 1), within(vsel, "vsel", 0, 1)
         self.link.execute(Script().write(CONFIG, vsel << 1 | csel))

@@ -1,4 +1,4 @@
-"""Motions of several axes that begin on the same clk (BANK-GRP-01..03)."""
+"""Motions of several axes that start in the same cycle (BANK-GRP-01..03)."""
 
 from __future__ import annotations
 
@@ -19,11 +19,14 @@ from .words import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 
 BUSY, ERR = 0x04, 0x80
 _GO_READS = 8
-"""Read cycles of 10 clk each, so that GO has gone round (64 clk at most) before MASK changes."""
+"""Number of read accesses before MASK changes.
+
+One takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
+"""
 
 
 class Grouped(Protocol):
-    """What a group needs of its bank, which is a `driver.PpmcBank`."""
+    """Members of a bank (`part.PpmcBank`) that a group needs."""
 
     @property
     def link(self) -> Link: ...
@@ -35,7 +38,11 @@ class Grouped(Protocol):
 
 
 def numbers_of(kind: RateKind, axes: Iterable[int]) -> tuple[int, ...]:
-    """The numbers of a group in order. OutOfRange for none, one twice, one that is not there."""
+    """Return the axis numbers of a group in ascending order.
+
+    Raises:
+        OutOfRange: the group is empty, a number occurs twice, or the bank has no such axis.
+    """
     if isinstance(axes, str | bytes) or not isinstance(axes, Iterable):
         raise OutOfRange(f"axes {axes!r}: a group wants the numbers of its axes, as in (1, 2, 5)")
     numbers = [kind.check_axis(whole(axis, "axis")) for axis in axes]
@@ -48,17 +55,28 @@ def numbers_of(kind: RateKind, axes: Iterable[int]) -> tuple[int, ...]:
 
 
 def write_mask(kind: RateKind, numbers: tuple[int, ...]) -> list[tuple[int, Script]]:
-    """Pieces that write MASK: byte k at axis k + 1, which every bank with so many bytes has."""
+    """Return the scripts that write MASK.
+
+    Byte k is written at axis k + 1; every bank with this number of MASK bytes has this axis.
+    """
     raw = bit_bytes(numbers, kind.axes)
     return [(k + 1, Script().write(MASK, byte)) for k, byte in enumerate(raw)]
 
 
 class Group(Checked):
-    """A context manager: motions of these axes that are started inside wait at their first pulse. Leaving it
-    starts them all on the same clk; leaving it by an exception stops those that wait, and nothing moves.
+    """Context manager whose motions start together.
 
-    numbers: of its axes. Entering it raises NotWhileBusy if one of them moves. Leaving it raises GroupRefused
-    if axes did not begin; one whose motion a switch has ended meanwhile is none of these: its End tells.
+    Motions of these axes that are started inside the block wait at their first pulse.
+
+    At the end of the block all of them start in the same cycle. If the block is left by an exception, the
+    waiting motions are stopped, and nothing moves.
+
+    numbers: numbers of the axes.
+
+    Raises:
+        NotWhileBusy: at the start of the block, an axis moves.
+        GroupRefused: at the end of the block, axes did not start. A motion that a switch ended while it was
+            waiting does not count; its End holds the cause.
     """
 
     numbers: tuple[int, ...]
@@ -99,7 +117,7 @@ class Group(Checked):
             self._bank.open_group(None)
 
     def _go(self) -> None:
-        """Start what is held, and look who did."""
+        """Start the waiting motions and check which of them started."""
         bank, began = self._bank, tuple(sorted(self.started))
         if not began:
             visit(bank.link, write_mask(bank.kind, ()))
@@ -119,7 +137,10 @@ class Group(Checked):
             raise GroupRefused(refusals)
 
     def _ended(self, number: int, status: int) -> bool:
-        """A switch, a stop or a reset ended the motion of this axis while it was held."""
+        """Return True if the motion of this axis ended while it was waiting.
+
+        A switch, a stop or a reset ends it.
+        """
         motion = self._bank.axes[number - 1].motion
         if motion is None:
             return False
@@ -127,14 +148,14 @@ class Group(Checked):
         return motion.over and not (motion.end and motion.end.complete)
 
     def _call_off(self) -> None:
-        """Nothing of this group may start any more. All of its axes were at rest before."""
+        """Cancel all motions of this group. All of its axes were stopped before."""
         link, kind = self._bank.link, self._bank.kind
         try:
             for number in self.numbers:
                 try:
                     self._each((number,), Script().call(STOP_NOW).wait(STATUS, BUSY, 0))
                 except CommandRefused:
-                    continue  # it is at rest
+                    continue  # the motor is stopped
                 motion = self._bank.axes[number - 1].motion
                 if number in self.started and motion is not None:
                     motion.look(0)
@@ -142,4 +163,4 @@ class Group(Checked):
                     self._each((number,), Script().call(READ_FINISH).get(1))
             visit(link, write_mask(kind, ()))
         except PpmcError:
-            pass  # the first error is the one to tell
+            pass  # the first error is the one to report

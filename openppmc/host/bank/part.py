@@ -1,4 +1,4 @@
-"""Driver of a bank behind a UART bridge: many axes, each a PPMC-104."""
+"""Driver of a bank on a UART bridge: many axes, each a PPMC-104."""
 
 from __future__ import annotations
 
@@ -48,10 +48,11 @@ class Axes(dict[int, BankAxis]):
 
 
 class PpmcBank(Part):
-    """`axis[1]` to `axis[N]` are the axes, axis 0 to N − 1 of the window. A context manager, see `part.Part`.
+    """Bank of axes, which is a context manager; see `part.Part`.
 
-    Opening it reads INFO (WrongDevice), takes the ends of motions that others left unread, and empties MASK;
-    motions that run go on. The way through the bridge is shared: one call at a time, for all axes.
+    `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. Opening the bank reads INFO (WrongDevice), reads
+    the ends of motions that other programs left unread, and clears MASK; running motions continue. All axes
+    share the bridge, so only one call at a time is allowed for all of them.
     """
 
     kind: BankKind = KIND
@@ -72,29 +73,32 @@ class PpmcBank(Part):
         return tuple(self.axis.values())
 
     def info(self) -> Info:
-        """Version of the window and number of axes, as read at the opening."""
+        """Return the version of the window and the number of axes, as read when the bank was opened."""
         return self._info
 
     def _all(self, script: Script) -> list[tuple[bytes, ...]]:
         return visit(self.link, [(number, script) for number in self.axis])
 
-    # ------------------------------------------------------------------ looking
+    # ------------------------------------------------------------------ reading
 
     def positions(self) -> dict[int, int]:
-        """Where all axes are, by number; allowed at any time."""
+        """Return the positions of all axes by number; allowed at any time."""
         seen = self._all(Script().read_number(POSITION, POSITION_BYTES))
         return {axis.number: axis.counted(_signed(one)) for axis, (one,) in zip(self.axes, seen, strict=True)}
 
     def position(self, axis: int) -> int:
-        """Where one axis is; allowed at any time."""
+        """Return the position of one axis; allowed at any time."""
         return self.axis[axis].position
 
     def status(self) -> BankStatus:
-        """Status registers of all axes; allowed at any time."""
+        """Return the status registers of all axes; allowed at any time."""
         return BankStatus.parse(b"".join(one for (one,) in self._all(Script().read(STATUS))))
 
     def look(self, axes: Iterable[int] | None = None) -> dict[int, Look]:
-        """Status, position and switches of these axes or all, by number; allowed at any time."""
+        """Return status, position and switches of axes by number; allowed at any time.
+
+        axes: numbers of the axes, None for all.
+        """
         numbers = tuple(self.axis) if axes is None else numbers_of(self.kind, axes)
         script = Script().read(STATUS).read_number(POSITION, POSITION_BYTES).pins()
         seen = visit(self.link, [(number, script) for number in numbers])
@@ -106,8 +110,12 @@ class PpmcBank(Part):
         }
 
     def pending(self) -> tuple[int, ...]:
-        """Numbers of the axes whose interrupt is pending (BANK-WIN-08): their motion has ended,
-        and nobody has read its end. Allowed at any time."""
+        """Return the numbers of the axes whose interrupt is pending (BANK-WIN-08).
+
+        This is allowed at any time.
+
+        The motion of such an axis has ended, and no program has read its end.
+        """
         count = (self._info.axes + 7) // 8
         seen = visit(self.link, [(k + 1, Script().read(PENDING)) for k in range(count)])
         return members(b"".join(one for (one,) in seen))
@@ -115,7 +123,7 @@ class PpmcBank(Part):
     # ------------------------------------------------------------------ groups
 
     def group(self, axes: Iterable[int]) -> Group:
-        """For `with bank.group((1, 2, 5)):`, see `Group`: what is started inside begins on the same clk."""
+        """Return a group for `with bank.group((1, 2, 5)):`; its motions start in the same cycle."""
         if self._group is not None:
             raise OutOfRange(
                 f"a group is open already, of axes {_listed(self._group.numbers)}: close it first"
@@ -128,9 +136,15 @@ class PpmcBank(Part):
         pps: speeds.Number | None = None,
         pulse_only: bool = False,
     ) -> dict[int, Motion]:
-        """Begin moves on the same clk. moves: pulses by number of the axis, as in `Axis.start_move`. pps: all
-        at this constant speed. Raises GroupRefused for axes that did not begin with the others. If an axis
-        refuses its move, or an argument is wrong, nothing moves.
+        """Start moves in the same cycle.
+
+        Args:
+            moves: pulses by number of the axis, as in `Axis.start_move`.
+            pps: constant speed of all moves, `None` for moves with ramps.
+
+        Raises:
+            GroupRefused: some axes did not start with the others.
+            CommandRefused, OutOfRange: an axis rejected its move, or an argument is wrong; nothing moves.
         """
         orders = self._orders(moves, pps, pulse_only)
         with self.group(orders) as group:
@@ -154,8 +168,12 @@ class PpmcBank(Part):
         progress: OnProgress | None = None,
         pulse_only: bool = False,
     ) -> dict[int, End]:
-        """`start_together`, and wait for all; axes with 0 pulses stand. When one axis ends early, the others
-        are stopped with a ramp. Raises LimitReached, AlarmStop, StoppedEarly for the one that ended first.
+        """Start moves in the same cycle and wait for all of them; an axis with 0 pulses does not move.
+
+        If an axis ends early, the others are stopped with a ramp.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: end of the axis that ended first.
         """
         _table(moves)
         still = {number: pulses for number, pulses in moves.items() if whole(pulses, "pulses") == 0}
@@ -173,7 +191,7 @@ class PpmcBank(Part):
     def _orders(
         self, moves: Mapping[int, int], pps: speeds.Number | None, pulse_only: bool
     ) -> dict[int, Order]:
-        """In order of the axes, all checked."""
+        """Return the checked orders, sorted by axis."""
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         numbers = numbers_of(self.kind, _table(moves))
@@ -187,7 +205,10 @@ class PpmcBank(Part):
         return orders
 
     def _wait(self, motions: Mapping[int, Motion], progress: OnProgress | None) -> Motion | None:
-        """Until all have ended. The early end of one stops the others; returns that one."""
+        """Wait until all motions have ended; return the first one that ended early, if any.
+
+        Its end stops the others.
+        """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
         while running := {number: motion for number, motion in motions.items() if not motion.over}:
@@ -211,9 +232,11 @@ class PpmcBank(Part):
     # ------------------------------------------------------------------ all axes
 
     def stop_all(self, wait: bool = True) -> dict[int, End]:
-        """STOP: every motion ends at once, on the same clk (BANK-GRP-04); steps may be lost at high speed.
-        Returns the ends of those that moved, by number, also if another program started them; none without
-        wait. That nothing moves is fine."""
+        """Stop every motion immediately, in the same cycle (STOP, BANK-GRP-04).
+
+        Steps may be lost at high speed. It is no error if nothing moves. The result holds the ends of the
+        axes that moved, by number, also if another program started them; without wait it is empty.
+        """
         visit(self.link, [(1, Script().write(STOP, 0))])
         ends: dict[int, End] = {}
         ours: dict[int, Motion] = {}
@@ -230,7 +253,10 @@ class PpmcBank(Part):
         return dict(sorted(ends.items()))
 
     def reset(self) -> None:
-        """Reset of the part, in any state: pulses end at once, nothing initialised, positions 0."""
+        """Reset the part in any state.
+
+        Pulses end immediately, nothing is initialised, and the positions are 0.
+        """
         self.link.execute(Script().reset())
         self._group = None
         for axis in self.axes:
@@ -239,7 +265,7 @@ class PpmcBank(Part):
     # ------------------------------------------------------------------ for axes and groups
 
     def open_group(self, group: Group | None) -> None:
-        """The group that is open now."""
+        """Store the open group, `None` for no group."""
         if group is not None and self._group is not None:
             raise OutOfRange(
                 f"a group is open already, of axes {_listed(self._group.numbers)}: close it first"
@@ -247,16 +273,19 @@ class PpmcBank(Part):
         self._group = group
 
     def holds(self, number: int) -> bool:
-        """The open group holds what this axis starts."""
+        """Return True if the open group holds motions of this axis."""
         return self._group is not None and number in self._group.numbers
 
     def started(self, number: int) -> None:
-        """This axis has taken an order."""
+        """Record that this axis has accepted an order."""
         if self._group is not None and number in self._group.numbers:
             self._group.started.add(number)
 
     def settle(self, number: int) -> None:
-        """This axis was looked at: take the ends of others, too, because int_n stays low until then."""
+        """Read the ends of other axes after the status of this axis was read.
+
+        Otherwise int_n would stay low.
+        """
         motions = (axis.motion for axis in self.axes if axis.number != number)
         if not any(motion is not None and not motion.over for motion in motions):
             return
@@ -265,7 +294,7 @@ class PpmcBank(Part):
                 continue
             motion = self.axis[other].motion
             if motion is not None and not motion.over:
-                motion.look(0)  # an interrupt is pending, so it rests
+                motion.look(0)  # an interrupt is pending, so the axis is stopped
             else:
                 self._take_end(other)
 
@@ -273,7 +302,7 @@ class PpmcBank(Part):
         try:
             visit(self.link, [(number, Script().call(READ_FINISH).get(1))])
         except CommandRefused:
-            pass  # it moves again
+            pass  # the axis moves again
 
 
 def _table(moves: Any) -> Mapping[int, int]:
@@ -283,7 +312,7 @@ def _table(moves: Any) -> Mapping[int, int]:
 
 
 def _signed(raw: bytes) -> int:
-    """A position as it was read."""
+    """Return a position from its bytes."""
     return int.from_bytes(raw, "little", signed=True)
 
 

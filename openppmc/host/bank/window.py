@@ -1,7 +1,8 @@
-"""The window of a bank through the UART bridge, which sees the registers of one axis at a time.
+"""Window of a bank as seen through the UART bridge: the registers of one axis at a time.
 
-A write to register 3 selects it. Every script selects anew, so a lost answer, a reset or another program
-cannot leave the wrong axis behind; inside a script only a change does.
+A write to register 3 selects the axis. Every script selects its axis again, so a lost response, a reset or
+another program cannot leave the wrong axis selected. Inside a script, only a change of the axis writes
+register 3.
 """
 
 from __future__ import annotations
@@ -15,11 +16,11 @@ from .words import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]
-"""Number of an axis, 1 the first, and what to do there."""
+"""Number of an axis (from 1) and the script to execute there."""
 
 
 class AxisLink:
-    """A link as the driver of one axis uses it; see `link.Link`. number: of the axis, from 1."""
+    """Link for the driver of one axis; see `link.Link`. number: number of the axis, from 1."""
 
     def __init__(self, link: Link, number: int) -> None:
         self._link = link
@@ -27,53 +28,59 @@ class AxisLink:
 
     @property
     def name(self) -> str:
-        """The port as the user named it."""
+        """Port as the user named it."""
         return self._link.name
 
     @property
     def identity(self) -> Identity:
-        """What the bridge said about itself."""
+        """Identity that the bridge reported."""
         return self._link.identity
 
     def clock(self) -> float:
-        """Time of the port in s."""
+        """Return the time of the port in s."""
         return self._link.clock()
 
     def pause(self, seconds: float) -> None:
-        """Let time of the port pass."""
+        """Wait on the clock of the port."""
         self._link.pause(seconds)
 
     def close(self) -> None:
-        """Close the port, for all axes."""
+        """Close the port for all axes."""
         self._link.close()
 
     def wait_event(self, timeout: float) -> int | None:
-        """The next event of any axis."""
+        """Return the next event of any axis, `None` after timeout seconds."""
         return self._link.wait_event(timeout)
 
     def forget_events(self) -> None:
-        """Drop events that came earlier."""
+        """Discard the events received so far."""
         self._link.forget_events()
 
     def execute(self, script: Script) -> Answer:
-        """Run a script at this axis completely."""
+        """Execute a script completely at this axis."""
         return self.judge(self.attempt(script))
 
     def attempt(self, script: Script) -> Answer:
-        """Run a script at this axis and return its answer whatever its result is."""
+        """Execute a script at this axis and return its answer, regardless of its result."""
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
     def judge(self, answer: Answer) -> Answer:
-        """The answer itself if all ops were done, otherwise the exception, with the axis in its words."""
+        """Return the answer if all operations were done, otherwise raise its error.
+
+        The error names the axis.
+        """
         if answer.result is Result.REFUSED:
             raise refused(answer.last, self._number)
         return self._link.judge(answer)
 
 
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
-    """Do something at each of several axes, in as few frames as it takes; returns the values of each.
+    """Execute scripts at several axes in as few frames as possible.
 
-    Raises what `Link.execute` does; a refusal names its axis, and what comes behind it is not done.
+    It returns the values of each script.
+
+    It raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
+    following scripts are not executed.
     """
     values: list[tuple[bytes, ...]] = []
     for frame in _frames(pieces):
@@ -82,7 +89,7 @@ def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
 
 
 def _frames(pieces: Sequence[Piece]) -> Iterator[list[Piece]]:
-    """As many in a row as fit."""
+    """Split the scripts into frames, each as long as possible."""
     frame: list[Piece] = []
     room, data = LONGEST_SCRIPT, MOST_DATA
     for number, script in pieces:
@@ -114,8 +121,12 @@ def _run(link: Link, frame: Sequence[Piece]) -> list[tuple[bytes, ...]]:
 
 
 def read_info(link: Link) -> Info:
-    """INFO, checked (BANK-WIN-03). WrongDevice for what is no bank, or one unknown here."""
-    # Register bytes of the bank are told apart by the axis, of which there are four at least.
+    """Read and check INFO (BANK-WIN-03).
+
+    Raises:
+        WrongDevice: this is no bank, or a bank of an unknown version or size.
+    """
+    # The register bytes of the bank are selected by the axis. Every bank has at least four axes.
     mark, version, axes = (
         value[0][0] for value in visit(link, [(k, Script().read(INFO)) for k in (1, 2, 3)])
     )
@@ -132,6 +143,6 @@ def read_info(link: Link) -> Info:
         )
     if axes not in SIZES:
         raise WrongDevice(
-            f"{link.name}: the bank tells of {axes} axes, and there are such of {', '.join(map(str, SIZES))}"
+            f"{link.name}: the bank reports {axes} axes; expected one of {', '.join(map(str, SIZES))}"
         )
     return Info(version, axes)

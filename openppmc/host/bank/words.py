@@ -1,5 +1,4 @@
-"""What a bank allows, refuses and tells: the registers of its window as dataclasses
-(BANK-WIN-02, -03, -07). Pure."""
+"""Capabilities, errors and window registers of a bank (BANK-WIN-02, -03, -07). Pure."""
 
 # ruff: noqa: N818
 
@@ -12,28 +11,31 @@ from typing import NamedTuple
 from ...parts import part
 from .. import speeds
 from ..errors import BY_NUMBER, CommandRefused, NothingToStop, PpmcError
-from ..kind import COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
+from ..kind import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
 from ..registers import Inputs, Status
 
-# What a bank refuses, by axis.
+# Errors of an axis of a bank.
 
 NOTHING_HELD = "GO found no motion that it holds: start one while it is in the group"
 
 
 def refused(status: int, number: int) -> CommandRefused:
-    """The exception for a status byte with ERR = 1 of the axis with this number."""
+    """Return the exception for a status byte with ERR = 1 of the axis with this number."""
     kind = BY_NUMBER[status >> 4 & 7]
     return kind(status, f"axis {number}: {kind.text}")
 
 
 def go_refused(status: int, number: int) -> CommandRefused:
-    """The same after GO (BANK-GRP-02)."""
+    """Return the exception for a status byte with ERR = 1 after GO (BANK-GRP-02)."""
     error = refused(status, number)
     return NothingToStop(status, f"axis {number}: {NOTHING_HELD}") if type(error) is NothingToStop else error
 
 
 class GroupRefused(PpmcError):
-    """Axes of a group did not begin with the others, which run. refusals: the reason of each, by number."""
+    """Some axes of a group did not start; the others run.
+
+    refusals: exception of each axis, by number.
+    """
 
     def __init__(self, refusals: Mapping[int, CommandRefused]) -> None:
         super().__init__("; ".join(str(one) for one in refusals.values()))
@@ -41,9 +43,12 @@ class GroupRefused(PpmcError):
 
 
 STATUS, CONFIG, SELECT, POSITION = 0x1, 0x2, 0x3, 0x4
-"""Of an axis. SELECT is the bridge's view of the window: the axis whose registers all others are."""
+"""Registers of an axis.
+
+SELECT is a register of the bridge; it selects the axis of all other registers.
+"""
 MASK, PENDING, GO, STOP, INFO = 0x8, 0x9, 0xA, 0xB, 0xC
-"""Of the bank."""
+"""Registers of the bank."""
 MARK, VERSION = 0x42, 0x01
 CSEL, VSEL = 0x01, 0x02
 POSITION_BYTES = 4
@@ -57,20 +62,23 @@ class Info(NamedTuple):
 
 
 class Config(NamedTuple):
-    """CONFIG of an axis. csel: base clock XTAL / 32 (1) or XTAL / 128; vsel 0: 7.5 us more an interval."""
+    """CONFIG of an axis.
+
+    csel: base clock XTAL / 32 (1) or XTAL / 128 (0). vsel: 0 makes each interval 7.5 us longer.
+    """
 
     csel: int
     vsel: int
 
     @classmethod
     def parse(cls, raw: int) -> Config:
-        """From the byte."""
+        """Decode the CONFIG byte."""
         return cls(int(bool(raw & CSEL)), int(bool(raw & VSEL)))
 
 
 @dataclass(frozen=True)
 class Look:
-    """What one look at an axis shows; position as the axis counts, `Axis.zero` included."""
+    """State of an axis at one time. position: in the count of the axis, including `Axis.zero`."""
 
     status: Status
     position: int
@@ -79,14 +87,17 @@ class Look:
 
 @dataclass(frozen=True)
 class BankStatus:
-    """All status registers, axis 1 first. raw: as one number, axis 1 in the low byte."""
+    """Status registers of all axes, axis 1 first.
+
+    raw: all of them as one number, axis 1 in the low byte.
+    """
 
     raw: int
     axes: tuple[Status, ...]
 
     @classmethod
     def parse(cls, raw: bytes) -> BankStatus:
-        """From a byte an axis."""
+        """Decode one byte per axis."""
         return cls(int.from_bytes(raw, "little"), tuple(Status.parse(byte) for byte in raw))
 
     @property
@@ -96,24 +107,30 @@ class BankStatus:
 
 
 def members(raw: bytes) -> tuple[int, ...]:
-    """Numbers of the axes whose bits are 1 in a register of a bit an axis, byte 0 first."""
+    """Return the numbers of the axes whose bits are 1 in a register.
+
+    The register has one bit per axis, byte 0 first.
+    """
     bits = int.from_bytes(raw, "little")
     return tuple(place + 1 for place in range(8 * len(raw)) if bits >> place & 1)
 
 
 def bit_bytes(numbers: tuple[int, ...], axes: int) -> bytes:
-    """A register of a bit an axis with those of these axes 1, byte 0 first."""
+    """Return the bytes of a register where the bits of these axes are 1.
+
+    The register has one bit per axis, byte 0 first.
+    """
     return sum(1 << number - 1 for number in numbers).to_bytes((axes + 7) // 8, "little")
 
 
-# What a bank of PPMC-104 axes allows. Pure.
+# Capabilities of a bank of PPMC-104 axes.
 
 SIZES = (4, 8, 16, 32, 64)
-"""Numbers of axes that there are (BANK-GEN-01)."""
+"""Supported numbers of axes (BANK-GEN-01)."""
 
 
 class BankKind(RateKind):
-    """As a PPMC-104, but for what BANK-GEN-03 leaves out."""
+    """Capabilities of a PPMC-104 without those that BANK-GEN-03 excludes."""
 
     def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> speeds.BaseClock:
         if wanted.external_clock is not None:
@@ -124,7 +141,7 @@ class BankKind(RateKind):
 KIND = BankKind(
     part("bank"),
     axes=SIZES[-1],
-    has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF)),
+    has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER)),
     outputs=0,
 )
-"""Of the largest one; a driver has that of its bank."""
+"""Capabilities of the largest bank; a driver has those of its own bank."""

@@ -19,25 +19,35 @@ _ACCEPTED, _RUNNING = 3, 1
 
 
 class Axis(Settings):
-    """See `pmc006.Pmc006`. Steps are microsteps of the setting in force, forward positive."""
+    """Motions of a PMC006B4; see `pmc006.Pmc006`.
+
+    Steps are microsteps of the active setting, forward positive.
+    """
 
     _motion: Motion | None = None
 
     @property
     def motion(self) -> Motion | None:
-        """The motion that was started last, None before the first."""
+        """Motion that was started last, `None` before the first."""
         return self._motion
 
     # ------------------------------------------------------------------ motions
 
     def start_move(self, steps: int, speed: int | None = None) -> Motion:
-        """Begin a move of 1 to 2^31 - 1 steps either way. speed: maximum from now on, in steps/s."""
+        """Start a move of 1 to 2^31 - 1 steps in either direction.
+
+        speed: new maximum speed in steps/s.
+        """
         if not 1 <= abs(steps) <= LONGEST:
             raise OutOfRange(f"{steps} steps: a move has 1 to {LONGEST} steps either way")
         return self._start(Code.STEP, abs(steps), (_ACCEPTED, abs(steps)), _side(steps), speed)
 
     def move(self, steps: int, speed: int | None = None, progress: OnProgress | None = None) -> End:
-        """Move and wait. Raises LimitReached (EXT), AlarmStop (stall), StoppedEarly if it ends early."""
+        """Move and wait for the end.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: EXT, a stall or a stop ended the move.
+        """
         if steps == 0:
             return End(Cause.COMPLETE, 0, 0, self.position, 0, self.who)
         end = self.start_move(steps, speed).wait(progress=progress)
@@ -45,35 +55,44 @@ class Axis(Settings):
         return end
 
     def move_to(self, position: int, speed: int | None = None, progress: OnProgress | None = None) -> End:
-        """Move to a position and wait."""
+        """Move to a position and wait for the end."""
         return self.move(position - self.position, speed, progress)
 
     def jog(self, direction: int, speed: int | None = None) -> Motion:
-        """Run (speed mode) until a stop, EXT or a stall. direction: FORWARD or BACKWARD. speed: maximum from
-        now on, in steps/s."""
+        """Run in speed mode until a stop, EXT or a stall.
+
+        Args:
+            direction: FORWARD or BACKWARD.
+            speed: new maximum speed in steps/s.
+        """
         if direction not in (FORWARD, BACKWARD):
             raise OutOfRange(f"direction {direction} is neither 1 (FORWARD) nor -1 (BACKWARD)")
         return self._start(Code.RUN, 1, (_RUNNING,), direction, speed)
 
     def change_speed(self, speed: int) -> None:
-        """Another maximum speed, for a motion that runs too: it gets there by its ramps."""
+        """Set the maximum speed; a running motion reaches it with its ramps."""
         self.max_speed = speed
 
     def stop(self, wait: bool = True) -> End | None:
-        """Stop with a ramp; returns the End, None if not waited for. NothingToStop at rest.
+        """Stop with a ramp; return the End, or `None` if wait is False.
 
-        A free run is told to stop. The part has no such instruction for moves: those of 256 steps and more
-        get a low maximum speed first and are ended at once when they have come down to it.
+        A free run receives a stop instruction. The part has no such instruction for moves. A move of 256
+        steps or more first gets a low maximum speed; it is aborted when it has decelerated to it.
+
+        Raises:
+            NothingToStop: the motor is stopped.
         """
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> End | None:
-        """Stop at once; steps may be lost at high speed. As `stop` otherwise."""
+        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
         return self._stop(True, wait)
 
     def brake(self, now: bool = False) -> None:
-        """Stop a motion that this object started, without waiting for its end: a free run with its ramp,
-        a move at once."""
+        """Stop the motion that this object started, without waiting for its end.
+
+        A free run stops with its ramp, a move stops immediately.
+        """
         motion = self._motion
         if motion is None or motion.over:
             return
@@ -86,34 +105,38 @@ class Axis(Settings):
     # ------------------------------------------------------------------ stops and flags
 
     def enable_stops(self, ext1: bool = True, ext2: bool = True) -> None:
-        """Which EXT inputs stop the motor; none does after power-up."""
+        """Select the EXT inputs that stop the motor; after power-up no input does."""
         self.stops = int(ext1) | int(ext2) << 1
 
     def clear_stops(self, numbers: Iterable[int] = (1, 2)) -> None:
-        """Clear EXT flags, so that the motor may start again. Nothing moves."""
+        """Clear EXT flags, so that the motor may start again. It does not start the motor."""
         for number in numbers:
             code = Code.CLEAR_EXT2 if _ext(number) == 2 else Code.CLEAR_EXT1
             self.ask(code, good=lambda value: value == 0)
 
     def clear_stall(self) -> None:
-        """Clear the stall flag, and with it the pull on GPO5."""
+        """Clear the stall flag, which also releases GPO5."""
         self.ask(Code.CLEAR_STALL, good=lambda value: value == 0)
 
     def on_switch(self, number: int) -> bool:
-        """Whether EXT1 or EXT2 has its active level, which its trigger setting tells."""
+        """Return True if EXT1 or EXT2 has its active level, which its trigger setting defines."""
         rising = bool(self.trigger >> _ext(number) - 1 & 1)
         return self.ports().level(number) is rising
 
     # ------------------------------------------------------------------ position
 
     def set_position(self, position: int) -> None:
-        """Here is this position, -2^31 to 2^31 - 1. Only at rest (NotWhileBusy)."""
+        """Set the current position to this value, -2^31 to 2^31 - 1.
+
+        Raises:
+            NotWhileBusy: the motor is moving.
+        """
         within(position, "position", -(1 << 31), (1 << 31) - 1)
         self._at_rest(self.flags())
         self.ask(Code.SET_POSITION, position, good=lambda value: value == position)
 
     def zero(self) -> None:
-        """Here is position 0. Only at rest."""
+        """Set the current position to 0; only while the motor is stopped."""
         self.set_position(0)
 
     # ------------------------------------------------------------------ inside
@@ -127,7 +150,7 @@ class Axis(Settings):
         self.direction = int(direction == FORWARD)
         begin = self.position
         if begin < 0 < direction:
-            self.remember("max_speed")  # shows a reset in a motion that ends at 0
+            self.remember("max_speed")  # detects a reset in a motion that ends at 0
         motion = Motion(self, data if code is Code.STEP else None, direction, begin)
         got = self.ask(
             code,
@@ -142,7 +165,10 @@ class Axis(Settings):
         return motion
 
     def _begun(self, begin: int, reply: int) -> int | None:
-        """The reply to a start was lost: whether the motor moves or has moved. It rested before."""
+        """Return whether the motor moves or has moved, after the reply to a start was lost.
+
+        The motor was stopped before the start.
+        """
         try:
             return reply if self.flags().busy or self.position != begin else None
         except NoAnswer as error:
@@ -153,7 +179,7 @@ class Axis(Settings):
             raise NotWhileBusy(0, f"{self.who}the motor is moving: wait for its end or stop it first")
 
     def _why_not(self, code: Code) -> CommandRefused:
-        """What has made the part refuse a start."""
+        """Return the reason why the part rejected a start."""
         flags = self.flags()
         if flags.stops:
             return locked(flags.stops, self.who)
@@ -189,7 +215,7 @@ class Axis(Settings):
         return motion.wait() if wait else None
 
     def _strange(self) -> Motion:
-        """A motion of another program. NothingToStop at rest."""
+        """Return a motion of another program. Raises NothingToStop if the motor is stopped."""
         if not self.flags().busy:
             raise NothingToStop(0, f"{self.who}nothing to stop: the motor is at rest")
         running = self.modes().running
@@ -199,7 +225,7 @@ class Axis(Settings):
         self.ask(Code.RUN, 0, good=lambda value: value == 0)
 
     def _slow_move(self, motion: Motion) -> None:
-        """Bring a move down to its stop speed; `Motion.look` ends it then."""
+        """Decelerate a move to its stop speed; `Motion.look` ends it then."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
             motion.slow_down(0, top)
@@ -219,7 +245,7 @@ def _ext(number: int) -> int:
     return number
 
 
-# Finding a reference point with a PMC006B4: its EXT switches are the only ones that it has.
+# Homing of a PMC006B4. Its EXT switches are its only switches.
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000
@@ -227,7 +253,7 @@ _KEPT = ("stops", "direction", "start_speed", "stop_speed", "max_speed")
 
 
 class Homing:
-    """One homing run of a controller; see `pmc006.Pmc006.home`."""
+    """Homing run of a controller; see `pmc006.Pmc006.home`."""
 
     def __init__(
         self,
@@ -248,13 +274,17 @@ class Homing:
         self._speed, self._slow, self._off, self._progress = speed, slow, off, progress
 
     def run(self) -> End:
-        """Off the switch if need be, towards it, off, slowly towards it again, off; zero. Speeds, direction
-        and enabled stops are afterwards as they were."""
+        """Find the edge of the switch and set the position to 0.
+
+        The motor leaves the switch if it is active, otherwise it approaches the switch and leaves it. Then it
+        approaches the switch slowly and leaves it again. Speeds, direction and enabled stops are restored
+        afterwards.
+        """
         axis = self._axis
         before = {name: getattr(axis, name) for name in _KEPT}
         try:
             axis.clear_stops()
-            axis.stops = 3  # the other one, too: this may be the wrong way
+            axis.stops = 3  # also the other switch, because the direction may be wrong
             if axis.on_switch(self._switch):
                 self._leave()
             else:
@@ -270,7 +300,7 @@ class Homing:
                     setattr(axis, name, value)
 
     def _pace(self, speed: int) -> None:
-        """No ramps: the way from the switch's edge to rest is always the same."""
+        """Switch ramps off, so that the motor always stops at the same distance from the switch edge."""
         self._axis.start_speed = self._axis.stop_speed = self._axis.max_speed = speed
 
     def _approach(self, speed: int) -> None:
@@ -289,7 +319,7 @@ class Homing:
         axis.clear_stops(stops)
 
     def _leave(self) -> End:
-        """Away from the switch in moves of the same length until it is released."""
+        """Move away from the switch in moves of equal length until it is released."""
         axis, gone = self._axis, 0
         self._pace(self._slow)
         while True:

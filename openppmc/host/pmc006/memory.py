@@ -1,4 +1,4 @@
-"""The user program of a PMC006B4: download, read-back, burn, run, halt."""
+"""User program of a PMC006B4: download, read-back, burn, run, halt."""
 
 from __future__ import annotations
 
@@ -11,25 +11,29 @@ from .axis import Axis
 from .wire import Code, ProgramDiffers, ProgramRuns, Storage, StorageBusy, StorageFailed
 
 OnCount = Callable[[int, int], None]
-"""Called with how many words are done, and of how many."""
+"""Called with the number of words done and the total number."""
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
-"""How long the EEPROM is busy, with some reserve."""
+"""Seconds that the EEPROM is busy, with some reserve."""
 _LOOKS = 10
-"""So often as much, for a slow I2C clock."""
+"""Number of these times to wait at most, for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
 class Memory(Axis):
-    """See `pmc006.Pmc006`."""
+    """User program and EEPROM of a controller; see `pmc006.Pmc006`."""
 
     _here: int | None = None
-    """Where the part's word pointer is, as far as it is known."""
+    """Word pointer of the part, `None` if it is unknown."""
 
-    # ------------------------------------------------------------------ the program in its buffer
+    # ------------------------------------------------------------------ program in the buffer
 
     def load_program(self, program: Program, progress: OnCount | None = None) -> None:
-        """Write a program into the buffer: words that differ from what is there, which are then read back.
-        Raises ProgramRuns, ProgramDiffers."""
+        """Write the words of a program that differ from the buffer, and read them back.
+
+        Raises:
+            ProgramRuns: a program is running.
+            ProgramDiffers: a word reads back wrong.
+        """
         if self.program_runs():
             raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
         found = self._read_words(range(WORDS), progress, WORDS)
@@ -49,11 +53,11 @@ class Memory(Axis):
                 )
 
     def read_program(self, progress: OnCount | None = None) -> Program:
-        """The program in the buffer; at any time."""
+        """Return the program in the buffer; allowed at any time."""
         return Program(tuple(self._read_words(range(WORDS), progress, WORDS).values()))
 
     def _read_words(self, places: Collection[int], progress: OnCount | None, total: int) -> dict[int, int]:
-        """Words of the buffer. total: of all that the user sees."""
+        """Read words of the buffer. total: number of words of the whole operation, for `progress`."""
         words: dict[int, int] = {}
         self._here = None
         for place in places:
@@ -66,13 +70,21 @@ class Memory(Axis):
     # ------------------------------------------------------------------ EEPROM
 
     def save(self) -> None:
-        """Keep the settings for the next power-up, and wait until that is done. Raises StorageBusy, and
-        StorageFailed if the EEPROM did not answer."""
+        """Save the settings for the next power-up, and wait until that is done.
+
+        Raises:
+            StorageBusy: the EEPROM is being written.
+            StorageFailed: the EEPROM did not respond.
+        """
         self._store(Code.SAVE, SAVE_SECONDS)
 
     def burn_program(self) -> None:
-        """Keep the program for the next power-up, and wait until that is done. Raises StorageBusy, and
-        StorageFailed if the EEPROM did not answer."""
+        """Save the program for the next power-up, and wait until that is done.
+
+        Raises:
+            StorageBusy: the EEPROM is being written.
+            StorageFailed: the EEPROM did not respond.
+        """
         self._store(Code.BURN, BURN_SECONDS)
 
     def _store(self, code: Code, seconds: float) -> None:
@@ -80,7 +92,7 @@ class Memory(Axis):
         got = self.ask(code, good=_yes_or_no)
         if not got and self.counters.repeated == repeated:
             raise StorageBusy(0, f"{self.who}{StorageBusy.text}")
-        # Refused after a lost reply: the first one is at work.
+        # A rejection after a lost reply means that the first instruction is being executed.
         for _ in range(_LOOKS):
             self.line.pause(seconds)
             state = self.ask(Code.STORED, good=lambda value: value in set(Storage))
@@ -93,7 +105,12 @@ class Memory(Axis):
     # ------------------------------------------------------------------ running
 
     def run_program(self, begin: int = 0) -> None:
-        """Start the program at an instruction, 0 to 99. Raises ProgramRuns; LostReply if nobody knows."""
+        """Start the program at an instruction, 0 to 99.
+
+        Raises:
+            ProgramRuns: a program is running.
+            LostReply: it is unknown whether the program was started.
+        """
         self._point(2 * _instruction(begin))
         if not self._ask_risky(Code.RUN_PROGRAM, self._started):
             raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
@@ -107,15 +124,24 @@ class Memory(Axis):
         raise self.lost("no program runs now, but a short one may have run")
 
     def halt_program(self) -> None:
-        """Halt the program; a motion goes on. The key functions are off afterwards, `offline` stays."""
+        """Halt the program; a motion continues.
+
+        Afterwards the key functions are off; `offline` is unchanged.
+        """
         offline = self.offline
         self.offline = 0
         if offline:
             self.offline = 1
 
     def try_instruction(self, place: int) -> None:
-        """Carry out one instruction of the buffer, 0 to 99; jumps and the like do nothing. Raises
-        ProgramRuns; LostReply if nobody knows."""
+        """Execute one instruction of the buffer, 0 to 99.
+
+        Jumps and similar instructions have no effect.
+
+        Raises:
+            ProgramRuns: a program is running.
+            LostReply: it is unknown whether the instruction was executed.
+        """
         self._point(2 * _instruction(place))
         if not self._ask_risky(Code.TRY, self._perhaps_tried):
             raise ProgramRuns(0, f"{self.who}{ProgramRuns.text}")
@@ -124,8 +150,14 @@ class Memory(Axis):
         raise self.lost("it cannot be seen whether the instruction was carried out")
 
     def program_runs(self) -> bool:
-        """Whether a program runs, waits or is paused. No read-out tells, so an instruction of the buffer that
-        does nothing is tried: that is refused while a program runs."""
+        """Return True if a program runs, waits or is paused.
+
+        No read-out reports it. Therefore this method requests the execution of an instruction of the buffer
+        that has no effect; the part rejects the request while a program runs.
+
+        Raises:
+            ProgramRuns: the buffer contains no such instruction.
+        """
         for place in range(WORDS // 2 - 1, -1, -1):
             self._point(2 * place)
             if harmless(self._read(2 * place)):
@@ -140,12 +172,12 @@ class Memory(Axis):
         return self.ask(code, good=_yes_or_no, settle=settle, risky=True)
 
     def _point(self, word: int) -> None:
-        """Set the part's word pointer."""
+        """Set the word pointer of the part."""
         self._here = None
         self.ask(Code.POINTER, word, good=lambda value: value == word)
 
     def _seek(self, word: int) -> None:
-        """The same, unless it is there already."""
+        """Set the word pointer of the part unless it has this value."""
         if self._here != word:
             self._point(word)
 

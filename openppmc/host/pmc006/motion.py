@@ -1,4 +1,4 @@
-"""A motion of a PMC006B4 under way: its status tells the end."""
+"""Motion of a PMC006B4, whose end is detected from the status."""
 
 from __future__ import annotations
 
@@ -15,12 +15,15 @@ from .wire import Code, Flags
 
 
 class End(ending.End):
-    """LIMIT stands for EXT1 and EXT2, ALARM for a stall. `finish` is status 1 at the end."""
+    """End of a motion. LIMIT means EXT1 or EXT2, ALARM means a stall.
+
+    `finish` is status 1 at the end.
+    """
 
     unit = "steps"
 
     def at(self, position: int) -> End:
-        """The same end, with this position."""
+        """Return the same end with this position."""
         return replace(self, position=position)
 
     @property
@@ -40,10 +43,13 @@ class End(ending.End):
 
 
 class Motion(Handle):
-    """Handle of a motion that was started; `end` is its End once it is known.
+    """Handle of a motion that was started; `end` is its End when it is known.
 
-    asked: steps, None for free runs. direction: 1 forward, -1 backward. begin: position before. stop_ordered:
-    a stop was sent.
+    Attributes:
+        asked: steps, `None` for free runs.
+        direction: 1 = forward, -1 = backward.
+        begin: position before the motion.
+        stop_ordered: a stop was sent.
     """
 
     end: End | None = None
@@ -60,20 +66,23 @@ class Motion(Handle):
 
     @property
     def line(self) -> Line:
-        """Where its controller is."""
+        """Line of the controller."""
         return self._part.line
 
     @property
     def station(self) -> int:
-        """Address of its controller."""
+        """Address of the controller."""
         return self._part.address
 
     def slow_down(self, seconds: float, top: int) -> None:
-        """The maximum speed was lowered: stop at once in so many seconds, then restore it to `top`."""
+        """Abort the motion after this number of seconds, and then restore the maximum speed to `top`.
+
+        The caller has lowered the maximum speed.
+        """
         self._abort = self.line.clock() + seconds, top
 
     def look(self) -> None:
-        """Ask the controller; sets `end`, or `unknown`, when the motion is over."""
+        """Poll the controller; set `end` or `unknown` if the motion is over."""
         flags = self._part.flags()
         if flags.busy and self._abort is not None and self.line.clock() >= self._abort[0]:
             self._part.ask(Code.ABORT, good=lambda value: value == 0)
@@ -100,7 +109,7 @@ class Motion(Handle):
             self.end = End(cause, made, left, position, raw, self._part.who)
 
     def _cause(self, flags: Flags) -> Cause | None:
-        """What has ended it early, None if nothing that is known has."""
+        """Return the cause of an early end, `None` if no known cause applies."""
         if flags.stops:
             return Cause.LIMIT
         if flags.stall and not self.stop_ordered:
@@ -108,25 +117,28 @@ class Motion(Handle):
         return Cause.STOP if self.stop_ordered else None
 
     def now(self) -> Progress:
-        """Where the motor is, or where the motion has ended."""
+        """Return the progress now, or at the end of the motion."""
         position = self._part.position if self.end is None else self.end.position or 0
         made = 0 if self.begin is None else abs(_signed(position - self.begin))
         return Progress(position, made, self.asked, self.line.clock() - self._started)
 
     def poll(self) -> Progress | None:
-        """Return where the motor is now; None when it has stopped (then `end` is set). Raises EndUnknown if
-        it has stopped, and the controller does not confirm how."""
+        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+
+        Raises:
+            EndUnknown: the motor has stopped, but the controller does not confirm how the motion ended.
+        """
         if not self.over:
             self.look()
         return self.now() if self._confirmed() is None else None
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """Wait for the end, without judging its cause; see `host.line.motion.wait_all`."""
+        """Wait for the end and return it, for any cause; see `host.line.wait_all`."""
         wait_all([self], timeout, progress)
         assert self.end is not None
         return self.end
 
 
 def _signed(steps: int) -> int:
-    """A difference of positions, which wrap at 32 bits."""
+    """Return a difference of positions, which wrap at 32 bits."""
     return (steps + (1 << 31)) % (1 << 32) - (1 << 31)

@@ -1,15 +1,17 @@
 """Driver of the PMC006B4.
 
-with Pmc006.open("/dev/ttyUSB0") as motor:
-    motor.microsteps, motor.current = 32, 1500
-    motor.home(switch=1, direction=BACKWARD)
-    motor.move(6400, speed=8000)
+One controller:
 
-Several on one line:
+    with Pmc006.open("/dev/ttyUSB0") as motor:
+        motor.microsteps, motor.current = 32, 1500
+        motor.home(switch=1, direction=BACKWARD)
+        motor.move(6400, speed=8000)
 
-with Pmc006Bus.open("/dev/ttyUSB0") as bus:
-    x, y = bus.axis(1), bus.axis(2)
-    bus.wait([x.start_move(3200), y.start_move(-1600)])
+Several controllers on one line:
+
+    with Pmc006Bus.open("/dev/ttyUSB0") as bus:
+        x, y = bus.axis(1), bus.axis(2)
+        bus.wait([x.start_move(3200), y.start_move(-1600)])
 """
 
 from __future__ import annotations
@@ -42,12 +44,12 @@ OUTPUTS = 5
 
 
 class Pmc006(Memory, Device):
-    """One controller. `open` takes a line for it alone; `bus.Pmc006Bus` gives several.
+    """One controller with its line; `Pmc006Bus` is a line with several.
 
-    Settings are properties (`settings.SETTINGS` lists them). Instructions whose reply is lost are repeated
-    only where that does no harm: a start is looked for in status and position first, so nothing moves twice;
-    LostReply where nobody can know. Leaving a `with` block by an exception stops a motion that this object
-    started.
+    Settings are properties (listed in `settings.SETTINGS`). After a lost reply, an instruction is repeated
+    only if that has no side effect. A start is first checked in status and position, so nothing moves twice.
+    LostReply is raised where the driver cannot know whether the instruction was executed. If a `with` block
+    is left by an exception, a motion that this object started is stopped.
     """
 
     kind = KIND
@@ -62,8 +64,14 @@ class Pmc006(Memory, Device):
         rs485: RS485Settings | None = None,
         patience: float = PATIENCE,
     ) -> Pmc006:
-        """Open a port; arguments as those of `line.Line`. address: None looks for a controller: 255,
-        then 1 to 120. Raises StationSilent if there is none."""
+        """Open a port; the other arguments are those of `Line`.
+
+        Args:
+            address: address of the controller, `None` to search for one: 255, then 1 to 120.
+
+        Raises:
+            StationSilent: no controller replies.
+        """
         line = Line(spec, baud, rs485, patience)
         try:
             return cls(line, find(line) if address is None else address)
@@ -73,15 +81,15 @@ class Pmc006(Memory, Device):
 
     @property
     def number(self) -> int:
-        """Its address."""
+        """Address of the controller."""
         return self.address
 
     @property
     def axes(self) -> tuple[Pmc006, ...]:
-        """Itself."""
+        """The controller itself."""
         return (self,)
 
-    # ------------------------------------------------------------------ reference point
+    # ------------------------------------------------------------------ homing
 
     def home(
         self,
@@ -92,12 +100,21 @@ class Pmc006(Memory, Device):
         off: int = 100,
         progress: OnProgress | None = None,
     ) -> End:
-        """Find the edge of EXT1 or EXT2 and make the place `off` steps away from it position 0.
+        """Find the edge of EXT1 or EXT2 and set the position to 0 `off` steps away from it.
 
-        direction: towards the switch. speed: until it stops the motor, slow: for the second, exact approach,
-        both 65 to 3000 steps/s and so low that the motor may stop at once. Works from the switch too. Both
-        stops are enabled meanwhile; EXT flags are cleared; speeds, direction and enabled stops are as before
-        afterwards. Raises OriginNotFound, also if the other switch comes first.
+        It works with any start position, also on the switch. Both stops are enabled during homing, and EXT
+        flags are cleared. Afterwards speeds, direction and enabled stops are restored.
+
+        Args:
+            switch: 1 (EXT1) or 2 (EXT2).
+            direction: direction towards the switch.
+            speed: speed until the switch stops the motor, 65 to 3000 steps/s. It must be so low that the
+                motor may stop immediately.
+            slow: speed of the second, exact approach, with the same limits.
+            off: distance of position 0 from the switch in steps.
+
+        Raises:
+            OriginNotFound: the switch was not found, or the other switch was reached first.
         """
         return Homing(self, switch, direction, speed, slow, off, progress).run()
 
@@ -105,7 +122,10 @@ class Pmc006(Memory, Device):
 
     @property
     def outputs(self) -> int:
-        """Levels of GPO5 to GPO1 (bit 4 to 0), with the pull of a stall; assigned as a whole."""
+        """Levels of GPO5 to GPO1 (bits 4 to 0).
+
+        The value includes a level set by a stall. An assignment writes all of them.
+        """
         return self.ports().outputs
 
     @outputs.setter
@@ -114,34 +134,43 @@ class Pmc006(Memory, Device):
         self.ask(Code.WRITE_IO, levels << 3, good=lambda value: value == levels << 3)
 
     def set_output(self, number: int, on: bool) -> None:
-        """One of GPO1 to GPO5; the others stay."""
+        """Set one of GPO1 to GPO5; the others are unchanged."""
         if number not in range(1, OUTPUTS + 1):
             raise OutOfRange(f"GPO{number}: there are GPO1 to GPO{OUTPUTS}")
         bit = 1 << number - 1
         self.outputs = self.outputs | bit if on else self.outputs & ~bit
 
     def watch_stall(self, level: int, length: int, stop: bool = True, output: bool = False) -> None:
-        """Detect stalls: back-EMF below `level` (0 to 511) in so many samples (0 to 63) at constant speed.
-        stop: the motor stops; output: GPO5 is raised."""
+        """Detect stalls at constant speed.
+
+        Args:
+            level: a back-EMF below this level counts, 0 to 511.
+            length: number of such samples in a row, 0 to 63.
+            stop: a stall stops the motor.
+            output: a stall sets GPO5 high.
+        """
         self.stall_level, self.stall_length = level, length
         self.stall_config = 1 | stop << 1 | output << 2
 
     @property
     def stall_position(self) -> int:
-        """Where the last stall was; 0 if there was none."""
+        """Position of the last stall, 0 if there was no stall."""
         return self.ask(Code.STALL_POSITION)
 
     # ------------------------------------------------------------------ address
 
     def set_address(self, address: int) -> None:
-        """Give it another address, 1 to 120, at once; `save` keeps it. Raises DuplicateAddress if somebody
-        has that already."""
+        """Set another address, 1 to 120, effective immediately; `save` stores it.
+
+        Raises:
+            DuplicateAddress: another controller has this address.
+        """
         within(address, "address", 1, LAST)
         if address == self.address:
             return
         if Pmc006(self.line, address).is_there():
             raise DuplicateAddress(f"{self.line.name}: address {address} is taken: choose another one")
-        # The reply comes from the new address already.
+        # The reply already uses the new address.
         for _ in range(ATTEMPTS):
             got = self.line.exchange(self.address, Code.ADDRESS, address, answers=address)
             if not isinstance(got, Miss) or Pmc006(self.line, address).is_there():
@@ -152,7 +181,10 @@ class Pmc006(Memory, Device):
 
 
 def find(line: Line, progress: Callable[[int], None] | None = None) -> int:
-    """The first address that answers: 255, then 1 to 120. StationSilent if none does."""
+    """Return the first address that replies: 255, then 1 to 120.
+
+    Raises StationSilent if no controller replies.
+    """
     for found in scan(line, progress=progress):
         return found
     raise StationSilent(
@@ -163,7 +195,7 @@ def find(line: Line, progress: Callable[[int], None] | None = None) -> int:
 def scan(
     line: Line, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
 ) -> Iterator[int]:
-    """Addresses that answer, as they are found. progress: called with each before it is asked."""
+    """Yield addresses that reply. progress: called with each address before it is polled."""
     for address in addresses:
         if progress is not None:
             progress(address)
@@ -176,8 +208,13 @@ def scan(
 
 @dataclass(frozen=True)
 class Found:
-    """A controller that `scan` has found; version, flags, modes and position are None if its replies are
-    garbled, which `trouble` tells. counters: of the master."""
+    """Controller found by `scan`.
+
+    Attributes:
+        version, flags, modes, position: `None` if the replies are corrupt.
+        trouble: the problem in this case.
+        counters: counters of the master.
+    """
 
     address: int
     version: str | None
@@ -189,8 +226,10 @@ class Found:
 
 
 class Pmc006Bus(LineBus[Line, Pmc006]):
-    """A line (`line.Line`) with controllers; see `host.line.bus.LineBus`. `axis(5)` is the `Pmc006` with
-    that address, whether it is there or not."""
+    """Line (`Line`) with controllers; see `host.line.LineBus`.
+
+    `axis(5)` is the `Pmc006` with that address, whether it is connected or not.
+    """
 
     kind = KIND
 
@@ -202,26 +241,30 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         rs485: RS485Settings | None = None,
         patience: float = PATIENCE,
     ) -> Pmc006Bus:
-        """Open a port; arguments as those of `line.Line`. Says nothing on the line."""
+        """Open a port; the arguments are those of `Line`. It sends nothing."""
         return cls(Line(spec, baud, rs485, patience))
 
     def make(self, station: int) -> Pmc006:
         return Pmc006(self.line, address_number(station), alone=False)
 
     def look_at(self, axis: Pmc006) -> None:
-        """They report nothing by themselves, but a move that is being stopped needs care."""
+        """Poll a move that is being stopped; controllers send no unsolicited reports."""
         if axis.motion is not None and not axis.motion.over:
             axis.motion.look()
 
     def scan(
         self, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
     ) -> list[Found]:
-        """Who is there; progress: called with each address before it is asked. Takes the patience for each
-        address without a controller."""
+        """Return the controllers of the line.
+
+        An address without a controller takes the time `patience`.
+
+        progress: called with each address before it is polled.
+        """
         return [self.look(self.axis(address)) for address in scan(self.line, addresses, progress)]
 
     def look(self, axis: Pmc006) -> Found:
-        """A controller that answers."""
+        """Return the state of a controller that replies."""
         try:
             seen = axis.version(), axis.flags(), axis.modes(), axis.position
         except (GarbledReply, StationSilent) as error:
@@ -229,6 +272,6 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
         return Found(axis.address, *seen, axis.counters)
 
     def check(self, addresses: Iterable[int]) -> None:
-        """All of these answer. Raises StationSilent, GarbledReply."""
+        """Check that all these addresses reply. Raises StationSilent, GarbledReply."""
         for address in addresses:
             self.axis(address).flags()

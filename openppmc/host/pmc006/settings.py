@@ -1,4 +1,7 @@
-"""Settings of a PMC006B4: codes, ranges, units, what is saved. Each is a property of `Settings`."""
+"""Settings of a PMC006B4 with codes, ranges, units and storage.
+
+Each is a property of `Settings`.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +19,11 @@ MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)
 DRIVE_FIRST, DRIVE_STEP = 400, 150
 LEAST_ACCELERATION = 1700
 NO_WRITE = 1 << 30
-"""No setting takes this value, so that an instruction with it only tells what is in force."""
+"""No setting accepts this value, so an instruction with it only returns the active value."""
 
 
 def mean_acceleration(coefficient: int) -> int:
-    """Steps/s² of a coefficient 0 to 5.
+    """Return the mean acceleration in steps/s² of a coefficient 0 to 5.
 
     >>> mean_acceleration(3)
     13600
@@ -29,7 +32,7 @@ def mean_acceleration(coefficient: int) -> int:
 
 
 def drive_current(milliamperes: int) -> int:
-    """What the drive makes of a setting, in mA: the nearest of 400, 550, …, 4000.
+    """Return the current of the drive for a setting, in mA: the nearest of 400, 550, …, 4000.
 
     >>> drive_current(800), drive_current(1500)
     (850, 1450)
@@ -39,11 +42,19 @@ def drive_current(milliamperes: int) -> int:
 
 @dataclass(frozen=True)
 class Setting:
-    """A register, and the property that reads and writes it.
+    """Register, and the property that reads and writes it.
 
-    write: instruction; read: instruction that reads it, None where a refused write does. shift: place of its
-    bits in the word that is read; bits: how many. accepts: legal values, as users give them; span: the same
-    in words. text: what it is for. unit: of the value. saved: kept by `save`.
+    Attributes:
+        write: instruction that writes it.
+        read: instruction that reads it, `None` if a rejected write returns the value.
+        accepts: valid values, as users specify them.
+        span: valid values as text.
+        text: purpose.
+        unit: unit of the value.
+        saved: True if `save` stores it.
+        shift: lowest bit in the word that is read.
+        bits: number of bits.
+        word: number of bits of the word that is read.
     """
 
     write: Code
@@ -91,20 +102,20 @@ class Setting:
             node.unsaved[self.name] = value
 
     def _plausible(self, data: int) -> bool:
-        """Whether a reply can be this setting, or the word that it is part of."""
+        """Return True if a reply can be this setting, or the word that contains it."""
         return data == 0 or (data in self.accepts if self.word == 32 else 0 < data < 1 << self.word)
 
     def data(self, value: int) -> int:
-        """What is sent for a value."""
+        """Return the data to send for a value."""
         return value
 
     def known(self, data: int) -> int:
-        """The value for data that were read."""
+        """Return the value for data that were read."""
         return data
 
 
 class FullSteps(Setting):
-    """Microstepping: the part calls full steps 0, people 1."""
+    """Microstepping; full step is 0 in the part and 1 for users."""
 
     hint = "; 1 is the full step"
 
@@ -119,21 +130,26 @@ _InStatus1 = partial(Setting, word=STATUS_1_BITS, bits=1)
 _InStatus2 = partial(Setting, word=STATUS_2_BITS, saved=False)
 _SPEED = (range(65, 3001), "65 to 3000")
 _SHOW_A_RESET = ("direction", "stops", "max_speed")
-"""Settings that no `save` keeps and that one short instruction reads."""
+"""Settings that `save` does not store and that one short instruction reads."""
 
 
 class Settings(Talk):
-    """Each assignment is checked against the reply. Values that are out of range raise OutOfRange before they
-    are sent; what the part refuses raises SettingRefused."""
+    """Settings of a controller. Each assignment is checked against the reply.
+
+    A value out of range raises OutOfRange before it is sent. A value that the part rejects raises
+    SettingRefused.
+    """
 
     def remember(self, name: str) -> None:
-        """Read one of the settings by which `was_reset` knows, unless it was written before."""
+        """Read a setting that `was_reset` compares, unless it was written before."""
         if name not in self.unsaved:
             self.unsaved[name] = getattr(self, name)
 
     def was_reset(self) -> bool:
-        """Whether a setting that no reset keeps is another one than was written. A part whose settings were
-        those of the factory shows nothing."""
+        """Return True if a setting that a reset changes differs from the value written.
+
+        A reset is not detected if these settings had their factory values.
+        """
         return any(getattr(self, name) != value for name, value in self.unsaved.items())
 
     microsteps = FullSteps(
@@ -191,7 +207,7 @@ class Settings(Talk):
         Code.STATUS_2,
         range(2),
         "0 or 1",
-        "the program starts by itself after power-up; 0 also halts it",
+        "run the program after power-up; 0 also halts it",
         word=STATUS_2_BITS,
         shift=5,
         bits=1,
@@ -229,11 +245,11 @@ class Settings(Talk):
 SETTINGS: dict[str, Setting] = {
     name: value for name, value in vars(Settings).items() if isinstance(value, Setting)
 }
-"""All of them by name."""
+"""All settings by name."""
 
 
 def setting(name: str) -> Setting:
-    """By name. OutOfRange for one that does not exist."""
+    """Return the setting of this name. Raises OutOfRange if it does not exist."""
     try:
         return SETTINGS[name.replace("-", "_").lower()]
     except KeyError:

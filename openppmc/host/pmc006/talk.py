@@ -1,4 +1,7 @@
-"""One PMC006B4 on its line: instructions and replies, repeated where that does no harm."""
+"""Communication with one PMC006B4: instructions and their replies.
+
+An instruction whose reply is lost is repeated only if that has no side effect.
+"""
 
 from __future__ import annotations
 
@@ -19,23 +22,30 @@ from ..line import LostReply, unanswered
 from ..line_port import Counters, Fault
 from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags, Modes, Ports
 
-# A line with PMC006B4: any number of controllers, a frame and its reply at a time.
+# Line with any number of PMC006B4 controllers. It transfers one frame and its reply at a time.
 
 PART = "pmc006"
 BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200
 DROPPED_AFTER = 200
-"""Bit times of silence after which a controller has forgotten half a frame (192, and some for safety)."""
+"""Bit times of silence after which a controller has discarded an incomplete frame.
+
+The part needs 192; the rest is a reserve.
+"""
 
 
 class Line(Master[Reply]):
-    """The master's end of a line, RS-232 or RS-485. An adapter that hears itself needs no option.
+    """Master of a line, RS-232 or RS-485. An adapter that receives its own bytes needs no option.
 
-    spec: a port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, …), `sim:…` or `model:…`.
-    baud: 9600 unless the controllers were built with another rate, 1200 to 115200. rs485: settings of
-    pyserial for adapters whose driver is switched by RTS. patience: s beyond line time until a controller is
-    silent. Raises PortError.
+    Attributes:
+        spec: port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, …), `sim:…` or
+            `model:…`.
+        baud: 9600 unless the controllers were built with another rate, 1200 to 115200.
+        rs485: settings of pyserial for adapters whose driver is switched by RTS.
+        patience: seconds beyond line time until a controller counts as silent.
+        doubtful: addresses that did not reply to a frame, so that a late reply may still arrive.
 
-    doubtful: addresses that have left a question unanswered, so that a late reply may still come.
+    Raises:
+        PortError: the port cannot be opened.
     """
 
     def __init__(
@@ -53,8 +63,11 @@ class Line(Master[Reply]):
         self.doubtful: set[int] = set()
 
     def exchange(self, address: int, code: int, data: int = 0, answers: int | None = None) -> Reply | Miss:
-        """A frame and its reply. answers: the address that replies, if it is another one. Raises
-        Disconnected."""
+        """Send a frame and return its reply. Raises Disconnected.
+
+        Args:
+            answers: address of the reply, `None` if it is the same.
+        """
         sent = command(address_number(address), code, data)
         got = self.ask(address, sent, Receiver(address if answers is None else answers, sent))
         if isinstance(got, Miss) and not got.heard:
@@ -62,7 +75,7 @@ class Line(Master[Reply]):
         return got
 
     def settle(self) -> None:
-        """Wait until no controller holds half a frame and nothing more comes."""
+        """Wait until no controller holds an incomplete frame and no more bytes arrive."""
         self.pause(DROPPED_AFTER / self.baud)
 
     def _missed(self, listener: Listener[Reply], heard: bytes) -> Miss:
@@ -77,8 +90,13 @@ _OTHERS = "noise, another baud rate, or two controllers with this address"
 
 
 class Talk(Checked):
-    """See `pmc006.Pmc006`. address: 1 to 120, or 255. alone: the only controller that this program uses, so
-    that messages need not name it. unsaved: last known values of settings that a reset changes."""
+    """Communication with one controller; see `pmc006.Pmc006`.
+
+    Attributes:
+        address: 1 to 120, or 255.
+        alone: True if this program uses one controller only, so that messages do not name it.
+        unsaved: last known values of settings that a reset changes.
+    """
 
     line: Line
     link: Line
@@ -95,7 +113,7 @@ class Talk(Checked):
 
     @property
     def who(self) -> str:
-        """Begins a message about this controller, if there are several."""
+        """Prefix of messages about this controller; empty if it is the only one."""
         return "" if self.alone else f"controller {self.address}: "
 
     @property
@@ -105,7 +123,7 @@ class Talk(Checked):
 
     @property
     def counters(self) -> Counters:
-        """What went wrong between the master and this controller."""
+        """Counters of the faults between the master and this controller."""
         return self.line.counters.setdefault(self.address, Counters())
 
     # ------------------------------------------------------------------ instructions
@@ -119,13 +137,19 @@ class Talk(Checked):
         sure: bool = True,
         risky: bool = False,
     ) -> int:
-        """Send an instruction; returns the data of its reply, signed.
+        """Send an instruction and return the data of its reply, signed.
 
-        good: what a reply can be; another one is a damaged one or that of something else, unless sure is
-        False: then it is the part's last word after it has come twice. settle: called after each attempt
-        without a reply; what it returns is the reply if the instruction was carried out, None if it was not
-        and may be repeated; it may raise. Raises StationSilent, GarbledReply, and LostReply instead of the
-        former if the instruction is risky: if it matters whether it was carried out.
+        Args:
+            good: returns True for data that a reply can have. Other data mean a damaged reply, or the reply
+                to another instruction.
+            settle: called after each attempt without a reply. It returns the reply if the instruction was
+                executed, or `None` if it was not executed and may be repeated. It may raise an exception.
+            sure: if False, data that are not good are returned after they were received twice.
+            risky: True if it matters whether the instruction was executed.
+
+        Raises:
+            StationSilent, GarbledReply: no valid reply was received.
+            LostReply: the controller is silent after a risky instruction.
         """
         misses: list[Miss] = []
         odd: list[int] = []
@@ -153,9 +177,12 @@ class Talk(Checked):
         raise unanswered(self.where, misses, len(misses), _CHECK, _OTHERS)
 
     def _in_step(self, misses: list[Miss]) -> bool:
-        """After a silence: replies do not say what they answer, so one that comes late would answer the next
-        question. Set the word pointer, which nobody relies on, until that very value comes back. False if it
-        does not; silences are added to `misses`."""
+        """Restore the order of replies after a silence; return False if that fails.
+
+        A reply does not identify its instruction, so a late reply would be taken for the reply to the next
+        one. Set the word pointer, whose value is not used, until the reply returns the same value. Silences
+        are added to `misses`.
+        """
         if self.address not in self.line.doubtful:
             return True
         for _ in range(_TRIES):
@@ -173,38 +200,38 @@ class Talk(Checked):
         return self.ask(code, good=lambda value: 0 <= value < 1 << bits)
 
     def lost(self, why: str) -> LostReply:
-        """For instructions of which nobody knows whether they were carried out."""
+        """Return the exception for an instruction that may or may not have been executed."""
         return LostReply(
-            f"{self.who}the reply to an instruction was lost, it may have been carried out; {why}: look at "
-            "the controller (status) before you repeat it"
+            f"{self.who}the reply to an instruction was lost, it may have been carried out; {why}: check "
+            "the status of the controller before you repeat the instruction"
         )
 
     # ------------------------------------------------------------------ read-outs
 
     def flags(self) -> Flags:
-        """Status 1; at any time."""
+        """Return status 1; allowed at any time."""
         return Flags.parse(self._bits(Code.STATUS_1, STATUS_1_BITS))
 
     def modes(self) -> Modes:
-        """Status 2; at any time."""
+        """Return status 2; allowed at any time."""
         return Modes.parse(self._bits(Code.STATUS_2, STATUS_2_BITS))
 
     def ports(self) -> Ports:
-        """Inputs, outputs and the levels of EXT1 and EXT2; at any time."""
+        """Return inputs, outputs and the levels of EXT1 and EXT2; allowed at any time."""
         return Ports.parse(self._bits(Code.READ_IO, PORT_BITS))
 
     @property
     def position(self) -> int:
-        """Steps from where it was 0, forward positive; at any time."""
+        """Position in steps, forward positive; allowed at any time."""
         return self.ask(Code.POSITION)
 
     def version(self) -> str:
-        """Firmware line, as V0.1.35."""
+        """Return the firmware version, for example V0.1.35."""
         value = self.ask(Code.VERSION) & 0xFFFFFFFF
         return f"V{value >> 16}.{value >> 8 & 0xFF}.{value & 0xFF}"
 
     def is_there(self) -> bool:
-        """Whether it answers, asked once or, if noise comes, twice. Raises GarbledReply."""
+        """Return True if the controller replies; poll once, or twice after noise. Raises GarbledReply."""
         misses: list[Miss] = []
         while len(misses) < 2:
             got = self.line.exchange(self.address, Code.STATUS_1)

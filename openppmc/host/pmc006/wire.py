@@ -1,4 +1,4 @@
-"""Frames, instructions, status bits and refusals of the PMC006B4, as a host sends and reads them. Pure.
+"""Frames, instructions, status bits and errors of the PMC006B4, as seen by a host. Pure.
 
 >>> command(1, 0x73, 287).hex(" ")
 'a5 01 73 1f 01 00 00 39'
@@ -23,7 +23,7 @@ from ..line_port import Fault
 
 
 class Code(IntEnum):
-    """Instruction codes; the letter is what manuals call them."""
+    """Instruction codes; the character is the name of the instruction in manuals."""
 
     POINTER = ord("A")
     BURN = ord("B")
@@ -78,7 +78,10 @@ class Code(IntEnum):
 
 @dataclass(frozen=True)
 class Flags:
-    """Status 1. busy: a motion is planned or runs. ext1, ext2: that stop has come and blocks starts."""
+    """Status 1.
+
+    busy: a motion is planned or running. ext1, ext2: this stop has occurred and blocks starts.
+    """
 
     busy: bool
     ext1: bool
@@ -88,7 +91,7 @@ class Flags:
 
     @classmethod
     def parse(cls, value: int) -> Flags:
-        """From the reply to `j`.
+        """Decode the reply to `j`.
 
         >>> Flags.parse(0x0A).ext1, Flags.parse(8).busy
         (True, False)
@@ -97,14 +100,20 @@ class Flags:
 
     @property
     def stops(self) -> tuple[int, ...]:
-        """Numbers of the EXT inputs whose stop has come."""
+        """Numbers of the EXT inputs whose stop has occurred."""
         return tuple(number for number, on in ((1, self.ext1), (2, self.ext2)) if on)
 
 
 @dataclass(frozen=True)
 class Modes:
-    """Status 2. running: speed mode. forward: direction of the next motion. offline: the program starts by
-    itself after power-up."""
+    """Status 2.
+
+    Attributes:
+        free: the motor is off-line.
+        running: speed mode.
+        forward: direction of the next motion.
+        offline: the program starts automatically after power-up.
+    """
 
     free: bool
     ext1_enabled: bool
@@ -115,13 +124,13 @@ class Modes:
 
     @classmethod
     def parse(cls, value: int) -> Modes:
-        """From the reply to `O`."""
+        """Decode the reply to `O`."""
         return cls(*(bool(value >> bit & 1) for bit in range(6)))
 
 
 @dataclass(frozen=True)
 class Ports:
-    """The port word. inputs, outputs: GPI1 and GPO1 in bit 0. ext1, ext2: levels of these pins."""
+    """Port word. inputs, outputs: GPI1 and GPO1 are bit 0. ext1, ext2: levels of these pins."""
 
     inputs: int
     outputs: int
@@ -130,7 +139,7 @@ class Ports:
 
     @classmethod
     def parse(cls, word: int) -> Ports:
-        """From the reply to `x`.
+        """Decode the reply to `x`.
 
         >>> Ports.parse(0xE09)
         Ports(inputs=17, outputs=1, ext1=True, ext2=True)
@@ -139,13 +148,15 @@ class Ports:
         return cls(inputs, word >> 3 & 31, bool(word >> 10 & 1), bool(word >> 11 & 1))
 
     def level(self, ext: int) -> bool:
-        """Level of EXT1 or EXT2."""
+        """Return the level of EXT1 or EXT2."""
         return self.ext2 if ext == 2 else self.ext1
 
 
 class Storage(IntEnum):
-    """What `V` replies about the EEPROM: the last save, burn or restore. Of this part only: the original
-    does not know V."""
+    """Result of the last save, burn or restore of the EEPROM, read with `V`.
+
+    Only this replacement has the instruction V, the original part does not.
+    """
 
     KEPT = 0
     WORKING = 1
@@ -153,18 +164,18 @@ class Storage(IntEnum):
 
 
 STATUS_1_BITS, STATUS_2_BITS, PORT_BITS = 5, 6, 12
-"""How many bits these read-outs have: a reply with others is none."""
+"""Numbers of bits of these read-outs; a reply with other bits set is invalid."""
 
 
-# What a PMC006B4 refuses, as exceptions. `status` is the reply data.
+# Errors of a PMC006B4. `status` is the data of the reply.
 
 
 class SettingRefused(CommandRefused):
-    """The value in force stays; `status` is that value."""
+    """The part rejected a value of a setting; `status` is the active value, which is unchanged."""
 
 
 class LockedByExt(CommandRefused):
-    """An EXT stop has come; starts are refused until its flag is cleared."""
+    """An EXT stop has occurred; starts are rejected until its flag is cleared."""
 
 
 class MotorFree(CommandRefused):
@@ -174,7 +185,7 @@ class MotorFree(CommandRefused):
 
 
 class SpeedRefused(CommandRefused):
-    """Start or stop speed lie above the maximum speed."""
+    """The start speed or stop speed is above the maximum speed."""
 
 
 class StorageBusy(CommandRefused):
@@ -184,23 +195,23 @@ class StorageBusy(CommandRefused):
 
 
 class StorageFailed(CommandRefused):
-    """The EEPROM has not answered."""
+    """The EEPROM did not respond."""
 
     text = "the EEPROM did not answer, what was to be kept is not: is there one, are its wires right?"
 
 
 class ProgramRuns(CommandRefused):
-    """A user program runs."""
+    """A user program is running."""
 
     text = "a user program runs: halt it first"
 
 
 class ProgramDiffers(CommandRefused):
-    """The program that was read back is not the one that was written."""
+    """The program that was read back differs from the one that was written."""
 
 
 def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
-    """The exception for these EXT flags.
+    """Return the exception for these EXT flags.
 
     >>> str(locked((1,)))
     'EXT1 has stopped it: clear the flag (clear_stops, reset-flags), then move off the switch'
@@ -217,18 +228,18 @@ def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
 HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
 FACTORY, LAST = 255, 120
 ADDRESSES = (FACTORY, *range(1, LAST + 1))
-"""All that a controller can have, in the order in which hosts look for one."""
+"""All valid addresses, in the order in which a host searches them."""
 
 
 class Reply(NamedTuple):
-    """What a controller says. value: its data, signed."""
+    """Reply of a controller. value: its data, signed."""
 
     address: int
     value: int
 
 
 def address_number(address: int) -> int:
-    """The address itself if a controller can have it. OutOfRange."""
+    """Return the address if a controller can have it. Raises OutOfRange otherwise."""
     number = whole(address, "address")
     if number not in ADDRESSES:
         raise OutOfRange(f"address {number}: controllers have 1 to {LAST}, factory-new ones {FACTORY}")
@@ -236,12 +247,12 @@ def address_number(address: int) -> int:
 
 
 def command(address: int, code: int, data: int = 0) -> bytes:
-    """A frame to a controller. data: 32 bits, signed or not."""
+    """Return a frame to a controller. data: 32 bits, signed or unsigned."""
     return _sealed(bytes([HEAD, address, code]) + (data & 0xFFFFFFFF).to_bytes(4, "little"))
 
 
 def reply(address: int, value: int) -> bytes:
-    """A frame of a controller."""
+    """Return a frame from a controller."""
     return _sealed(bytes([HEAD, ANSWER, address]) + (value & 0xFFFFFFFF).to_bytes(4, "little"))
 
 
@@ -250,11 +261,10 @@ def _sealed(body: bytes) -> bytes:
 
 
 class Receiver:
-    """Takes the bytes after a frame to `address`; see `master.Listener`. sent: that frame, for masters that
-    hear themselves: it is passed over.
+    """Receiver for the bytes after a frame to `address`; see `host.line.Listener`.
 
-    Replies of others and damaged ones are passed over too, as the one that is due may follow; `fault` tells
-    of them.
+    Replies of other controllers and damaged replies are skipped, because the expected one may follow; `fault`
+    reports them. sent: the frame itself, for masters that receive their own bytes; it is skipped.
     """
 
     def __init__(self, address: int, sent: bytes = b"") -> None:
@@ -267,7 +277,7 @@ class Receiver:
 
     @property
     def fault(self) -> Fault | None:
-        """What came instead of the reply, None for silence."""
+        """Fault received instead of the reply, `None` for silence."""
         if self._broken or self._open:
             return Fault.BROKEN
         if self._foreign:
@@ -275,7 +285,7 @@ class Receiver:
         return Fault.NOISE if self._noise else None
 
     def take(self, byte: int) -> Reply | Fault | None:
-        """The next byte; the reply when it is complete."""
+        """Process a byte; return the reply if it is complete."""
         if self._matched < len(self._echo):
             if byte == self._echo[self._matched]:
                 self._matched += 1
@@ -286,7 +296,7 @@ class Receiver:
         return self._look()
 
     def _look(self) -> Reply | None:
-        """The reply in what has come, if it is there."""
+        """Return the reply in the bytes received so far, `None` if they contain no complete one."""
         while self._open:
             start = next((at for at in range(len(self._open)) if _begins(self._open[at:])), len(self._open))
             self._noise |= start > 0
@@ -306,10 +316,10 @@ class Receiver:
 
 
 def _begins(data: bytes) -> bool:
-    """Whether a reply can begin like this."""
+    """Return True if a reply can begin with these bytes."""
     return data[0] == HEAD and data[1:2] in (b"", bytes([ANSWER]))
 
 
-# What a PMC006B4 allows. Pure.
+# Capabilities of a PMC006B4.
 
 KIND = Kind(part("pmc006"), outputs=31)

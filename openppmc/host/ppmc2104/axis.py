@@ -1,4 +1,4 @@
-"""One axis of a PPMC-2104."""
+"""Axis of a PPMC-2104."""
 
 from __future__ import annotations
 
@@ -21,18 +21,20 @@ from .words import KIND, CutCommand, Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
-"""Limit for the end of an initialisation at a 16 MHz crystal: a part needs 0.15 s for both axes, but a
-virtual board may be slow."""
+"""Time limit of an initialisation in s at a 16 MHz crystal.
+
+A part needs 0.15 s for both axes, but a virtual board may be slow.
+"""
 
 
 class Settling(Protocol):
-    """What an axis needs of the other one."""
+    """Members of the other axis that an axis needs."""
 
     def settle(self, status: int) -> None: ...
 
 
 class Both(Protocol):
-    """What an axis needs of its part, which is a `driver.Ppmc2104`."""
+    """Members of a part (`part.Ppmc2104`) that an axis needs."""
 
     @property
     def link(self) -> Link: ...
@@ -45,12 +47,14 @@ class Both(Protocol):
 
 
 class Axis2104(Axis):
-    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions. `part` has what belongs to both.
+    """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions.
 
-    `initialise`, figures for a 16 MHz crystal: start_pps from 488.3, high_pps up to 250 000, its rate at
-    least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz; no choice of
-    logic, no long_intervals. phases, half_step, chop and the choice of an external clock stay as they are
-    until `excitation_off` or `reset` (P2104-INI-05).
+    `part` has the members of both axes.
+
+    Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, its rate at
+    least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz. positive_logic
+    and long_intervals are not supported. phases, half_step, chop and the choice of an external clock do not
+    change until `excitation_off` or `reset` (P2104-INI-05).
     """
 
     kind = KIND
@@ -65,7 +69,7 @@ class Axis2104(Axis):
         self.unused = 0x40
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
-        """Initialise with a setup that was planned before for this axis; waits until its ramp is ready."""
+        """Initialise the axis with a set-up planned earlier for it, and wait until the ramp is ready."""
         self.link.execute(Script().call(setup.code, *setup.data))
         clock = self.link.clock
         end = clock() + _SETUP_SECONDS * 16e6 / self.link.identity.xtal_hz
@@ -76,7 +80,7 @@ class Axis2104(Axis):
         self.setup = setup
         return setup
 
-    # ------------------------------------------------------------------ what differs from other parts
+    # ------------------------------------------------------------------ differences to other parts
 
     def straps(self, clock: speeds.BaseClock | None) -> Script:
         return self.part.straps(self.number, clock)
@@ -86,25 +90,29 @@ class Axis2104(Axis):
         return super().started(order, begin)
 
     def look(self, status: int) -> None:
-        # The end of the other axis's motion would keep int_n low, and this one's would send no message.
+        # If the end of the other axis's motion stays unread, int_n stays low, and the end of this motion
+        # sends no message.
         self.part.other(self.number).settle(status)
 
     def settle(self, status: int) -> None:
-        """The status register was read: fetch the end of a motion that is over."""
+        """Process a status register that was read; read the end of a motion that is over."""
         if self._motion is not None and not self._motion.over:
             self._motion.look(status)
         elif not status & self.busy:
             self.part.settle_foreign(self.number)
 
     def start(self, order: Order) -> Motion:
-        """As on other parts; what the part refuses because of a switch ends as a motion without pulses."""
+        """Start a motion; return a motion without pulses if the part rejects it because of a switch."""
         try:
             return super().start(order)
         except StartRefused as refused:
             return self.refused_start(order, refused)
 
     def refused_start(self, order: Order, refused: StartRefused) -> Motion:
-        """A motion that ended where it began. Raises the refusal itself if no switch is active any more."""
+        """Return a motion that ended where it began.
+
+        Raises the rejection itself if no switch is active any more.
+        """
         inputs = self.inputs()
         cause = Cause.COMPLETE
         if inputs.alarm:
@@ -127,11 +135,16 @@ class Axis2104(Axis):
         except NotInitialised as error:
             raise NothingToStop(error.status, f"{self.who}nothing to stop: it is not initialised") from None
         except CutCommand:
-            pass  # an abandoned command's wait for data ended, and the stop acts all the same (P2104-STP-07)
+            # An unfinished command, which waited for data, ended; the stop is effective nevertheless
+            # (P2104-STP-07).
+            pass
 
     def brake(self, now: bool = False) -> None:
-        """A stop with a ramp is refused at constant speed and while the part waits for RUN (P2104-STP-03);
-        both can stop at once."""
+        """Stop the motion that this object started, without waiting.
+
+        The part rejects a stop with a ramp at constant speed and while it waits for RUN (P2104-STP-03). In
+        both cases an immediate stop is possible.
+        """
         motion = self._motion
         try:
             self.order_stop(now or (motion is not None and not motion.ramped))
@@ -147,16 +160,24 @@ class Axis2104(Axis):
         return Inputs.of_pins(self.link.execute(self.part.show(self.number).pins()).byte(0))
 
     def switching(self, on_us: speeds.Number, off_us: speeds.Number) -> tuple[Fraction, Fraction]:
-        """Times of the chopper at rest in us (16 MHz: 32 to 127.5 each); returns those reached.
-        Only at rest."""
+        """Set the chopper times at standstill in us; return the times that are reached.
+
+        The range of each is 32 to 127.5 us at 16 MHz.
+
+        Allowed only while no motion is running.
+        """
         on = words.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
         off = words.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
         self.link.execute(Script().call(SWITCHING | self.bit, on[0], off[0]))
         return on[1], off[1]
 
     def hold_delay(self, microseconds: speeds.Number) -> Fraction:
-        """Time from the end of a motion to HOLD in us (16 MHz: 128 to 32 768); returns the one reached. Only
-        at rest."""
+        """Set the time from the end of a motion to HOLD in us; return the time that is reached.
+
+        The range is 128 to 32 768 us at 16 MHz.
+
+        Allowed only while no motion is running.
+        """
         byte, reached = words.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))
         return reached

@@ -1,4 +1,4 @@
-"""Driver of a PPMC-2104 behind a UART bridge: two axes."""
+"""Driver of a PPMC-2104 on a UART bridge: two axes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 IBF = 0x02
 ALL_HIGH = 0xFF
 CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
-"""Bits of the straps: per axis csel and run; whose pins PINS shows."""
+"""Bits of the straps: csel and run of each axis; the axis whose pins PINS returns."""
 
 
 class Axes(dict[int, Axis2104]):
@@ -33,10 +33,10 @@ class Axes(dict[int, Axis2104]):
 
 
 class Ppmc2104(Part):
-    """`x` is axis 1, `y` axis 2; `axis[1]`, `axis[2]` are the same. A context manager, see `part.Part`.
+    """PPMC-2104, which is a context manager; see `part.Part`.
 
-    Opening it reads and clears the errors that others left, and ends their unfinished commands; a motion that
-    runs goes on.
+    `x` is axis 1, `y` axis 2; `axis[1]` and `axis[2]` are the same objects. Opening the part reads and clears
+    the errors of other programs, and ends their unfinished commands; a running motion continues.
     """
 
     kind = KIND
@@ -52,7 +52,8 @@ class Ppmc2104(Part):
         self._levels = ALL_HIGH
         self._clear_errors()
         busy = self.status().busy
-        # Motions of another program. An axis may wait for RUN since that broke off: it must not start now.
+        # Motions of another program. Such an axis may have waited for RUN since that program aborted; it must
+        # not start now.
         self._foreign = {number for number in self.axis if busy[number - 1]}
         self._held = set(self._foreign)
         for number in set(self.axis) - self._foreign:
@@ -63,7 +64,7 @@ class Ppmc2104(Part):
         return (self.x, self.y)
 
     def other(self, number: int) -> Axis2104:
-        """The axis that does not have this number."""
+        """Return the axis that does not have this number."""
         return self.axis[3 - number]
 
     # ------------------------------------------------------------------ both axes
@@ -77,9 +78,16 @@ class Ppmc2104(Part):
         progress: OnProgress | None = None,
         pulse_only: bool = False,
     ) -> tuple[End, End]:
-        """Move both axes, begun on the same clk, and wait. Pulses as in `Axis.move`; x_pps, y_pps: that axis
-        at constant speed. When one axis ends early, the other is stopped with a ramp. Raises LimitReached,
-        AlarmStop, StoppedEarly for the axis that ended first.
+        """Move both axes, starting in the same cycle, and wait for both.
+
+        If one axis ends early, the other is stopped with a ramp.
+
+        Args:
+            x, y: pulses as in `Axis.move`.
+            x_pps, y_pps: constant speed of this axis, `None` for a move with ramps.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: end of the axis that ended first.
         """
         if not (x and y):
             ends = [
@@ -105,12 +113,16 @@ class Ppmc2104(Part):
         y_pps: speeds.Number | None = None,
         pulse_only: bool = False,
     ) -> tuple[Motion, Motion]:
-        """Begin two moves on the same clk: both commands wait for RUN, then RUN rises for both. 0 is no move
-        here (OutOfRange). If one command is refused, neither axis moves.
+        """Start two moves in the same cycle: both commands wait for RUN, then RUN rises for both.
+
+        If one command is rejected, neither axis moves.
+
+        Raises:
+            OutOfRange: a number of pulses is 0.
         """
         orders = (self.x.move_order(x, x_pps, pulse_only), self.y.move_order(y, y_pps, pulse_only))
         for number in self.axis:
-            self._end_of(number)  # refused while an axis moves, which goes on then
+            self._end_of(number)  # rejected while an axis moves; its motion continues
         script = Script()
         waiting = self._levels & ~(RUN[0] | RUN[1])
         for axis, order in zip(self.axis.values(), orders, strict=True):
@@ -118,7 +130,7 @@ class Ppmc2104(Part):
         script.straps(waiting).count(1).count(2)
         for axis, order in zip(self.axis.values(), orders, strict=True):
             script.call(order.code | axis.bit, *order.data)
-        # With DATASHEET timing RUN is not looked at before the processing windows have closed (P2104-DS-14).
+        # With DATASHEET timing RUN is not sampled before the processing windows have closed (P2104-DS-14).
         script.wait(1, CMND[0] | CMND[1], 0).straps(waiting | RUN[0] | RUN[1])
         self.link.forget_events()
         try:
@@ -131,8 +143,10 @@ class Ppmc2104(Part):
         return self.x.started(orders[0], begins[0]), self.y.started(orders[1], begins[1])
 
     def _call_off(self) -> None:
-        """A coordinated start broke off: an axis that waits for RUN must not start any more. One that runs
-        already, because only the answer was lost, stops with its ramp."""
+        """Cancel a coordinated start that failed: an axis that waits for RUN must not start any more.
+
+        An axis that already runs, because only the answer was lost, stops with its ramp.
+        """
         try:
             for axis in self.axis.values():
                 try:
@@ -149,7 +163,10 @@ class Ppmc2104(Part):
             self._held = set(self.axis)
 
     def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
-        """Until both have ended. The early end of one stops the other; returns that one."""
+        """Wait until both have ended; return the motion that ended early, if any.
+
+        Its end stops the other one.
+        """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
         while running := [motion for motion in motions if not motion.over]:
@@ -168,7 +185,10 @@ class Ppmc2104(Part):
 
     @staticmethod
     def _look(motion: Motion) -> Progress | None:
-        """As `Motion.poll`; an end that the part does not confirm raises later, when both have stopped."""
+        """Poll a motion as `Motion.poll` does.
+
+        An unconfirmed end raises its error later, when both have stopped.
+        """
         try:
             return motion.poll()
         except EndUnknown:
@@ -177,18 +197,23 @@ class Ppmc2104(Part):
     # ------------------------------------------------------------------ straps
 
     def straps(self, number: int, clock: speeds.BaseClock | None) -> Script:
-        """The straps for a motion of one axis with this base clock; an axis that may wait keeps RUN low."""
+        """Return the straps for a motion of one axis with this base clock.
+
+        RUN of an axis that may be waiting stays low.
+        """
         self._levels = _with_csel(self._levels, number, clock)
         return Script().straps(self._run_low(self._held - {number}))
 
     def rests(self, number: int) -> None:
-        """This axis is not one that waits for RUN."""
+        """Record that this axis does not wait for RUN."""
         self._held.discard(number)
         self._foreign.discard(number)
 
     def settle_foreign(self, number: int) -> None:
-        """This axis has come to rest. The end of a motion that another program started is read once, because
-        int_n stays low until then."""
+        """Read the end of a motion of another program once, because int_n stays low until then.
+
+        The axis with this number has stopped.
+        """
         if number in self._foreign:
             self._foreign.discard(number)
             self._end_of(number)
@@ -197,30 +222,30 @@ class Ppmc2104(Part):
         self.link.execute(Script().call(READ_FINISH | self.axis[number].bit).get(1))
 
     def _run_low(self, axes: set[int]) -> int:
-        """The straps with RUN of these axes low."""
+        """Return the straps with RUN of these axes low."""
         return self._levels & ~sum(RUN[axis - 1] for axis in axes)
 
     def show(self, number: int) -> Script:
-        """Whose pins a PINS behind this shows."""
+        """Return the straps that select the axis whose pins a following PINS returns."""
         self._levels = self._levels | PINS_OF_1 if number == 1 else self._levels & ~PINS_OF_1
         return Script().straps(self._run_low(self._held))
 
     # ------------------------------------------------------------------ registers, auxiliary, reset
 
     def status(self) -> Status:
-        """Status register; allowed at any time."""
+        """Return the status register; allowed at any time."""
         return Status.parse(self.link.execute(Script().read(1)).byte(0))
 
     def auxo(self, value: int) -> None:
-        """The two auxiliary outputs, 0 to 3; a 1 makes a pin low. Allowed at any time."""
+        """Set the two auxiliary outputs, 0 to 3; a 1 sets a pin low. Allowed at any time."""
         self.link.execute(Script().call(AUX_OUTPUT | within(value, "outputs", 0, 3) << 4))
 
     def auxi(self) -> int:
-        """The two auxiliary inputs, pin levels; allowed at any time."""
+        """Return the two auxiliary inputs as pin levels; allowed at any time."""
         return self.link.execute(Script().call(AUX_INPUT).get(1)).byte(1)
 
     def reset(self) -> None:
-        """Reset of the part, in any state: pulses end at once, coils off, nothing initialised."""
+        """Reset the part in any state: pulses end immediately, coils are off, nothing is initialised."""
         self.link.execute(Script().reset())
         self._held.clear()
         self._foreign.clear()
@@ -230,15 +255,20 @@ class Ppmc2104(Part):
     # ------------------------------------------------------------------ errors
 
     def _error_reads(self) -> Script:
-        """Reads and clears both error registers; CALL would stop at the error of the other axis."""
+        """Return a script that reads and clears both error registers.
+
+        CALL would stop at the error of the other axis.
+        """
         script = Script()
         for bit in (0, AXIS_BIT):
             script.post(1, bytes([READ_ERROR | bit])).wait(1, IBF | CMND[0] | CMND[1], 0).get(1)
         return script
 
     def _clear_errors(self) -> None:
-        """Errors, unfinished commands and unread answers of another program. The first code ends a wait for
-        data and may be dropped with it; the second one is executed."""
+        """Clear errors, unfinished commands and unread answers of another program.
+
+        The first code ends a wait for data, and the part may discard it; the second code is executed.
+        """
         self.link.execute(
             Script()
             .timeout(3000)
@@ -249,7 +279,7 @@ class Ppmc2104(Part):
         self.link.execute(self._error_reads())
 
     def _refusal(self, answer: Answer) -> Exception:
-        """The exception of a refused command, from the error register of its axis."""
+        """Return the exception for a rejected command, from the error register of its axis."""
         errors = self.link.execute(self._error_reads())
         numbers = errors.byte(1), errors.byte(3)
         code = answer.failed.code[1] if answer.failed is not None and answer.failed.name == "CALL" else 0
@@ -257,12 +287,12 @@ class Ppmc2104(Part):
         if not numbers[place]:
             place = 1 - place
         if numbers[place] not in BY_NUMBER:
-            return ProtocolError(f"{self.link.name}: the part told of an error and then of none: try again")
+            return ProtocolError(f"{self.link.name}: the part reported an error and then no error; try again")
         return refused(numbers[place], answer.last, place + 1)
 
 
 def _with_csel(levels: int, number: int, clock: speeds.BaseClock | None) -> int:
-    """Straps with the base clock of one axis."""
+    """Return the straps with the base clock of one axis."""
     if clock is None:
         return levels
     bit = CSEL[number - 1]

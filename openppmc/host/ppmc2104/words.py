@@ -1,5 +1,10 @@
-"""What a PPMC-2104 allows, refuses (P2104-ERR-01: a table of its own) and tells (P2104-STA-01); times in
-microseconds to parameter bytes and back, exactly. Pure."""
+"""Capabilities, errors, status register and times of a PPMC-2104. Pure.
+
+Rules: P2104-ERR-01, P2104-STA-01.
+
+The PPMC-2104 has its own table of errors. Times in microseconds are converted exactly to parameter bytes and
+back.
+"""
 
 # ruff: noqa: N818
 
@@ -29,7 +34,7 @@ from ..speeds import Number, exact, nearby
 
 
 class CutCommand(CommandRefused):
-    """Error 3 of the PPMC-2104."""
+    """Error 3 of the PPMC-2104: a command while the part waits for the data of another one."""
 
     text = (
         "the part was still waiting for the data of another command, and both are dropped: another program "
@@ -38,13 +43,13 @@ class CutCommand(CommandRefused):
 
 
 class BadSwitching(CommandRefused):
-    """Error 11 of the PPMC-2104."""
+    """Error 11 of the PPMC-2104: invalid chopper times."""
 
     text = "the part refuses these chopper times: 32 us or more each at a 16 MHz crystal"
 
 
 class TooFast(CommandRefused):
-    """Errors 12 and 13 of the PPMC-2104 with DATASHEET timing."""
+    """Errors 12 and 13 of the PPMC-2104 with DATASHEET timing: the speed is too high."""
 
     text = (
         "the part refuses this speed: with DATASHEET timing one axis cannot run so fast, choose a lower one"
@@ -87,18 +92,23 @@ BY_NUMBER: dict[int, tuple[type[CommandRefused], str]] = {
 
 
 def refused(number: int, status: int, axis: int) -> CommandRefused:
-    """The exception for the error register of an axis that reads `number`, 1 to 13."""
+    """Return the exception for a value of the error register of an axis, 1 to 13."""
     kind, text = BY_NUMBER[number]
     return kind(status, f"axis {axis}: {text or kind.text}")
 
 
-# The PPMC-2104's status register as a dataclass (P2104-STA-01). Pure.
+# ---------------------------------------------------------------------- status register
 
 
 @dataclass(frozen=True)
 class Status:
-    """Status register. busy, working: of axis 1 and 2; working: data are wanted, or a command is under way.
-    error: an error register is not 0."""
+    """Status register (P2104-STA-01).
+
+    Attributes:
+        busy, working: of axis 1 and 2.
+        working: data are required, or a command is in progress.
+        error: an error register is not 0.
+    """
 
     raw: int
     busy: tuple[bool, bool]
@@ -109,7 +119,7 @@ class Status:
 
     @classmethod
     def parse(cls, raw: int) -> Status:
-        """From the byte."""
+        """Decode the status byte."""
         return cls(
             raw,
             busy=(bool(raw & BUSY[0]), bool(raw & BUSY[1])),
@@ -120,12 +130,17 @@ class Status:
         )
 
 
-# Times of a PPMC-2104 in microseconds to parameter bytes and back, exactly. Pure.
+# ---------------------------------------------------------------------- times
 
 
 def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, Fraction]:
-    """Parameter byte of the chopper nearest to a time, and the time it makes in us
-    (P2104-AUX-04): 0.5 us a unit at 16 MHz, 64 to 255  Raises OutOfRange with the possible range."""
+    """Return the chopper byte nearest to a time, and the resulting time in us (P2104-AUX-04).
+
+    The unit is 0.5 us at 16 MHz, the range 64 to 255 units.
+
+    Raises:
+        OutOfRange: the time is out of range; the message states the range.
+    """
     unit = Fraction(8_000_000, xtal_hz)
     asked = exact(microseconds, f"{phase} time")
     low, high = 64 * unit, 255 * unit
@@ -138,8 +153,11 @@ def half_us_byte(xtal_hz: int, microseconds: Number, phase: str) -> tuple[int, F
 
 
 def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
-    """Parameter byte of the hold delay nearest to a time, and the time it makes in us
-    (P2104-AUX-05): 128 to 32 768 us at 16 MHz. Raises OutOfRange with the possible range."""
+    """Return the hold delay byte nearest to a time, and the resulting time in us (P2104-AUX-05).
+
+    Raises:
+        OutOfRange: the time is out of range, 128 to 32 768 us at 16 MHz; the message states the range.
+    """
     unit = Fraction(2048_000_000, xtal_hz)
     asked = exact(microseconds, "hold delay")
     if not unit <= asked <= 256 * unit:
@@ -150,7 +168,7 @@ def hold_byte(xtal_hz: int, microseconds: Number) -> tuple[int, Fraction]:
     return byte, (byte + 1) * unit
 
 
-# What a PPMC-2104 allows. Pure.
+# ---------------------------------------------------------------------- capabilities
 
 KIND = RateKind(
     part("ppmc2104"),

@@ -1,1 +1,1 @@
-"""Driver of the PPMC-312; `line` has that of its serial mode."""
+"""Driver of the PPMC-312; `line` contains the driver of its serial mode."""

@@ -17,17 +17,22 @@ from ...model.ppmc312.codes import Answer, Cause, Source, State
 from ..errors import CommandRefused
 from .errors import refused
 
-# What can be read of a PPMC-312 at any time, as dataclasses (P312-CMD-4D, -27, -47). Pure.
+# Registers of a PPMC-312 that can be read at any time (P312-CMD-4D, -27, -47).
 
 
 @dataclass(frozen=True)
 class Status:
-    """Answer of 4D. raw: its condition byte.
+    """Response to 4D.
 
-    run_monitored: starts wait for RUN. interlock: its control runs. encoder_watched, position_watched: the
-    monitors are on; encoder_outside, position_outside: what they see. overrides: registered ones, 0 to 8;
-    override_events: the event inputs 1, 2 that some of them wait for. events: event buffers that hold
-    something.
+    Attributes:
+        raw: its condition byte.
+        run_monitored: starts wait for RUN.
+        interlock: the interlock control is running.
+        encoder_watched, position_watched: this monitor is on.
+        encoder_outside, position_outside: this monitor reports a deviation.
+        overrides: number of registered overrides, 0 to 8.
+        override_events: event inputs (1, 2) that some of them wait for.
+        events: event buffers that are not empty.
     """
 
     raw: int
@@ -45,7 +50,7 @@ class Status:
 
     @classmethod
     def parse(cls, data: bytes) -> Status:
-        """From operation, condition and buffer byte.
+        """Decode operation, condition and buffer byte.
 
         >>> Status.parse(bytes.fromhex("00 02 00")).state.name
         'NOR'
@@ -68,18 +73,18 @@ class Status:
 
     @property
     def busy(self) -> bool:
-        """A motion is under way, or held."""
+        """True if a motion is running or held."""
         return self.state in (State.ACC, State.FIX, State.WRN)
 
     @property
     def in_alarm(self) -> bool:
-        """State ABN."""
+        """True in state ABN."""
         return self.state is State.ABN
 
 
 @dataclass(frozen=True)
 class Inputs:
-    """Switches and other inputs; True: active (pin low), run: True = starts are permitted."""
+    """Switches and other inputs; True = active (pin low). run: True = starts are permitted."""
 
     limit_cw: bool
     limit_ccw: bool
@@ -95,7 +100,7 @@ class Inputs:
 
     @classmethod
     def parse(cls, data: bytes) -> Inputs:
-        """From the two bytes of 27; the part gives levels.
+        """Decode the two bytes of 27, which hold levels.
 
         >>> Inputs.parse(bytes.fromhex("FD E0")).active
         ['limit cw', 'run']
@@ -118,21 +123,24 @@ class Inputs:
 
     @property
     def active(self) -> list[str]:
-        """Names of the active ones."""
+        """Names of the active inputs."""
         return [name.replace("_", " ") for name, on in vars(self).items() if on]
 
 
 @dataclass(frozen=True)
 class EventBuffer:
-    """Answer of 47. following: number of the instruction that the next event runs, 0 to 3. codes: of the
-    instructions in it."""
+    """Response to 47.
+
+    following: number of the instruction that the next event executes, 0 to 3. codes: codes of the
+    instructions in the buffer.
+    """
 
     following: int
     codes: tuple[int, ...]
 
     @classmethod
     def parse(cls, data: bytes) -> EventBuffer:
-        """From count, next and four codes."""
+        """Decode count, next instruction and four codes."""
         return cls(data[1], tuple(data[2 : 2 + data[0]]))
 
 
@@ -140,7 +148,7 @@ _SPONTANEOUS, _WHO, _HAS_CODE, _LAST = 0x20, 0x18, 0x02, 0x01
 
 
 def signed(position: int) -> int:
-    """A 32-bit position, CW positive.
+    """Return a 32-bit position as a signed number, CW positive.
 
     >>> signed(0xFFFFFFF9)
     -7
@@ -166,26 +174,26 @@ class InterlockEnded:
 
 @dataclass(frozen=True)
 class HoldExecuted:
-    """E2: a start that waited for RUN began."""
+    """E2: a start that waited for RUN has begun."""
 
 
 @dataclass(frozen=True)
 class EncoderChange:
-    """E3: the encoder left its range, or came back."""
+    """E3: the encoder has left its range (outside is True) or has returned."""
 
     outside: bool
 
 
 @dataclass(frozen=True)
 class InPositionChange:
-    """E4: the same, for the in-position monitor."""
+    """E4: the in-position monitor has left its range (outside is True) or has returned."""
 
     outside: bool
 
 
 @dataclass(frozen=True)
 class InputChange:
-    """E9: inputs that have changed; lost: there was a change before that could not be reported."""
+    """E9: inputs that have changed. lost: an earlier change could not be reported."""
 
     changed: int
     lost: bool
@@ -193,13 +201,13 @@ class InputChange:
 
 @dataclass(frozen=True)
 class Alarm:
-    """F4: 0 alarm input, 1 to 3 reports that were not read in time."""
+    """F4: 0 = alarm input, 1 to 3 = reports that were not read in time."""
 
     status: int
 
     @property
     def error(self) -> CommandRefused:
-        """As an exception."""
+        """The alarm as an exception."""
         error = refused(Answer.ALARM, bytes([self.status]))
         assert error is not None
         return error
@@ -207,8 +215,11 @@ class Alarm:
 
 @dataclass(frozen=True)
 class Executed:
-    """An override or an event has carried an instruction out. code: which one, None in serial mode, where
-    nobody says it. data: what it answered."""
+    """An override or an event has executed an instruction.
+
+    code: code of the instruction, `None` in serial mode, where it is not reported. data: data of its
+    response.
+    """
 
     by: Source
     code: int | None
@@ -217,8 +228,10 @@ class Executed:
 
 @dataclass(frozen=True)
 class Failed:
-    """F8, F9 or a refusal with the header of an event: an instruction of override or event was not carried
-    out."""
+    """F8, F9 or an error with the header of an event.
+
+    An override or an event did not execute its instruction.
+    """
 
     by: Source
     error: CommandRefused
@@ -238,12 +251,12 @@ Report: TypeAlias = (
 
 
 class BadResponse(ValueError):  # noqa: N818 - the noun says it
-    """A response that the part never makes."""
+    """Response that the part never sends."""
 
 
 @dataclass(frozen=True)
 class Response:
-    """One block in logical order, at least header, length and a byte. Raises BadResponse."""
+    """Block in logical order with at least header, length and one byte. Raises BadResponse."""
 
     raw: bytes
 
@@ -253,41 +266,41 @@ class Response:
 
     @property
     def spontaneous(self) -> bool:
-        """Nobody asked."""
+        """True if it is no response to an instruction."""
         return bool(self.raw[0] & _SPONTANEOUS)
 
     @property
     def by(self) -> Source:
-        """Who gave the instruction that this is an answer to."""
+        """Source of the instruction that this is a response to."""
         return Source(self.raw[0] & _WHO | 0x03)
 
     @property
     def to_host(self) -> bool:
-        """The answer to an instruction of the host."""
+        """True for a response to an instruction of the host."""
         return not self.spontaneous and self.by is Source.HOST
 
     @property
     def last(self) -> bool:
-        """No more blocks follow."""
+        """True if no more blocks follow."""
         return bool(self.raw[0] & _LAST)
 
     @property
     def code(self) -> int:
-        """Of the instruction or report."""
+        """Code of the instruction or report."""
         return self.raw[2]
 
     @property
     def data(self) -> bytes:
-        """After the code; of a block of data, all of it."""
+        """Data after the code; all bytes of a block of data."""
         return self.raw[3:] if self.raw[0] & _HAS_CODE else self.raw[2:]
 
     @property
     def error(self) -> CommandRefused | None:
-        """The refusal that it is, if it is one."""
+        """Exception for an error response, `None` for others."""
         return refused(self.code, self.data) if self.raw[0] & _HAS_CODE else None
 
     def report(self) -> Report:
-        """What it says, for everything that is not an answer to the host. Raises BadResponse."""
+        """Return the content of a response that is no response to the host. Raises BadResponse."""
         data = self.data
         try:
             if not self.spontaneous:

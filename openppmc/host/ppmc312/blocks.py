@@ -1,7 +1,7 @@
 """Instruction blocks of the PPMC-312 in logical order: header, length, code, parameters. Pure.
 
-Numbers are big-endian. Every function raises OutOfRange for what does not fit its field; whether the part
-takes the values depends on its table and state.
+Numbers are big-endian. Every function raises OutOfRange for a value that does not fit its field. Whether the
+part accepts the values depends on its table and state.
 
 >>> acceleration(CW, 5000).hex(" ")
 '03 08 82 00 00 00 00 00 13 88'
@@ -21,7 +21,10 @@ from ..errors import OutOfRange
 
 CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
-"""Headers: complete instruction, last data block, data block before others, code block with data to come."""
+"""Headers of blocks.
+
+They are: complete instruction, last data block, data block before others, code block before data blocks.
+"""
 LONGEST = 32
 WINDOW = 0x20
 POSITIONS = 1 << 32
@@ -29,7 +32,7 @@ _DIRECTION, _OVERRIDE, _INDEX, _SEPARATE, _SIGMOID = 0x40, 0x04, 0x10, 0x10, 0x0
 
 
 class Trigger(Enum):
-    """What makes a registered instruction run. The value is OV with TRG in the flag byte."""
+    """Condition that starts a registered instruction. The value is OV with TRG in the flag byte."""
 
     NOW = 0x00
     POSITION = _OVERRIDE
@@ -38,7 +41,7 @@ class Trigger(Enum):
 
 
 def block(code: int, parameters: bytes = b"", header: int = WHOLE) -> bytes:
-    """A block of code and parameters. OutOfRange beyond 32 bytes.
+    """Return a block of code and parameters. Raises OutOfRange if it has more than 32 bytes.
 
     >>> block(Code.VERSION).hex(" ")
     '03 01 40'
@@ -50,12 +53,12 @@ def block(code: int, parameters: bytes = b"", header: int = WHOLE) -> bytes:
 
 
 def bus_order(logical: bytes) -> bytes:
-    """Bytes as they go over the bus, the header last."""
+    """Return the bytes in the order of the bus, the header last."""
     return logical[::-1]
 
 
 def start_address(logical: bytes) -> int:
-    """What WAR is set to for a block.
+    """Return the value of WAR for a block.
 
     >>> f"{start_address(acceleration(CW, 5000)):02X}"
     '16'
@@ -64,13 +67,15 @@ def start_address(logical: bytes) -> int:
 
 
 def number(value: int, width: int, what: str, least: int = 0) -> bytes:
-    """Big-endian bytes of an unsigned number. OutOfRange."""
+    """Return the big-endian bytes of an unsigned number. Raises OutOfRange."""
     most = (1 << 8 * width) - 1
     return within(value, what, least, most).to_bytes(width, "big")
 
 
 def position_bytes(position: int) -> bytes:
-    """A position, -2^31 to 2^31 - 1, or up to 2^32 - 1 as the part counts.
+    """Return the bytes of a position.
+
+    It is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
 
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'
@@ -91,7 +96,9 @@ def _side(direction: int) -> int:
 def initial_setting(
     clk: int, start: int, high: int, up: int, stop: int | None = None, down: int = 0, sigmoid: bool = False
 ) -> bytes:
-    """00: clk = base clock 0 to 7, rates, pulses of the ramps; with `stop` a deceleration of its own.
+    """Return 00: base clock (0 to 7), rates and pulses of the ramps.
+
+    `stop` adds a separate deceleration ramp.
 
     >>> initial_setting(1, 1000, 200, 2000).hex(" ")
     '03 09 00 01 03 e8 00 c8 00 07 d0'
@@ -110,7 +117,9 @@ def initial_setting(
 
 
 def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None = None) -> list[bytes]:
-    """01: the blocks of a free curve, lists fastest stage first; `down` only if it is not as `up`.
+    """Return 01: the blocks of a free curve. Lists begin with the fastest stage.
+
+    `down` is only required if the deceleration differs from `up`.
 
     >>> for part in free_curve(1, [100, 200, 400], [5, 4, 3]):
     ...     print(part.hex(" "))
@@ -130,7 +139,9 @@ def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None
 
 
 def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = False) -> bytes:
-    """02: report when the encoder comes within `distance` (1 to 65 535) of the pulses, and when it leaves.
+    """Return 02: report when encoder and pulses agree within `distance`, and when not.
+
+    The distance is 1 to 65 535.
 
     >>> in_position(True, 10).hex(" ")
     '03 04 02 03 00 0a'
@@ -140,7 +151,7 @@ def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = F
 
 
 def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
-    """03: the same, during motions too.
+    """Return 03: the same report as 02, also during motions.
 
     >>> encoder_watch(True, 20).hex(" ")
     '03 04 03 03 00 14'
@@ -150,7 +161,7 @@ def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
 
 
 def interlock_position(position: int) -> bytes:
-    """04.
+    """Return 04: set the interlock position.
 
     >>> interlock_position(5000).hex(" ")
     '03 05 04 00 00 13 88'
@@ -159,7 +170,7 @@ def interlock_position(position: int) -> bytes:
 
 
 def speed_limit(rate: int) -> bytes:
-    """05: at the slow-down limits nothing as fast as this rate, or faster.
+    """Return 05: at the slow-down limits, the motor must be slower than this rate.
 
     >>> speed_limit(300).hex(" ")
     '03 03 05 01 2c'
@@ -168,12 +179,12 @@ def speed_limit(rate: int) -> bytes:
 
 
 def end_terminal(monitored: bool) -> bytes:
-    """06."""
+    """Return 06: set whether the end of a motion needs the input END."""
     return block(Code.END_TERMINAL, bytes([monitored]))
 
 
 def input_mask(mask: int, auto: bool = True) -> bytes:
-    """28.
+    """Return 28: report changes of the general inputs in the mask.
 
     >>> input_mask(0x24).hex(" ")
     '03 03 28 01 24'
@@ -182,17 +193,17 @@ def input_mask(mask: int, auto: bool = True) -> bytes:
 
 
 def outputs(value: int) -> bytes:
-    """26: six outputs, a 1 makes the pin low."""
+    """Return 26: set six outputs, a 1 sets the pin low."""
     return block(Code.OUTPUT, bytes([within(value, "outputs", 0, 63)]))
 
 
 def read_position(encoder: bool = False) -> bytes:
-    """42."""
+    """Return 42: read the position of pulses or encoder."""
     return block(Code.POSITION_READ, bytes([encoder]))
 
 
 def set_position(position: int, encoder: bool = False) -> bytes:
-    """43.
+    """Return 43: set the position of pulses or encoder.
 
     >>> set_position(-1, encoder=True).hex(" ")
     '03 06 43 01 ff ff ff ff'
@@ -210,13 +221,13 @@ def _flags(direction: int, trigger: Trigger) -> bytes:
 
 
 def acceleration(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
-    """82: so many pulses with ramps up to `rate`, 0 = the high speed."""
+    """Return 82: move by a number of pulses with ramps up to `rate`, 0 = the high speed."""
     data = number(rate, 2, "rate") + number(pulses, 4, "pulses", 1)
     return block(Code.RAMP, _flags(direction, trigger) + data)
 
 
 def constant(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
-    """83: the same at constant speed.
+    """Return 83: move by a number of pulses at constant speed.
 
     >>> constant(CCW, 100, 500).hex(" ")
     '03 08 83 40 01 f4 00 00 00 64'
@@ -226,12 +237,12 @@ def constant(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trig
 
 
 def single_step(direction: int) -> bytes:
-    """84."""
+    """Return 84: output one pulse."""
     return block(Code.STEP, bytes([_side(direction)]))
 
 
 def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = Trigger.NOW) -> bytes:
-    """86, or 85 with a ramp: until something stops it.
+    """Return 86, or 85 with a ramp: run until something stops the motor.
 
     >>> run(CW, ramped=True).hex(" "), run(CCW, 400).hex(" ")
     ('03 04 85 00 00 00', '03 04 86 40 01 90')
@@ -241,7 +252,7 @@ def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = 
 
 
 def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
-    """10: constant speed up to the origin, or to the first index on it.
+    """Return 10: run at constant speed to the origin, or to the first index on it.
 
     >>> origin_search(CCW, 500, index=True).hex(" ")
     '03 04 10 50 01 f4'
@@ -250,7 +261,7 @@ def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
 
 
 def zero_return(direction: int, rate: int = 0, index: bool = False) -> bytes:
-    """11: at high speed past the origin, then back to it at the start speed."""
+    """Return 11: run at high speed past the origin, then back to it at the start speed."""
     return block(Code.ZERO_RETURN, bytes([_side(direction) | index * _INDEX]) + number(rate, 2, "rate"))
 
 
@@ -264,12 +275,12 @@ def _place(trigger: Trigger, position: int | None) -> bytes:
 
 
 def immediate_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> bytes:
-    """80."""
+    """Return 80: stop immediately."""
     return block(Code.STOP, bytes([trigger.value]) + _place(trigger, position))
 
 
 def slow_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> bytes:
-    """81.
+    """Return 81: stop with a ramp.
 
     >>> slow_stop(Trigger.EVENT1).hex(" ")
     '03 02 81 05'
@@ -280,7 +291,7 @@ def slow_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> by
 def change(
     rate: int, ramped: bool = True, trigger: Trigger = Trigger.NOW, position: int | None = None
 ) -> bytes:
-    """87 with a ramp, 88 at once: another speed while the motor runs.
+    """Return 87 (with a ramp) or 88 (immediately): change the speed while the motor runs.
 
     >>> change(400).hex(" "), change(300, False, Trigger.POSITION, 0x800).hex(" ")
     ('03 04 87 00 01 90', '03 08 88 04 01 2c 00 00 08 00')
@@ -293,7 +304,7 @@ def change(
 
 
 def event_register(buffer: int, instruction: bytes) -> bytes:
-    """49: put an instruction into event buffer 1 or 2.
+    """Return 49: register an instruction in event buffer 1 or 2.
 
     >>> event_register(2, acceleration(CW, 100)).hex(" ")
     '03 0c 49 01 03 08 82 00 00 00 00 00 00 64'
@@ -302,7 +313,7 @@ def event_register(buffer: int, instruction: bytes) -> bytes:
 
 
 def event_delete(buffer: int) -> bytes:
-    """49: take the last one out again.
+    """Return 49: remove the last instruction from the event buffer.
 
     >>> event_delete(2).hex(" ")
     '03 02 49 03'
@@ -311,12 +322,12 @@ def event_delete(buffer: int) -> bytes:
 
 
 def event_read(buffer: int) -> bytes:
-    """47."""
+    """Return 47: read the event buffer."""
     return block(Code.EVENT_READ, bytes([buffer_number(buffer)]))
 
 
 def buffer_number(buffer: int) -> int:
-    """Event 1 or 2 as the part counts them, 0 or 1. OutOfRange."""
+    """Return event 1 or 2 as the number in the part, 0 or 1. Raises OutOfRange."""
     buffer = whole(buffer, "event")
     if buffer not in (1, 2):
         raise OutOfRange(f"event {buffer}: there are events 1 and 2")

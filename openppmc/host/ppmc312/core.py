@@ -1,4 +1,4 @@
-"""What a PPMC-312 is without its motions: registers, positions, terminals, reports."""
+"""PPMC-312 without its motions: registers, positions, terminals, reports."""
 
 from __future__ import annotations
 
@@ -25,30 +25,41 @@ MotionT = TypeVar("MotionT", bound=Motion)
 
 
 class Instructions(Protocol):
-    """What carries instructions to a part; `window.Window` does by the bridge, `line.talk.Talk` by a line."""
+    """Transport of instructions to a part.
+
+    `window.Window` transports them through the bridge, `line.talk.Talk` through a line.
+    """
 
     @property
     def answers(self) -> int:
-        """Answers so far; reports that come after one are younger than its instruction."""
+        """Number of responses so far.
+
+        A report after a response is later than the instruction of this response.
+        """
 
     def open(self) -> None:
-        """After a reset of the part."""
+        """Prepare the transport after a reset of the part."""
 
     def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
-        """Carry out an instruction block; returns the answer. Raises the part's refusal and LinkErrors."""
+        """Execute an instruction block and return the response.
+
+        Raises the error of the part and LinkErrors.
+        """
 
     def more(self) -> Response:
-        """The next block of an answer of several."""
+        """Return the next block of a response of several blocks."""
 
     def collect(self) -> None:
-        """Read what waits."""
+        """Read the pending responses."""
 
 
 class Core(Checked, Generic[MotionT]):
-    """See `ppmc312.Ppmc312`.
+    """Registers, positions, terminals and reports; see `ppmc312.Ppmc312`.
 
-    setup: the table that this object made, if any. reports: what the part said by itself and nobody took yet,
-    oldest first (stops of this object's own motions are in their `end`); beyond 1000 the oldest are dropped.
+    Attributes:
+        setup: last table of this object, `None` before it.
+        reports: unsolicited reports of the part that the caller has not fetched yet, oldest first. Ends of
+            this object's own motions are in their `end` instead. Beyond 1000 reports the oldest are dropped.
     """
 
     kind: TableKind
@@ -70,27 +81,31 @@ class Core(Checked, Generic[MotionT]):
         self.window.open()
 
     def _make_window(self) -> Instructions:
-        """The way of instructions to the part and of responses back."""
+        """Create the transport of instructions to the part and of responses back."""
         raise NotImplementedError
 
     def _make_motion(self, asked: int | None, direction: int, begin: int | None) -> MotionT:
-        """The handle of a motion; see `motion.Motion`."""
+        """Create the handle of a motion; see `motion.Motion`."""
         raise NotImplementedError
 
     @property
     def motion(self) -> MotionT | None:
-        """The motion that was started last, None before the first."""
+        """Motion that was started last, `None` before the first."""
         return self._motion
 
     def told(self, end: End) -> End:
-        """The end with the words of this part."""
+        """Return the End with the message prefix and the alarm name of this part."""
         return replace(end, who=self.who, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ instructions
 
     def instruct(self, block: bytes, gives: int = 3, milliseconds: int = ANSWER_MS) -> bytes:
-        """Carry out any instruction block in logical order (`blocks`); returns the parameters of the
-        answer. Raises the part's refusal."""
+        """Execute any instruction block in logical order (`blocks`).
+
+        It returns the parameters of the response.
+
+        Raises the error of the part.
+        """
         response = self.window.ask(block, gives, milliseconds)
         if response.code != block[2]:
             raise ProtocolError(
@@ -100,13 +115,13 @@ class Core(Checked, Generic[MotionT]):
         return response.data
 
     def _plain(self, code: int, gives: int = 0) -> bytes:
-        """An instruction without parameters; gives: parameters of its answer."""
+        """Execute an instruction without parameters. gives: number of parameters of its response."""
         return self.instruct(blocks.block(code), 3 + gives)
 
     # ------------------------------------------------------------------ reports
 
     def _arrived(self, response: Response) -> None:
-        """A response that is no answer to this object."""
+        """Process a response that is not for an instruction of this object."""
         try:
             report = response.report()
         except BadResponse as error:
@@ -114,7 +129,7 @@ class Core(Checked, Generic[MotionT]):
         self._heard(report)
 
     def _heard(self, report: Report) -> None:
-        """Give a report to the motion that it ends, or keep it."""
+        """Pass a report to the motion that it ends, or store it."""
         motion = self._motion
         younger = self.window.answers > self._mark
         if isinstance(report, Stopped) and motion is not None and not motion.over and younger:
@@ -125,7 +140,10 @@ class Core(Checked, Generic[MotionT]):
             self.reports.append(report)
 
     def next_report(self, timeout: float = 0) -> Report | None:
-        """The oldest report that nobody took, None if none comes within `timeout` seconds."""
+        """Return the oldest report that was not fetched yet.
+
+        If no report arrives within `timeout` seconds, it returns None.
+        """
         end = self.link.clock() + timeout
         if not self.reports:
             self.window.collect()
@@ -135,7 +153,7 @@ class Core(Checked, Generic[MotionT]):
         return self.reports.popleft() if self.reports else None
 
     def attend(self, seconds: float) -> None:
-        """Let time of the board pass, and read what the part says by itself."""
+        """Wait on the clock of the board and process unsolicited reports of the part."""
         end = self.link.clock() + seconds
         while (left := end - self.link.clock()) > 0:
             if self.link.wait_event(left) is not None:
@@ -144,15 +162,15 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ registers
 
     def status(self) -> Status:
-        """State, monitors, registered instructions; allowed at any time."""
+        """Return state, monitors and registered instructions; allowed at any time."""
         return Status.parse(self._plain(Code.STATUS, 3))
 
     def inputs(self) -> Inputs:
-        """Switches and other inputs; allowed at any time."""
+        """Return switches and other inputs; allowed at any time."""
         return Inputs.parse(self._plain(Code.TERMINALS, 2))
 
     def version(self) -> int:
-        """Version byte of the part."""
+        """Return the version byte of the part."""
         return self._plain(Code.VERSION, 1)[0]
 
     @property
@@ -170,57 +188,64 @@ class Core(Checked, Generic[MotionT]):
         return signed(int.from_bytes(data[1:5], "big"))
 
     def counted(self, count: int) -> int | None:
-        """A position, as other parts may have none."""
+        """Return a position unchanged; other parts may have no position."""
         return count
 
     def set_position(self, position: int, encoder: bool = False) -> None:
-        """The pulse position, or that of the encoder, is this one; at rest (NotWhileBusy)."""
+        """Set the position of the pulses, or of the encoder.
+
+        Raises:
+            NotWhileBusy: the motor is moving.
+        """
         self.instruct(blocks.set_position(position, encoder))
 
     def zero(self) -> None:
-        """Here is position 0 of pulses and encoder."""
+        """Set the current position of pulses and encoder to 0."""
         self.set_position(0)
         self.set_position(0, encoder=True)
 
     # ------------------------------------------------------------------ terminals
 
     def excitation_on(self) -> None:
-        """Output EXON active; at rest."""
+        """Activate the output EXON; only while the motor is stopped."""
         self._plain(Code.EXCITATION_ON)
 
     def excitation_off(self) -> None:
-        """Output EXON inactive; at rest. The table stays."""
+        """Deactivate the output EXON; only while the motor is stopped. The table is kept."""
         self._plain(Code.EXCITATION_OFF)
 
     def counter_clear(self) -> None:
-        """Pulse of 24.6 ms (at 16 MHz) at output CCLR; at rest."""
+        """Output a pulse of 24.6 ms (at 16 MHz) on CCLR; only while the motor is stopped."""
         self._plain(Code.COUNTER_CLEAR)
 
     def zero_clamp(self) -> None:
-        """Output ZCLMP active until the next start; at rest."""
+        """Activate the output ZCLMP until the next start; only while the motor is stopped."""
         self._plain(Code.ZERO_CLAMP)
 
     def clear_alarm(self) -> None:
-        """Pulse of 24.6 ms at output ACLR; leaves the alarm state if the alarm input is not active then."""
+        """Output a pulse of 24.6 ms on ACLR.
+
+        The part then leaves the alarm state if the alarm input is not active.
+        """
         self._plain(Code.ALARM_CLEAR)
 
     def aux_inputs(self) -> int:
-        """Levels of the eight general inputs."""
+        """Return the levels of the eight general inputs."""
         return self._plain(Code.INPUT, 1)[0]
 
     def auxo(self, value: int) -> None:
-        """Six general outputs, 0 to 63: a 1 makes its pin low."""
+        """Set the six general outputs, 0 to 63; a 1 sets its pin low."""
         self.instruct(blocks.outputs(value))
 
     # ------------------------------------------------------------------ reset
 
     def software_reset(self) -> None:
-        """The part's own reset instruction; the same but for the pin."""
+        """Execute the reset instruction of the part, which has the effect of the reset pin."""
         self._plain(Code.RESET)
         self.forget()
 
     def forget(self) -> None:
-        """The part was reset."""
+        """Discard set-up, motion and reports, because the part was reset."""
         self.setup = self._motion = None
         self.reports.clear()
         self.window.open()
@@ -234,8 +259,13 @@ ITEM_RATES, ITEM_UP, ITEM_DOWN = 1, 2, 3
 
 @dataclass(frozen=True)
 class TableRead:
-    """The table as the part holds it, fastest stage first: rates in base clocks, pulses of each stage (down
-    is empty if the deceleration is the acceleration backwards)."""
+    """Table as stored in the part, fastest stage first.
+
+    Attributes:
+        rates: in base clocks.
+        up: pulses of each stage.
+        down: the same for the deceleration, empty if it is the reversed acceleration.
+    """
 
     rates: tuple[int, ...]
     up: tuple[int, ...]
@@ -243,7 +273,7 @@ class TableRead:
 
 
 class Settings(Core[MotionT]):
-    """See `ppmc312.Ppmc312`."""
+    """Tables, monitors, interlock and limits; see `ppmc312.Ppmc312`."""
 
     # ------------------------------------------------------------------ tables
 
@@ -258,13 +288,25 @@ class Settings(Core[MotionT]):
         base_clock: speeds.Number | None = None,
         external_clock: speeds.Number | None = None,
     ) -> Setup:
-        """Speeds and ramps; returns what is really reached.
+        """Set speeds and ramps; return the set-up with the values that are reached.
 
-        start_pps, high_pps: 0.24 pps to 4 Mpps as the base clock allows (the old part: up to 2 Mpps).
-        ramp_pulses: from start to high speed, 24 bits. stop_pps, down_pulses: of a deceleration of its own.
-        base_clock: 8e6, 1e6, 500e3, 250e3, 62.5e3 or 15.625e3 Hz at a 16 MHz crystal, None: the fastest that
-        reaches the start and stop speed. external_clock: frequency at the pin EXTCK in Hz. Overrides and
-        event buffers are emptied. Raises OutOfRange, and NotWhileBusy during a motion.
+        Overrides and event buffers are cleared.
+
+        Args:
+            start_pps: start speed, 0.24 pps to 4 Mpps depending on the base clock (original part: up to 2
+                Mpps).
+            high_pps: high speed in the same range.
+            ramp_pulses: pulses from start to high speed, 24 bits.
+            stop_pps: final speed of a separate deceleration ramp.
+            down_pulses: pulses of a separate deceleration ramp.
+            sigmoid: S-shaped ramps.
+            base_clock: 8e6, 1e6, 500e3, 250e3, 62.5e3 or 15.625e3 Hz at a 16 MHz crystal; `None`: the fastest
+                one that reaches start and stop speed.
+            external_clock: frequency at the pin EXTCK in Hz.
+
+        Raises:
+            OutOfRange: an argument is out of range.
+            NotWhileBusy: a motion is running.
         """
         wanted = Wanted(
             start_pps,
@@ -284,13 +326,21 @@ class Settings(Core[MotionT]):
         base_clock: speeds.Number | None = None,
         external_clock: speeds.Number | None = None,
     ) -> Setup:
-        """A free curve of 2 to 127 stages, slowest first: (pps, pulses up[, pulses down]), or the path of a
-        CSV file of such lines. Clocks as for `initialise`. Raises OutOfRange."""
+        """Load a free curve and return its set-up.
+
+        Args:
+            stages: 2 to 127 stages (pps, pulses up[, pulses down]), slowest first, or the path of a CSV file
+                with such lines.
+            base_clock, external_clock: as for `initialise`.
+
+        Raises:
+            OutOfRange: the curve is invalid.
+        """
         rows = read_stages(Path(stages)) if isinstance(stages, (str, Path)) else stages
         return self.apply(plan_stages(self.link.identity.xtal_hz, rows, base_clock, external_clock))
 
     def apply(self, setup: Setup) -> Setup:
-        """Initialise with a setup that was planned before, and switch the excitation on."""
+        """Initialise the part with a set-up planned earlier, and switch the excitation on."""
         self.setup = None
         milliseconds = ANSWER_MS
         if self.link.identity.datasheet:
@@ -302,10 +352,13 @@ class Settings(Core[MotionT]):
         return setup
 
     def read_table(self) -> TableRead:
-        """The table that the part holds; at rest. NotInitialised if there is none."""
+        """Return the table of the part; only while the motor is stopped.
+
+        Raises NotInitialised without a table.
+        """
         response = self.window.ask(blocks.block(Code.TABLE_READ), 12)
         if response.code != Code.TABLE_READ:
-            raise ProtocolError(f"{self.link.name}: no table came, but {response.raw.hex(' ')}")
+            raise ProtocolError(f"{self.link.name}: expected the table, received {response.raw.hex(' ')}")
         items: dict[int, bytearray] = {ITEM_RATES: bytearray(), ITEM_UP: bytearray(), ITEM_DOWN: bytearray()}
         while not response.last:
             response = self.window.more()
@@ -315,11 +368,14 @@ class Settings(Core[MotionT]):
         )
 
     def rate_of(self, pps: speeds.Number, what: str = "speed") -> int:
-        """Rate of a speed of the table. OutOfRange, also without a table of this object."""
+        """Return the rate of a speed of the table.
+
+        Raises OutOfRange, also if this object made no table.
+        """
         return self.known_setup().rate_of(pps, what)
 
     def known_setup(self) -> Setup:
-        """The table that this object made. OutOfRange if there is none."""
+        """Return the table that this object made. Raises OutOfRange if there is none."""
         if self.setup is None:
             raise OutOfRange("a speed needs a base clock, which an initialisation chooses: initialise first")
         return self.setup
@@ -327,31 +383,45 @@ class Settings(Core[MotionT]):
     # ------------------------------------------------------------------ monitors, limits
 
     def watch_position(self, distance: int | None, auto: bool = True, clamp: bool = False) -> None:
-        """Report when pulses and encoder differ by more than `distance` (1 to 65 535) at rest, and when they
-        agree again (`InPositionChange`); None: no more. auto: more than one report; clamp: ZCLMP active
-        while they agree."""
+        """Set the in-position monitor, which reports at standstill (`InPositionChange`).
+
+        Args:
+            distance: report when pulses and encoder differ by more than this, 1 to 65 535, and when they
+                agree again; `None`: monitor off.
+            auto: send more than one report.
+            clamp: ZCLMP is active while they agree.
+        """
         self.instruct(blocks.in_position(distance is not None, distance or 0, auto, clamp))
 
     def watch_encoder(self, distance: int | None, auto: bool = True) -> None:
-        """The same during motions, too (`EncoderChange`): lost steps, a motor that stands."""
+        """Set the encoder monitor, which also reports during motions (`EncoderChange`).
+
+        It detects lost steps and a motor that does not move. Arguments as for `watch_position`.
+        """
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 
     def limit_speed(self, pps: speeds.Number) -> None:
-        """At an active slow-down limit nothing as fast as this, or faster (the high speed, if not set)."""
+        """Set the speed limit at an active slow-down limit.
+
+        The motor runs slower than this speed. Default: the high speed.
+        """
         rate = self.known_setup().clock.choose(pps).rate
         self.instruct(blocks.speed_limit(rate))
 
     def monitor_end(self, on: bool) -> None:
-        """Whether a motion is over only when the input END is active."""
+        """Set whether a motion only ends when the input END is active."""
         self.instruct(blocks.end_terminal(on), 4)
 
     def monitor_run(self, on: bool) -> None:
-        """Whether starts wait for the input RUN; off lets a start go that waits."""
+        """Set whether starts wait for the input RUN; False starts a motion that is waiting."""
         if self.status().run_monitored != on:
             self._plain(Code.RUN_MONITOR, 1)
 
     def interlock(self, position: int | None) -> None:
-        """Output INTLK active until the pulses reach this position (`InterlockEnded`); None: inactive now."""
+        """Activate the output INTLK until the pulses reach this position.
+
+        The part then reports `InterlockEnded`. None deactivates the output now.
+        """
         running = self.status().interlock
         if running:
             self._plain(Code.INTERLOCK, 1)
@@ -360,7 +430,12 @@ class Settings(Core[MotionT]):
             self._plain(Code.INTERLOCK, 1)
 
     def watch_inputs(self, mask: int, auto: bool = True) -> None:
-        """Report changes of general inputs (`InputChange`); mask: which, 0 for none. auto: not just one."""
+        """Set which changes of general inputs are reported (`InputChange`).
+
+        Args:
+            mask: bits of the inputs, 0 for no reports.
+            auto: send more than one report.
+        """
         self.instruct(blocks.input_mask(mask, auto))
 
 

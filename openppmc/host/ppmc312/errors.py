@@ -1,6 +1,8 @@
-"""What the PPMC-312 refuses and reports as exceptions, one class a reason. See `errors` for the common base.
+"""Errors and alarms of the PPMC-312 as exceptions, one class per reason.
 
-`CommandRefused.status` is the byte of the answer that gives the reason.
+`host.errors` has the base class.
+
+`CommandRefused.status` is the byte of the response that holds the reason.
 """
 
 # ruff: noqa: N818
@@ -12,37 +14,40 @@ from ..errors import CommandRefused, NothingToStop, NotInitialised, NotWhileBusy
 
 
 class ParameterRefused(CommandRefused):
-    """F0: a value that the part does not take; `number` tells which, `echo` is the instruction as it came."""
+    """F0: the part does not accept a value.
+
+    number: error number of the value. echo: instruction as the part received it.
+    """
 
     echo = b""
 
 
 class RateRefused(ParameterRefused):
-    """F0 01, 20: a rate outside what is possible."""
+    """F0 01, 20: a rate is out of range."""
 
 
 class TableRefused(ParameterRefused):
-    """F0 02 to 05: speeds too close together, or too few pulses for 127 stages."""
+    """F0 02 to 05: the speeds are too close together, or there are too few pulses for the stages."""
 
 
 class CurveRefused(ParameterRefused):
-    """F0 10 to 1A: a free curve with a mistake. The part has no table now."""
+    """F0 10 to 1A: a free curve is invalid. The part has no table now."""
 
 
 class OutOfTurn(CommandRefused):
-    """F1 01, 02: a data block without its free curve, or an instruction in the middle of one."""
+    """F1 01, 02: a data block without a free curve, or an instruction in the middle of one."""
 
     text = "the part did not expect this block: another program may be using it; send the command again"
 
 
 class InAlarm(CommandRefused):
-    """F1 in state ABN."""
+    """F1 in state ABN: the part is in alarm."""
 
     text = "the part is in alarm: remove the cause, then clear the alarm (or reset)"
 
 
 class HeldByRun(CommandRefused):
-    """F1 in state WRN."""
+    """F1 in state WRN: a start waits for RUN."""
 
     text = "a start waits for RUN: give RUN, switch its monitor off, or reset the part"
 
@@ -58,15 +63,15 @@ class RegistrationRefused(CommandRefused):
 
 
 class OverrideFailed(CommandRefused):
-    """F9: a registered override was not carried out, and the others are dropped."""
+    """F9: a registered override was not executed, and the others are discarded."""
 
 
 class EventFailed(CommandRefused):
-    """F8: an instruction of an event buffer was not carried out, and the buffer is empty now."""
+    """F8: an instruction of an event buffer was not executed, and the buffer is empty now."""
 
 
 class AlarmRaised(CommandRefused):
-    """F4: the part stopped the pulses and went into alarm."""
+    """F4: the part stopped the pulses and entered the alarm state."""
 
 
 _PARAMETERS: dict[int, tuple[type[ParameterRefused], str]] = {
@@ -120,7 +125,9 @@ _FAILURES = {
 
 
 def refused(code: int, parameters: bytes) -> CommandRefused | None:
-    """The exception for an answer, None if it is none. parameters: of the response.
+    """Return the exception for a response, `None` if it is no error.
+
+    parameters: parameters of the response.
 
     >>> str(refused(0xF1, bytes([0, 0x10])))
     'the part is in alarm: remove the cause, then clear the alarm (or reset)'

@@ -1,4 +1,4 @@
-"""A motion of a PPMC-312 under way: the part reports its end by itself."""
+"""Motion of a PPMC-312, whose end the part reports without a request."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: 
 
 
 class Way(device.Way, Protocol):
-    """The way to the part: a bridge's link, or a line."""
+    """Transport to the part: the link of a bridge, or a line."""
 
     @property
     def identity(self) -> Identity: ...
@@ -38,13 +38,13 @@ class Way(device.Way, Protocol):
 
 
 class Collecting(Protocol):
-    """The way of reports to the part's object."""
+    """Transport of reports to the object of the part."""
 
     def collect(self) -> None: ...
 
 
 class Moving(Protocol):
-    """What a motion needs of its part, which is a `core.Core`."""
+    """Members of a part (`core.Core`) that a motion needs."""
 
     @property
     def who(self) -> str: ...
@@ -59,11 +59,15 @@ class Moving(Protocol):
 
 
 class Motion(Handle):
-    """Handle of an operation that was started; `end` is its End once it is known.
+    """Handle of a motion that was started; `end` is its End when it is known.
 
-    asked: pulses, None for endless ones. direction: 0 CW, 1 CCW. begin: position before, None if another
-    program started it. held: it waited for RUN when it was started; shape: what the part said of a move with
-    ramps. stop_ordered: a stop was sent, so that an end below the stop speed is its work.
+    Attributes:
+        asked: pulses, `None` for endless motions.
+        direction: 0 = CW, 1 = CCW.
+        begin: position before the motion, `None` if another program started it.
+        held: the motion waited for RUN when it was started.
+        shape: shape that the part reported for a move with ramps.
+        stop_ordered: a stop was sent, so it is the cause of an end below the stop speed.
     """
 
     asked: int | None
@@ -82,12 +86,18 @@ class Motion(Handle):
         self._started = self._link.clock()
 
     def accepted(self, status: int | None) -> None:
-        """The part has answered the start; status: its status byte, None if it gave none."""
+        """Process the response to the start.
+
+        status: its status byte, `None` if the response contains none.
+        """
         if status is not None:
             self.held, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
 
     def stopped(self, report: Stopped) -> None:
-        """The part says that the pulses have ended: an end if they are those of the order."""
+        """Process the report that the pulses have ended.
+
+        It is a confirmed end if the pulses are those of the order.
+        """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
             cause = Cause.SLOW_LIMIT
@@ -95,7 +105,7 @@ class Motion(Handle):
         if self.begin is not None:
             made = signed((report.position - self.begin) % COUNTS)
         if made is not None and self.asked:
-            ahead = (-made if self.direction else made) % COUNTS  # it may be more than half the counter
+            ahead = (-made if self.direction else made) % COUNTS  # it may be more than half the counter range
             left = self.asked - ahead
             if left < 0 or (left and cause is Cause.COMPLETE):
                 self._not_confirmed(
@@ -109,7 +119,7 @@ class Motion(Handle):
         self.end = self._part.told(End(cause, made, left, report.position, int(report.cause)))
 
     def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
-        """It is over, and what the part says of it is wrong or missing."""
+        """Record that the motion is over, but its report is wrong or missing."""
         position = self._part.position if report is None else report.position
         made = None if self.begin is None else signed((position - self.begin) % COUNTS)
         where = f"{self._link.name}: {self._part.who}"
@@ -117,7 +127,7 @@ class Motion(Handle):
         self.unknown = EndUnknown(where, reason, finish, made, self.asked, position)
 
     def look(self) -> None:
-        """Ask the part; sets `end`, or `unknown`, when the motion is over."""
+        """Poll the part; set `end` or `unknown` if the motion is over."""
         if self.over:
             return
         busy = self._part.status().busy
@@ -127,8 +137,11 @@ class Motion(Handle):
                 self._not_confirmed("the part is at standstill and reported no end")
 
     def poll(self) -> Progress | None:
-        """Return where the motor is now; None when it has stopped (then `end` is set). Raises EndUnknown if
-        it has stopped, and the part does not confirm how."""
+        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+
+        Raises:
+            EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
+        """
         self.look()
         position = self._part.position
         if self._confirmed() is not None:
@@ -137,11 +150,16 @@ class Motion(Handle):
         return Progress(position, made, self.asked, self._link.clock() - self._started)
 
     def wait(self, timeout: float | None = None, progress: Callable[[Progress], None] | None = None) -> End:
-        """Wait for the end, without judging its cause.
+        """Wait for the end and return it, for any cause.
 
-        timeout: s, None for ever; Timeout leaves the motion running. progress: called about ten times a
-        second; what it raises ends the wait, and the motion continues. Raises EndUnknown if the part does not
-        confirm how the motion ended.
+        Args:
+            timeout: longest wait in s, `None` for no limit.
+            progress: called about ten times a second. An exception that it raises ends the wait; the motion
+                continues.
+
+        Raises:
+            Timeout: the time is over; the motion continues.
+            EndUnknown: the part does not confirm how the motion ended.
         """
         limit = None if timeout is None else self._link.clock() + timeout
         pause = PROGRESS_POLL if progress else SAFETY_POLL
@@ -154,22 +172,25 @@ class Motion(Handle):
             elif (now := self.poll()) is not None:
                 progress(now)
             if not self.over and limit is not None and self._link.clock() >= limit:
-                raise Timeout(f"the motion is not over after {timeout:g} s: wait longer or stop it")
+                raise Timeout(
+                    f"motion still in progress after {timeout:g} s; increase timeout or stop the motion"
+                )
         return end
 
 
-# Finding the origin with a PPMC-312: a zero return, if wanted, then the same edge from the same side.
+# Homing with a PPMC-312. An optional zero return is followed by a search for the same edge from the same
+# side.
 
 
 class Searching(homing.Searching, Protocol):
-    """The same with what only a PPMC-312 can."""
+    """Members of an axis that homing needs, including those of a PPMC-312 only."""
 
     def search(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
     def zero_return(self, direction: int, pps: Number | None = None, index: bool = False) -> AnyMotion: ...
 
 
 class Homing(homing.Homing):
-    """One homing run; see `Axis.home`. index: searches end at an index of the encoder."""
+    """Homing run; see `Axis.home`. index: searches end at an index of the encoder."""
 
     def __init__(
         self,

@@ -1,10 +1,10 @@
-"""Driver of a PPMC-312 behind a UART bridge."""
+"""Driver of a PPMC-312 on a UART bridge."""
 
 from __future__ import annotations
 
 from ...model.ppmc312.codes import Answer
 from .. import speeds
-from ..axis import CCW, CW, Moves, OnProgress
+from ..axis import CCW, CW, OnProgress
 from ..ending import Cause, End
 from ..errors import NothingToStop, OutOfRange, ProtocolError
 from ..kind import PULSE_ONLY
@@ -20,40 +20,49 @@ from .motion import Homing, Motion
 from .profile import KIND
 from .window import Window
 
-# Registered instructions of a PPMC-312: overrides that wait for a position or an event, event buffers.
+# Registered instructions of a PPMC-312: overrides that wait for a position or an event, and event buffers.
 
 _EVENTS = {1: Trigger.EVENT1, 2: Trigger.EVENT2}
 REGISTERED, IN_USE, FULL, DELETED, EMPTY_NOW, NOTHING = range(6)
 
 
 class Overrides(Settings[MotionT]):
-    """See `ppmc312.Ppmc312`.
+    """Overrides and event buffers; see `ppmc312.Ppmc312`.
 
-    Overrides happen in the order of their registration, up to eight of them; each waits for a position (at)
-    or for event input 1 or 2 (event). They stay through the end of a motion and go with the next table.
-    Raises RegistrationRefused. What they did comes as a report (`Executed`, `Failed`): read it before the
-    next one is due, or the part goes into alarm.
+    Overrides are executed in the order of their registration, up to eight of them. Each waits for a position
+    (`at`) or for event input 1 or 2 (`event`). They remain registered after the end of a motion; the next
+    table clears them. A report contains the result of an override (`Executed`, `Failed`). Read it before the
+    next override is executed; otherwise the part enters the alarm state. All methods may raise
+    RegistrationRefused.
     """
 
     # ------------------------------------------------------------------ overrides
 
     def override_stop(self, at: int | None = None, event: int | None = None, slow: bool = True) -> None:
-        """A stop, with a ramp or at once (then pulse `at` is the last one)."""
+        """Register a stop, with a ramp or immediate (then pulse `at` is the last one)."""
         make = blocks.slow_stop if slow else blocks.immediate_stop
         self._register(make(_trigger(at, event), at))
 
     def override_speed(
         self, pps: speeds.Number, at: int | None = None, event: int | None = None, ramped: bool = True
     ) -> None:
-        """Another speed of the table, with a ramp (which needs a constant speed before) or at once."""
+        """Register a change to another speed of the table.
+
+        Args:
+            ramped: change with a ramp, which requires a constant speed before; False: immediately.
+        """
         self._register(blocks.change(self.rate_of(pps), ramped, _trigger(at, event), at))
 
     def override_move(self, pulses: int, event: int, pps: speeds.Number | None = None) -> None:
-        """A move on an event; pps: constant speed, None for one with ramps."""
+        """Register a move on an event. pps: constant speed, `None` for a move with ramps."""
         self._register(self.move_block(pulses, pps, _trigger(None, event)))
 
     def override_run(self, direction: int, event: int, pps: speeds.Number | None = None) -> None:
-        """An endless motion on an event; pps: constant speed, None: with a ramp to the high speed."""
+        """Register an endless motion on an event.
+
+        Args:
+            pps: constant speed, `None` for a ramp to the high speed.
+        """
         rate = 0 if pps is None else self.rate_of(pps)
         self._register(blocks.run(direction, rate, pps is None, _trigger(None, event)))
 
@@ -65,7 +74,15 @@ class Overrides(Settings[MotionT]):
     def move_block(
         self, pulses: int, pps: speeds.Number | None = None, trigger: Trigger = Trigger.NOW
     ) -> bytes:
-        """Instruction of a move, signed pulses; pps: constant speed. OutOfRange."""
+        """Return the instruction of a move.
+
+        Args:
+            pulses: signed number of pulses.
+            pps: constant speed, `None` for a move with ramps.
+
+        Raises:
+            OutOfRange: the number of pulses is out of range.
+        """
         side, count = (CCW, -pulses) if pulses < 0 else (CW, pulses)
         if not 1 <= count < blocks.POSITIONS:
             raise OutOfRange(f"{pulses} pulses: a move has 1 to {blocks.POSITIONS - 1} pulses either way")
@@ -76,8 +93,13 @@ class Overrides(Settings[MotionT]):
     # ------------------------------------------------------------------ event buffers
 
     def event_add(self, event: int, block: bytes) -> None:
-        """Put an instruction (`move_block`, `blocks`) into event buffer 1 or 2, which hold four each. A
-        falling edge of the event input carries the next one out, round and round. Only at rest."""
+        """Append an instruction (`move_block`, `blocks`) to event buffer 1 or 2.
+
+        A buffer holds four instructions.
+
+        A falling edge of the event input executes the next one; after the last one the first one follows.
+        Only while the motor is stopped.
+        """
         status = self.instruct(blocks.event_register(event, block), 4)[0]
         if status == IN_USE:
             raise RegistrationRefused(status, f"event {event} is in use by an override")
@@ -85,16 +107,16 @@ class Overrides(Settings[MotionT]):
             raise RegistrationRefused(status, f"event buffer {event} is full: it holds four instructions")
 
     def event_delete(self, event: int) -> bool:
-        """Take the last instruction of an event buffer out; False if there was none."""
+        """Remove the last instruction of an event buffer; return False if the buffer was empty."""
         return self.instruct(blocks.event_delete(event), 4)[0] != NOTHING
 
     def event_buffer(self, event: int) -> EventBuffer:
-        """What event buffer 1 or 2 holds; at rest."""
+        """Return the content of event buffer 1 or 2; only while the motor is stopped."""
         return EventBuffer.parse(self.instruct(blocks.event_read(event), 9))
 
 
 def _trigger(at: int | None, event: int | None) -> Trigger:
-    """What an override waits for. OutOfRange if it is not exactly one thing."""
+    """Return the trigger of an override. Raises OutOfRange unless exactly one argument is given."""
     if (at is None) == (event is None):
         raise OutOfRange("an override waits either for a position (at) or for an event")
     if event is None:
@@ -104,26 +126,46 @@ def _trigger(at: int | None, event: int | None) -> Trigger:
     return _EVENTS[event]
 
 
-# The motions of a PPMC-312, whatever carries its instructions.
+# Motions of a PPMC-312, for any transport of its instructions.
 
 
-class Axis(Moves, Overrides[MotionT]):
-    """See `ppmc312.Ppmc312`."""
+class Axis(Overrides[MotionT]):
+    """Motions; see `ppmc312.Ppmc312`."""
+
+    # ------------------------------------------------------------------ moves that wait for their end
+
+    def move(self, pulses: int, progress: OnProgress | None = None, pulse_only: bool = False) -> End:
+        """Move with ramps and wait for the end.
+
+        Raises:
+            LimitReached, AlarmStop, StoppedEarly: the move ended before all pulses were output.
+        """
+        if pulses == 0:
+            return self.nothing_to_move()
+        return self.start_move(pulses, pulse_only).wait(progress=progress).check(abs(pulses))
+
+    def move_to(self, position: int, progress: OnProgress | None = None) -> End:
+        """Move with ramps to a position of the pulse counter and wait for the end."""
+        return self.move(position - self.position, progress)
+
+    def move_constant(self, pulses: int, pps: speeds.Number, progress: OnProgress | None = None) -> End:
+        """Move at constant speed and wait for the end; raises the same errors as `move`."""
+        return self.start_constant(pulses, pps).wait(progress=progress).check(abs(pulses))
 
     # ------------------------------------------------------------------ motions
 
     def start_move(self, pulses: int, pulse_only: bool = False) -> MotionT:
-        """Begin a move with ramps: 1 to 2^32 - 1 pulses either way."""
+        """Start a move with ramps: 1 to 2^32 - 1 pulses in either direction."""
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         return self._start(self.move_block(pulses), _side(pulses), abs(pulses))
 
     def start_constant(self, pulses: int, pps: speeds.Number) -> MotionT:
-        """Begin a move at constant speed, without ramps."""
+        """Start a move at constant speed, without ramps."""
         return self._start(self.move_block(pulses, pps), _side(pulses), abs(pulses))
 
     def nothing_to_move(self) -> End:
-        """The End of a move of 0 pulses."""
+        """Return the End of a move of 0 pulses."""
         return self.told(End(Cause.COMPLETE, 0, 0, self.position, 0))
 
     def jog(
@@ -133,8 +175,12 @@ class Axis(Moves, Overrides[MotionT]):
         high: bool = False,
         pulse_only: bool = False,
     ) -> MotionT:
-        """Run until a stop, a limit or the alarm. speed: constant, in pps, default the start speed; high:
-        with a ramp to `speed`, default the high speed."""
+        """Run until a stop, a limit or the alarm.
+
+        Args:
+            speed: constant speed in pps, default: the start speed.
+            high: accelerate with a ramp to `speed`, default: the high speed.
+        """
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         if high:
@@ -144,16 +190,18 @@ class Axis(Moves, Overrides[MotionT]):
         return self._start(blocks.run(direction, rate, high), direction)
 
     def step(self, direction: int) -> End:
-        """One pulse."""
+        """Output one pulse."""
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
     def search(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at constant speed (default: start speed) until the origin, or until the index on it."""
+        """Run at constant speed (default: start speed) to the origin, or to the index on it."""
         return self._start(blocks.origin_search(direction, self._search_rate(pps), index), direction)
 
     def zero_return(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at high speed (or pps) to the origin, slow down past it and come back to it at the start speed.
-        Wants an origin switch that is active over a short way only."""
+        """Run at high speed (or pps) past the origin, decelerate, and return to it at the start speed.
+
+        The origin switch must be active over a short distance only.
+        """
         rate = 0 if pps is None else self.rate_of(pps)
         return self._start(blocks.zero_return(direction, rate, index), direction)
 
@@ -167,36 +215,55 @@ class Axis(Moves, Overrides[MotionT]):
         progress: OnProgress | None = None,
         index: bool = False,
     ) -> End:
-        """Find the origin switch from the far side and make its edge position 0.
+        """Find the origin switch, always from the same side, and set its edge to position 0.
 
-        direction: towards the switch. search_pps: default the start speed. fast: first a zero return at high
-        speed; to_limit: first to the slow-down limit at high speed and on to the hard limit. back_off: pulses
-        of each step off the switch when the search would begin on it. index: the origin is the first index of
-        the encoder on the switch. Raises OriginNotFound, LimitReached, AlarmStop, StoppedEarly.
+        Args:
+            direction: direction towards the switch.
+            search_pps: speed of the search in pps, default: the start speed.
+            fast: first make a zero return at high speed.
+            to_limit: first run to the slow-down limit at high speed, and continue to the hard limit.
+            back_off: pulses of each move away from the switch if it is active at the start of the search.
+            index: the origin is the first index of the encoder on the switch.
+
+        Raises:
+            OriginNotFound, LimitReached, AlarmStop, StoppedEarly: homing did not succeed.
         """
         return Homing(self, direction, search_pps, back_off, progress, index).run(fast, to_limit)
 
-    # ------------------------------------------------------------------ while it runs
+    # ------------------------------------------------------------------ during a motion
 
     def change_speed(self, pps: speeds.Number, ramped: bool = True) -> None:
-        """Another speed of the table for the motion that runs: with a ramp (the speed must be constant now)
-        or at once. NothingToStop at rest, NotWhileBusy on a ramp."""
+        """Change the running motion to another speed of the table.
+
+        Args:
+            ramped: change with a ramp, which requires a constant speed before; False: immediately.
+
+        Raises:
+            NothingToStop: the motor is stopped.
+            NotWhileBusy: the motor is on a ramp.
+        """
         self.instruct(blocks.change(self.rate_of(pps), ramped))
 
     def stop(self, wait: bool = True) -> End | None:
-        """Stop with a ramp. Returns the End, None if not waited for.
+        """Stop with a ramp; return the End, or `None` if wait is False.
 
-        A motor that has just come to rest is fine; NothingToStop if it was at rest, HeldByRun if the start
-        still waits for RUN.
+        It is no error if the motor has just stopped.
+
+        Raises:
+            NothingToStop: the motor was stopped.
+            HeldByRun: the start still waits for RUN.
         """
         return self._stop(False, wait)
 
     def halt(self, wait: bool = True) -> End | None:
-        """Stop at once; steps may be lost at high speed. As `stop` otherwise."""
+        """Stop immediately, otherwise as `stop`; steps may be lost at high speed."""
         return self._stop(True, wait)
 
     def brake(self, now: bool = False) -> None:
-        """Stop a motion that this object started, without waiting; fine if it has ended by itself."""
+        """Request a stop of the motion that this object started, without waiting.
+
+        It is no error if the motion has ended.
+        """
         try:
             self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())
         except NothingToStop:
@@ -212,7 +279,7 @@ class Axis(Moves, Overrides[MotionT]):
     def _stop(self, now: bool, wait: bool) -> End | None:
         motion = self._motion
         if motion is None or motion.over:
-            # Perhaps one that another program, an override or an event started.
+            # Another program, an override or an event may have started a motion.
             self._mark = self.window.answers
             self._motion, before = self._make_motion(None, CW, None), motion
             self._motion.stop_ordered = True
@@ -228,7 +295,7 @@ class Axis(Moves, Overrides[MotionT]):
         return motion.wait() if wait else None
 
     def _start(self, block: bytes, direction: int, asked: int | None = None) -> MotionT:
-        """Start a motion; its end may be reported in the same message as its answer."""
+        """Start a motion; its end may be reported in the same message as the response."""
         before, begin = self._motion, self.position
         self._mark = self.window.answers
         self._motion = motion = self._make_motion(asked, direction, begin)
@@ -242,7 +309,7 @@ class Axis(Moves, Overrides[MotionT]):
         return motion
 
     def _search_rate(self, pps: speeds.Number | None) -> int:
-        """Rate of a constant speed, by default the start speed that is really reached."""
+        """Return the rate of a constant speed; default: the start speed that is reached."""
         if pps is not None:
             return self.rate_of(pps)
         setup = self.known_setup()
@@ -250,7 +317,11 @@ class Axis(Moves, Overrides[MotionT]):
 
     @property
     def search_speed(self) -> speeds.Number:
-        """Speed of searches and jogs that name none, in pps. OutOfRange without a setup."""
+        """Default speed of searches and jogs in pps.
+
+        Raises:
+            OutOfRange: this object made no table.
+        """
         setup = self.known_setup()
         return setup.clock.speed(setup.table.rates[setup.table.sa])
 
@@ -266,10 +337,10 @@ RUN, EVENT_1, EVENT_2 = 0x01, 0x02, 0x04
 class Ppmc312(Axis[Motion], Part):
     """One PPMC-312: part and axis in one object; see `part.Part`.
 
-    Directions: 0 or CW, 1 or CCW. Speeds in pulses per second, those of motions within the table; pulses and
-    positions signed, CW positive. Any method may raise LinkErrors; instructions raise what the part refuses
-    (CommandRefused, `errors`). Motions: `axis`, settings and tables: `settings`, overrides and events:
-    `overrides`, registers and outputs: `core`.
+    Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second; those of motions are within the table.
+    Pulses and positions are signed, CW positive. Any method may raise LinkErrors; instructions raise the
+    errors of the part (CommandRefused, `errors`). `Axis` has the motions, `core.Settings` the settings and
+    tables, `Overrides` the overrides and events, `core.Core` the registers and outputs.
     """
 
     kind = KIND
@@ -290,16 +361,19 @@ class Ppmc312(Axis[Motion], Part):
         return (self,)
 
     def reset(self) -> None:
-        """Reset of the part by its pin, in any state: pulses end at once, no table, position 0."""
+        """Reset the part with its pin, in any state: pulses end immediately, no table, position 0."""
         self.link.execute(Script().reset())
         self.forget()
 
     def allow_run(self, on: bool) -> None:
-        """Level of the part's RUN input by the board's strap; a switch at the pin can still forbid."""
+        """Set the RUN input of the part with the board's strap; a switch at the pin can still hold it."""
         self._strap(RUN, on)
 
     def pulse_event(self, event: int) -> None:
-        """A pulse at event input 1 or 2 by the board's strap: 30 ms long, so DATASHEET timing sees it too."""
+        """Output a pulse on event input 1 or 2 with the board's strap.
+
+        The pulse is 30 ms long, so that a part with DATASHEET timing accepts it.
+        """
         bit = {1: EVENT_1, 2: EVENT_2}[blocks.buffer_number(event) + 1]
         self._strap(bit, False)
         self.link.pause(0.03)

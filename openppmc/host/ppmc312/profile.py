@@ -1,6 +1,7 @@
-"""Acceleration tables of the PPMC-312 from speeds in pulses per second: linear and sigmoid ones. Pure.
+"""Acceleration tables of the PPMC-312 from speeds in pulses/s: linear and sigmoid. Pure.
 
-A speed is base clock / rate with 16-bit rates; a table has 127 of them, or up to 127 of a free curve.
+A speed is base clock / rate with 16-bit rates. A table has 127 stages, or up to 127 for a free curve. Only
+`read_stages` does I/O: it reads the file of a free curve.
 """
 
 from __future__ import annotations
@@ -25,15 +26,20 @@ from ..kind import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Kind,
 from . import blocks
 from .errors import refused
 
-# Free curves of the PPMC-312: 2 to 127 stages from a list or a CSV file. Pure but for reading the file.
+# Free curves of the PPMC-312: 2 to 127 stages from a list or a CSV file.
 
 LEAST_TICKS = 256
-"""Ticks that a stage lasts at least (pulses times rate), as the sheet asks for."""
+"""Least duration of a stage in base clocks (pulses times rate), which the data sheet requires."""
 
 
 class Stage(NamedTuple):
-    """A stage of a free curve: speed in pps, pulses at this speed while the motor speeds up (up) and slows
-    down (down). None: this side begins with a faster stage."""
+    """Stage of a free curve.
+
+    Attributes:
+        pps: speed.
+        up: pulses at this speed while accelerating.
+        down: pulses while decelerating. `None`: this ramp begins with a faster stage.
+    """
 
     pps: float
     up: int | None
@@ -41,9 +47,15 @@ class Stage(NamedTuple):
 
 
 def plan_curve(clock: units.BaseClock, stages: Iterable[Sequence[float | int | None]]) -> Setup:
-    """A free curve from its stages, slowest first: (pps, pulses) or (pps, pulses up, pulses down).
+    """Return the set-up of a free curve.
 
-    Without pulses down in any stage the deceleration is the acceleration backwards. OutOfRange.
+    Without pulses down in any stage, the deceleration is the reversed acceleration.
+
+    Args:
+        stages: (pps, pulses) or (pps, pulses up, pulses down), slowest first.
+
+    Raises:
+        OutOfRange: the curve is invalid.
 
     >>> clock = choose_clock(16_000_000, 2500, 1_000_000)
     >>> setup = plan_curve(clock, [(2500, 3), (5000, 4), (10_000, 5)])
@@ -88,7 +100,10 @@ def plan_file(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> Setup:
-    """A free curve from a file; clocks as for `choose_clock`. OutOfRange."""
+    """Return the set-up of a free curve from a file; clocks as for `choose_clock`.
+
+    Raises OutOfRange.
+    """
     return plan_stages(xtal_hz, read_stages(path), base_clock, external_clock)
 
 
@@ -98,14 +113,14 @@ def plan_stages(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> Setup:
-    """`plan_curve` with the base clock that the stages want."""
+    """Return `plan_curve` with a base clock that reaches the slowest stage."""
     rows = [tuple(row) for row in stages]
     slowest = min((float(row[0] or 0) for row in rows), default=0.0)
     return plan_curve(choose_clock(xtal_hz, slowest, base_clock, external_clock), rows)
 
 
 def _side(values: Sequence[int | None], name: str) -> list[int]:
-    """Pulses from the first stage on that has some."""
+    """Return the pulses, beginning with the first stage that has pulses."""
     given = [place for place, pulses in enumerate(values) if pulses is not None]
     if not given:
         return []
@@ -118,8 +133,13 @@ def _side(values: Sequence[int | None], name: str) -> list[int]:
 
 
 def read_stages(path: Path) -> list[Stage]:
-    """Stages from a CSV file: speed in pps, pulses up[, pulses down], slowest first. A first line of names
-    and lines that begin with # are passed over. OutOfRange with file and line."""
+    """Read stages from a CSV file: speed in pps, pulses up[, pulses down], slowest first.
+
+    A first line of names and lines that begin with # are ignored.
+
+    Raises:
+        OutOfRange: the file is invalid; the message states file and line.
+    """
     stages: list[Stage] = []
     try:
         with StringIO(read_text(path)) as file:
@@ -147,16 +167,19 @@ def read_stages(path: Path) -> list[Stage]:
 
 
 def _is_names(cells: Sequence[str]) -> bool:
-    """A first line of names, no number in it."""
+    """Return True if this is a first line of names without a number."""
     return not any(cell[:1].isdigit() or cell[:1] in ".-+" for cell in cells if cell)
 
 
-# What a PPMC-312 allows. Pure but for reading the file of a free curve.
+# Capabilities of a PPMC-312.
 
 
 class TableKind(Kind):
-    """Speeds are a base clock over a 16-bit rate, and the clock is part of the table. It has neither phases
-    nor straps that choose anything."""
+    """Capabilities of a part with 16-bit rates.
+
+    A speed is base clock / rate, and the base clock is a part of the table. The part has neither phase
+    outputs nor straps that select anything.
+    """
 
     def plan(self, xtal_hz: int, wanted: Wanted) -> Setup:
         self.check_axis(wanted.axis)
@@ -196,7 +219,7 @@ MOST_HZ = 2_000_000
 
 
 def base_clocks(xtal_hz: int) -> list[units.BaseClock]:
-    """The internal base clocks, fastest first.
+    """Return the internal base clocks, fastest first.
 
     >>> [float(clock.hertz) for clock in base_clocks(16_000_000)]
     [8000000.0, 1000000.0, 500000.0, 250000.0, 62500.0, 15625.0]
@@ -223,8 +246,17 @@ def choose_clock(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> units.BaseClock:
-    """The base clock of a table; frequencies in Hz, None to take the fastest one that reaches the slowest
-    speed: its speeds lie closest together. external_clock: at the pin extck, up to 2 MHz. OutOfRange."""
+    """Return the base clock of a table.
+
+    Args:
+        slowest_pps: slowest speed of the table.
+        base_clock: frequency in Hz; `None`: the fastest clock that reaches the slowest speed, because its
+            speeds are closest together.
+        external_clock: frequency at the pin extck in Hz, up to 2 MHz.
+
+    Raises:
+        OutOfRange: the part does not have this base clock.
+    """
     if external_clock is not None:
         if not 0 < units.exact(external_clock, "external clock") <= MOST_HZ:
             raise OutOfRange(f"external clock {units.nearby(external_clock)} Hz is outside 0 to {MOST_HZ} Hz")
@@ -242,7 +274,10 @@ def choose_clock(
 
 @dataclass(frozen=True)
 class Setup:
-    """A table and its instruction blocks. start, stop, high: its end speeds as asked for and as reached."""
+    """Table and its instruction blocks.
+
+    start, stop, high: speeds at its ends, as requested and as reached.
+    """
 
     clock: units.BaseClock = field(repr=False)
     start: units.Speed
@@ -258,7 +293,7 @@ class Setup:
 
     @cached_property
     def blocks(self) -> list[bytes]:
-        """What the part is told, in logical order."""
+        """Instruction blocks that load the table, in logical order."""
         table, clk = self.table, self.clock.clk
         if self.shape == "free curve":
             lists = [list(reversed(values)) for values in (table.rates, table.pa, table.pd)]
@@ -278,12 +313,12 @@ class Setup:
         return self.table.na
 
     def seconds(self, pulses: Sequence[int]) -> float:
-        """Time of an acceleration or deceleration, table.pa or table.pd, in s."""
+        """Return the time of an acceleration or deceleration (table.pa or table.pd) in s."""
         ticks = sum(n * rate for n, rate in zip(pulses, self.table.rates, strict=True))
         return float(ticks * self.clock.period)
 
     def rate_of(self, pps: units.Number, what: str = "speed") -> int:
-        """The rate of a speed that lies in the table. OutOfRange."""
+        """Return the rate of a speed within the table. Raises OutOfRange."""
         rate = self.clock.choose(pps, what).rate
         if not self.table.contains(rate):
             low, high = (
@@ -304,8 +339,15 @@ def plan_setup(
     down: int | None = None,
     sigmoid: bool = False,
 ) -> Setup:
-    """A linear or sigmoid table. up, down: pulses of acceleration and deceleration, 24 bits; stop_pps and
-    down default to start_pps and up. OutOfRange for what the part would refuse.
+    """Return the set-up of a linear or sigmoid table.
+
+    Args:
+        up: pulses of the acceleration, 24 bits.
+        stop_pps: final speed of the deceleration, default: start_pps.
+        down: pulses of the deceleration, 24 bits, default: up.
+
+    Raises:
+        OutOfRange: the part would reject this table.
 
     >>> setup = plan_setup(base_clocks(16_000_000)[1], 1000, 5000, 2000)
     >>> setup.blocks[0].hex(" ")
@@ -337,9 +379,11 @@ pulses: 762 or more
 
 
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:
-    """Return the fewest pulses of acceleration and deceleration; 127 * (1 + Rs / RH) for all 127 stages.
+    """Return the least pulses of acceleration and deceleration.
 
-    The slowest stage of a side has the smallest share, so it alone decides (P312-TBL-04, P312-TBL-05).
+    They are 127 * (1 + Rs / RH) for all 127 stages.
+
+    The slowest stage of a ramp has the smallest share, so it defines the limit (P312-TBL-04, P312-TBL-05).
     """
     start, stop, high = numbers
     speeds = tables.speeds(max(start, stop), high, sigmoid)

@@ -1,8 +1,11 @@
-"""The block registers of a PPMC-312 behind the bridge: an instruction is one message there and one back.
+"""Access to a PPMC-312 through its block registers on the bridge.
 
-A message says: when an instruction may be written, write this one; when a response is there, read it. WAIT on
-RAR says how much of a response is left, and with a time limit of 0 it ends the script where there is none. So
-no byte is read twice and none is lost, whatever comes first: the answer, or a report that waited.
+An instruction takes one message to the bridge and one back.
+
+The message contains these steps: wait until an instruction may be written, write it, wait for a response,
+read it. WAIT on RAR returns how much of a response is left. With a time limit of 0 it ends the script if no
+byte is left. Therefore no byte is read twice or lost, regardless of what arrives first, the response or a
+pending report.
 """
 
 from __future__ import annotations
@@ -18,15 +21,18 @@ from .blocks import WINDOW, bus_order, start_address
 CSR, CONTROL, ADDRESS, WRITE, READ = 0, 2, 3, 5, 7
 INTERRUPT_ON_RESPONSE, NOT_WRITABLE = 0x10, 0x08
 EMPTY = 0x40
-"""RAR without a response; less by the number of bytes left, 1 to 32."""
+"""RAR without a response. With a response, RAR is this value minus the bytes left, 1 to 32."""
 MASK, LEFT = 0x60, 0x20
-"""What RAR shows when bytes are left, and nothing else."""
+"""Mask and value of RAR if bytes are left, and only then."""
 SHORTEST, MOST_REPORTS = 3, 64
 ANSWER_MS, READY_MS = 250, 50
 
 
 class Window:
-    """arrived(response): gets everything but the answers to the host's instructions."""
+    """Transport of instructions through the block registers.
+
+    arrived(response): called with every response, except those to instructions of the host.
+    """
 
     def __init__(self, link: Link, arrived: Callable[[Response], None]) -> None:
         self._link = link
@@ -36,14 +42,17 @@ class Window:
         self._unsure = True
         self._count = 0
         self.answers = 0
-        """Answers to the host so far; reports that come after one are younger than its instruction."""
+        """Number of responses so far. A report after a response is later than its instruction."""
 
     def open(self) -> None:
-        """After a reset, or when another program may have left something: interrupt on responses, no
-        half-read one, nothing waiting."""
+        """Prepare the registers after a reset, or after another program used them.
+
+        Responses cause an interrupt, no response is partly read, and none is pending.
+        """
         self._bytes.clear()
         self._left = 0
-        # With DATASHEET timing a part takes nothing for 1.6 ms after a reset; a stuck one says so later.
+        # With DATASHEET timing the part accepts no byte for 1.6 ms after a reset. A faulty part is detected
+        # later.
         self._link.attempt(Script().timeout(READY_MS).wait(CSR, NOT_WRITABLE, 0))
         self._link.execute(Script().write(CSR, INTERRUPT_ON_RESPONSE).read(CONTROL))
         self._unsure = False
@@ -52,10 +61,15 @@ class Window:
     # ------------------------------------------------------------------ instructions
 
     def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
-        """Carry out an instruction; returns its answer, the first block of it if there are several.
+        """Execute an instruction; return its response, or the first block of it.
 
-        gives: expected size of the answer, for speed only. milliseconds: how long the part may take. Raises
-        the part's refusal (CommandRefused), Timeout, ProtocolError and the errors of the link.
+        Args:
+            gives: expected size of the response, for speed only.
+            milliseconds: longest execution time.
+
+        Raises:
+            CommandRefused: the part rejected the instruction.
+            Timeout, ProtocolError, LinkError: the transfer failed.
         """
         if self._unsure:
             self.open()
@@ -69,18 +83,18 @@ class Window:
         return found
 
     def more(self) -> Response:
-        """The next block of an answer of several."""
+        """Return the next block of a response of several blocks."""
         return self._await(ANSWER_MS)
 
     def _await(self, milliseconds: int) -> Response:
-        """The answer to the host; other responses may come first."""
+        """Return the response to the host; other responses may arrive before it."""
         for _ in range(MOST_REPORTS):
             if (found := self._talk(self._reading(Script().timeout(milliseconds), 8))) is not None:
                 return found
         raise ProtocolError(f"{self._link.name}: reports without end instead of an answer: reset the part")
 
     def collect(self) -> None:
-        """Read what waits. An answer to the host that nobody waits for is dropped."""
+        """Read the pending responses. An unexpected response to the host is discarded."""
         if self._unsure:
             self.open()
         for _ in range(MOST_REPORTS):
@@ -94,15 +108,24 @@ class Window:
 
     @staticmethod
     def _reading(script: Script, gives: int) -> Script:
-        """Ops that read a response: the first bytes are always there, each other one is asked for."""
+        """Append the operations that read a response.
+
+        The first bytes are always there; each following byte is read only if it is left.
+        """
         script.wait(ADDRESS, MASK, LEFT).read_many(READ, SHORTEST).timeout(0)
         for _ in range(gives - SHORTEST):
             script.wait(ADDRESS, MASK, LEFT).read(READ)
         return script
 
     def _talk(self, script: Script, patient: bool = True) -> Response | None:
-        """Run such a script, then read the rest of a response that it has begun; returns the answer to the
-        host if there is one. patient: that no response came is an error."""
+        """Execute such a script, then read the rest of a response that it has begun.
+
+        Args:
+            patient: a missing response is an error.
+
+        Returns:
+            The response to the host, if any.
+        """
         self._unsure = True
         answer = self._link.attempt(script)
         found = self._take(script, answer, patient)
@@ -113,7 +136,7 @@ class Window:
         return found
 
     def _take(self, script: Script, answer: Answer, patient: bool) -> Response | None:
-        """Sort the values of a script into responses."""
+        """Assemble responses from the values of a script."""
         found, left, heard = None, None, False
         giving = [op for op in script.ops if op.gives]
         for op, value in zip(giving, answer.values, strict=False):
@@ -136,7 +159,7 @@ class Window:
         return "the part does not answer: is it in reset?"
 
     def _feed(self, left: int, data: Iterable[int]) -> Response | None:
-        """Bytes of a response of which so many were left before the first one."""
+        """Process bytes of a response. left: number of bytes left before the first of them."""
         found = None
         for byte in data:
             self._bytes.append(byte)

@@ -1,10 +1,12 @@
-"""`openppmc selftest`: a board against the golden model, every recorded edge of every output.
+"""Self-test: every recorded edge of every output of a board against the golden model.
 
-    plan       sections of a test, and how they talk to the part without filling the recorder
-    bytes      what the parts on a byte bus are made to do: every code, moves of each kind
+`openppmc selftest` runs it.
+
+    plan       sections of a test, and the accesses to the part that do not fill the recorder
+    bytes      stimuli of the parts on a byte bus: every code, moves of each kind
     recording  records of the bridge as a recording of the part
-    run        plays sections, compares, collects
-    page       what is told at the end, as text and JSON
+    run        plays sections, compares and collects results
+    page       result as text and JSON
 
-A part's own `selftest` (column of the table) says what is recorded and what is played.
+The `selftest` module of a part (column of the table) defines what is recorded and played.
 """

@@ -1,4 +1,4 @@
-"""The self-test of a board with a bank (`host.selftest`): axis 1 in full, then all axes on one clk."""
+"""Self-test of a board with a bank: all of axis 1, then several axes together."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from .plan import MOVES, REGISTERS, SWITCHES, Section, Talk, Wire
 
 ONCE, AN_AXIS = 32, 14
-"""Levels of a record: of the bus and what all axes share, of each axis."""
+"""Number of levels of a record: of the bus and the shared pins, and of each axis."""
 SHOWN = 3
-"""Axes that are started together; more would need a large recorder."""
+"""Number of axes that are started together; more would need a large recorder."""
 
 
 def axis(number: int) -> ByteBus:
-    """Axis `number`, from 0."""
+    """Return the byte bus of axis `number`, from 0."""
     return ByteBus(decode, before=Script().write(SELECT, number))
 
 
@@ -30,7 +30,7 @@ def _axes(width: int) -> int:
 
 
 class PlanBank:
-    """As `plan.Plan`."""
+    """Plan of a bank; see `plan.Plan`."""
 
     part = "bank"
     jumpers = (
@@ -88,8 +88,8 @@ class PlanBank:
             Section("registers of the window", REGISTERS, window),
             *FIRST.codes(identity, records),
             *FIRST.moves(),
-            Section("group from one clk on", MOVES, together),
-            Section("all stopped on one clk", MOVES, stopped),
+            Section("group started in the same cycle", MOVES, together),
+            Section("all stopped in the same cycle", MOVES, stopped),
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:

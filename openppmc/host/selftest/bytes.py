@@ -1,4 +1,4 @@
-"""What parts on a byte bus are made to do: every code from 00 to FF, and moves of each kind.
+"""Stimuli of parts on a byte bus: every code from 00 to FF, and moves of each kind.
 
 Speeds are low and moves short, so that all edges of a section fit into a small recorder.
 """
@@ -18,17 +18,24 @@ CCW, MASKED, PULSE_ONLY, AXIS_2 = 0x08, 0x10, 0x80, 0x20
 STEP, RAMP, CONSTANT, CONTINUOUS, HIGH, ORIGIN = 0x42, 0x43, 0x44, 0x45, 0x46, 0x47
 HALF = 0x04
 TABLE_S = 0.006
-"""Longest build of a ramp's table in FAST timing, at 8 MHz."""
+"""Longest build time of a ramp table in s, with FAST timing at 8 MHz."""
 RECORDS_A_CODE, RECORDS_A_SLOW_CODE = 96, 512
-"""With DATASHEET timing the chopper has longer to run."""
+"""Records per code; with DATASHEET timing the chopper runs longer."""
 MOST_LOOKS = 100
 LONGEST_MOVE_S = 2.0
 
 
 @dataclass(frozen=True)
 class Rates:
-    """Bytes of the usual initialisation: start and high rate, and pulses of the ramp, two bytes; slow: a rate
-    for constant speed. table: seconds until it may be used in DATASHEET timing."""
+    """Bytes of the default initialisation.
+
+    Attributes:
+        start: start rate.
+        high: high rate.
+        ramp: pulses of the ramp, two bytes.
+        slow: rate of constant speeds.
+        table: seconds until the table may be used with DATASHEET timing.
+    """
 
     start: int = 249
     high: int = 99
@@ -38,15 +45,20 @@ class Rates:
 
     @property
     def data(self) -> tuple[int, int, int, int]:
-        """As they follow the code."""
+        """Data bytes as they follow the code."""
         return self.start, self.high, *self.ramp
 
 
 @dataclass(frozen=True)
 class ByteBus:
-    """An axis of such a part. before: what a script of it begins with. axis: bits of its codes. building:
-    status bits while a table is built, if the part tells. positive, chopped: bits of the initialisation, 0
-    if there is none."""
+    """Axis of a part on a byte bus.
+
+    Attributes:
+        before: script that precedes each access.
+        axis: axis bits of its codes.
+        building: status bits while a table is built, 0 if the part does not report it.
+        positive, chopped: bits of the initialisation, 0 if it has no such bit.
+    """
 
     decode: Callable[[int], Command]
     rates: Rates = Rates()
@@ -56,20 +68,20 @@ class ByteBus:
     positive: int = 0x08
     chopped: int = 0x20
 
-    # ------------------------------------------------------------------ talk
+    # ------------------------------------------------------------------ accesses
 
     def command(self, talk: Talk, code: int, *data: int) -> None:
-        """A command with its data, then the status, twice."""
+        """Write a command with its data, then read the status twice."""
         if self.before is not None:
             talk.run(self.before)
         talk.write(COMMAND, [code])
         if data:
-            self._until(talk, IBF)  # what comes too soon would take its place
+            self._until(talk, IBF)  # a data byte written too early would replace the command
             talk.write(DATA, data)
         talk.read(COMMAND, 2)
 
     def _until(self, talk: Talk, bits: int) -> None:
-        """Look now and then until these bits of the status are 0: a virtual board may be slow."""
+        """Poll the status until these bits are 0, because a virtual board may be slow."""
         for _ in range(MOST_LOOKS):
             if not talk.read(COMMAND)[0] & bits:
                 return
@@ -77,21 +89,21 @@ class ByteBus:
 
     @property
     def setup(self) -> int:
-        """Code of the usual initialisation: 4 phases, full steps, clock inside."""
+        """Code of the default initialisation: 4 phases, full steps, internal clock."""
         return 2 | self.positive
 
     def initialise(self, talk: Talk, code: int | None = None) -> None:
-        """The usual initialisation, or another one; waits until its table stands."""
+        """Execute the default initialisation or another one; wait until its table is complete."""
         self.command(talk, (self.setup if code is None else code) | self.axis, *self.rates.data)
         self._built(talk)
 
     def _built(self, talk: Talk) -> None:
-        """Wait until the table stands."""
+        """Wait until the table is complete."""
         talk.pause(self.rates.table if talk.slow else TABLE_S)
         self._until(talk, self.building)
 
     def ends(self, talk: Talk, seconds: float = LONGEST_MOVE_S) -> None:
-        """Wait for the end of a motion and read how it ended, and the pulses left."""
+        """Wait for the end of a motion; read its finish status and remaining pulses."""
         talk.until_interrupt(seconds)
         self.command(talk, FINISH | self.axis)
         talk.read(DATA)
@@ -101,7 +113,7 @@ class ByteBus:
     # ------------------------------------------------------------------ every code
 
     def one(self, talk: Talk, code: int) -> None:
-        """One code with what belongs to it; whatever moves is stopped, whatever is changed is undone."""
+        """Play one code with its data; stop any motion and undo any change that it causes."""
         command = self.decode(code)
         kind, axis = command.kind, code & AXIS_2 if self.axis or command.axis else 0
         data = {
@@ -121,7 +133,10 @@ class ByteBus:
             self._built(talk)
 
     def codes(self, identity: Identity, records: int, others: Sequence[ByteBus] = ()) -> list[Section]:
-        """Every code, once without an initialisation and once with one (of the other axes, too)."""
+        """Return sections with every code, once without an initialisation and once with one.
+
+        others: further axes to initialise as well.
+        """
         a_code = RECORDS_A_SLOW_CODE if identity.datasheet else RECORDS_A_CODE
         count = max(4, min(64, records // a_code))
         found = []
@@ -146,7 +161,7 @@ class ByteBus:
     # ------------------------------------------------------------------ moves
 
     def motion(self, *steps: Callable[[Talk], None], code: int | None = None) -> Callable[[Talk], None]:
-        """Initialise, then these."""
+        """Return a function that initialises the axis and plays these steps."""
 
         def play(talk: Talk) -> None:
             self.initialise(talk, code)
@@ -158,7 +173,12 @@ class ByteBus:
     def go(
         self, code: int, *data: int, stop: int | None = None, after: float = 0.004
     ) -> Callable[[Talk], None]:
-        """A motion to its end; stop: by this command, so many seconds after its start."""
+        """Return a function that plays a motion to its end.
+
+        Args:
+            stop: command that stops the motion; `None`: the motion ends without it.
+            after: seconds from the start to this command.
+        """
 
         def play(talk: Talk) -> None:
             self.command(talk, code | self.axis, *data)
@@ -170,7 +190,10 @@ class ByteBus:
         return play
 
     def moves(self, pulse_only: bool = True) -> list[Section]:
-        """Moves of each kind, both ways. pulse_only: there are such."""
+        """Return sections with moves of each kind in both directions.
+
+        pulse_only: also play pulses without phases.
+        """
         go, slow = self.go, self.rates.slow
         kinds: list[tuple[str, Callable[[Talk], None]]] = [
             ("single steps", self.motion(go(STEP), go(STEP | CCW), go(STEP))),
@@ -205,7 +228,10 @@ class ByteBus:
         return [Section(title, MOVES, play) for title, play in kinds]
 
     def registers(self) -> Section:
-        """Status and every register that can be read, before and after the initialisation."""
+        """Return a section that reads the status and every register.
+
+        It reads them before and after the initialisation.
+        """
 
         def play(talk: Talk) -> None:
             talk.read(COMMAND, 3)

@@ -1,4 +1,4 @@
-"""The page of a self-test, to be sent with an issue: as text and as values for JSON."""
+"""Result page of a self-test, to be attached to an issue: as text and as values for JSON."""
 
 from __future__ import annotations
 
@@ -24,26 +24,26 @@ BOARDS = {
     "VIRT": "virtual board",
     "MODL": "golden model",
 }
-"""Names of boards by the letters that their bitstreams tell (`code` in constraints/*/board.yml)."""
+"""Names of boards by the letters in their bitstreams (`code` in constraints/*/board.yml)."""
 
 
 def board_name(build: Build | None) -> str:
-    """Of a bitstream that does not tell: "board"."""
+    """Return the name of the board, "board" if the bitstream does not report it."""
     letters = build.board if build is not None else ""
     return BOARDS.get(letters, letters or "board")
 
 
 def verdict(found: Findings) -> str:
-    """The last line."""
+    """Return the last line."""
     count = found.differences
     board = board_name(found.build)
     return f"{found.edges} edges compared on your {board}, {count} difference{'' if count == 1 else 's'}"
 
 
 def built(build: Build | None) -> str:
-    """What a bitstream was built from, in words."""
+    """Return the build of a bitstream as text."""
     if build is None:
-        return "does not tell its version"
+        return "does not report its version"
     commit = f", commit {build.commit}{' with changes' if build.changed else ''}" if build.commit else ""
     return f"version {build.version}, sources {build.source or 'none'}{commit}"
 
@@ -64,7 +64,7 @@ def _section(outcome: Outcome) -> dict[str, Any]:
 
 
 def values(link: Link, found: Findings, notes: list[str]) -> dict[str, Any]:
-    """Everything, for programs. notes: what else was said, a line each."""
+    """Return all results for programs. notes: further messages, one per line."""
     identity, build, info = link.identity, found.build, found.recorder
     row = by_number(identity.part)
     return {
@@ -93,7 +93,7 @@ def values(link: Link, found: Findings, notes: list[str]) -> dict[str, Any]:
 
 
 def text(page: dict[str, Any], build: Build | None) -> str:
-    """The same for people."""
+    """Return all results as text for people."""
 
     def line_rate(rate: str, repeats: int | None) -> str:
         if repeats is None:
@@ -127,7 +127,7 @@ def text(page: dict[str, Any], build: Build | None) -> str:
 
 
 def write(folder: Path, page: dict[str, Any], build: Build | None) -> tuple[Path, Path]:
-    """selftest.txt and selftest.json. OSError."""
+    """Write selftest.txt and selftest.json. Raises OSError."""
     folder.mkdir(parents=True, exist_ok=True)
     pages = folder / "selftest.txt", folder / "selftest.json"
     pages[0].write_text(text(page, build), encoding="utf-8")

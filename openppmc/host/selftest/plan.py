@@ -1,7 +1,7 @@
-"""Sections of a self-test, and the talk of a section with the part.
+"""Sections of a self-test, and the accesses of a section to the part.
 
-Whatever a section does is recorded, cycle by cycle: so nothing is polled. A section writes, lets time pass on
-the PC's side, and looks.
+Everything that a section does is recorded, cycle by cycle. Therefore it does not poll: a section writes,
+waits on the PC, and reads.
 """
 
 from __future__ import annotations
@@ -16,20 +16,23 @@ from ..script import Identity, Script
 
 REGISTERS, COMMANDS, MOVES, SWITCHES = "registers", "commands", "moves", "switches"
 _GAP = 4
-"""NOPs between two bytes: in FAST timing the part has taken the first one by then."""
+"""NOPs between two bytes; with FAST timing the part has accepted the first byte by then."""
 _SLOW_BYTE = 0.003
-"""Seconds between two bytes in DATASHEET timing, above all processing times but that of a table."""
+"""Seconds between two bytes with DATASHEET timing.
+
+The time is above all processing times, except that of a table.
+"""
 
 
 class Talk:
-    """The part behind a link. slow: DATASHEET timing, one byte a frame."""
+    """Accesses to a part through a link. slow: DATASHEET timing, one byte per frame."""
 
     def __init__(self, link: Link) -> None:
         self.link = link
         self.slow = link.identity.datasheet
 
     def write(self, register: int, data: Sequence[int]) -> None:
-        """Bytes one behind the other into a register."""
+        """Write bytes one after the other to a register."""
         for byte in data if self.slow else ():
             self.run(Script().write(register, byte))
             self.pause(_SLOW_BYTE)
@@ -42,7 +45,7 @@ class Talk:
             self.run(script)
 
     def read(self, register: int, count: int = 1) -> bytes:
-        """So many reads of a register, with a gap as between two writes."""
+        """Read a register a number of times, with the gap of two writes."""
         script = Script()
         for _ in range(count):
             script.read(register)
@@ -51,23 +54,26 @@ class Talk:
         return b"".join(self.run(script))
 
     def run(self, script: Script) -> tuple[bytes, ...]:
-        """A script as it is; its values."""
+        """Execute a script unchanged; return its values."""
         return self.link.execute(script).values
 
     def pause(self, seconds: float) -> None:
-        """Let time of the board pass."""
+        """Wait on the clock of the board."""
         self.link.pause(seconds)
 
     def until_interrupt(self, seconds: float) -> bool:
-        """Wait for the part's interrupt; False if none came."""
+        """Wait for the interrupt of the part; return False if it did not occur."""
         return self.link.wait_event(seconds) is not None
 
 
 @dataclass(frozen=True)
 class Section:
-    """What is recorded and compared in one go; it begins with a reset of the part.
+    """Test that is recorded and compared as a unit; it begins with a reset of the part.
 
-    what: REGISTERS, COMMANDS, MOVES or SWITCHES. play: does it. straps: levels meanwhile.
+    Attributes:
+        what: REGISTERS, COMMANDS, MOVES or SWITCHES.
+        play: function that plays it.
+        straps: levels of the strap pins during the section.
     """
 
     title: str
@@ -77,13 +83,16 @@ class Section:
 
     @property
     def folder(self) -> str:
-        """Its title as the name of a folder."""
+        """Title as the name of a folder."""
         return "-".join(re.findall(r"\w+", self.title))
 
 
 @dataclass(frozen=True)
 class Wire:
-    """A jumper wire for the sections about switches. output, input: ports of the carrier, with their bit."""
+    """Jumper wire for the sections about switches.
+
+    output, input: ports of the carrier, with their bit. what: purpose.
+    """
 
     output: str
     input: str
@@ -94,28 +103,30 @@ class Wire:
 
 
 def timed(identity: Identity) -> dict[str, Any]:
-    """Clock, crystal and TIMING of the golden model, as the board tells them."""
+    """Return clock, crystal and TIMING of the golden model, as the board reports them."""
     timing = "DATASHEET" if identity.datasheet else "FAST"
     return {"CLK_HZ": identity.clk_hz, "XTAL_HZ": identity.xtal_hz, "TIMING": timing}
 
 
 class Plan(Protocol):
-    """What a part's own `selftest` has."""
+    """Members that the `selftest` module of a part has."""
 
     part: str
-    """Its name in the table, and that of its golden model."""
+    """Name of the part in the table, and of its golden model."""
     jumpers: Sequence[Wire]
-    """The wires that the sections about switches want."""
+    """Wires that the sections about switches need."""
 
     def layout(self, width: int) -> Sequence[tuple[str, int]]:
-        """Pins of the golden model in a record of so many levels, from the lowest bit on, with their bits."""
+        """Return pins and widths of the golden model in a record of `width` levels, lowest bit first."""
 
     def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
-        """Parameters of the golden model, by the levels of its outputs in reset; several if that does not
-        tell: whichever fits is right."""
+        """Return parameters of the golden model for the levels of its outputs in reset.
+
+        Several candidates are returned if the levels do not decide; the one that matches is correct.
+        """
 
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
-        """All but those about switches. records: room of the recorder."""
+        """Return all sections except those about switches. records: number of records that fit."""
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
-        """Those that want the wires."""
+        """Return the sections that need the wires."""

@@ -1,4 +1,4 @@
-"""The self-test of a board with a PPMC-104 (`host.selftest`)."""
+"""Self-test of a board with a PPMC-104 (`host.selftest`)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .plan import MOVES, SWITCHES, Section, Talk, Wire, timed
 
 AUX_ON, AUX_OFF, AUX_OUTPUT = 0xC1, 0xC2, 0x86
 SLOW_CLOCK, LONG_INTERVALS = 0xFE, 0xFD
-"""Straps: csel low, vsel low."""
+"""Straps with csel low, and with vsel low."""
 LAYOUT = (
     *(("rst_n", 1), ("a0", 1), ("cs_n", 1), ("rd_n", 1), ("wr_n", 1), ("d_i", 8)),
     *(("csel", 1), ("vsel", 1), ("clock", 1), ("l1_n", 1), ("l2_n", 1), ("l3_n", 1), ("l4_n", 1)),
@@ -24,7 +24,7 @@ BUS = ByteBus(decode)
 
 
 class Plan104:
-    """As `plan.Plan`."""
+    """Plan of a PPMC-104; see `plan.Plan`."""
 
     part = "ppmc104"
     jumpers = (Wire("aux_n", "l1_n", "limit CW"), Wire("auxo[0]", "cnp_n", "origin"))
@@ -53,7 +53,7 @@ class Plan104:
             talk.pause(0.005)
             BUS.command(talk, AUX_ON)
             BUS.ends(talk)
-            BUS.go(RAMP, 9, 0, 0)(talk)  # into the active limit: no pulse
+            BUS.go(RAMP, 9, 0, 0)(talk)  # towards the active limit: no pulse
             BUS.go(RAMP | CCW, 9, 0, 0)(talk)
 
         def origin(talk: Talk) -> None:

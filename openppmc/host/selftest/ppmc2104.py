@@ -1,4 +1,4 @@
-"""The self-test of a board with a PPMC-2104 (`host.selftest`): either axis, then both on one edge of RUN."""
+"""Self-test of a board with a PPMC-2104: each axis, then both on one edge of RUN."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FIRST, SECOND = (
 
 
 class Plan2104:
-    """As `plan.Plan`."""
+    """Plan of a PPMC-2104; see `plan.Plan`."""
 
     part = "ppmc2104"
     jumpers = (
@@ -44,7 +44,7 @@ class Plan2104:
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
         def errors(talk: Talk) -> None:
             for bus in (FIRST, SECOND):
-                bus.command(talk, 0x43 | bus.axis)  # before the initialisation: refused
+                bus.command(talk, 0x43 | bus.axis)  # before the initialisation, so it is rejected
                 bus.command(talk, 0x86 | bus.axis)
                 talk.read(DATA)
 

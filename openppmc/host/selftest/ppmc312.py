@@ -1,4 +1,4 @@
-"""The self-test of a board with a PPMC-312 behind the bridge (`host.selftest`)."""
+"""Self-test of a board with a PPMC-312 on a bridge (`host.selftest`)."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ LAYOUT = (
     *(("aclr_n", 1), ("zclmp_n", 1), ("cd_n", 1), ("pout", 1), ("dir", 1), ("intlk_n", 1), ("out_oe", 1)),
 )
 SETTING = blocks.free_curve(3, [200, 300, 400], [6, 5, 4])
-"""2500 to 5000 pps in 15 pulses; the linear ramp takes some hundreds."""
+"""Free curve of 2500 to 5000 pps in 15 pulses; a linear ramp needs several hundred pulses."""
 LINEAR = [blocks.initial_setting(0, 2000, 800, 1000)]
 PULSES = 40
 END_S = 3.0
-"""Seconds within which a motion ends."""
+"""Longest time until the end of a motion in s."""
 MOST_RESPONSES = 4
 CODES_A_SECTION = 32
 
 
 def ask(talk: Talk, instruction: bytes, seconds: float = 0.05) -> None:
-    """An instruction, and all responses that come within this time."""
+    """Write an instruction and read all responses that arrive within this time."""
     talk.link.forget_events()
     talk.write(CONTROL, [WINDOW])
     talk.write(ADDRESS, [start_address(instruction)])
@@ -40,20 +40,20 @@ def ask(talk: Talk, instruction: bytes, seconds: float = 0.05) -> None:
 
 
 def answers(talk: Talk, seconds: float) -> None:
-    """Wait for a response, read it, and those behind it."""
+    """Wait for a response, read it and the following ones."""
     talk.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
         talk.read(CSR)
         left = EMPTY - talk.read(ADDRESS)[0]
         if not 0 < left <= WINDOW:
             return
-        talk.link.forget_events()  # that of this response; the next one has its own
+        talk.link.forget_events()  # discard the event of this response; the next response has its own
         talk.read(READ, left)
         talk.pause(0.001)
 
 
 def ready(talk: Talk, setting: Sequence[bytes] = SETTING) -> None:
-    """Interrupt on responses, and the ramps."""
+    """Switch the interrupt on responses on, and load the ramps."""
     talk.pause(0.005)
     talk.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
     for instruction in setting:
@@ -63,7 +63,12 @@ def ready(talk: Talk, setting: Sequence[bytes] = SETTING) -> None:
 def played(
     *instructions: bytes, stop: bytes = b"", after: float = 0.02, setting: Sequence[bytes] = SETTING
 ) -> Callable[[Talk], None]:
-    """Each of these motions to its end; stop: by this, so many seconds after its start."""
+    """Return a function that plays each of these motions to its end.
+
+    Args:
+        stop: instruction that stops each motion.
+        after: seconds from the start to the stop.
+    """
 
     def play(talk: Talk) -> None:
         ready(talk, setting)
@@ -78,7 +83,7 @@ def played(
 
 
 def registers(talk: Talk) -> None:
-    """Every register of the bus, before and after an instruction."""
+    """Read every register of the bus, before and after an instruction."""
     for _ in range(2):
         for register in range(8):
             talk.read(register)
@@ -112,14 +117,14 @@ SETTINGS = (
 
 
 def settings(talk: Talk) -> None:
-    """Instructions that move nothing, in a good form."""
+    """Execute valid instructions that start no motion."""
     ready(talk)
     for instruction in SETTINGS:
         ask(talk, instruction)
 
 
 def codes(first: int) -> Callable[[Talk], None]:
-    """So many codes without parameters: most are refused, each in its way."""
+    """Return a function that writes codes without parameters; most of them are rejected."""
 
     def play(talk: Talk) -> None:
         ready(talk)
@@ -132,7 +137,7 @@ def codes(first: int) -> Callable[[Talk], None]:
 
 
 class Plan312:
-    """As `plan.Plan`."""
+    """Plan of a PPMC-312; see `plan.Plan`."""
 
     part = "ppmc312"
     jumpers = (Wire("auxo_n[0]", "fl_n", "limit CW"), Wire("auxo_n[1]", "org_n", "origin"))
@@ -157,7 +162,9 @@ class Plan312:
             "run CCW, stopped": played(blocks.run(CCW, rate), stop=now),
             "search for an origin, stopped": played(blocks.origin_search(CW, rate), stop=now),
             "zero return": played(blocks.acceleration(CW, PULSES), blocks.zero_return(CCW)),
-            "another speed on the way": played(blocks.run(CW, rate), stop=blocks.change(220), after=0.005),
+            "another speed during the motion": played(
+                blocks.run(CW, rate), stop=blocks.change(220), after=0.005
+            ),
         }
         return [
             Section("registers", REGISTERS, registers),

@@ -1,4 +1,7 @@
-"""Records of a bridge's recorder as a recording of the part (UB-REC): when which pin changed."""
+"""Conversion of the bridge's records to a recording of the part (UB-REC).
+
+A recording contains the time of every change of a pin.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,21 @@ from dataclasses import dataclass
 from ...check.records import Access, Change, Edge, Recording
 from ..script import RECORDED_BYTES, BadAnswer
 
-# What a bridge's recorder has seen (docs/uart_bridge.md, UB-REC): its answer, its records. Pure.
+# Records of the bridge (docs/uart_bridge.md, UB-REC).
 
 
 @dataclass(frozen=True)
 class Recorded:
-    """Answer of RECORDED. record_bytes: of one record, time_bits of them count clk. most: records that there
-    is room for. running: it records still. full: there was no room for one. count: records so far."""
+    """Answer to RECORDED.
+
+    Attributes:
+        record_bytes: bytes of one record.
+        time_bits: bits of a record that count cycles.
+        most: number of records that fit.
+        running: the recording continues.
+        full: a record did not fit.
+        count: records so far.
+    """
 
     record_bytes: int
     time_bits: int
@@ -25,19 +36,19 @@ class Recorded:
 
     @property
     def width(self) -> int:
-        """Levels in a record."""
+        """Number of levels in a record."""
         return 8 * self.record_bytes - self.time_bits
 
     @classmethod
     def parse(cls, data: bytes) -> Recorded:
-        """From the 16 bytes; BadAnswer if they make no sense."""
+        """Decode the 16 bytes. Raises BadAnswer if they are invalid."""
         if len(data) != RECORDED_BYTES or not 0 < data[1] < 8 * data[0] or data[2] > 24:
             raise BadAnswer(f"RECORDED {data.hex()}")
         count = int.from_bytes(data[4:8], "little")
         return cls(data[0], data[1], 1 << data[2], bool(data[3] & 1), bool(data[3] & 2), count)
 
     def samples(self, data: bytes) -> Iterator[tuple[int, int]]:
-        """(clk since the first record, levels) of each whole record in these bytes."""
+        """Yield (cycles since the first record, levels) of each complete record in these bytes."""
         now = 0
         for start in range(0, len(data) - self.record_bytes + 1, self.record_bytes):
             word = int.from_bytes(data[start : start + self.record_bytes], "little")
@@ -47,15 +58,15 @@ class Recorded:
 
 Layout = Sequence[tuple[str, int]]
 SETTLE = 2
-"""clk from the fall of rst_n to outputs in their reset levels."""
+"""Cycles from the fall of rst_n until the outputs have their reset levels."""
 
 
 class NoReset(ValueError):  # noqa: N818 - says what is missing
-    """The records have no reset of the part, which a golden model has to begin with."""
+    """The records contain no reset of the part, which a golden model must begin with."""
 
 
 def pins_of(layout: Layout, levels: int) -> dict[str, int]:
-    """Pins in the levels of a record."""
+    """Return the pins in the levels of a record."""
     found = {}
     for pin, width in layout:
         found[pin] = levels & (1 << width) - 1
@@ -64,7 +75,7 @@ def pins_of(layout: Layout, levels: int) -> dict[str, int]:
 
 
 def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str, int]:
-    """Pins while the part is in reset. NoReset."""
+    """Return the pins while the part is in reset. Raises NoReset."""
     for t, pins in _in_reset(samples, layout):
         if t >= SETTLE:
             return pins
@@ -72,7 +83,10 @@ def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str
 
 
 def _in_reset(samples: Sequence[tuple[int, int]], layout: Layout) -> Iterator[tuple[int, dict[str, int]]]:
-    """(clk since rst_n fell, pins) of the first reset: each record, and the clk before each other one."""
+    """Yield (cycles since rst_n fell, pins) of the first reset.
+
+    It yields each record, and the state one cycle before each following record.
+    """
     fell, pins = None, dict[str, int]()
     for t, levels in samples:
         if fell is not None:
@@ -93,10 +107,17 @@ def recording_of(
     inputs: Mapping[str, int],
     outputs: Mapping[str, int],
 ) -> Recording:
-    """The part from its reset on.
+    """Return the recording of the part from its reset on.
 
-    samples: (clk, levels) of all records. inputs: idle levels; outputs: levels in reset. NoReset if there is
-    none. An output in another level than that of its reset is an edge, so a difference.
+    An output whose level differs from its reset level is an edge, which is a difference.
+
+    Args:
+        samples: (cycle, levels) of all records.
+        inputs: idle levels of the inputs.
+        outputs: levels of the outputs in reset.
+
+    Raises:
+        NoReset: no reset was recorded.
     """
     fell = next((t for t, levels in samples if not pins_of(layout, levels)["rst_n"]), None)
     if fell is None:
@@ -104,7 +125,7 @@ def recording_of(
     watched = [name for name, _ in layout]
     now = {**inputs, "rst_n": 0}
     out = {name: level for name, level in outputs.items() if name in watched}
-    # What was before the recorded reset is nobody's business: the model is in reset up to its end.
+    # The state before the recorded reset does not matter: the model is in reset up to its end.
     stimulus = [Change(0, "rst_n", 0)]
     edges: list[Edge] = []
     for t, levels in _from(samples, fell):
@@ -120,7 +141,10 @@ def recording_of(
 
 
 def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, int]]:
-    """The records from the reset on, and the state when outputs must be in their reset levels."""
+    """Yield the records from the reset on.
+
+    It also yields the state at the time when outputs must have their reset levels.
+    """
     looked = False
     before = samples[0][1]
     for t, levels in samples:
@@ -134,7 +158,10 @@ def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, 
 
 
 def _accesses(stimulus: Iterable[Change], edges: Iterable[Edge], pins: Mapping[str, int]) -> Iterator[Access]:
-    """Writes and reads of the host, for reports: a write strobe that ends, a read strobe that ends."""
+    """Yield writes and reads of the host, for reports.
+
+    A write ends with its write strobe, a read with its read strobe.
+    """
     names = [next((n for n in group if n in pins), "") for group in (("wr_n", "we_n", "ds_wrs_n"),)]
     reads = next((n for n in ("rd_n", "oe_n", "rw_rds_n") if n in pins), "")
     where = next((n for n in ("a0", "rs", "a") if n in pins), "")

@@ -1,4 +1,4 @@
-"""Plays the sections of a self-test on a board, compares each with the golden model, collects."""
+"""Play the sections of a self-test, compare them with the golden model, collect results."""
 
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ from .recording import NoReset, Recorded, recording_of, reset_levels
 
 ECHOES, ECHO_BYTES = 8, 48
 TRIES = 3
-"""Of a section: a PC that was busy for long leaves a chopper or a clock time to fill the recorder."""
+"""Number of attempts per section.
+
+If the PC is busy for a long time, a chopper or a clock may fill the recorder.
+"""
 Tell = Callable[[str], None]
 
 
@@ -31,8 +34,15 @@ class NoRecorder(PpmcError):  # noqa: N818 - says what is missing
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a section. edges: output edges that were compared. wrong: one line, or "". report: the
-    difference in words. skipped: why it says nothing, or "". full: the recorder had no room for all of it."""
+    """Result of a section.
+
+    Attributes:
+        edges: output edges that were compared.
+        wrong: difference in one line, or "".
+        report: difference as text.
+        skipped: reason why there is no result, or "".
+        full: not all records fitted into the recorder.
+    """
 
     section: Section
     records: int
@@ -47,7 +57,10 @@ class Outcome:
 
 @dataclass
 class Findings:
-    """All of a self-test. rates: line rate -> requests that had to be repeated, None: the adapter cannot."""
+    """Results of a self-test.
+
+    rates: number of repeated requests by line rate, `None`: the adapter does not support it.
+    """
 
     build: Build | None
     params: dict[str, Any] = field(default_factory=dict)
@@ -57,17 +70,20 @@ class Findings:
 
     @property
     def edges(self) -> int:
-        """Output edges that were compared."""
+        """Number of output edges that were compared."""
         return sum(outcome.edges for outcome in self.outcomes)
 
     @property
     def differences(self) -> int:
-        """Sections with a difference."""
+        """Number of sections with a difference."""
         return sum(bool(outcome.wrong) for outcome in self.outcomes)
 
 
 class SelfTest:
-    """One run. folder: where the pictures of differences go. tell: gets a line a step."""
+    """Run of a self-test.
+
+    folder: folder of the pictures of differences. tell: called with one line per step.
+    """
 
     def __init__(self, link: Link, plan: Plan, folder: Path, tell: Tell = lambda line: None) -> None:
         self.link, self.plan, self.folder, self.tell = link, plan, folder, tell
@@ -77,7 +93,7 @@ class SelfTest:
     # ------------------------------------------------------------------ link
 
     def rates(self) -> None:
-        """Every rate that bridge and adapter have: long answers come back whole."""
+        """Test every rate of bridge and adapter with long answers."""
         work = self.link.baud
         for code, baud in enumerate(RATES[: self.link.identity.best_rate + 1]):
             before = self.link.repeats
@@ -94,7 +110,7 @@ class SelfTest:
     # ------------------------------------------------------------------ recorder
 
     def recorder(self) -> Recorded:
-        """What recorder there is. NoRecorder."""
+        """Return the properties of the recorder. Raises NoRecorder."""
         answer = self.link.attempt(Script().record(False).recorded())
         if answer.result is Result.ILLEGAL:
             raise NoRecorder(
@@ -112,7 +128,7 @@ class SelfTest:
         return info
 
     def fetch(self) -> tuple[Recorded, list[tuple[int, int]]]:
-        """All records."""
+        """Return all records."""
         info = Recorded.parse(self.link.execute(Script().record(False).rewind().recorded()).values[0])
         most = 255 // info.record_bytes * info.record_bytes
         left, data = info.count * info.record_bytes, b""
@@ -125,15 +141,21 @@ class SelfTest:
     # ------------------------------------------------------------------ sections
 
     def sections(self, switches: bool) -> list[Section]:
-        """Those of the plan. switches: with the wires for limits and origin."""
+        """Return the sections of the plan.
+
+        switches: including those that need wires for limits and origin.
+        """
         info = self.recorder()
         identity, width = self.link.identity, info.width
         found = self.plan.sections(identity, width, info.most)
         return [*found, *(self.plan.switches(identity, width) if switches else ())]
 
     def play(self, section: Section) -> Outcome:
-        """Record a section, compare it, leave the part in reset state: outputs off. What did not fit into the
-        recorder is played again: a PC that was busy elsewhere may be the cause."""
+        """Record a section, compare it, and reset the part, so that its outputs are off.
+
+        If the records did not fit into the recorder, the section is played again, because the PC may have
+        been busy.
+        """
         for left in reversed(range(TRIES)):
             outcome = self._played(section)
             if not (outcome.full and left):
@@ -145,7 +167,7 @@ class SelfTest:
         return outcome
 
     def _played(self, section: Section) -> Outcome:
-        """One try of a section."""
+        """Play a section once."""
         link = self.link
         link.forget_events()
         link.execute(Script().straps(section.straps).record(True).reset())
@@ -160,10 +182,10 @@ class SelfTest:
         try:
             self.link.attempt(Script().record(False).reset().straps(0xFF))
         except LinkError:
-            pass  # the board is gone; what was raised first says so
+            pass  # the board has disappeared; the first exception reports it
 
     def _judged(self, section: Section, info: Recorded, samples: list[tuple[int, int]]) -> Outcome:
-        """A section's records against the golden model."""
+        """Compare the records of a section with the golden model."""
         records = len(samples)
         try:
             comparison = self._compared(samples)
@@ -173,7 +195,7 @@ class SelfTest:
         count, pulses = comparison.edges_compared, comparison.pulses
         if comparison.mismatch is not None:
             return Outcome(section, records, end, count, pulses, *self._difference(section, comparison))
-        # Without the wire a motion has no end, and the recorder may be full.
+        # Without the wire a motion does not end, and the recorder may be full.
         if section.what == SWITCHES and not self._switched(comparison.recording):
             skipped = "no switch has moved: is the wire there?"
             return Outcome(section, records, end, count, pulses, skipped=skipped)
@@ -186,7 +208,7 @@ class SelfTest:
         return Outcome(section, records, end, count, pulses, skipped=skipped)
 
     def _compared(self, samples: list[tuple[int, int]]) -> Comparison:
-        """With the first parameters that fit; those are kept."""
+        """Compare with the first parameters that match, and keep them."""
         if not self._params:
             reset = reset_levels(samples, self._layout)
             width = sum(bits for _, bits in self._layout)
@@ -215,7 +237,10 @@ class SelfTest:
         return found
 
     def _difference(self, section: Section, comparison: Comparison) -> tuple[str, str]:
-        """Its one line and its report; the picture and the waveforms go to the folder."""
+        """Return the difference in one line and as a report.
+
+        Picture and waveforms are written to the folder.
+        """
         assert comparison.mismatch is not None
         folder = self.folder / section.folder
         text = report(comparison)
@@ -230,7 +255,7 @@ class SelfTest:
         return f"{text.splitlines()[0].partition(': ')[2]} ({folder}/{shown})", text
 
     def _switched(self, recording: Recording) -> bool:
-        """A switch has changed its level behind the reset."""
+        """Return True if a switch has changed its level after the reset."""
         return any(change.pin in SWITCH_PINS and change.t for change in recording.stimulus)
 
 

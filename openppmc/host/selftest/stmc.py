@@ -1,6 +1,6 @@
-"""The self-test of a board with a STMC (`host.selftest`).
+"""Self-test of a board with an STMC (`host.selftest`).
 
-The part has no outputs that a host can set, so the wires of its switches come from a winding and from HOLD.
+The part has no outputs that a host can set, so its switches are wired to a winding and to HOLD.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus, Rates
 from .plan import MOVES, SWITCHES, Section, Talk, Wire, timed
 
 INSIDE = 0xFE
-"""Straps: the step clock of the board rests; its edges would fill the recorder."""
+"""Straps that stop the step clock of the board; its edges would fill the recorder."""
 OUTSIDE = 0xFF
 EXTERNAL = 0x1A
 LAYOUT = (
@@ -28,7 +28,7 @@ BUS = ByteBus(decode, Rates(start=12, high=4, ramp=(10, 0), slow=6))
 
 
 class PlanStmc:
-    """As `plan.Plan`."""
+    """Plan of an STMC; see `plan.Plan`."""
 
     part = "stmc"
     jumpers = (Wire("hold", "l1_n", "limit CW"), Wire("s[1]", "cnp_n", "origin"))

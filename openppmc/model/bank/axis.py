@@ -1,4 +1,4 @@
-"""One axis of the bank: the blocks of a PPMC-104, served at its visits."""
+"""Axis of the bank: the blocks of a PPMC-104, served at the visits of the axis."""
 
 from __future__ import annotations
 
@@ -20,14 +20,17 @@ CONFIG_RESET = 0b11
 
 
 class Touched(Scheduler):
-    """The queue of the part for the blocks of one axis: whatever runs notes the axis in `touched`."""
+    """Event queue of the part for the blocks of one axis.
+
+    Every event that runs adds the axis to `touched`.
+    """
 
     def __init__(self, queue: Scheduler, touched: set[int], axis: int) -> None:
         super().__init__()
         self._shared, self._touched, self._axis = queue, touched, axis
 
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = Event) -> Event:
-        """As there."""
+        """Schedule an event in the queue of the part."""
 
         def run(now: int) -> None:
             self._touched.add(self._axis)
@@ -43,14 +46,21 @@ class AxisContext(Context):
     interrupt: bool = False
 
     def drive(self, t: int, signal: str, value: int) -> None:
-        """`int_n` is the only output on the host's side that the blocks drive."""
+        """Store the interrupt; `int_n` is the only host-side output that the blocks drive."""
         assert signal == "int_n"
         self.interrupt = not value
 
 
 class Axis:
-    """Axis `number`; config: its register. shared: services of the bank; touched: collects the axes on which
-    something may have changed."""
+    """Axis of the bank.
+
+    Args:
+        number: number of the axis.
+        shared: services of the bank.
+        touched: set of the axes in which something may have changed.
+
+    config: CONFIG register.
+    """
 
     def __init__(
         self,
@@ -100,14 +110,17 @@ class Axis:
         self.commands.take(t, byte, command, t)
 
     def _waits(self, t: int, command: bool) -> int | None:
-        """What keeps visit t from taking a byte (BANK-HSK-02, -05)."""
+        """Return the earliest edge at which a byte may be accepted that visit t must not accept.
+
+        None: visit t may accept it (BANK-HSK-02, -05).
+        """
         if t in (self.motion.ended, self.commands.completed, self._spent) or self.chopper.orders(t):
             return t + 1
         edge = self.commands.waits_until(command)
         return edge if t < edge else None
 
     def go(self, t: int, go: int) -> None:
-        """Visit t finds the GO of edge `go` (BANK-GRP-02)."""
+        """Process the GO of edge `go` at visit t (BANK-GRP-02)."""
         motion, commands = self.motion, self.commands
         if not motion.in_group:
             return
@@ -121,19 +134,19 @@ class Axis:
         self.mailbox.look_again(t)
 
     def halt(self, t: int) -> None:
-        """STOP acts at edge t."""
+        """Process STOP at edge t."""
         self.motion.halt(t)
 
     # ------------------------------------------------------------------ inputs
 
     def write_config(self, t: int, byte: int) -> None:
-        """Write event t of CONFIG (BANK-WIN-02, BANK-GEN-04)."""
+        """Process write event t of CONFIG (BANK-WIN-02, BANK-GEN-04)."""
         self.config = config = byte & CONFIG_RESET
         levels = {"csel": config & 1, "vsel": config >> 1}
         self.context.queue.at(t + CONFIG_LEAD, Phase.LEVELS, lambda now: self.context.levels.update(levels))
 
     def see(self, t: int, levels: Mapping[str, int]) -> None:
-        """Switches that edge t sees changed."""
+        """Process switches that changed at edge t."""
         self._switches.update(levels)
         queue = self.context.queue
         queue.at(t, Phase.GUARD, self.motion.judge)
@@ -143,7 +156,7 @@ class Axis:
         self.context.levels.update(levels)
         self.motion.look_after(t)
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     @property
     def status(self) -> int:
@@ -152,7 +165,7 @@ class Axis:
         return self.commands.state() | (IBF if box.ibf else 0) | (OBF if box.obf else 0)
 
     def pins(self) -> tuple[int, int, int, int]:
-        """Levels of pout_n, dir, hold and s."""
+        """Return the levels of pout_n, dir, hold and s."""
         motion, excitation = self.motion, self.excitation
         phases = excitation.pattern if self.chopper.on else excitation.chopped
         return int(not motion.low), motion.direction, motion.hold, phases

@@ -1,4 +1,4 @@
-"""The modelled carrier with a bank: the bridge's view of its window, one axis at a time."""
+"""Modelled carrier with a bank: the bridge accesses its window one axis at a time."""
 
 from __future__ import annotations
 
@@ -11,14 +11,17 @@ from .part import PpmcBank
 SELECT = 0x3
 WINDOW_AXES = 64
 ADDRESS_AHEAD = 2
-"""clk that the address stands before a strobe (BANK-WIN-04)."""
+"""Cycles from a valid address to the strobe (BANK-WIN-04)."""
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
 class Carrier(carrier.Carrier[PpmcBank]):
-    """Wired as ppmc_bank_carrier: register 3 of the bridge is the selected axis, 0 the first, read and write;
-    all others are those of this axis. PINS shows int_n, its hold and its switches. No straps, no pulse
-    counters: a bank counts by itself. One plant an axis."""
+    """Carrier wired like ppmc_bank_carrier; each axis has one plant.
+
+    Register 3 of the bridge is the selected axis (from 0, read and write); all other registers are those of
+    this axis. PINS returns int_n, and HOLD and switches of this axis. There are no straps and no pulse
+    counters, because the bank counts its pulses.
+    """
 
     ADDRESS_BITS = 10
 
@@ -36,7 +39,7 @@ class Carrier(carrier.Carrier[PpmcBank]):
         return {pin: sum(of[name] << axis for axis, of in enumerate(levels)) for name, pin in _PINS.items()}
 
     def straps(self, levels: int) -> None:
-        """There are none."""
+        """Ignore the levels, because the carrier has no straps."""
 
     def shown(self) -> object:
         return self.part.status(self._selected) if self._selected < len(self.plants) else 0xFF
@@ -46,7 +49,7 @@ class Carrier(carrier.Carrier[PpmcBank]):
         axis = self._selected % len(self.plants)
         return self.pin_byte(self.part.outputs["hold"] >> axis & 1, axis)
 
-    # ------------------------------------------------------------------ the view
+    # ------------------------------------------------------------------ window
 
     def read(self, a: int) -> int:
         if a == SELECT:
@@ -60,7 +63,7 @@ class Carrier(carrier.Carrier[PpmcBank]):
             super().write(self._address(a), byte)
 
     def _address(self, a: int) -> int:
-        """Of a register of the selected axis; it stands on the pins before the strobe comes."""
+        """Return the address of a register of the selected axis; set it on the pins before the strobe."""
         address = self._selected << 4 | a
         self.set_pins(a=address)
         self.t += ADDRESS_AHEAD - 1

@@ -1,4 +1,4 @@
-"""The chopper of an axis of the bank: each edge is ordered at a visit (BANK-CHP-01)."""
+"""Chopper of an axis of the bank: each edge is scheduled at a visit (BANK-CHP-01)."""
 
 from __future__ import annotations
 
@@ -7,50 +7,60 @@ from ..clock import Event
 from ..motion import excitation
 from ..motion.excitation import Switching
 
-# When each axis is visited (BANK-GEN-01), and the times between a cause and the visits that know of it.
+# Times of the visits of each axis (BANK-GEN-01), and delays from an event to the first visit that sees its
+# effect.
 
 SHORTEST_ROUND = 8
 FIRST = 8
 
 BYTE_LEAD = 7
-"""Write event to the first visit that sees the byte (BANK-HSK-01)."""
+"""Cycles from a write event to the first visit that sees the byte (BANK-HSK-01)."""
 END_LEAD = 5
-"""Decided end of a motion to the first visit that knows (BANK-MOT-03)."""
+"""Cycles from the decision to end a motion to the first visit that sees it (BANK-MOT-03)."""
 BUILD_LEAD = 2
-"""End of a build to the first visit that may begin the next one (BANK-INI-01)."""
+"""Cycles from the end of a table build to the first visit that may start the next one.
+
+Rule: BANK-INI-01.
+"""
 READY_LEAD = 3
-"""End of a build to the first visit that completes the initialisation (BANK-INI-02)."""
+"""Cycles from the end of a table build to the visit that completes the initialisation.
+
+Rule: BANK-INI-02. It is the first visit that may do so.
+"""
 GROUP_LEAD = 5
-"""Write event of MASK or GO to the first visit that sees it (BANK-GRP-01, -02)."""
+"""Cycles from a write event of MASK or GO to the first visit that sees it (BANK-GRP-01, -02)."""
 CONFIG_LEAD = 7
-"""Write event of CONFIG to the first visit that sees it (BANK-GEN-04)."""
+"""Cycles from a write event of CONFIG to the first visit that sees it (BANK-GEN-04)."""
 SWITCH_LEAD = 4
-"""Edge on which a switch is seen to the first visit that sees it (BANK-MOT-05)."""
+"""Cycles from the edge that samples a switch to the first visit that sees it (BANK-MOT-05)."""
 
 
 def round_clk(axes: int) -> int:
-    """R: length of a round in clk."""
+    """Return R, the length of a round in cycles."""
     return max(axes, SHORTEST_ROUND)
 
 
 class Visits:
-    """The visits of axis `axis`, edges axis + 8 + n R after `released`, n = 1, 2, …"""
+    """Visits of axis `axis`: edges axis + 8 + n R after `released`, n = 1, 2, …"""
 
     def __init__(self, axis: int, axes: int, released: int) -> None:
         self.round = round_clk(axes)
         self._start = released + axis + FIRST + self.round
 
     def first(self, edge: int) -> int:
-        """First visit at or after an edge."""
+        """Return the first visit at or after an edge."""
         return self._start + max(0, -(-(edge - self._start) // self.round)) * self.round
 
     def last(self, edge: int) -> int:
-        """Last visit at or before an edge; what is due on that edge is ordered there."""
+        """Return the last visit at or before an edge; it schedules the events of that edge."""
         return self._start + (edge - self._start) // self.round * self.round
 
 
 class Chopper(excitation.Chopper):
-    """As that of the PPMC-104; the length of a phase is found at the visit that orders its first edge."""
+    """Chopper of the PPMC-104 at visits.
+
+    The length of a phase is determined at the visit that schedules its first edge.
+    """
 
     def __init__(self, context: Context, times: Switching, visits: Visits) -> None:
         super().__init__(context, times)
@@ -60,13 +70,13 @@ class Chopper(excitation.Chopper):
         self._ordering: Event | None = None
 
     def orders(self, visit: int) -> bool:
-        """Whether this visit orders an edge (BANK-HSK-02)."""
+        """Return True if this visit schedules an edge (BANK-HSK-02)."""
         return self._boundary_edge == visit or (
             self.due is not None and self.due < visit + self._visits.round
         )
 
     def stop(self) -> None:
-        """As there."""
+        """Stop the chopper."""
         super().stop()
         if self._ordering:
             self._ordering.cancel()
@@ -78,7 +88,7 @@ class Chopper(excitation.Chopper):
         self._ordering = self._context.queue.at(self._visits.last(self.due), Phase.QUEUE, self._order)
 
     def _order(self, t: int) -> None:
-        """BANK-GEN-04: vsel and the parameters as this visit finds them."""
+        """Latch vsel and the parameters at this visit (BANK-GEN-04)."""
         self._found = self._times.quanta(not self.on)
 
     def _length(self) -> int:

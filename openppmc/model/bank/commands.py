@@ -1,7 +1,7 @@
-"""Commands of an axis of the bank, and the builder of ramp tables that all axes share.
+"""Commands of an axis of the bank, and the builder of ramp tables, which all axes share.
 
-The commands are those of the PPMC-104 without auxiliary pins and external clock (BANK-GEN-03). The builder:
-BANK-HSK-05, BANK-INI-01, -02.
+The commands are those of the PPMC-104 without auxiliary pins and external clock (BANK-GEN-03). Rules of the
+builder: BANK-HSK-05, BANK-INI-01, -02.
 """
 
 from __future__ import annotations
@@ -26,8 +26,10 @@ Waits = Callable[[int, bool], int | None]
 
 
 class Mailbox:
-    """take(t, byte, is_command): the command unit. waits(t, is_command): None, or the edge from which on a
-    byte that visit t must leave may be looked at again. Readable: obf, shown (the byte in the data register).
+    """Input buffer and output queue.
+
+    take(t, byte, is_command): command unit. waits(t, is_command): `None`, or the edge of the next attempt if
+    visit t must not accept the byte. Readable: obf, shown (the byte in the data register).
     """
 
     def __init__(self, context: Context, visits: Visits, take: Take, waits: Waits) -> None:
@@ -46,26 +48,29 @@ class Mailbox:
 
     @property
     def ibf(self) -> bool:
-        """A byte waits."""
+        """True if the input buffer is full."""
         return bool(self._written)
 
     def store(self, t: int, byte: int, command: bool) -> None:
-        """Write event t. What it replaces may still be taken by a visit that does not see it."""
+        """Process write event t.
+
+        A visit that does not see this write yet may still accept the byte that it replaces.
+        """
         self._written.append((t, byte, command))
         if self._planned is None or self._visits.first(t + BYTE_LEAD) < self._next:
             self._plan(t + BYTE_LEAD)
 
     def close_until(self, t: int) -> None:
-        """No visit before edge t takes a byte."""
+        """Accept no byte at a visit before edge t."""
         self._closed_until = t
 
     def look_again(self, t: int) -> None:
-        """What kept a byte waiting at visit t may be gone at the next one."""
+        """Try again at the next visit, because the reason for waiting at visit t may be gone."""
         if self._planned:
             self._plan(t + 1)
 
     def _plan(self, edge: int) -> None:
-        """The first visit from an edge on has something to look at."""
+        """Schedule the first visit from an edge on, because it has a byte to check."""
         if self._planned:
             self._planned.cancel()
         self._next = self._visits.first(edge)
@@ -83,7 +88,7 @@ class Mailbox:
                 del self._written[0]
                 self._take(t, byte, command)
             else:
-                # One that has replaced it need not wait as long.
+                # A byte that has replaced it may be accepted earlier.
                 later = min([again, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
         if self._written:
             self._plan(later)
@@ -91,16 +96,16 @@ class Mailbox:
     # ------------------------------------------------------------------ out
 
     def answer(self, values: Iterable[int]) -> None:
-        """A read command loads its bytes; whatever was there is dropped (P104-HSK-08)."""
+        """Load the bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
         self.shown, *self._more = values
         self.obf, self._being_read = True, False
 
     def snapshot(self) -> None:
-        """A data read shows `shown`."""
+        """Latch `shown` for a data read."""
         self._being_read = self.obf
 
     def read_ended(self) -> None:
-        """The end of a data read: the next byte, or none (BANK-HSK-04)."""
+        """End a data read: the next byte is loaded, or OBF is cleared (BANK-HSK-04)."""
         if not self._being_read:
             return
         self._being_read = False
@@ -116,15 +121,18 @@ _EXTERNAL = 0x10
 
 
 class Builder:
-    """`free_from`: the first edge on which it takes a new table."""
+    """Builder of ramp tables. free_from: first edge at which it accepts a new table."""
 
     def __init__(self) -> None:
         self.free_from = 0
 
 
 class CommandUnit(ppmc104.CommandUnit):
-    """Commands of axis `axis`. completed: the visit that completed the last initialisation, or -1.
-    initialised: one is complete and in force; known: visit t finds one that an earlier visit completed."""
+    """Commands of axis `axis`.
+
+    completed: visit that completed the last initialisation, or -1. initialised: an initialisation is complete
+    and active.
+    """
 
     while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)
 
@@ -156,11 +164,11 @@ class CommandUnit(ppmc104.CommandUnit):
         return super()._pin(name) >> self._axis & 1
 
     def known(self, t: int) -> bool:
-        """Whether visit t finds an initialisation that was complete before it (BANK-GRP-02)."""
+        """Return True if visit t sees an initialisation that was complete before it (BANK-GRP-02)."""
         return self._before if t == self.completed else self.initialised
 
     def refuse(self, error: Error) -> None:
-        """A GO that nothing was held for (BANK-GRP-02)."""
+        """Store the error of a GO for which no motion was waiting (BANK-GRP-02)."""
         self._pending, self._data = None, []
         self.error = error
 
@@ -169,7 +177,7 @@ class CommandUnit(ppmc104.CommandUnit):
         self.initialised = False
 
     def waits_until(self, command: bool) -> int:
-        """First edge on which the next byte may be taken as far as the builder is concerned."""
+        """Return the first edge at which the builder allows the next byte."""
         last = self._pending is not None and self._pending.kind is Kind.INITIALISE and self.expected == 1
         return self._builder.free_from if last and not command else 0
 

@@ -1,4 +1,4 @@
-"""MASK, GO and STOP (BANK-GRP-01..04)."""
+"""Registers MASK, GO and STOP (BANK-GRP-01..04)."""
 
 from __future__ import annotations
 
@@ -11,49 +11,49 @@ from ..motion.excitation import ALL_PHASES
 from ..ppmc104 import GUARD
 from .chopper import GROUP_LEAD, Visits
 
-# Pins of the bank with idle and reset levels. A port of all axes is one number; bit i is axis i, of `s` the
-# bits 5 i .. 5 i + 4 are its S1 .. S5.
+# Pins of the bank with idle and reset levels. A port of all axes is one number; bit i belongs to axis i. In
+# `s`, bits 5 i .. 5 i + 4 are S1 .. S5 of axis i.
 
 HOST_PINS = ("a", "cs_n", "rd_n", "wr_n", "d_i")
 SWITCHES = GUARD.all
 PHASES = 5
 AT_REST = {"pout_n": 1, "dir": 0, "hold": 1}
-"""Reset levels of the motor pins of one axis but for `s`."""
+"""Reset levels of the motor pins of one axis, except `s`."""
 
 
 def inputs(axes: int) -> dict[str, int]:
-    """Idle levels of the inputs."""
+    """Return the idle levels of the inputs."""
     host = {"rst_n": 1, "a": 0, "cs_n": 1, "rd_n": 1, "wr_n": 1, "d_i": 0}
     return host | dict.fromkeys(SWITCHES, (1 << axes) - 1)
 
 
 def outputs(axes: int, phase_idle: int) -> dict[str, int]:
-    """Reset levels of the outputs."""
+    """Return the reset levels of the outputs."""
     motors = {name: ((1 << axes) - 1) * level for name, level in AT_REST.items()}
     phases = sum(ALL_PHASES * phase_idle << PHASES * axis for axis in range(axes))
     return {"d_o": 0, "d_oe": 0, "int_n": 1, **motors, "s": phases}
 
 
 def widths(axes: int) -> dict[str, int]:
-    """Bits of all ports that have more than one."""
+    """Return the widths of all ports with more than one bit."""
     ports = dict.fromkeys((*SWITCHES, *AT_REST), axes)
     return {"a": 10, "d_i": 8, "d_o": 8, "s": PHASES * axes, **ports}
 
 
 class Member(Protocol):
-    """An axis as GO and STOP see it."""
+    """Members of an axis that GO and STOP use."""
 
     visits: Visits
 
     def go(self, t: int, go: int) -> None:
-        """Visit t finds the GO of edge `go`."""
+        """Process the GO of edge `go` at visit t."""
 
     def halt(self, t: int) -> None:
-        """STOP acts at edge t."""
+        """Process STOP at edge t."""
 
 
 class Group:
-    """The group registers of a bank; `mask` is MASK as it reads, bit i = axis i."""
+    """Group registers of a bank. mask: MASK as it reads, bit i = axis i."""
 
     def __init__(self, queue: Scheduler, axes: int, round_clk: int) -> None:
         self._queue = queue
@@ -66,7 +66,7 @@ class Group:
         self.members: Sequence[Member] = ()
 
     def write_mask(self, t: int, k: int, byte: int) -> None:
-        """Write event t of MASK byte k."""
+        """Process write event t of byte k of MASK."""
         self.mask = mask = (self.mask & ~(0xFF << 8 * k) | byte << 8 * k) & self._all
         self._queue.at(t + GROUP_LEAD, Phase.LEVELS, lambda now: self._show(mask))
 
@@ -74,11 +74,14 @@ class Group:
         self._seen = mask
 
     def holds(self, axis: int) -> bool:
-        """MASK bit of an axis as its present visit sees it."""
+        """Return the MASK bit of an axis as its current visit sees it."""
         return bool(self._seen >> axis & 1)
 
     def go(self, t: int) -> None:
-        """Write event t of GO: acts from `t` on, or when the one that acts is over (BANK-GRP-03)."""
+        """Process write event t of GO.
+
+        It acts from `t` on, or after the end of an active GO (BANK-GRP-03).
+        """
         if self._go > t:
             return
         self._go = max(t, self._go + self._round)
@@ -91,11 +94,11 @@ class Group:
         return lambda now: member.go(now, go)
 
     def stop(self, t: int) -> None:
-        """Write event t of STOP."""
+        """Process write event t of STOP."""
         self._stopped = t
         for member in self.members:
             self._queue.at(t + 1, Phase.COMMAND, member.halt)
 
     def stops(self, visit: int) -> bool:
-        """Whether an operation that starts at this visit is ended by a STOP before it."""
+        """Return True if an operation that starts at this visit is ended by an earlier STOP."""
         return 0 <= self._stopped < visit <= self._stopped + self._round

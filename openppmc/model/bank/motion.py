@@ -1,8 +1,8 @@
-"""What is special in the motion of an axis of the bank: visits decide and get to know (BANK-MOT, BANK-GRP).
+"""Motion of an axis of the bank, where it differs from the PPMC-104 (BANK-MOT, BANK-GRP).
 
-Pins act on the edges of their events. From the edge on which a motion is cut to the visit that knows of it
-the engine goes on as if nothing had happened (BANK-MOT-03): a pulse that is due there is *lost*, it counts
-for the engine until then but never shows.
+Visits make decisions and detect events. Pins change at the edges of their events. From the edge at which a
+motion is cut to the first visit that detects the cut, the engine continues unchanged (BANK-MOT-03). A pulse
+that is scheduled in this time is *lost*: the engine counts it until this visit, but it is never output.
 """
 
 from __future__ import annotations
@@ -21,8 +21,13 @@ from .group import Group
 
 
 class Motion(ppmc104.Motion):
-    """The motion of axis `axis`. switches: their levels as this edge sees them; those in context.levels are
-    what a visit sees. Readable: held (BANK-GRP-01), ended (the visit that ended the last motion, or -1)."""
+    """Motion of axis `axis`.
+
+    Args:
+        switches: levels of the switches at this edge; context.levels holds those that a visit sees.
+
+    held: the motion is waiting for GO (BANK-GRP-01). ended: visit that ended the last motion, or -1.
+    """
 
     def __init__(
         self,
@@ -49,7 +54,7 @@ class Motion(ppmc104.Motion):
     # ------------------------------------------------------------------ start
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
-        """Visit that takes an operation's last byte (BANK-MOT-01, BANK-GRP-01, -04)."""
+        """Start an operation at the visit that accepts its last byte (BANK-MOT-01, BANK-GRP-01, -04)."""
         self._latch_operation(command, data, setup)
         self._begin(t)
         self.held = self.in_group
@@ -61,19 +66,22 @@ class Motion(ppmc104.Motion):
 
     @property
     def in_group(self) -> bool:
-        """MASK bit as the present visit sees it."""
+        """MASK bit as the current visit sees it."""
         return self._group.holds(self._axis)
 
     def release(self, go: int) -> None:
-        """A held operation goes on; pulse 1 waits until all axes have found this GO (BANK-GRP-02)."""
+        """Continue a waiting operation; pulse 1 waits until all axes have seen this GO (BANK-GRP-02)."""
         self.held = False
         self._arm(go + GROUP_LEAD - 1 + self._visits.round + self._context.timebase.w)
 
     # ------------------------------------------------------------------ stops and inputs
 
     def stop(self, t: int) -> None:
-        """Immediate stop accepted at visit t, which orders no pulse and ignores the slow-down limit
-        (BANK-MOT-05). After an end that was decided before t no finish bit is added (BANK-MOT-03)."""
+        """Process an immediate stop accepted at visit t.
+
+        This visit schedules no pulse and ignores the slow-down limit (BANK-MOT-05). After an end that was
+        decided before t, no finish bit is added (BANK-MOT-03).
+        """
         self._stopped = t
         if self._cut is None:
             super().stop(t)
@@ -83,11 +91,11 @@ class Motion(ppmc104.Motion):
             self._cancel("pulse")
 
     def halt(self, t: int) -> None:
-        """STOP acts at edge t on what runs (BANK-GRP-04)."""
+        """Process STOP at edge t for a running motion (BANK-GRP-04)."""
         super().stop(t)
 
     def judge(self, t: int) -> None:
-        """As there; the first decision stands (BANK-MOT-02)."""
+        """Check the stop causes; the first decision is final (BANK-MOT-02)."""
         if self._cut is None:
             super().judge(t)
 
@@ -95,7 +103,7 @@ class Motion(ppmc104.Motion):
         return inspect(GUARD, self._switches, self.operation, self.direction)._replace(slow=False)
 
     def look_after(self, edge: int) -> None:
-        """The slow-down limit, if it is active, is looked at in the first visit from an edge on."""
+        """Check an active slow-down limit in the first visit from an edge on."""
         if self.busy and self.is_ramp and self._slow_active():
             self._context.queue.at(self._visits.first(edge), Phase.GUARD, self._look)
 
@@ -103,7 +111,7 @@ class Motion(ppmc104.Motion):
         return not self._context.levels[GUARD.slow_limits[self.direction]]
 
     def _look(self, t: int) -> None:
-        """Visit t: the slow-down limit (BANK-MOT-05)."""
+        """Check the slow-down limit at visit t (BANK-MOT-05)."""
         if not self.busy or self.finishing or t <= self._began or t == self._stopped:
             return
         if self.is_ramp and self._slow_active() and self._slow_counts():
@@ -116,7 +124,7 @@ class Motion(ppmc104.Motion):
     # ------------------------------------------------------------------ pulses
 
     def position(self, after: int) -> int:
-        """Position register as it stands after an edge (BANK-WIN-07)."""
+        """Return the position register after an edge (BANK-WIN-07)."""
         due = self._next
         ordered = due is not None and self._visits.last(due) <= after < due
         return self._position + (self._step if ordered else 0)
@@ -144,12 +152,15 @@ class Motion(ppmc104.Motion):
     # ------------------------------------------------------------------ end
 
     def _end_now(self, t: int, bits: int) -> None:
-        """No pulse comes from edge t on; the visits get to know (BANK-MOT-02, -03)."""
+        """Cut the motion: no pulse from edge t on. The visits detect it later (BANK-MOT-02, -03)."""
         self._cut, self._stop_bits = t, bits
         self._context.queue.at(self._visits.first(t + END_LEAD), Phase.CHOPPER, self._learn)
 
     def _learn(self, t: int) -> None:
-        """Visit t is the first that knows of the cut. A low time that has begun ends first (BANK-MOT-04)."""
+        """Process visit t, the first one that sees the cut.
+
+        A low time that has begun ends first (BANK-MOT-04).
+        """
         self.finishing = True
         self._cancel("pulse")
         if self._lost:
@@ -161,7 +172,10 @@ class Motion(ppmc104.Motion):
             self._finish(t)
 
     def _plan_end(self, low_ended: int) -> None:
-        """BUSY falls at the first visit after the low time, which is longer than END_LEAD (BANK-MOT-04)."""
+        """Clear BUSY at the first visit after the low time (BANK-MOT-04).
+
+        The low time is longer than END_LEAD.
+        """
         self._context.queue.at(self._visits.first(low_ended + 1), Phase.CHOPPER, self._finish)
 
     def _finish(self, t: int) -> None:
@@ -173,7 +187,7 @@ class Motion(ppmc104.Motion):
         super()._plan_hold(self._visits.first(edge))
 
     def _hold_rises(self, t: int) -> None:
-        """BANK-HLD-01: not at a visit that orders an edge of the chopper."""
+        """Set HOLD at a visit that schedules no edge of the chopper (BANK-HLD-01)."""
         if self._orders(t):
             self._plan_hold(t + 1)
         else:

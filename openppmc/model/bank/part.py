@@ -1,8 +1,11 @@
-"""Golden model of the bank at pin level, event driven and exact to the cycle: N times a PPMC-104 at visits.
+"""Golden model of the bank at pin level: N PPMC-104, served at visits.
 
-Pins and time: `chip`, `clock`. Here: BANK-GEN-01, -02, -05. `window`: BANK-WIN. `chopper`: rounds and their
-lead times, BANK-CHP. `axis`, one for each axis (BANK-GEN-04), with `commands` (BANK-HSK, BANK-GEN-03, BANK-
-INI) and `motion` (BANK-MOT, BANK-HLD). `group`: BANK-GRP. All else is the PPMC-104's.
+It is event driven and cycle-accurate.
+
+`chip` and `clock` have pins and time. Rules by module: this one BANK-GEN-01, -02, -05; `window` BANK-WIN;
+`chopper` rounds with their delays and BANK-CHP; `axis`, one object per axis, BANK-GEN-04; `commands`
+BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. Everything else is that
+of the PPMC-104.
 """
 
 from __future__ import annotations
@@ -22,11 +25,18 @@ SIZES = (4, 8, 16, 32, 64)
 
 
 class PpmcBank(Chip):
-    """One bank.
+    """Bank of PPMC-104. Axes count from 0.
 
-    axes 4, 8, 16, 32 or 64, clk_hz 8e6..200e6, xtal_hz 1e6..16e6, phase_idle 0 or 1; ValueError for anything
-    else and for clocks that BANK-GEN-02 forbids. The model starts just released from reset, before edge 0.
-    Axes count from 0.
+    The model starts just after the release of reset, before edge 0.
+
+    Args:
+        axes: 4, 8, 16, 32 or 64.
+        clk_hz: 8e6..200e6.
+        xtal_hz: 1e6..16e6.
+        phase_idle: 0 or 1.
+
+    Raises:
+        ValueError: another value, or clocks that BANK-GEN-02 forbids.
     """
 
     HOST_PINS = HOST_PINS
@@ -39,23 +49,23 @@ class PpmcBank(Chip):
         phase_idle: int = 1,
     ) -> None:
         if axes not in SIZES:
-            raise ValueError(f"axes {axes} is none of {', '.join(map(str, SIZES))}")
+            raise ValueError(f"axes={axes} is not supported; use one of {', '.join(map(str, SIZES))}")
         if phase_idle not in (0, 1):
             raise ValueError(f"phase_idle {phase_idle} is neither 0 nor 1")
         self.INPUTS, self.WIDTHS = inputs(axes), widths(axes)
         super().__init__(clk_hz, xtal_hz, "FAST", outputs(axes, phase_idle), Latency(motor_pins=0))
         self.round = round_clk(axes)
         if 4 * clk_hz % xtal_hz:
-            raise ValueError(f"clk_hz {clk_hz}: a quantum of {xtal_hz} Hz is no whole number of clk")
+            raise ValueError(f"clk_hz {clk_hz}: a quantum of {xtal_hz} Hz is not a whole number of cycles")
         if self.timebase.cyc(16) < self.round:
             raise ValueError(
-                f"clk_hz {clk_hz}: 16 XTAL cycles of {xtal_hz} Hz are shorter than {self.round} clk"
+                f"clk_hz {clk_hz}: 16 XTAL cycles of {xtal_hz} Hz are shorter than {self.round} cycles"
             )
         self._size, self._phase_idle = axes, phase_idle
         self._build(0)
 
     def _build(self, released: int) -> None:
-        """Fresh blocks in their reset state; `released` is the first edge after the reset."""
+        """Create blocks in their reset state. released: first edge after the reset."""
         self._levels = {pin: self.INPUTS[pin] for pin in SWITCHES}
         self._touched: set[int] = set()
         self._motors = {name: self._reset_levels[name] for name in ("pout_n", "dir", "hold", "s")}
@@ -77,10 +87,10 @@ class PpmcBank(Chip):
         group.members = self._axes
         self._window = Window(self._queue, self.log, self._axes, group, released)
 
-    # ------------------------------------------------------------------ inside of `chip`
+    # ------------------------------------------------------------------ methods that `chip` calls
 
     def _latch(self, t: int) -> None:
-        """Compose the ports of all axes from those on which something happened."""
+        """Update the ports of all axes from the axes in which something happened."""
         if not self._touched:
             return
         pout_n, directions, hold, phases = self._motors.values()
@@ -119,17 +129,20 @@ class PpmcBank(Chip):
         return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a": reg}
 
     def read(self, t: int, reg: int, strobe: int = 6) -> int:
-        """Read cycle at address `reg`; the next access may begin at t + strobe + 3."""
+        """Read the address `reg`; the next access may begin at t + strobe + 3."""
         return super().read(t, reg, strobe)
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     def visit(self, axis: int, edge: int) -> int:
-        """First visit of an axis at or after an edge."""
+        """Return the first visit of an axis at or after an edge."""
         return self._axes[axis].visits.first(edge)
 
     def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (t, level) of one axis's bit of a port of all, from edge `since` on; of `s` its five."""
+        """Return the changes (t, level) of the bits of one axis in a port of all axes.
+
+        `s` has five bits per axis, other ports one. since: first edge.
+        """
         width = PHASES if signal == "s" else 1
         place, ones, changes = width * axis, (1 << width) - 1, []
         level = self.log.initial[signal] >> place & ones
@@ -140,29 +153,29 @@ class PpmcBank(Chip):
         return [(t, bits) for t, bits in changes if t >= since]
 
     def pulses(self, axis: int, since: int = 0) -> list[int]:
-        """Edges of the pulses of an axis: falls of its pout_n (P104-GEN-05)."""
+        """Return the edges of the pulses of an axis: falls of its pout_n (P104-GEN-05)."""
         return [t for t, level in self.bits("pout_n", axis, since) if level == 0]
 
     def busy(self, axis: int) -> bool:
-        """BUSY of an axis."""
+        """Return BUSY of an axis."""
         return self._axes[axis].motion.busy
 
     def status(self, axis: int) -> int:
-        """Status register of an axis."""
+        """Return the status register of an axis."""
         return self._axes[axis].status
 
     def position(self, axis: int) -> int:
-        """Position of an axis after edge `now`, two's complement."""
+        """Return the position of an axis after edge `now`, two's complement."""
         return self._axes[axis].motion.position(self.now)
 
     def initialised(self, axis: int) -> bool:
-        """An initialisation of an axis is in force (its table build may still run)."""
+        """Return True if an initialisation of an axis is active (its table build may still run)."""
         return self._axes[axis].commands.setup is not None
 
     def intervals(self, axis: int) -> list[Interval]:
-        """Intervals of the present or last operation of an axis."""
+        """Return the intervals of the current or last operation of an axis."""
         return self._axes[axis].motion.intervals
 
     def index(self, axis: int) -> int | None:
-        """Ramp index of the running interval of an axis, None at rest and in constant speed."""
+        """Return the ramp index of the running interval; `None` while stopped or at constant speed."""
         return self._axes[axis].motion.index

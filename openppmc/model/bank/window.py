@@ -1,4 +1,4 @@
-"""The window of the bank: strobes, registers, snapshots (BANK-WIN-01..08, BANK-GEN-05)."""
+"""Window of the bank: strobes, registers, snapshots (BANK-WIN-01..08, BANK-GEN-05)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _READY = 7
 
 
 class Window:
-    """Bus strobes to registers and back. released: edge 0 of the bank."""
+    """Accesses of the bus strobes to the registers. released: edge 0 of the bank."""
 
     def __init__(
         self, queue: Scheduler, log: EdgeLog, axes: Sequence[Axis], group: Group, released: int
@@ -41,7 +41,7 @@ class Window:
     # ------------------------------------------------------------------ strobes
 
     def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins (BANK-WIN-04..06)."""
+        """Sample new levels of the bus pins at edge t (BANK-WIN-04..06)."""
         writing, reading = strobes(pins)
         if self._writing and not writing:
             address, byte = self._pins["a"], self._pins["d_i"]
@@ -54,7 +54,7 @@ class Window:
             (self._begin_read if reading else self._end_read)(t, pins["a"])
 
     def _begin_read(self, t: int, address: int) -> None:
-        """The snapshot is taken after edge 2 and shown on edge 4 (BANK-WIN-05)."""
+        """Take the snapshot after edge 2 and output it at edge 4 (BANK-WIN-05)."""
         self._address = address
 
         def look(now: int) -> None:
@@ -85,11 +85,11 @@ class Window:
         return self._axes[number] if number < len(self._axes) else None
 
     def _is_ready(self, after: int) -> bool:
-        """Whether the bank is ready after an edge (BANK-GEN-05)."""
+        """Return True if the bank is ready after an edge (BANK-GEN-05)."""
         return after >= self._ready
 
     def _write(self, t: int, address: int, byte: int) -> None:
-        """Write event t."""
+        """Process write event t."""
         axis, register = self._axis(address), address & 0xF
         if axis is None or not self._is_ready(t - 1):
             return
@@ -105,7 +105,7 @@ class Window:
             self._group.stop(t)
 
     def _register(self, after: int, address: int) -> int:
-        """What a register holds after an edge."""
+        """Return the content of a register after an edge."""
         axis, register, k = self._axis(address), address & 0xF, address >> 4 & 7
         if axis is None or register not in (*range(3), *range(POSITION, INFO + 1)):
             return NOTHING

@@ -1,1 +1,1 @@
-"""What stands around a part: the UART bridge, the carrier, switches along an axis, EEPROM."""
+"""Surroundings of a part: the UART bridge, the carrier, switches along an axis, EEPROM."""

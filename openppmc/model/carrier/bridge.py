@@ -1,8 +1,8 @@
 """Golden model of `ppmc_uart_bridge` at the level of line bytes (docs/uart_bridge.md).
 
-Bit times are left out (UB-LIN-03, -04, UB-BUS-01). What depends on time is told: `receive_bad` for a byte
-with a framing error, `idle` for a silence. Bytes that follow a request in the same `receive` call arrive,
-by definition, while its script runs (UB-FRM-07).
+Bit times are not modelled (UB-LIN-03, -04, UB-BUS-01). The caller reports events that depend on time:
+`receive_bad` for a byte with a framing error, `idle` for a silence. Bytes that follow a request in the same
+`receive` call arrive, by definition, while its script runs (UB-FRM-07).
 """
 
 from __future__ import annotations
@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 from .bridge_ops import BUILD_BYTES, Bus, Engine
 
-# Receiver side of the bridge's golden model: line bytes to requests and faults (UB-FRM-01..06).
-#
-# Written from docs/uart_bridge.md, on purpose without the host package's codec: one checks the other.
+# Receiver of the bridge's golden model: line bytes to requests and faults (UB-FRM-01..06). It is written
+# from docs/uart_bridge.md, deliberately without the codec of the host package, so that one checks the other.
 
 FLAG, ESCAPE = 0x7E, 0x7D
 LONGEST, SHORTEST = 256, 3
@@ -23,7 +22,7 @@ NAK_BUSY, NAK_SEQ = 7, 8
 
 
 def crc(data: bytes) -> int:
-    """CRC-16 of UB-FRM-03, bit by bit: polynomial 1021, start FFFF."""
+    """Return the CRC-16 of UB-FRM-03, bit by bit: polynomial 1021, initial value FFFF."""
     value = 0xFFFF
     for byte in data:
         for bit in range(7, -1, -1):
@@ -35,7 +34,7 @@ def crc(data: bytes) -> int:
 
 
 def frame(payload: bytes) -> bytes:
-    """Line bytes of one frame as the bridge sends it: only 7D and 7E are escaped."""
+    """Return the line bytes of a frame as the bridge sends it: only 7D and 7E are escaped."""
     line = bytearray([FLAG])
     for byte in payload + crc(payload).to_bytes(2, "big"):
         line += bytes([ESCAPE, byte ^ 0x20]) if byte in (FLAG, ESCAPE) else bytes([byte])
@@ -44,42 +43,45 @@ def frame(payload: bytes) -> bytes:
 
 
 class Request(NamedTuple):
-    """A good frame: SEQ and the script."""
+    """Valid frame: SEQ and the script."""
 
     seq: int
     script: bytes
 
 
 class Receiver:
-    """Takes one line byte at a time; `take` returns a Request, a NAK code, or None."""
+    """Receiver of line bytes; `take` returns a Request, a NAK code, or `None`."""
 
     def __init__(self) -> None:
         self.hunt()
 
     def hunt(self) -> None:
-        """Ignore everything up to the next flag (UB-FRM-05)."""
+        """Ignore all bytes up to the next flag (UB-FRM-05)."""
         self._hunting = True
         self._escaped = False
         self._content = bytearray()
 
     @property
     def inside(self) -> bool:
-        """Part of a frame has arrived, so a silence breaks it. A lone 7D counts."""
+        """True if a part of a frame has arrived, so that a silence breaks it. A single 7D counts."""
         return not self._hunting and (self._escaped or bool(self._content))
 
     @property
     def hunting(self) -> bool:
-        """Before the first flag."""
+        """True before the first flag."""
         return self._hunting
 
     def drop(self, nak: int) -> int | None:
-        """A framing error or a silence: the frame is lost; in the hunt nobody is told (UB-FRM-06)."""
+        """Discard the frame after a framing error or a silence (UB-FRM-06).
+
+        Before the first flag, no NAK is returned.
+        """
         hunting = self._hunting
         self.hunt()
         return None if hunting else nak
 
     def take(self, byte: int) -> Request | int | None:
-        """One byte without framing error."""
+        """Process one byte without framing error."""
         if byte == FLAG:
             return self._end()
         if self._hunting:
@@ -117,10 +119,16 @@ INT_PIN = 0x01
 class Bridge:
     """One bridge with its part.
 
-    bus: see `bridge_ops.Bus`. part: number for IDENT. clk_hz: 1..2^32-1, decides which line rates there
-    are. xtal_hz, datasheet, counter: only for IDENT. axes: 1 or 2 pulse counters. build: answer of
-    VERSION, 16 bytes. recorder: the bus has one. Readable: `rate` (code of
-    the present line rate) and `scripts` (number of executed requests).
+    Args:
+        bus: see `bridge_ops.Bus`.
+        part: number in IDENT.
+        clk_hz: 1..2^32-1; it determines the available line rates.
+        xtal_hz, datasheet, counter: values in IDENT only.
+        axes: number of pulse counters, 1 or 2.
+        build: answer to VERSION, 16 bytes.
+        recorder: the bus has a recorder.
+
+    rate: code of the current line rate. scripts: number of executed requests.
     """
 
     def __init__(
@@ -150,7 +158,10 @@ class Bridge:
     # ------------------------------------------------------------------ from the line
 
     def receive(self, data: bytes) -> bytes:
-        """Bytes without framing error arrive; returns the line bytes that the bridge sends in return."""
+        """Process bytes without framing error.
+
+        It returns the line bytes that the bridge sends in response.
+        """
         sent = b""
         place = 0
         while place < len(data):
@@ -170,7 +181,7 @@ class Bridge:
         return sent
 
     def receive_bad(self, data_bits: int) -> bytes:
-        """A character with a low stop bit; data_bits 0 makes it a break (UB-LIN-05, -06)."""
+        """Process a character with a low stop bit; data_bits 0 makes it a break (UB-LIN-05, -06)."""
         self._silent_ms = 0
         nak = self._receiver.drop(NAK_FRAMING)
         if data_bits == 0:
@@ -179,7 +190,7 @@ class Bridge:
         return b"" if nak is None else self._nak(nak)
 
     def idle(self, milliseconds: float) -> bytes:
-        """The line is silent for so long (UB-FRM-06 fault 5, UB-LIN-07)."""
+        """Process a silence of the line (UB-FRM-06 fault 5, UB-LIN-07)."""
         self._silent_ms += milliseconds
         nak = None
         if self._silent_ms >= SILENCE_MS and self._receiver.inside:
@@ -193,7 +204,10 @@ class Bridge:
     # ------------------------------------------------------------------ requests
 
     def _serve(self, request: Request, meanwhile: bool) -> bytes:
-        """Execute or repeat; `meanwhile`: bytes arrive before the answer is out (UB-FRM-07)."""
+        """Execute a request, or repeat its answer.
+
+        meanwhile: bytes arrive before the answer is sent (UB-FRM-07).
+        """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:
             payload = self._stored[1]
@@ -220,14 +234,17 @@ class Bridge:
     # ------------------------------------------------------------------ events
 
     def interrupt(self) -> bytes:
-        """`int_n` falls. Returns the event message, empty if it is disabled or must wait for an answer."""
+        """Process a fall of `int_n`; return the event message.
+
+        It is empty if events are disabled or must wait for an answer.
+        """
         if not self._engine.events:
             return b""
         self._event = True
         return b"" if self._running else self._flush_event()
 
     def _set_events(self, on: bool) -> None:
-        """Op EVENTS (UB-MSG-02)."""
+        """Execute the op EVENTS (UB-MSG-02)."""
         was, self._engine.events = self._engine.events, on
         if not on:
             self._event = False

@@ -1,6 +1,8 @@
-"""Script engine of the bridge's golden model (UB-ANS-02..05, UB-OPS, UB-WAIT and the table of ops).
+"""Script engine of the bridge's golden model.
 
-Every op is checked before it begins (UB-ANS-05): number, operands, length, room for its data.
+Rules: UB-ANS-02..05, UB-OPS, UB-WAIT and the table of ops.
+
+Every op is checked before it begins (UB-ANS-05): number, operands, length, free space for its data.
 """
 
 from __future__ import annotations
@@ -25,25 +27,33 @@ RECORD_END, RECORD_BEGIN, RECORD_REWIND = 0, 1, 2
 
 
 class Bus(Protocol):
-    """The part behind the bridge. `read` and `write` are one bus cycle each.
+    """Part accessed through the bridge. `read` and `write` are one bus access each.
 
-    A bus may also have (missing ones do what is said here): `reset()` nothing; `straps(byte)` nothing;
-    `pins() -> int` FF; `count() -> int` 0, signed; `zero()` nothing; with two axes `count(2)` and `zero(2)`
-    are asked for as well; `now_ms() -> float` the time that the read cycles of this script took;
-    `skip(limit_ms)`, called while a wait goes on: let time pass until a register may read otherwise, at most
-    so long. With a recorder: `record(what)` 0 end, 1 begin, 2 rewind; `recorded() -> bytes` of RECORDED;
+    A bus may also have these methods. Without a method, the bridge behaves as stated:
+
+        reset()             nothing happens
+        straps(byte)        nothing happens
+        pins() -> int       FF
+        count() -> int      0; the count is signed
+        zero()              nothing happens
+        count(2), zero(2)   called with two axes as well
+        now_ms() -> float   time of the read accesses of this script
+        skip(limit_ms)      called during a wait: let at most limit_ms pass until a register may read
+                            differently
+
+    With a recorder: `record(what)` 0 = end, 1 = begin, 2 = rewind; `recorded() -> bytes` of RECORDED;
     `fetch() -> int` the next byte of its records.
     """
 
     def read(self, a: int) -> int:
-        """Byte of register a, 0..15."""
+        """Return the byte of register a, 0..15."""
 
     def write(self, a: int, byte: int) -> None:
-        """Write the byte into register a."""
+        """Write the byte to register a."""
 
 
 class Stop(Exception):  # noqa: N818 - not an error of the program: the script ends here
-    """Execution ends with this RESULT."""
+    """End of the execution with this RESULT."""
 
     def __init__(self, result: int) -> None:
         super().__init__(result)
@@ -51,9 +61,15 @@ class Stop(Exception):  # noqa: N818 - not an error of the program: the script e
 
 
 class Engine:
-    """Runs scripts. `events` is the EVENTS switch, `rate` the rate code that op RATE asked for, or None.
-    set_events(on): op EVENTS; who owns the engine looks after what is pending. build: answer of VERSION.
-    recorder: the bus has one."""
+    """Interpreter of scripts.
+
+    Args:
+        set_events: called by op EVENTS; the owner of the engine handles pending events.
+        build: answer to VERSION.
+        recorder: the bus has a recorder.
+
+    events: state of the EVENTS switch. rate: rate code requested by op RATE, or `None`.
+    """
 
     def __init__(
         self,
@@ -91,7 +107,7 @@ class Engine:
         return default if method is None else method(*arguments)
 
     def run(self, script: bytes, interrupted: Callable[[], bool]) -> tuple[int, int, int, bytes]:
-        """Run a script; returns RESULT, POS, LAST and the data."""
+        """Execute a script; return RESULT, POS, LAST and the data."""
         self._data = bytearray()
         self._last = 0
         self._reads = 0
@@ -109,7 +125,7 @@ class Engine:
     # ------------------------------------------------------------------ one op
 
     def _op(self, rest: bytes) -> int:
-        """Run the op at the beginning of `rest`; returns its length."""
+        """Execute the op at the beginning of `rest`; return its length."""
         code, group, low = rest[0], rest[0] >> 4, rest[0] & 15
         length = self._length(rest)
         if length is None or length > len(rest):
@@ -144,7 +160,7 @@ class Engine:
         return length
 
     def _length(self, rest: bytes) -> int | None:
-        """Length of the op with operands; None if there is no such op or a count is 0."""
+        """Return the length of the op with operands; `None` if the op does not exist or a count is 0."""
         group, low = rest[0] >> 4, rest[0] & 15
         if group == 0:
             return None if low in self._unknown or low not in FIXED_OPERANDS else 1 + FIXED_OPERANDS[low]
@@ -218,13 +234,16 @@ class Engine:
     # ------------------------------------------------------------------ bus and data
 
     def _give(self, make: Callable[[], int]) -> None:
-        """One byte into the answer; refused before it is read when the answer is full."""
+        """Append one byte to the answer.
+
+        If the answer is full, the op is rejected before it reads the byte.
+        """
         if len(self._data) >= MOST_DATA:
             raise Stop(4)
         self._data.append(make())
 
     def _give_all(self, values: bytes) -> None:
-        """All bytes of an op, or none."""
+        """Append all bytes of an op, or no byte."""
         if len(self._data) + len(values) > MOST_DATA:
             raise Stop(4)
         self._data += values
@@ -238,7 +257,7 @@ class Engine:
         return self.hook("now_ms", self._reads * READ_CYCLE_CLK * 1000 / self._clk_hz)
 
     def _wait(self, a: int, mask: int, value: int) -> int:
-        """Read until the masked bits fit (UB-WAIT-01)."""
+        """Read until the masked bits match (UB-WAIT-01)."""
         end = self._now_ms() + self._limit_ms
         while True:
             byte = self._read(a)

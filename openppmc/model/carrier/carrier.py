@@ -1,4 +1,7 @@
-"""A carrier in Python: golden part, pulse counters and plants, in virtual time. The bridge's `Bus`."""
+"""Carrier model: golden part, pulse counters and plants, in virtual time.
+
+It is the `Bus` of the bridge.
+"""
 
 from __future__ import annotations
 
@@ -10,24 +13,28 @@ from typing import Generic, Protocol, TypeVar
 from ..chip import Chip
 from ..clock import Edge
 
-# The motor's surroundings: limit, slow-down, origin and alarm switches along the way of one axis.
+# Surroundings of the motor: limit, slow-down, origin and alarm switches along one axis.
 
 FARTHEST = 1 << 31
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
-"""In the order of the bridge's PINS byte."""
+"""Switches in the order of the bridge's PINS byte."""
 INDEX_AT = -20
-"""One of the places where an encoder has its index: on the cam, off its edge."""
+"""One of the positions of the encoder's index: on the cam, away from its edge."""
 
 
 @dataclass(frozen=True)
 class Plant:
-    """Where the switches of an axis are, in pulses, CW positive; positions are -2^31 .. 2^31-1.
+    """Positions of the switches of an axis, in pulses, CW positive, -2^31 .. 2^31-1.
 
-    cw, ccw: hard limits (active at positions >= cw and <= ccw). slow_cw, slow_ccw: slow-down limits (>= and
-    <=). origin: active at positions <= origin and, with a cam, >= origin_from. alarm: active from the first
-    to the last of the two positions. index: the encoder's index is active once in so many pulses, at -20;
-    0: never. block: what the axle cannot pass CW, so that the encoder stands while pulses go on; None:
-    nothing.
+    Attributes:
+        start: position of the motor at the beginning.
+        cw, ccw: hard limits, active at positions >= cw and <= ccw.
+        slow_cw, slow_ccw: slow-down limits, active at positions >= slow_cw and <= slow_ccw.
+        origin: active at positions <= origin and, with a cam, >= origin_from.
+        alarm: active from the first to the second of these positions.
+        index: period of the encoder's index in pulses, one index at -20; 0: no index.
+        block: position that the axle cannot pass in direction CW; the encoder then stops while pulses
+            continue. `None`: no such position.
     """
 
     start: int = 4000
@@ -42,15 +49,15 @@ class Plant:
     block: int | None = None
 
     def steps(self, position: int, ccw: int) -> bool:
-        """Whether the axle follows a pulse."""
+        """Return True if the axle follows a pulse."""
         return bool(ccw) or self.block is None or position < self.block
 
     def index_level(self, position: int) -> int:
-        """Level of the encoder's index, 0 = active."""
+        """Return the level of the encoder's index, 0 = active."""
         return int(not self.index or (position - INDEX_AT) % self.index != 0)
 
     def levels(self, position: int) -> dict[str, int]:
-        """Levels of the switches at a position, 0 = active."""
+        """Return the levels of the switches at a position, 0 = active."""
         alarm = self.alarm is not None and self.alarm[0] <= position <= self.alarm[1]
         return {
             "limit_cw": int(position < self.cw),
@@ -70,22 +77,25 @@ P_co = TypeVar("P_co", bound=Chip, covariant=True)
 
 
 class Place(Protocol):
-    """Where the switches of an axis are."""
+    """Positions of the switches of an axis."""
 
     @property
     def start(self) -> int:
-        """Where the motor is at first."""
+        """Position of the motor at the beginning."""
 
     def levels(self, position: int) -> dict[str, int]:
-        """Levels of the switches at a position."""
+        """Return the levels of the switches at a position."""
 
 
 class Carrier(ABC, Generic[P_co]):
-    """A part whose motors follow `pout_n` and `dir`, one plant an axis.
+    """Part whose motors follow `pout_n` and `dir`, with one plant per axis.
 
-    `t` is the next free clk edge. `positions` are the motors',
-    `counts` the pulse counters'. on_interrupt: called when the pin INTERRUPT falls. ADDRESS_BITS: lines of
-    the bridge's address that are wired.
+    Attributes:
+        t: next free edge of `clk`.
+        positions: positions of the motors.
+        counts: values of the pulse counters.
+        on_interrupt: called when the pin INTERRUPT falls.
+        ADDRESS_BITS: number of connected address lines of the bridge.
     """
 
     ADDRESS_BITS = 1
@@ -107,19 +117,19 @@ class Carrier(ABC, Generic[P_co]):
 
     @abstractmethod
     def switch_pins(self, levels: Sequence[dict[str, int]]) -> dict[str, int]:
-        """Input pins of the part from the switch levels of each axis."""
+        """Return the input pins of the part for the switch levels of each axis."""
 
     @abstractmethod
     def straps(self, levels: int) -> None:
-        """Levels of `straps_o`."""
+        """Set the levels of `straps_o`."""
 
     @abstractmethod
     def pins(self) -> int:
-        """Levels of `pins_i`."""
+        """Return the levels of `pins_i`."""
 
     @property
     def position(self) -> int:
-        """Motor of axis 1."""
+        """Position of the motor of axis 1."""
         return self.positions[0]
 
     @property
@@ -129,7 +139,7 @@ class Carrier(ABC, Generic[P_co]):
 
     @abstractmethod
     def shown(self) -> object:
-        """What the register that waits look at would show now."""
+        """Return the current content of the register that a wait polls."""
 
     def _levels(self) -> list[dict[str, int]]:
         return [plant.levels(at) for plant, at in zip(self.plants, self.positions, strict=True)]
@@ -137,7 +147,7 @@ class Carrier(ABC, Generic[P_co]):
     # ------------------------------------------------------------------ time
 
     def run_until(self, t: int, stop: Callable[[], bool] = lambda: False) -> None:
-        """Let time pass up to edge t, or less far if `stop()` becomes true at an event."""
+        """Run to edge t, or to the first event at which `stop()` is true."""
         part = self.part
         while (edge := self._next_event()) is not None and edge < t:
             part.run_until(edge)
@@ -148,7 +158,7 @@ class Carrier(ABC, Generic[P_co]):
         self.t = max(self.t, t)
 
     def _next_event(self) -> int | None:
-        """Edge of the next event of part or carrier."""
+        """Return the edge of the next event of part or carrier."""
         return self.part.next_event
 
     def _watch(self) -> None:
@@ -157,7 +167,8 @@ class Carrier(ABC, Generic[P_co]):
         if not log.edges:
             return
         edges = log.edges[:]
-        # The log begins anew here: with its levels, or a change that two axes make together gets lost.
+        # The log starts again here, with its current levels; otherwise a change of two axes at the same
+        # edge would be lost.
         log.edges.clear()
         log.initial.update(log.levels)
         before = self.positions[:]
@@ -170,7 +181,7 @@ class Carrier(ABC, Generic[P_co]):
                 self.part.pins(self.part.now + 1, **self.switch_pins(levels))
 
     def _follow(self, edge: Edge) -> None:
-        """One output edge; bit n of `dir` and `pout_n` belongs to axis n + 1."""
+        """Process one output edge; bit n of `dir` and `pout_n` belongs to axis n + 1."""
         if edge.signal == self.INTERRUPT and not edge.value:
             self.on_interrupt()
         elif edge.signal == "dir":
@@ -182,19 +193,19 @@ class Carrier(ABC, Generic[P_co]):
                     self._step(n, -1 if self._directions[n] else 1)
 
     def _step(self, n: int, step: int) -> None:
-        """Motor n goes one step, 1 CW or -1 CCW."""
+        """Move motor n by one step, 1 (CW) or -1 (CCW)."""
         self.positions[n] += step
         self.counts[n] += step
 
     def _settle(self) -> None:
-        """Everything before the next access has happened."""
+        """Run all events before the next access."""
         self.run_until(self.t)
         self.t = max(self.t, self.part.now + 1)
 
-    # ------------------------------------------------------------------ as the bridge sees it
+    # ------------------------------------------------------------------ accesses of the bridge
 
     def read(self, a: int) -> int:
-        """One read cycle."""
+        """Execute one read access."""
         self._settle()
         self._seen = self.shown()
         value = self.part.read(self.t, a % (1 << self.ADDRESS_BITS), READ_STROBE)
@@ -203,14 +214,14 @@ class Carrier(ABC, Generic[P_co]):
         return value
 
     def write(self, a: int, byte: int) -> None:
-        """One write cycle."""
+        """Execute one write access."""
         self._settle()
         self.part.write(self.t, a % (1 << self.ADDRESS_BITS), byte, WRITE_STROBE)
         self._watch()
         self.t += WRITE_STROBE + PAUSE
 
     def reset(self) -> None:
-        """Reset of the part; motors and counters stay."""
+        """Reset the part; motors and counters are unchanged."""
         self._settle()
         self.part.pins(self.t, rst_n=0)
         self._watch()
@@ -220,33 +231,33 @@ class Carrier(ABC, Generic[P_co]):
         self._directions = [0 for _ in self.plants]
 
     def set_pins(self, **levels: int) -> None:
-        """Input pins of the part, from the next edge on."""
+        """Set input pins of the part from the next edge on."""
         self._settle()
         self.part.pins(self.t, **levels)
         self.t += 1
 
     def pin_byte(self, hold: int, axis: int) -> int:
-        """int_n, hold and the six switches of an axis (0 = axis 1), from bit 0 up."""
+        """Return int_n, hold and the six switches of an axis (0 = axis 1), from bit 0 up."""
         switches = sum(self._switches[axis][name] << place for place, name in enumerate(SWITCHES))
         return self.part.outputs[self.INTERRUPT] | hold << 1 | switches << 2
 
     def count(self, axis: int = 1) -> int:
-        """Pulse counter, wraps at 32 bits in the answer."""
+        """Return the pulse counter; it wraps at 32 bits in the answer."""
         self._settle()
         return self.counts[axis - 1]
 
     def zero(self, axis: int = 1) -> None:
-        """Pulse counter to 0."""
+        """Set the pulse counter to 0."""
         self._settle()
         self.counts[axis - 1] = 0
 
     def now_ms(self) -> float:
-        """Virtual time in ms."""
+        """Return the virtual time in ms."""
         return self.t * 1000 / self.clk_hz
 
     def skip(self, limit_ms: float) -> None:
-        """Go to the event that changes what waits look at, or to the limit."""
-        before = self._seen  # before the last read, during which it may have changed
+        """Run to the event that changes the polled register, or to the limit."""
+        before = self._seen  # before the last read, during which the register may have changed
         limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
         if self.shown() == before:
             self.run_until(limit, stop=lambda: self.shown() != before)

@@ -1,7 +1,9 @@
-"""A serial EEPROM of the 24C32 class at its pins: 4096 bytes, pages of 32, write time, acknowledge polling.
+"""Serial EEPROM of the 24C32 class at pin level.
 
-The device looks at the levels of both lines at clk edges; what it pulls changes at the same edge. Call `look`
-at every edge whose levels differ from those of the edge before, and at `due`; between them nothing happens.
+It has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
+
+The device samples both lines at edges of `clk`; a line that it pulls changes at the same edge. Call `look` at
+every edge whose levels differ from those of the previous edge, and at `due`; nothing happens between them.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ BLANK = 0xFF
 
 
 class Written(NamedTuple):
-    """A page write: edge of its STOP, address of its first byte, the bytes in the order they came."""
+    """Page write: edge of its STOP, address of its first byte, bytes in the order of reception."""
 
     t: int
     address: int
@@ -21,14 +23,24 @@ class Written(NamedTuple):
 
 
 class Eeprom24C32:
-    """One device, just powered up.
+    """Device just after power-up.
 
-    clk_hz: clk a second. content: at most 4096 bytes from address 0, the rest is FF. device: 7-bit address.
-    write_us: time of a write cycle, 0 or more. stretch_us: how long SCL is held low behind each acknowledge.
-    missing: nothing is there. Raises ValueError for too much content.
+    Args:
+        clk_hz: cycles per second.
+        content: at most 4096 bytes from address 0; the rest is FF.
+        device: 7-bit address.
+        write_us: time of a write cycle, 0 or more.
+        stretch_us: time that SCL is held low after each acknowledge.
+        missing: no device is connected.
 
-    sda, scl: 1 while the device pulls the line low. `memory` is the content, `writes` all page writes.
-    stuck_sda, stuck_scl hold a line low; set them at any time, they count from the next `look` on.
+    Raises:
+        ValueError: the content is too long.
+
+    Attributes:
+        sda, scl: 1 while the device pulls the line low.
+        memory: content.
+        writes: all page writes.
+        stuck_sda, stuck_scl: hold a line low; a change is effective from the next `look` on.
     """
 
     def __init__(
@@ -65,15 +77,15 @@ class Eeprom24C32:
         self._page: list[int] = []
 
     def occupy(self, until: int) -> None:
-        """A write cycle that somebody else has begun ends at this edge."""
+        """End a write cycle that another device has started at this edge."""
         self._busy_until = until
 
     def busy(self, t: int) -> bool:
-        """Whether a write cycle is under way at edge t."""
+        """Return True if a write cycle is in progress at edge t."""
         return t < self._busy_until
 
     def look(self, t: int, scl: int, sda: int) -> None:
-        """Levels of the lines at edge t, whoever pulls them."""
+        """Process the levels of the lines at edge t, which any device may pull."""
         if self.due is not None and t >= self.due:
             self.due, self._hold = None, 0
         before, self._lines = self._lines, (scl, sda)
@@ -97,7 +109,10 @@ class Eeprom24C32:
         self._phase = "device"
 
     def _stop(self, t: int) -> None:
-        """Ends everything; a write begins if whole bytes have come. The rise of SCL looked like a bit."""
+        """End the transfer; a write cycle begins if whole bytes were received.
+
+        The rise of SCL before a STOP was counted as a bit.
+        """
         if self._phase == "data" and self._page and self._bits <= 1:
             first = self._address
             for place, byte in enumerate(self._page):
@@ -110,7 +125,7 @@ class Eeprom24C32:
     # ------------------------------------------------------------------ bits
 
     def _rise(self, sda: int) -> None:
-        """A bit: eight of a byte, then the acknowledge of whoever listens."""
+        """Process a bit: eight bits of a byte, then the acknowledge of the receiver."""
         if self._phase == "":
             return
         self._bits += 1
@@ -138,7 +153,7 @@ class Eeprom24C32:
             self._pull = ~self._sent >> 7 - self._bits & 1
 
     def _byte(self, t: int) -> None:
-        """The eighth bit has gone; from now to the next fall is the acknowledge."""
+        """Process the end of the eighth bit; the acknowledge lasts from now to the next fall."""
         byte = self._shift
         if self._phase == "read":
             self._pull = 0

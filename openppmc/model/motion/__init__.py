@@ -1,1 +1,1 @@
-"""Motion of one axis as the whole family has it: ramp, operation, guard, excitation, chopper."""
+"""Motion of one axis, common to the PPMC family: ramp, operation, guard, excitation, chopper."""

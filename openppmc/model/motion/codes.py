@@ -1,4 +1,4 @@
-"""Instruction kinds, operation numbers and end-status bits that the parts of the family share."""
+"""Instruction kinds, operation numbers and end-status bits of the PPMC family."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FINISH_NEW, FINISH_STOP, FINISH_ALARM, FINISH_LIMIT, FINISH_SLOW = 0x80, 0x40, 0
 
 
 class Kind(Enum):
-    """What a command code asks for."""
+    """Meaning of a command code."""
 
     UNDEFINED = "undefined"
     INITIALISE = "initialisation"
@@ -40,8 +40,13 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Command:
-    """A decoded command byte. `parameters`: data bytes to follow. operation, pulse_only, masked and
-    direction belong to operations; `axis` counts from 0 and stays 0 on a single-axis part."""
+    """Decoded command byte.
+
+    Attributes:
+        parameters: number of data bytes that follow.
+        operation, pulse_only, masked, direction: of operations only.
+        axis: number of the axis from 0; 0 on a part with one axis.
+    """
 
     kind: Kind
     code: int
@@ -54,7 +59,10 @@ class Command:
 
 
 def operation_command(code: int, axis: int = 0) -> Command:
-    """An operation: bit 4 masks the end interrupt, bit 3 is the direction, bit 7 pulses only."""
+    """Return the command of an operation code.
+
+    Bit 4 masks the end interrupt, bit 3 is the direction, and bit 7 means pulses only.
+    """
     low = code & 7
     return Command(
         Kind.OPERATION,
@@ -68,7 +76,7 @@ def operation_command(code: int, axis: int = 0) -> Command:
     )
 
 
-# What ends or slows which operation: P104-LIM-02..06, P2104-LIM-02..07 and their tables.
+# Causes that end or decelerate each operation: P104-LIM-02..06, P2104-LIM-02..07 and their tables.
 
 
 class GuardPins(NamedTuple):
@@ -86,8 +94,13 @@ class GuardPins(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """Causes active on an edge: `bits` are end-status bits of limit and alarm, `origin` counts for origin
-    searches only, `slow` is the slow-down limit."""
+    """Causes active at an edge.
+
+    Attributes:
+        bits: end-status bits of limit and alarm.
+        origin: counts for origin searches only.
+        slow: slow-down limit.
+    """
 
     bits: int = 0
     origin: bool = False
@@ -95,12 +108,15 @@ class Seen(NamedTuple):
 
     @property
     def ends(self) -> bool:
-        """Whether the motion ends now."""
+        """True if the motion ends now."""
         return bool(self.bits) or self.origin
 
 
 def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, direction: int) -> Seen:
-    """Judge the synchronised levels for an operation (low three code bits) and its direction."""
+    """Evaluate the synchronised levels for an operation and its direction.
+
+    operation: lowest three bits of the code.
+    """
     bits = 0
     if not levels[pins.limits[direction]]:
         bits |= FINISH_LIMIT
@@ -111,5 +127,5 @@ def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, directio
 
 
 def input_register(levels: Mapping[str, int], bits: Mapping[int, str]) -> int:
-    """Byte of the control input read: pin levels by bit number."""
+    """Return the byte of the control input read: pin levels by bit number."""
     return sum(levels[pin] << bit for bit, pin in bits.items())

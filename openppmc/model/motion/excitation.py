@@ -1,8 +1,8 @@
-"""Phase excitation: which phases are energised at each index, made from the definition of the drive.
+"""Phase excitation: energised phases at each index, derived from the definition of the drive.
 
-P104-PHS-01..06 and section 6.1: neighbours of a ring of 3, 4 or 5 phases are energised; full step always
-two, half step alternately two and one (3- and 4-phase) or two and three (5-phase). Patterns are integers,
-bit 0 = S1.
+P104-PHS-01..06 and section 6.1: neighbours of a ring of 3, 4 or 5 phases are energised. Full step always
+energises two, half step alternately two and one (3- and 4-phase) or two and three (5-phase). Patterns are
+integers, bit 0 = S1.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ ALL_PHASES = 0b11111
 
 
 def step_list(phases: int, half: bool) -> tuple[int, ...]:
-    """Energised phases by index, 1 = on. phases: 3, 4 or 5 (ValueError otherwise)."""
+    """Return the energised phases by index, 1 = on. Raises ValueError if phases is not 3, 4 or 5."""
     if phases not in (3, 4, 5):
         raise ValueError(f"{phases} phases")
 
@@ -28,15 +28,17 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
     for first in range(phases):
         steps.append(ring(first, 2))
         if half:
-            # Between two full steps: the phase they share (1-2 phase), or all three (2-3 phase).
+            # Between two full steps: the phase that they share (1-2 phase), or all three (2-3 phase).
             steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
     return tuple(steps)
 
 
 def step_directions() -> dict[tuple[int, int], int]:
-    """(pin levels before, after) of one step of any motor, in either logic: 1 CW, -1 CCW.
+    """Return the directions of steps by (pin levels before, after): 1 CW, -1 CCW.
 
-    Two levels that follow each other in several motors do so in the same direction.
+    The table is valid for any motor and logic.
+
+    Two successive levels that occur in several motors have the same direction in all of them.
     """
     found: dict[tuple[int, int], int] = {}
     for phases, half, off in product((3, 4, 5), (False, True), (0, ALL_PHASES)):
@@ -61,25 +63,28 @@ class Excitation:
         self._steps: tuple[int, ...] = (0,)
 
     def configure(self, phases: int, half: bool, positive: bool) -> None:
-        """First accepted initialisation: freeze type, method and logic, go to index 0 (P104-PHS-03)."""
+        """Process the first accepted initialisation (P104-PHS-03).
+
+        It fixes type, method and logic, and sets index 0.
+        """
         self._steps = step_list(phases, half)
         self.positive = positive
         self.index = 0
         self.energised = True
 
     def off(self) -> None:
-        """Excitation OFF: the pins rest at the off level of the logic in force (P104-PHS-05)."""
+        """Switch the excitation off: the pins stay at the off level of the active logic (P104-PHS-05)."""
         if self.energised:
             self._rest = self.off_level
             self.energised = False
 
     def step(self, direction: int) -> None:
-        """One pulse: CW (0) forward, CCW (1) back (P104-OPR-05)."""
+        """Process one pulse: CW (0) forward, CCW (1) back (P104-OPR-05)."""
         self.index = (self.index + (-1 if direction else 1)) % len(self._steps)
 
     @property
     def off_level(self) -> int:
-        """All five pins off in the logic in force (P104-PHS-01)."""
+        """Level of all five pins when off, in the active logic (P104-PHS-01)."""
         return 0 if self.positive else ALL_PHASES
 
     @property
@@ -95,20 +100,22 @@ class Excitation:
         return self.off_level if self.energised else self._rest
 
 
-# Stop-time switching of the phase outputs (P104-SW-01..07, P2104-SW-01..05).
+# Chopping of the phase outputs at standstill (P104-SW-01..07, P2104-SW-01..05).
 
 
 class Switching(Protocol):
-    """The times of a part."""
+    """Chopper times of a part."""
 
     def quanta(self, on: bool) -> int:
-        """Length in quanta of an ON or OFF phase that begins now."""
+        """Return the length in quanta of an ON or OFF phase that begins now."""
 
 
 class Chopper:
-    """Alternates ON and OFF phases, counted in ticks of the quantum counter, while it is allowed to run.
+    """Chopper: alternates ON and OFF phases while it runs.
 
-    `due`: edge on which the next phase begins, None while it does not run.
+    Phases are counted in ticks of the quantum counter.
+
+    due: edge at which the next phase begins, `None` while the chopper does not run.
     """
 
     def __init__(self, context: Context, times: Switching) -> None:
@@ -126,7 +133,7 @@ class Chopper:
         self._plan()
 
     def stop(self) -> None:
-        """Full pattern, no switching (P104-SW-03)."""
+        """Stop the chopper: full pattern, no switching (P104-SW-03)."""
         if self._event:
             self._event.cancel()
             self._event = None
@@ -139,7 +146,7 @@ class Chopper:
         self._event = self._context.queue.at(self.due, Phase.CHOPPER, self._boundary)
 
     def _length(self) -> int:
-        """Quanta of the phase that begins now."""
+        """Return the quanta of the phase that begins now."""
         return self._times.quanta(self.on)
 
     def _boundary(self, t: int) -> None:

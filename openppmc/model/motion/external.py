@@ -1,6 +1,6 @@
 """Intervals counted in edges of the external base clock.
 
-P104-INT-01, -03, P104-TIM-05, P104-BCK-04; P2104-BCK-04, P2104-TIM-05.
+Rules: P104-INT-01, -03, P104-TIM-05, P104-BCK-04; P2104-BCK-04, P2104-TIM-05.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from ..clock import Timebase
 
 
 class ExternalInterval:
-    """Counts effective base edges from pulse to pulse; times are clk edges.
+    """Counter of effective base edges from pulse to pulse; times are edges of `clk`.
 
-    plain: vsel level of the operation. 1: pulse on the (rate+1)-th edge after the last one. 0: the edges
-    are counted from the first one at or after the pulse, and the pulse is put off by what 7.5 us leave
-    after the wait for that first edge (P104-INT-03).
+    plain: vsel level of the operation. With 1 the pulse occurs at edge number rate+1 after the last pulse.
+    With 0 the edges are counted from the first one at or after the pulse, and the pulse is delayed by 7.5 us
+    minus the wait for that first edge (P104-INT-03).
     """
 
     def __init__(self, timebase: Timebase, plain: bool) -> None:
@@ -23,7 +23,10 @@ class ExternalInterval:
         self.begin(0, 0, False)
 
     def begin(self, t: int, rate: int, on_edge: bool) -> None:
-        """A pulse at edge t opens an interval; on_edge: a base edge is effective on this very edge."""
+        """Begin an interval with a pulse at edge t.
+
+        on_edge: a base edge is effective at the same edge.
+        """
         self.edges = 0
         self._need = rate + 1
         self._pulse = t
@@ -31,10 +34,15 @@ class ExternalInterval:
         self._delayed = False
 
     def rise(self, t: int, gap: int | None, low: bool) -> int | None:
-        """A base edge, `gap` clk after the one before (None: the first ever).
+        """Process a base edge.
 
-        Returns the clk from here to the next pulse, None if this edge makes none. An edge that would
-        make a pulse while pout_n is still low is not counted.
+        An edge that would make a pulse while pout_n is still low is not counted.
+
+        Args:
+            gap: cycles since the previous base edge, `None` for the first one ever.
+
+        Returns:
+            Cycles from this edge to the next pulse, `None` if this edge makes no pulse.
         """
         if self._delayed:
             return None

@@ -1,9 +1,11 @@
-"""Motion of one axis: one operation from its start edge to its end; what the family has in common.
+"""Motion of one axis: one operation from its start edge to its end.
+
+This module has the behaviour that the PPMC family shares.
 
 Intervals: P104-BCK-01..03, P104-INT-01..03, P104-PRO-04..06 (P2104-BCK, -INTV, -PRO). Forced deceleration:
-P104-FDC-01..05. Pulse shape: P104-TIM-02..06. Ends: P104-END-01..08. Inputs: P104-LIM-01..09 (which input
-does what: `guard`). When an operation may start, what a stop does and the DATASHEET times: the
-part's own `motion`.
+P104-FDC-01..05. Pulse shape: P104-TIM-02..06. Ends: P104-END-01..08. Inputs: P104-LIM-01..09 (`codes` defines
+the effect of each input). The `motion` module of each part defines when an operation may start, the effect of
+a stop, and the DATASHEET times.
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ OnEnd = Callable[[int, bool], None]
 
 
 class Setup(NamedTuple):
-    """What an accepted initialisation leaves for operations."""
+    """Settings of an accepted initialisation for operations."""
 
     ramp: Ramp
     external: bool
@@ -43,8 +45,10 @@ class Setup(NamedTuple):
 
 @dataclass(slots=True)
 class Interval:
-    """Interval `number` (from pulse `number` on): ramp index (None: constant speed), rate, length in
-    quanta (None: external clock)."""
+    """Interval `number` (from pulse `number` on).
+
+    index: ramp index, `None` at constant speed. quanta: length, `None` with the external clock.
+    """
 
     number: int
     index: int | None
@@ -53,14 +57,18 @@ class Interval:
 
 
 class Motion:
-    """The one operation an axis can have; busy, index, done, intervals, finish, remaining are public.
+    """Operation of an axis; busy, index, done, intervals, finish, remaining are public.
 
-    guard: names of the switches in context.levels. on_end(t, masked): called when BUSY falls, masked as
-    the operation said. hold_cycles: XTAL cycles from there to HOLD.
+    Args:
+        guard: names of the switches in context.levels.
+        on_end: on_end(t, masked) is called when BUSY falls; masked is that of the operation.
+
+    hold_cycles: crystal cycles from the fall of BUSY to HOLD.
     """
 
     hold_cycles: int
-    # A deceleration request at the start-up rate ends the operation at once (P2104-FDC-02, STMC-DEC-03).
+    # True if a deceleration request at the start-up rate ends the operation immediately (P2104-FDC-02,
+    # STMC-DEC-03).
     stops_at_start_speed: ClassVar[bool] = False
 
     def __init__(
@@ -88,7 +96,10 @@ class Motion:
     def _load(self, command: Command, data: list[int], setup: Setup, csel: int, plain: bool) -> None:
         """Latch an operation at its C-event (P104-OPR-01, P104-BCK-02).
 
-        data: its bytes, rate before count. csel: level of the pin. plain: no extra time in an interval.
+        Args:
+            data: its bytes, rate before count.
+            csel: level of the pin.
+            plain: no extra time in an interval.
         """
         self.operation = command.operation
         self._command = command
@@ -104,7 +115,7 @@ class Motion:
         self._external = ExternalInterval(self._context.timebase, plain) if waits else None
 
     def _begin(self, t: int) -> None:
-        """Start edge: BUSY rises, hold and dir follow."""
+        """Process the start edge: BUSY rises, hold and dir follow."""
         self.busy, self.finishing = True, False
         self.hold, self.direction = 0, self._command.direction
         self.done, self.index = 0, None
@@ -117,7 +128,7 @@ class Motion:
         self._context.queue.at(t + 1, Phase.GUARD, self.judge)
 
     def _arm(self, first: int) -> None:
-        """Pulse 1 is due at edge `first`, or with the first base edge from there on."""
+        """Schedule pulse 1 at edge `first`, or at the first base edge from there on."""
         if self._external:
             self._armed_from = first
         else:
@@ -133,34 +144,34 @@ class Motion:
 
     @property
     def is_ramp(self) -> bool:
-        """011 and 110 types."""
+        """True for types 011 and 110."""
         return self.operation in RAMP_OPERATIONS
 
     @property
     def external(self) -> bool:
-        """An operation runs that counts the external clock."""
+        """True while an operation runs that counts the external clock."""
         return self.busy and self._external is not None
 
     @property
     def decelerating(self) -> bool:
-        """State DEC: flagged, or slowing down by count."""
+        """State DEC: flagged, or decelerating by count."""
         return self.busy and not self.finishing and (self._flag_edge is not None or self._natural)
 
     @property
     def high(self) -> bool:
-        """State HIGH: the running interval has index PA and nothing is flagged (P104-PRO-06)."""
+        """State HIGH: the running interval has index PA and no flag is set (P104-PRO-06)."""
         return self.is_ramp and self.index == self._setup.ramp.pa and not self.decelerating
 
     # ------------------------------------------------------------------ stop commands and inputs
 
     def stop(self, t: int) -> None:
-        """Immediate stop taken (P104-STP-01, -05, -08)."""
+        """Process an accepted immediate stop (P104-STP-01, -05, -08)."""
         if not self.finishing:
             self._stop_wanted = True
             self._context.queue.at(t, Phase.GUARD, self.judge)
 
     def judge(self, t: int) -> None:
-        """Guard at edge t: immediate ends first, then the slow-down limit (P104-LIM-01..09)."""
+        """Check the guard at edge t: immediate ends first, then the slow-down limit (P104-LIM-01..09)."""
         if not self.busy or self.finishing or t <= self._began:
             return
         seen = self._seen(t)
@@ -170,24 +181,25 @@ class Motion:
             self._request(self._slow_edge(t), "slow", FINISH_SLOW)
 
     def _seen(self, t: int) -> Seen:
-        """What the switches say at edge t."""
+        """Return the causes that the switches indicate at edge t."""
         return inspect(self._guard, self._context.levels, self.operation, self.direction)
 
     def _slow_counts(self) -> bool:
-        """Whether an active slow-down limit sets the flag."""
+        """Return True if an active slow-down limit sets the flag."""
         return self._flag_edge is None and "slow" not in self._events
 
     def _slow_edge(self, t: int) -> int:
-        """Edge on which a slow-down limit seen at edge t acts."""
+        """Return the edge at which a slow-down limit sampled at edge t acts."""
         return t
 
     def _request(self, at: int, name: str, bit: int) -> None:
-        """Forced deceleration asked for by `name` acts at edge `at`."""
+        """Schedule the forced deceleration that `name` requests at edge `at`."""
         self._events[name] = self._context.queue.at(at, Phase.FLAG, lambda now: self._flag(now, bit))
 
     def _flag(self, t: int, bit: int) -> None:
-        """Set the forced-deceleration flag; two requests on one edge both count (P104-LIM-09)."""
-        if self._flag_edge == t:  # The other request of this edge came first and may have ended the motion.
+        """Set the forced-deceleration flag; two requests at one edge both count (P104-LIM-09)."""
+        # The other request of this edge was processed first and may have ended the motion.
+        if self._flag_edge == t:
             self._flag_bits |= bit
             return
         if self.finishing or not self.busy or self._natural or self._flag_edge is not None:
@@ -199,19 +211,19 @@ class Motion:
 
     @property
     def _at_start_speed(self) -> bool:
-        """The running interval has the start-up rate, wherever on the ramp it lies."""
+        """True if the running interval has the start-up rate, at any place of the ramp."""
         ramp = self._setup.ramp
         return self.index is not None and ramp.rate(self.index) == ramp.rl
 
     def _end_now(self, t: int, bits: int) -> None:
-        """Immediate end decided at edge t (P104-END-02, -04)."""
+        """Process an immediate end decided at edge t (P104-END-02, -04)."""
         self.finishing = True
         self._stop_bits = bits
         self._cancel("pulse")
         self._decided(t)
 
     def _decided(self, t: int) -> None:
-        """Plan the end of a motion cut at edge t; FAST: when the low time is over."""
+        """Schedule the end of a motion cut at edge t; with FAST timing it follows the low time."""
         self._end_after = t + self._context.latency.imm_end
         if not self.low:
             self._plan_end(self._low_ended)
@@ -219,7 +231,7 @@ class Motion:
     # ------------------------------------------------------------------ pulses
 
     def base_rise(self, t: int) -> None:
-        """Effective rising edge of the external clock (P104-TIM-03, P104-BCK-04)."""
+        """Process an effective rising edge of the external clock (P104-TIM-03, P104-BCK-04)."""
         gap = None if self._last_rise is None else t - self._last_rise
         self._last_rise = t
         external = self._external
@@ -244,12 +256,12 @@ class Motion:
             self._cut_low(t)
 
     def base_fall(self, t: int) -> None:
-        """Effective falling edge of the external clock (P104-TIM-05 c)."""
+        """Process an effective falling edge of the external clock (P104-TIM-05 c)."""
         if self.low and self._cut_on_fall:
             self._cut_low(t)
 
     def _pulse(self, t: int, gap: int | None = None, on_edge: bool = False) -> None:
-        """Pulse event at edge t (P104-TIM-04, P104-PRO-04)."""
+        """Process the pulse event at edge t (P104-TIM-04, P104-PRO-04)."""
         context = self._context
         if not self.busy or self.finishing:
             return
@@ -274,16 +286,16 @@ class Motion:
         self._interval_begun(t)
 
     def _put_out(self, t: int, rate: int | None, gap: int | None) -> None:
-        """The pins of a pulse: next pattern, pout_n low."""
+        """Set the pins of a pulse: next pattern, pout_n low."""
         if not self._command.pulse_only:
             self._excitation.step(self.direction)
         self._begin_low(t, rate, gap)
 
     def _interval_begun(self, t: int) -> None:
-        """A pulse event at edge t has opened an interval."""
+        """Process the beginning of an interval at the pulse event of edge t."""
 
     def _next_rate(self, t: int) -> int | None:
-        """Rate of the interval that pulse `done` opens, None if it was the last."""
+        """Return the rate of the interval that begins with pulse `done`, `None` after the last pulse."""
         left = self._total - self.done
         if not self.is_ramp:
             return self._rate if left else None
@@ -296,7 +308,7 @@ class Motion:
         return None if index is None else ramp.rate(index)
 
     def _begin_low(self, t: int, rate: int | None, gap: int | None) -> None:
-        """pout_n goes low; the length is fixed here (P104-TIM-05)."""
+        """Set pout_n low; the length of the low time is fixed here (P104-TIM-05)."""
         timebase = self._context.timebase
         length, self._cut_at, self._cut_on_fall = timebase.w, 0, False
         if rate is not None and self._plain:
@@ -324,10 +336,10 @@ class Motion:
     # ------------------------------------------------------------------ end
 
     def _train_over(self, t: int) -> None:
-        """All N pulses are out at edge t, or the tail of a forced deceleration is."""
+        """Process edge t, at which the last pulse was output, also after a forced deceleration."""
 
     def _ends_with_low(self) -> bool:
-        """FAST: BUSY falls with the end of the last low time."""
+        """Return True if BUSY falls at the end of the last low time (FAST timing)."""
         return True
 
     def _plan_end(self, low_ended: int) -> None:
@@ -336,7 +348,7 @@ class Motion:
         self._context.queue.at(edge, Phase.END, self._finish)
 
     def _finish(self, t: int) -> None:
-        """End actions, all on one edge (P104-END-01..08)."""
+        """Process the end of the operation; all actions are at one edge (P104-END-01..08)."""
         context = self._context
         self._cancel("flag")
         self._cancel("slow")

@@ -1,11 +1,13 @@
-"""The family's linear ramp, exact: speed squared grows linearly with the pulse index.
+"""Exact linear ramp: the square of the speed grows linearly with the pulse index.
+
+The PPMC family uses it.
 
 P104-RMP-01: the interval of index k has the period x(k) = 1/sqrt(1/A + (1/B - 1/A) k/PA) in base clocks,
-A and B the squares of the start and high-speed periods, rounded half up. All values are found by exact
-integer square roots of the closed formula. Generic: `period` is the number of base clocks of an interval
-(rate + 1 for parts with rates, the divisor itself for parts with divisors).
+rounded half up. A and B are the squares of the start and high-speed periods. All values are calculated from
+the closed formula with exact integer square roots. `period` is generic: it is the number of base clocks of an
+interval (rate + 1 for parts with rates, the divisor itself for parts with divisors).
 
-P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, walked or closed.
+P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, step by step or by formula.
 """
 
 from __future__ import annotations
@@ -17,10 +19,14 @@ from math import isqrt
 
 
 def ramp_period(start: int, high: int, pa: int, k: int) -> int:
-    """Base clocks of the interval with index k, 0 <= k <= pa.
+    """Return the base clocks of the interval with index k, 0 <= k <= pa.
 
-    start, high: periods of index 0 and pa, 1 <= high <= start; pa = 0 is a flat ramp, start = high. Raises
-    ValueError for anything else.
+    Args:
+        start, high: periods of index 0 and pa, 1 <= high <= start.
+        pa: number of ramp pulses; 0 is a flat ramp, start = high.
+
+    Raises:
+        ValueError: a value is out of range.
     """
     if not 1 <= high <= start or not 0 <= k <= pa or (pa == 0 and high < start):
         raise ValueError(f"no ramp value for start {start}, high {high}, pa {pa}, k {k}")
@@ -33,14 +39,19 @@ def ramp_period(start: int, high: int, pa: int, k: int) -> int:
 
 
 def ramp_rate(rl: int, rh: int, pa: int, k: int) -> int:
-    """R(k) of P104-RMP-01 for rates 0 <= rh <= rl."""
+    """Return R(k) of P104-RMP-01 for rates 0 <= rh <= rl."""
     return ramp_period(rl + 1, rh + 1, pa, k) - 1
 
 
 def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
-    """Index of the next interval at a pulse event, None if that pulse was the last (P104-PRO-04).
+    """Return the index of the next interval at a pulse event (P104-PRO-04).
 
-    kp: index of the interval just ended, -1 at pulse 1. m: pulses left. forced: deceleration flagged.
+    After the last pulse it returns None.
+
+    Args:
+        kp: index of the interval that has just ended, -1 at pulse 1.
+        m: remaining pulses.
+        forced: a deceleration is flagged.
     """
     if m == 0:
         return None
@@ -51,20 +62,23 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
 
 
 def natural_deceleration(kp: int, m: int, pa: int) -> bool:
-    """True at the pulse event where the move begins to slow down by count (P104-PRO-05)."""
+    """Return True at the pulse event where the move begins to decelerate by count (P104-PRO-05)."""
     return 0 < m and m - 1 < min(kp + 1, pa)
 
 
 def profile_index(n: int, pa: int, j: int) -> int:
-    """Index of interval j (1..n-1) of an undisturbed move of n pulses (P104-PRO-01)."""
+    """Return the index of interval j (1..n-1) of an undisturbed move of n pulses (P104-PRO-01)."""
     return min(j - 1, n - 1 - j, pa)
 
 
 def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
-    """Indices of all intervals of a move of n pulses, by the closed formula.
+    """Return the indices of all intervals of a move of n pulses, by the closed formula.
 
-    flagged_in: number of the interval in which forced deceleration is flagged, 0 = before pulse 1; the
-    move then ends as P104-FDC-02/03 say. Memory grows with the number of pulses.
+    Memory is proportional to the number of pulses.
+
+    Args:
+        flagged_in: number of the interval in which forced deceleration is flagged, 0 = before pulse 1. The
+            move then ends as P104-FDC-02/03 define.
     """
     plain = [profile_index(n, pa, j) for j in range(1, n)]
     if flagged_in is None or flagged_in >= n:
@@ -76,7 +90,10 @@ def index_profile(n: int, pa: int, flagged_in: int | None = None) -> list[int]:
 
 
 def walk(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list[int]:
-    """Indices of all intervals by the pulse-event walk; flag(j) = forced deceleration at pulse j."""
+    """Return the indices of all intervals, calculated pulse by pulse.
+
+    flag(j): forced deceleration at pulse j.
+    """
     indices: list[int] = []
     kp, forced = -1, False
     for j in range(1, n + 1):
@@ -91,10 +108,12 @@ def walk(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False) -> list
 
 @dataclass(frozen=True)
 class Ramp:
-    """One initialised ramp: start rate rl, high-speed rate rh, pa ramp pulses.
+    """Initialised ramp: start rate rl, high-speed rate rh, pa ramp pulses.
 
-    `limit` on each is the part's business; here only 0 <= rh <= rl, and pa = 0 for rl = rh only. Raises
-    ValueError.
+    Only 0 <= rh <= rl, and pa = 0 only for rl = rh, are checked here. Each part has its own limits.
+
+    Raises:
+        ValueError: there is no such ramp.
     """
 
     rl: int
@@ -110,20 +129,22 @@ class Ramp:
         return {}
 
     def rate(self, k: int) -> int:
-        """R(k), 0 <= k <= pa; remembered."""
+        """Return R(k), 0 <= k <= pa; the result is cached."""
         known = self._known
         if k not in known:
             known[k] = ramp_rate(self.rl, self.rh, self.pa, k)
         return known[k]
 
     def rates(self) -> list[int]:
-        """R(0) .. R(pa)."""
+        """Return R(0) .. R(pa)."""
         return [self.rate(k) for k in range(self.pa + 1)]
 
 
 @dataclass(frozen=True)
 class BaseClock:
-    """Internal base clock of an interval: period and addition in quanta (P104-BCK-01, P104-INT-01/02).
+    """Internal base clock of an interval (P104-BCK-01, P104-INT-01/02).
+
+    It consists of a period and an addition in quanta.
 
     tclock: 8 (500 kHz) or 32 (125 kHz). extra: 0, or 30 (7.5 us).
     """
@@ -133,9 +154,9 @@ class BaseClock:
 
     @classmethod
     def of_pins(cls, csel: int, vsel: int) -> BaseClock:
-        """Clock chosen by the two pins."""
+        """Return the clock selected by the two pins."""
         return cls(8 if csel else 32, 0 if vsel else 30)
 
     def quanta(self, rate: int) -> int:
-        """Length of an interval at this rate."""
+        """Return the length of an interval at this rate in quanta."""
         return (rate + 1) * self.tclock + self.extra

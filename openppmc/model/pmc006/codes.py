@@ -1,4 +1,7 @@
-"""The 256 instruction codes of the PMC006B4 as a table of objects (P006 chapters 3.1, 3.2, 3.3, 4.2)."""
+"""The 256 instruction codes of the PMC006B4 as a table of objects.
+
+Rules: P006 chapters 3.1, 3.2, 3.3, 4.2.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ STEPS = range(1, 0x8000_0000)
 
 
 def may_step(desk: Desk, count: int) -> bool:
-    """Condition C (P006-STA-01)."""
+    """Return True if condition C holds (P006-STA-01)."""
     return (
         count in STEPS
         and max(desk.settings.vstart, desk.settings.vstop) <= desk.settings.vmax
@@ -19,21 +22,21 @@ def may_step(desk: Desk, count: int) -> bool:
 
 
 def step(desk: Desk, count: int) -> Effect:
-    """s, ROT."""
+    """Execute s or ROT."""
     if not may_step(desk, count):
         return Effect(0)
     return Effect(count if desk.echo else 3, do=lambda desk, t: desk.start(t, count))
 
 
 def speed_mode(desk: Desk, data: int) -> Effect:
-    """N (P006-STA-16, P006-MOT-40..42); the answer is SPEED_MODE."""
+    """Execute N (P006-STA-16, P006-MOT-40..42); the answer is SPEED_MODE."""
     answer = Effect(lambda desk: int(desk.speed_on))
     if data == 0:
         return answer._replace(do=lambda desk, t: desk.speed(t, False))
     if data != 1 or desk.speed_on:
         return answer
     if desk.motion.busy:
-        # A move refuses; what is decelerating after N=0 runs on.
+        # A move rejects it; a motion that is decelerating after N=0 continues.
         return answer._replace(early=lambda desk, t: desk.speed(t, True)) if desk.running else answer
     if desk.locked or desk.settings.vmax < 1:
         return answer
@@ -41,38 +44,38 @@ def speed_mode(desk: Desk, data: int) -> Effect:
 
 
 def freerun(desk: Desk, data: int) -> Effect:
-    """g."""
+    """Execute g."""
     if data not in LEGAL["free"]:
         return Effect(desk.settings.free)
     return Effect(data, {"free": data}, halt=data == 1)
 
 
 def offline(desk: Desk, data: int) -> Effect:
-    """F; 0 also ends a program and the key functions."""
+    """Execute F; 0 also ends a program and the key functions."""
     if data not in LEGAL["offline"]:
         return Effect(desk.settings.offline)
     return Effect(data, {"offline": data}, do=None if data else lambda desk, t: desk.program.quit(t))
 
 
 def clear(latch: str) -> Deed:
-    """b, l, p: clears one latch of the guard."""
+    """Return the instruction b, l or p, which clears one latch of the guard."""
     return Deed(lambda desk, data: Effect(0, do=lambda desk, t: desk.guard.clear(t, latch)))
 
 
 def write_ports(desk: Desk, data: int) -> Effect:
-    """y."""
+    """Execute y."""
     gpo = data >> 3 & 0x1F
     return Effect(gpo << 3, {"gpo": gpo})
 
 
 def read_word(desk: Desk, data: int) -> Effect:
-    """G."""
+    """Execute G."""
     pp = desk.settings.pp
     return Effect(desk.program.words[pp], {"pp": pp + 1}) if pp < 200 else Effect(0)
 
 
 def write_word(desk: Desk, data: int) -> Effect:
-    """W."""
+    """Execute W."""
     pp = desk.settings.pp
     if not desk.program.halted or desk.eeprom.burning or pp >= 200:
         return Effect(0)
@@ -80,7 +83,7 @@ def write_word(desk: Desk, data: int) -> Effect:
 
 
 def try_program(desk: Desk, data: int) -> Effect:
-    """z."""
+    """Execute z."""
     pp = desk.settings.pp
     if not desk.program.halted or pp >= 200:
         return Effect(0)
@@ -88,7 +91,10 @@ def try_program(desk: Desk, data: int) -> Effect:
 
 
 def single(desk: Desk, data: int) -> Effect:
-    """E: one instruction of the program as if it were the host's (P006-PRG-20)."""
+    """Execute E: one instruction of the program (P006-PRG-20).
+
+    It acts as an instruction of the host.
+    """
     pp = desk.settings.pp
     if not desk.program.halted or pp >= 200:
         return Effect(0)
@@ -96,7 +102,7 @@ def single(desk: Desk, data: int) -> Effect:
 
 
 def job(kind: str) -> Deed:
-    """t, B: a job for the EEPROM engine."""
+    """Return the instruction t or B, a job for the EEPROM engine."""
 
     def ask(desk: Desk, data: int) -> Effect:
         if desk.eeprom.busy:
@@ -107,7 +113,7 @@ def job(kind: str) -> Deed:
 
 
 def status1(desk: Desk) -> int:
-    """j (P006 chapter 3.2)."""
+    """Return status 1, read with j (P006 chapter 3.2)."""
     guard = desk.guard
     bits = (
         desk.motion.busy,
@@ -120,7 +126,7 @@ def status1(desk: Desk) -> int:
 
 
 def status2(desk: Desk) -> int:
-    """O (P006 chapter 3.3)."""
+    """Return status 2, read with O (P006 chapter 3.3)."""
     regs = desk.settings
     bits = (regs.free, regs.exten & 1, regs.exten >> 1, desk.speed_on, regs.dir, regs.offline)
     return sum(bool(bit) << place for place, bit in enumerate(bits))

@@ -1,6 +1,8 @@
-"""What instructions and rooms of the PMC006B4 need of its desk and of what stands on it.
+"""Protocols of the desk of the PMC006B4, and its instructions.
 
-`instructions.desk.Desk` is it. Nothing here is looked at when the model runs.
+The desk is the execution context of instructions: everything that they read and change.
+
+`instructions.executor.Desk` implements the protocols.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from .settings import LEGAL, Settings
 
 
 class Motion(Protocol):
-    """The motor as others see it."""
+    """Motor, as other blocks see it."""
 
     @property
     def busy(self) -> bool:
@@ -22,7 +24,7 @@ class Motion(Protocol):
 
     @property
     def steady(self) -> bool:
-        """At constant speed."""
+        """True at constant speed."""
 
 
 class Guard(Protocol):
@@ -32,14 +34,14 @@ class Guard(Protocol):
     stpos: int
 
     def latched(self, ext: str) -> bool:
-        """Stop flag of "ext1" or "ext2"."""
+        """Return the stop flag of "ext1" or "ext2"."""
 
     def clear(self, t: int, latch: str) -> None:
-        """b, l, p."""
+        """Execute b, l or p."""
 
 
 class Program(Protocol):
-    """The user program and its processor."""
+    """User program and its processor."""
 
     words: list[int]
     counter: int
@@ -47,42 +49,45 @@ class Program(Protocol):
 
     @property
     def halted(self) -> bool:
-        """No program runs."""
+        """True if no program runs."""
 
     def write(self, place: int, word: int) -> None:
-        """W."""
+        """Execute W."""
 
     def start(self, t: int, pc: int) -> None:
-        """z or autostart."""
+        """Execute z or autostart."""
 
     def quit(self, t: int) -> None:
-        """F 0."""
+        """Execute F 0."""
 
     def enable(self, name: str, on: int, target: int) -> None:
-        """RESET_EN, PAUSE_EN."""
+        """Execute RESET_EN or PAUSE_EN."""
 
 
 class Eeprom(Protocol):
-    """The engine of the EEPROM."""
+    """Engine of the EEPROM."""
 
     @property
     def state(self) -> int:
-        """What V answers."""
+        """Answer to V."""
 
     @property
     def busy(self) -> bool:
-        """A job runs or waits."""
+        """True if a job is running or waiting."""
 
     @property
     def burning(self) -> bool:
-        """The program buffer is being written."""
+        """True while the program buffer is being written."""
 
     def begin(self, t: int, kind: str) -> None:
-        """t, B: a job from edge t on."""
+        """Start a job at edge t (t or B)."""
 
 
 class Desk(Protocol):
-    """Everything that instructions look at and change. echo: STEP_ACK is "ECHO". version: FW_VERSION."""
+    """Everything that instructions read and change.
+
+    echo: STEP_ACK is "ECHO". version: FW_VERSION.
+    """
 
     shared: Shared
     settings: Settings
@@ -94,19 +99,19 @@ class Desk(Protocol):
 
     @property
     def motion(self) -> Motion:
-        """The motor."""
+        """Motor."""
 
     @property
     def guard(self) -> Guard:
-        """What stops it."""
+        """Guard, which stops the motor."""
 
     @property
     def program(self) -> Program:
-        """The user program."""
+        """User program."""
 
     @property
     def eeprom(self) -> Eeprom:
-        """The engine of the EEPROM."""
+        """Engine of the EEPROM."""
 
     @property
     def position(self) -> int:
@@ -114,40 +119,43 @@ class Desk(Protocol):
 
     @property
     def locked(self) -> bool:
-        """Whatever blocks a start but BUSY."""
+        """True if a start is blocked by a cause other than BUSY."""
 
     @property
     def port_word(self) -> int:
-        """x."""
+        """Answer to x."""
 
     def stop(self, t: int) -> None:
-        """A cause that stops a motion at edge t."""
+        """Process a cause that stops a motion at edge t."""
 
     def load_position(self, position: int) -> None:
-        """i."""
+        """Execute i."""
 
     def start(self, t: int, count: int) -> None:
-        """s, ROT."""
+        """Execute s or ROT."""
 
     def run(self, t: int) -> None:
-        """N=1 from IDLE."""
+        """Execute N=1 in IDLE."""
 
     def speed(self, t: int, on: bool) -> None:
-        """N while the speed mode runs or ends."""
+        """Execute N while the speed mode is running or ending."""
 
 
-# What an instruction of the PMC006B4 is: an object that says what is to happen (P006 chapters 3.1, 3.2).
-#
-# It looks at the desk and at its data and returns an `Effect`. Nothing changes before the executor carries
-# that out.
+# Instructions of the PMC006B4 (P006 chapters 3.1, 3.2). An instruction is an object that reads the desk and
+# its data and returns an `Effect`. Nothing changes before the executor applies the effect.
 
 
 class Effect(NamedTuple):
-    """What an executed instruction does in its clk.
+    """Effect of an executed instruction in its cycle.
 
-    reply: data of the answer; a function is asked a clk later. put: registers. halt: stop at once. do:
-    anything else; it gets the desk and the edge. early: the same before the motion works on that edge. still:
-    no step may be counted in that clk. once: instruction of the program that E executes.
+    Attributes:
+        reply: data of the answer; a function is called one cycle later.
+        put: registers.
+        halt: stop immediately.
+        do: any other effect, called with the desk and the edge.
+        early: the same, before the motion is processed at that edge.
+        still: no step may be counted in that cycle.
+        once: instruction of the program that E executes.
     """
 
     reply: int | Callable[[Desk], int] = 0
@@ -160,54 +168,57 @@ class Effect(NamedTuple):
 
 
 class Instruction:
-    """An instruction: whatever it does not know is none."""
+    """Instruction; an unknown one has no effect."""
 
     def __call__(self, desk: Desk, data: int) -> Effect:
-        """What `data` asks for."""
+        """Return the effect of `data`."""
         return Effect()
 
 
 @dataclass
 class Setting(Instruction):
-    """Writes a register if the data is legal, answers with the register. also: registers that go with it."""
+    """Instruction that writes a register if the data is legal, and answers with the register.
+
+    also: registers that are written with it.
+    """
 
     name: str
     legal: Container[int] | None = None
     also: dict[str, int] | None = None
 
     def __call__(self, desk: Desk, data: int) -> Effect:
-        """Refused data changes nothing; the answer is the value in force."""
+        """Return the effect; rejected data changes nothing, and the answer is the active value."""
         if data in (LEGAL[self.name] if self.legal is None else self.legal):
             return Effect(self.now, {self.name: data, **(self.also or {})})
         return Effect(self.now)
 
     def now(self, desk: Desk) -> int:
-        """Value in force."""
+        """Return the active value."""
         return int(getattr(desk.settings, self.name))
 
 
 @dataclass
 class Read(Instruction):
-    """Answers with something."""
+    """Instruction that answers with a value."""
 
     what: Callable[[Desk], int]
 
     def __call__(self, desk: Desk, data: int) -> Effect:
-        """The data is not looked at."""
+        """Return the effect, which does not depend on the data."""
         return Effect(self.what)
 
 
 @dataclass
 class Deed(Instruction):
-    """Anything else: a function that says what is to happen."""
+    """Any other instruction: a function that returns its effect."""
 
     what: Callable[[Desk, int], Effect]
 
     def __call__(self, desk: Desk, data: int) -> Effect:
-        """What `data` asks for."""
+        """Return the effect of `data`."""
         return self.what(desk, data)
 
 
 def value(name: str) -> Read:
-    """Reads a register."""
+    """Return an instruction that reads a register."""
     return Read(lambda desk: int(getattr(desk.settings, name)))

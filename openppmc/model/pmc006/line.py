@@ -1,4 +1,7 @@
-"""Serial line of the PMC006B4 in time: receiver, silence, replies (P006-UART-01..05, P006-FRM-04, -07)."""
+"""Serial line of the PMC006B4 in time: receiver, silence, replies.
+
+Rules: P006-UART-01..05, P006-FRM-04, -07.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +15,13 @@ from ..chip import Phase
 from ..uart import Receiver
 from .pins import Shared
 
-# Frames of the PMC006B4: eight bytes, a check, addresses (P006-FRM-01..08). No time here.
+# Frames of the PMC006B4: eight bytes, a checksum, addresses (P006-FRM-01..08). This part contains no time.
 
 HEAD, ANSWER, SIZE = 0xA5, 0x7A, 8
 
 
 class Command(NamedTuple):
-    """A frame with a right check: address, instruction code, data as a signed number of 32 bits."""
+    """Frame with a valid checksum: address, instruction code, data as a signed 32-bit number."""
 
     address: int
     code: int
@@ -26,38 +29,38 @@ class Command(NamedTuple):
 
 
 def checked(*parts: int, data: int) -> bytes:
-    """Byte 0xA5, two bytes, the data and the check."""
+    """Return byte 0xA5, two bytes, the data and the checksum."""
     body = bytes((HEAD, *parts)) + (data & 0xFFFF_FFFF).to_bytes(4, "little")
     return body + bytes([sum(body) % 256])
 
 
 def command(address: int, code: int | str, data: int = 0) -> bytes:
-    """What a host sends; code also as the letter of an instruction."""
+    """Return a frame of a host. code: also as the letter of an instruction."""
     return checked(address, ord(code) if isinstance(code, str) else code, data=data)
 
 
 def reply(address: int, data: int) -> bytes:
-    """What a controller answers."""
+    """Return a frame of a controller."""
     return checked(ANSWER, address, data=data)
 
 
 class Assembler:
-    """Makes commands of bytes."""
+    """Receiver that converts bytes to commands."""
 
     def __init__(self) -> None:
         self._open = b""
 
     @property
     def unfinished(self) -> bool:
-        """A frame has begun."""
+        """True if a frame has begun."""
         return bool(self._open)
 
     def drop(self) -> None:
-        """Forget a frame that has begun."""
+        """Discard a frame that has begun."""
         self._open = b""
 
     def take(self, byte: int) -> Command | None:
-        """The next byte; the command that it completes."""
+        """Process a byte; return the command that it completes."""
         if not self._open and byte != HEAD:
             return None
         self._open += bytes([byte])
@@ -70,15 +73,15 @@ class Assembler:
 
 
 STOP = Fraction(163, 2)
-"""Bit times from e to the middle of a reply's last stop bit: a host may speak from there on."""
+"""Bit times from e to the middle of a reply's last stop bit; after that a host may send."""
 SYNC = 2
-"""clk from a sampled level to its effect."""
+"""Cycles from a sampled level to its effect."""
 SILENCE = 192
 """Bit times without the start of a byte after which a frame that has begun is dropped."""
 
 
 def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
-    """(bit times after e, pin, level) of all that a reply does to its pins."""
+    """Return (bit times after e, pin, level) of all pin changes of a reply."""
     levels = [1]
     for byte in frame:
         levels += [0, *(byte >> place & 1 for place in range(8)), 1]
@@ -87,11 +90,13 @@ def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
 
 
 class Line:
-    """take(t, command): a frame with a right check is complete at edge t, the e of chapter 2.4; whether it is
-    for this controller.
+    """Serial line. It ignores its input until `listen` is called.
 
-    It is deaf until `listen`. replies gets (edge on which de rises, frame), sent (edge in the middle of a
-    stop bit, byte).
+    Args:
+        take: take(t, command) is called when a frame with a valid checksum is complete at edge t, the e of
+            chapter 2.4; it returns True if the frame is for this controller.
+        replies: list for (edge at which de rises, frame).
+        sent: list for (edge in the middle of a stop bit, byte).
     """
 
     def __init__(
@@ -117,20 +122,20 @@ class Line:
     # ------------------------------------------------------------------ from the host
 
     def sample(self, t: int, level: int) -> None:
-        """Edge t samples this level of the pin."""
+        """Sample this level of the pin at edge t."""
         self._pin = level
         self._shared.queue.at(t + SYNC, Phase.PINS, lambda now: self._see(now, level))
         if self._open:
             self._hear_line(t + SYNC, level)
 
     def _see(self, t: int, level: int) -> None:
-        """Synchronised level from edge t on: the ear opens on a high one."""
+        """Process the synchronised level from edge t on; the receiver opens at a high level."""
         self._level = level
         if level and not self._deaf and not self._open:
             self._shared.queue.at(t, Phase.BUS, self._open_up)
 
     def listen(self, t: int, on: bool) -> None:
-        """The ear is to be open, or is closed, after edge t; it has to see the line high first."""
+        """Open or close the receiver after edge t; before it opens, the line must be high."""
         self._deaf = not on
         if not on:
             self._open = False
@@ -140,7 +145,7 @@ class Line:
             self._shared.queue.at(t + 1, Phase.BUS, self._open_up)
 
     def _open_up(self, t: int) -> None:
-        """The line was high before edge t, and the next edge samples the pin."""
+        """Open the receiver: the line was high before edge t, and the next edge samples the pin."""
         if not self._deaf and not self._open and self._level:
             self._open = True
             self._shared.queue.at(t + 1, Phase.BUS, lambda now: self._hear_line(now + SYNC, self._pin))
@@ -149,11 +154,11 @@ class Line:
         self._shared.queue.at(t, Phase.PINS, lambda now: self._receiver.see(now, level if self._open else 1))
 
     def _got(self, t: int, byte: int | None) -> None:
-        """A character whose stop bit edge t has sampled."""
+        """Process a character whose stop bit edge t has sampled."""
         self._shared.queue.at(t, Phase.BUS, lambda now: self.hear(now, byte))
 
     def hear(self, t: int, byte: int | None) -> None:
-        """A character at edge t; None: its stop bit was low."""
+        """Process a character at edge t. `None`: its stop bit was low."""
         if self._deaf:
             return
         if byte is None or t - self._heard >= self._silence:
@@ -167,7 +172,7 @@ class Line:
     # ------------------------------------------------------------------ to the host
 
     def answer(self, frame: bytes) -> None:
-        """The reply to what `take` got last."""
+        """Send the reply to the last command that `take` accepted."""
         origin = self._e + self._shared.pace.answer
         timed = [(origin + ceil(bits * self._bit), pin, level) for bits, pin, level in changes_of(frame)]
         self._replies.append((timed[0][0], frame))
@@ -177,7 +182,7 @@ class Line:
         self._count(origin, frame)
 
     def _count(self, origin: int, rest: bytes) -> None:
-        """Bytes as sent, when they are."""
+        """Record bytes as sent at the time of their stop bits."""
         if rest:
             at = origin + ceil((2 + 10 * (SIZE - len(rest)) + Fraction(19, 2)) * self._bit)
             self._shared.queue.at(at, Phase.PIN, lambda now: self._passed(now, origin, rest))

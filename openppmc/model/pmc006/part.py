@@ -1,8 +1,8 @@
-"""Golden model of the PMC006B4 at pin level, event driven and exact to the cycle.
+"""Golden model of the PMC006B4 at pin level, event driven and cycle-accurate.
 
-Pins and time: `chip`, `clock`. Line: `line`. Instructions: `codes`, `settings`, `instructions` (the user
-program and its keys, too). Motion, emergency inputs and stall: `motion`. EEPROM: `memory`. Microsteps and
-chopper: `drive`.
+`chip` and `clock` have pins and time, `line` the line, `codes`, `settings` and `instructions` the
+instructions (including the user program and its keys), `motion` the motion, emergency inputs and stall,
+`memory` the EEPROM, `drive` microsteps and chopper.
 """
 
 from __future__ import annotations
@@ -22,20 +22,33 @@ from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, Pace, Shared, Ticks
 from .settings import Settings
 
 MS, RESTORE_MS = 1000, 20
-"""µs ticks of a millisecond; length of a restore at FSET."""
+"""µs ticks of a millisecond; length of a restore with FSET in ms."""
 _LINES = {"scl_i", "sda_i"}
 
 
 class Pmc006(Chip):
-    """One PMC006B4. The names of the arguments in capitals are the parameters of the RTL.
+    """One PMC006B4. The model starts just after the release of reset, before edge 0.
 
-    clk_hz 8e6..200e6; xtal_hz has no effect; timing "FAST" or "DATASHEET", which are alike; step_ack "MANUAL"
-    or "ECHO"; baud 1200..115200; i2c_hz 10e3..400e3; ee_dev 0..127; t_off_ns, t_blank_ns: chopper;
-    fw_version. ValueError for anything else. straps: pin levels from the beginning on. The model starts just
-    released from reset, before edge 0.
+    Names of arguments in capitals are the parameters of the RTL. pwm_a_ref and pwm_b_ref are not in the log;
+    `pwm` returns them.
 
-    replies: (edge on which de rises, frame); sent: (edge in the middle of a stop bit, byte). Both may be
-    emptied at any time. pwm_a_ref and pwm_b_ref are not in the log: `pwm`.
+    Args:
+        clk_hz: 8e6..200e6.
+        xtal_hz: without effect.
+        timing: "FAST" or "DATASHEET", without difference.
+        step_ack: "MANUAL" or "ECHO".
+        baud: 1200..115200.
+        i2c_hz: 10e3..400e3.
+        ee_dev: 0..127.
+        t_off_ns, t_blank_ns: times of the chopper.
+        fw_version: firmware version.
+        straps: pin levels from the beginning on.
+
+    Raises:
+        ValueError: a value is out of range.
+
+    replies: (edge at which de rises, frame). sent: (edge in the middle of a stop bit, byte). Both lists may
+    be cleared at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, ("rxd",)
@@ -82,7 +95,7 @@ class Pmc006(Chip):
     # ------------------------------------------------------------------ reset
 
     def _build(self, t: int) -> None:
-        """Fresh blocks in their reset state, as if edge t were the first one after the reset."""
+        """Create blocks in their reset state, as if edge t were the first one after the reset."""
         first = t + self.pace.reset
         queue, clk_hz = self._queue, self.timebase.clk_hz
         us = Ticks(clk_hz, 1_000_000, first - 1)
@@ -104,14 +117,14 @@ class Pmc006(Chip):
         self._restore_key = KeyFilter(shared, restore_ticks, 0, self._restore, armed=True)
 
     def _bus(self, shared: Shared, levels: Mapping[str, int]) -> Bus:
-        """What moves the lines of the EEPROM."""
+        """Return the master of the EEPROM's lines."""
         return Bus(shared, levels, self._i2c_hz)
 
     def _restart(self) -> None:
         self._build(0)
 
     def _released(self, t: int) -> None:
-        """Edge t is the first one after a reset."""
+        """Process edge t, the first one after a reset."""
         self._build(t)
         self._shown = (0, 0, True, False)
         levels = dict(SYNCHRONISED)
@@ -121,7 +134,7 @@ class Pmc006(Chip):
     # ------------------------------------------------------------------ boot
 
     def _restore(self, t: int) -> None:
-        """FSET has been low for long enough (P006-EEP-21)."""
+        """Process FSET, which was low for the required time (P006-EEP-21)."""
         self._queue.at(t, Phase.END, self._restore_now)
 
     def _restore_now(self, t: int) -> None:
@@ -131,7 +144,7 @@ class Pmc006(Chip):
             self.desk.eeprom.restore(t)
 
     def _booted(self, t: int, valid: bool) -> None:
-        """BOOT ends at edge t."""
+        """Process the end of BOOT at edge t."""
         self._booting = False
         self.desk.eeprom.idle()
         self.drive.booted(t)
@@ -142,7 +155,7 @@ class Pmc006(Chip):
     # ------------------------------------------------------------------ frames
 
     def _take(self, t: int, command: Command) -> bool:
-        """A frame with a right check (P006-FRM-02)."""
+        """Process a frame with a valid checksum (P006-FRM-02)."""
         if command.address != self.desk.settings.addr:
             return False
         self.executor.frame(t, command)
@@ -152,14 +165,21 @@ class Pmc006(Chip):
         self.line.answer(reply(self.desk.settings.addr, data))
 
     def hear(self, t: int, byte: int | None) -> None:
-        """A whole byte on the line, whose stop bit edge t samples, without the levels of rxd; None for one
-        with a low stop bit. ValueError for an edge already run."""
+        """Process a whole byte on the line without the levels of rxd.
+
+        Args:
+            t: edge that samples the stop bit.
+            byte: the byte, `None` if its stop bit is low.
+
+        Raises:
+            ValueError: edge t was already run.
+        """
         self._queue.at(t, Phase.BUS, lambda now: self.line.hear(now, byte))
 
-    # ------------------------------------------------------------------ inside of `chip`
+    # ------------------------------------------------------------------ methods that `chip` calls
 
     def _latch(self, t: int) -> None:
-        """Registers of this part of the model, and what follows from them."""
+        """Update the outputs and evaluate the state after edge t."""
         desk, motion = self.desk, self.motion
         now = (desk.settings.trigm, desk.gpo, motion.forward, motion.busy)
         if now != self._shown:
@@ -179,7 +199,7 @@ class Pmc006(Chip):
             self._queue.at(at, Phase.PIN, lambda later: self.log.set(later, "gpo", gpo))
 
     def _changed(self, t: int) -> None:
-        """Registers are new after edge t."""
+        """Process new values of registers after edge t."""
         self.drive.settings_changed(t)
 
     def _stepped(self, t: int, forward: bool) -> None:
@@ -188,7 +208,7 @@ class Pmc006(Chip):
         self._queue.at(t + 1, Phase.PIN, lambda now: self.log.set(now, "mon_step", 0))
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
-        """Nothing is sampled while a part is in reset; its first edge samples everything."""
+        """Sample pins; in reset no pin is sampled, and the first edge after it samples all pins."""
         names, at = set(changed), max(t, self._first)
         if names <= _LINES:
             # The bus of the EEPROM has more edges than all other pins.
@@ -226,10 +246,10 @@ class Pmc006(Chip):
     def _strobe(self, write: bool, reg: int) -> dict[str, int]:
         raise NotImplementedError("there is no bus")
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     def pwm(self, phase: str) -> int:
-        """Level of pwm_a_ref ("a") or pwm_b_ref ("b") after edge `now`."""
+        """Return the level of pwm_a_ref ("a") or pwm_b_ref ("b") after edge `now`."""
         return self.drive.level(self.now, phase)
 
     @property
@@ -244,5 +264,5 @@ class Pmc006(Chip):
 
     @property
     def booting(self) -> bool:
-        """BOOT has not ended."""
+        """True until the end of BOOT."""
         return self._booting

@@ -1,4 +1,4 @@
-"""Pins of the PMC006B4 with idle and reset levels (chapter 1.1), and what its blocks share."""
+"""Pins of the PMC006B4 with idle and reset levels (chapter 1.1), and shared services."""
 
 from __future__ import annotations
 
@@ -7,35 +7,39 @@ from dataclasses import dataclass
 from ..clock import EdgeLog, Scheduler
 from .settings import Settings
 
-# How long the PMC006B4 of this project takes inside the windows of its rules, all in clk.
+# Latencies of the PMC006B4 of this project within the bounds of its rules, all in cycles.
 
 
 @dataclass(frozen=True)
 class Pace:
-    """Constants of one core.
+    """Constants of one core in cycles, except key_ticks.
 
-    Reset. reset: first edge with rst_n = 1 to the first one that the inside works on.
-
-    Line. answer: e to the origin of the reply's bit times (<= 8).
-
-    Executor. frame: e to the first edge that may take it; effect: from there to the effect, after: from there
-    to the first edge that may take anything else (<= 64 together). fetch: begin of a program instruction to
-    its effect, slot: to the next one (<= 64).
-
-    Keys. key_ticks: µs ticks of a filter beyond those of the time.
-
-    EEPROM. job: last tick to the end of a job; fact: event to the first edge whose tick may begin a restore.
-    Boot, from one clk after the last tick: wiped, kept: the program is cleared, or stays; fields: those of
-    the parameters are looked at, and the same again for their storing, of which trigm is TRIGM.
-
-    Pins. gpo: registers to their pins.
-
-    Motion. plan: rise of BUSY to the end of planning. step: us tick to mon_step; move_end: from there to the
-    fall of BUSY after the last step (<= 2); run_end: us tick to the fall of BUSY at the end of speed mode.
-    Drive. grid: clk between two looks at what the references depend on, grid_from: first of them after the
-    first edge inside; refs: look to the four references (grid + refs <= 64). enable: end of BOOT or change
-    of FREE to the bridges. idle: us tick to the end of the idle time. force: change of a reference to OFF.
-    cmp: sampled level of a comparator to its effect (<= 4).
+    Attributes:
+        reset: first edge with rst_n = 1 to the first internal edge.
+        answer: line: e to the origin of the reply's bit times (<= 8).
+        frame: executor: e to the first edge that may accept the frame.
+        effect: from there to the effect.
+        after: from there to the first edge that may accept anything else (frame + effect + after <= 64).
+        fetch: begin of a program instruction to its effect.
+        slot: begin of a program instruction to the next one (<= 64).
+        key_ticks: keys: µs ticks of a filter in addition to its time.
+        job: EEPROM: last tick to the end of a job.
+        fact: event to the first edge whose tick may begin a restore.
+        wiped, kept: boot, from one cycle after the last tick: the program is cleared, or stays.
+        fields: check of the parameters' fields. Storing them takes the same time again.
+        trigm: part of the storing time until TRIGM is stored.
+        gpo: registers to their pins.
+        plan: motion: rise of BUSY to the end of planning.
+        step: us tick to mon_step.
+        move_end: mon_step of the last step to the fall of BUSY (<= 2).
+        run_end: us tick to the fall of BUSY at the end of speed mode.
+        grid: drive: cycles between two evaluations of the references.
+        grid_from: first internal edge to the first evaluation.
+        refs: evaluation to the four references (grid + refs <= 64).
+        enable: end of BOOT or change of FREE to the bridges.
+        idle: us tick to the end of the idle time.
+        force: change of a reference to OFF.
+        cmp: sampled level of a comparator to its effect (<= 4).
     """
 
     reset: int = 2
@@ -121,27 +125,30 @@ SYNCHRONISED: dict[str, int] = {
     "scl_i": 1,
     "sda_i": 1,
 }
-"""Pins that pass two flip-flops, and what these show after a reset (cmp_a and cmp_b are the chopper's)."""
+"""Pins that pass two flip-flops, with their levels after a reset.
+
+cmp_a and cmp_b belong to the chopper.
+"""
 
 
 class Ticks:
-    """A base clock: tick n (1, 2, ..) enables edge origin + ceil(n * clk_hz / hz) (P006-PAR-01)."""
+    """Base clock: tick n (1, 2, ..) enables edge origin + ceil(n * clk_hz / hz) (P006-PAR-01)."""
 
     def __init__(self, clk_hz: int, hz: int, origin: int = -1) -> None:
         self.clk_hz, self.hz, self.origin = clk_hz, hz, origin
 
     def edge_of(self, n: int) -> int:
-        """Edge of tick n."""
+        """Return the edge of tick n."""
         return self.origin - (-n * self.clk_hz // self.hz)
 
     def first(self, t: int) -> int:
-        """Number of the first tick at or after edge t; at least 1."""
+        """Return the number of the first tick at or after edge t; at least 1."""
         return max(1, (t - self.origin - 1) * self.hz // self.clk_hz + 1)
 
 
 @dataclass
 class Shared:
-    """Services that every block gets. us: the microsecond. settings: registers after the last commit."""
+    """Services of every block. us: microsecond ticks. settings: registers after the last commit."""
 
     queue: Scheduler
     log: EdgeLog

@@ -1,6 +1,8 @@
-"""Registers of the PMC006B4: legal and factory values, and the EEPROM page that keeps some of them.
+"""Registers of the PMC006B4 with legal and factory values, and their EEPROM page.
 
-P006 chapter 3.0, P006-EEP-10, -20, chapter 13.1.
+The page stores some of the registers.
+
+Rules: P006 chapter 3.0, P006-EEP-10, -20, chapter 13.1.
 """
 
 from __future__ import annotations
@@ -35,12 +37,15 @@ LEGAL: dict[str, Container[int]] = {
     "stlvl": range(512),
     "pp": range(200),
 }
-"""What an instruction or the EEPROM may write; `vmax` 0 and `pp` 200 come about otherwise."""
+"""Values that an instruction or the EEPROM may write.
+
+`vmax` 0 and `pp` 200 have other sources.
+"""
 
 
 @dataclass
 class Settings:
-    """All registers but positions and flags, at their factory values."""
+    """All registers except positions and flags, at their factory values."""
 
     addr: int = 255
     mstep: int = 16
@@ -67,7 +72,7 @@ class Settings:
     analog: int = 0
 
     def load(self, values: dict[str, int]) -> None:
-        """Take over what the EEPROM has kept."""
+        """Load values, for example from the EEPROM."""
         for name, value in values.items():
             setattr(self, name, value)
 
@@ -92,7 +97,7 @@ PLACES: dict[str, tuple[int, int]] = {
 
 
 def page_of(settings: Settings) -> bytes:
-    """The parameter block as `t` writes it."""
+    """Return the parameter block as `t` writes it."""
     page = bytearray(MAGIC + bytes(PAGE - 1 - len(MAGIC)))
     for name, (place, size) in PLACES.items():
         page[place : place + size] = int(getattr(settings, name)).to_bytes(size, "little")
@@ -103,12 +108,15 @@ FACTORY_PAGE = page_of(Settings())
 
 
 def framed(page: bytes) -> bool:
-    """Whether the head and the sum of a block are right."""
+    """Return True if header and sum of a block are valid."""
     return page[: len(MAGIC)] == MAGIC and sum(page[:-1]) % 256 == page[-1]
 
 
 def values_of(page: bytes) -> dict[str, int] | None:
-    """Registers of a block read from the EEPROM; None if it is not valid as a whole (P006 13.2, step 5)."""
+    """Return the registers of a block read from the EEPROM.
+
+    `None`: the block is not valid as a whole (P006 13.2, step 5).
+    """
     if not framed(page):
         return None
     values = {name: int.from_bytes(page[at : at + size], "little") for name, (at, size) in PLACES.items()}

@@ -1,4 +1,4 @@
-"""One axis of the PPMC-2104: its blocks, its registers, and the path to its pins."""
+"""Axis of the PPMC-2104: its blocks, its registers, and the path to its pins."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ _POLL = 35
 
 
 def window_us(command: Command, triangle: bool = False) -> int:
-    """Length of an instruction's processing window in us (P2104-DS-01..13)."""
+    """Return the length of an instruction's processing window in us (P2104-DS-01..13)."""
     if command.kind is Kind.READ:
         return _READS[command.code & 7]
     if command.kind is Kind.OPERATION:
@@ -67,9 +67,9 @@ def window_us(command: Command, triangle: bool = False) -> int:
 
 
 class Windows:
-    """The open window, if any, and the poll ticks that it holds up. Only used in DATASHEET timing.
+    """Open window, if any, and the poll ticks that it delays. Only used with DATASHEET timing.
 
-    `axis`: 0 or 1 while a window of that axis is open, else None.
+    axis: 0 or 1 while a window of that axis is open, otherwise `None`.
     """
 
     def __init__(self, context: Context, port: HostPort, released: int) -> None:
@@ -81,7 +81,10 @@ class Windows:
         self.axis: int | None = None
 
     def open(self, t: int, us: int, axis: int | None) -> int:
-        """Open a window at edge t; returns its last edge. axis None: no axis shows it in CMND."""
+        """Open a window at edge t; return its last edge.
+
+        axis: `None` if the window appears in CMND of no axis.
+        """
         context = self._context
         end = t + context.timebase.cyc(16 * us) + context.latency.ds_window
         self._port.close_until(end)
@@ -95,30 +98,32 @@ class Windows:
         self.axis = None
 
     def _origin(self, t: int) -> int:
-        """Edge from which the poll ticks at edge t count; the one a window opens on is still an old one."""
+        """Return the edge from which the poll ticks at edge t count.
+
+        A tick at the edge that opens a window still counts from the old origin.
+        """
         return self._origins[t > self._since]
 
     def is_tick(self, t: int) -> bool:
-        """Whether limits and alarm are looked at on edge t (P2104-DS-20)."""
+        """Return True if limits and alarm are sampled at edge t (P2104-DS-20)."""
         passed = t - self._origin(t)
         return passed > 0 and passed % self._period == 0
 
     def next_tick(self, t: int) -> int:
-        """The first tick after edge t, unless a window opens before."""
+        """Return the first tick after edge t, unless a window opens before it."""
         origin = self._origin(t + 1)
         return origin + (max(0, t - origin) // self._period + 1) * self._period
 
 
-# What is special in the motion of a PPMC-2104 axis: RUN gate, stop at start-up speed, polled inputs.
-#
-# RUN: P2104-OPR-02, -TIM-02. Stops: P2104-STP-01..05, -FDC-02. Inputs: P2104-LIM-03..09, in DATASHEET
-# P2104-DS-20, -21. The rest is the family's: `motion`.
+# Motion of a PPMC-2104 axis, where it differs: RUN gate, stop at start-up speed, polled inputs. RUN:
+# P2104-OPR-02, -TIM-02. Stops: P2104-STP-01..05, -FDC-02. Inputs: P2104-LIM-03..09, with DATASHEET timing
+# P2104-DS-20, -21. `motion` has the rest, which the PPMC family shares.
 
 HOLD_UNIT, HOLD_DEFAULT = 2048, 0x18
 
 
 class Motion(motion.Motion):
-    """One axis of a PPMC-2104. `waiting`: state RUNWAIT."""
+    """Motion of an axis of a PPMC-2104. waiting: state RUNWAIT."""
 
     stops_at_start_speed = True
 
@@ -139,13 +144,16 @@ class Motion(motion.Motion):
         self.set_hold_delay(HOLD_DEFAULT)
 
     def set_hold_delay(self, n: int) -> None:
-        """Hold delay of 128 (n + 1) us for timers that start from now on (P2104-AUX-05)."""
+        """Set the hold delay to 128 (n + 1) us for timers that start from now on (P2104-AUX-05)."""
         self.hold_cycles = HOLD_UNIT * (n + 1)
 
     # ------------------------------------------------------------------ start
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, look_from: int) -> None:
-        """C-event of an operation's last byte; RUN counts from edge `look_from` on."""
+        """Process the C-event of an operation's last byte.
+
+        look_from: first edge at which RUN counts.
+        """
         self._load(command, data, setup, self._context.levels["csel"], plain=True)
         self._begin(t)
         self._held_until = None
@@ -156,7 +164,7 @@ class Motion(motion.Motion):
             self.look_at_run(t)
 
     def look_at_run(self, t: int) -> None:
-        """RUNWAIT ends on the first edge that sees RUN = H."""
+        """End RUNWAIT at the first edge that samples RUN = H."""
         if not self.waiting or self.finishing or t < self._look_from or not self._context.levels["run"]:
             return
         self.waiting = False
@@ -167,16 +175,19 @@ class Motion(motion.Motion):
 
     @property
     def can_decelerate(self) -> bool:
-        """Whether a deceleration stop is accepted: START, ACC or HIGH of 011/110 (P2104-STP-02, -03)."""
+        """True if a deceleration stop is accepted: START, ACC or HIGH of 011/110 (P2104-STP-02, -03)."""
         free = self._flag_edge is None and not self._natural
         return self.busy and self.is_ramp and not self.waiting and not self.finishing and free
 
     def slow_stop(self, at: int) -> None:
-        """Deceleration stop that acts at edge `at`."""
+        """Schedule a deceleration stop at edge `at`."""
         self._request(at, "flag", FINISH_STOP)
 
     def stop_until(self, t: int, end: int) -> None:
-        """Immediate stop in DATASHEET: cut at edge t, all the rest at edge `end` (P2104-DS-02)."""
+        """Process an immediate stop with DATASHEET timing (P2104-DS-02).
+
+        The motion is cut at edge t; all other effects occur at edge `end`.
+        """
         if not self.finishing:
             self._held_until = end
         self.stop(t)
@@ -218,19 +229,24 @@ class Motion(motion.Motion):
 
 @dataclass
 class Switching:
-    """Switching times in units of 2 quanta (P2104-SW-04, -05, P2104-AUX-04, -06)."""
+    """Chopper times in units of 2 quanta (P2104-SW-04, -05, P2104-AUX-04, -06)."""
 
     on: int = 0x53
     off: int = 0xA6
 
     def quanta(self, on: bool) -> int:
-        """Length of a phase that begins now."""
+        """Return the length in quanta of a phase that begins now."""
         return 2 * (self.on if on else self.off)
 
 
 class Axis:
-    """Axis `number` 0 or 1. `setup` None: state INITIAL; `table_ready`: edge on which the table build ends;
-    `building`: state INITP."""
+    """Axis `number`, 0 or 1.
+
+    Attributes:
+        setup: `None` in state INITIAL.
+        table_ready: edge at which the table build ends.
+        building: state INITP.
+    """
 
     def __init__(self, number: int, shared: Context, windows: Windows, interrupt: Interrupt) -> None:
         self.number = number
@@ -253,7 +269,7 @@ class Axis:
             self._interrupt.raise_(Cause.END, self.number)
 
     def _put(self, t: int, signal: str, value: int) -> None:
-        """Set a pin: phases have a port of their own, the rest one bit of a common one."""
+        """Set a pin: the phases have a port per axis, other pins are one bit of a common port."""
         log = self.context.log
         if signal == "s":
             log.set(t, f"s{self.number + 1}_n", value)
@@ -262,7 +278,7 @@ class Axis:
             log.set(t, signal, others | value << self.number)
 
     def latch(self, t: int) -> None:
-        """Motor pins follow the levels after edge t."""
+        """Update the motor pins from the levels after edge t."""
         motion = self.motion
         phases = self.excitation.pattern if self.chopper.on else self.excitation.chopped
         self._pins.latch(
@@ -270,7 +286,7 @@ class Axis:
         )
 
     def see(self, t: int, levels: dict[str, int]) -> None:
-        """New synchronised levels at edge t."""
+        """Process new synchronised levels at edge t."""
         inside, queue, motion = self.context.levels, self.context.queue, self.motion
         changed = {pin for pin, level in levels.items() if inside[pin] != level}
         inside.update(levels)
@@ -283,17 +299,17 @@ class Axis:
 
     @property
     def operating(self) -> bool:
-        """Whether the other axis must count this one as operating (P2104-DS-31)."""
+        """True if the other axis must count this axis as operating (P2104-DS-31)."""
         return self.motion.busy or (self.setup is not None and self.setup.chopping)
 
     def switch_off(self) -> None:
-        """Excitation OFF: INITIAL again (P2104-AUX-01)."""
+        """Process excitation OFF, which returns to INITIAL (P2104-AUX-01)."""
         self.chopper.stop()
         self.excitation.off()
         self.setup = None
 
     def register(self, t: int, number: int) -> list[int]:
-        """Bytes of a register read, sampled at edge t (P2104-RD-01..07)."""
+        """Return the bytes of a register read, sampled at edge t (P2104-RD-01..07)."""
         motion = self.motion
         if number == END_STATUS:
             value = motion.finish
@@ -313,5 +329,5 @@ class Axis:
         return list(motion.remaining.to_bytes(3, "little"))
 
     def pin(self, signal: str) -> int:
-        """Present level of a pin of both axes, this axis's bit."""
+        """Return the current level of this axis's bit of a common port."""
         return self.context.log.levels[signal] >> self.number & 1

@@ -1,4 +1,4 @@
-"""The modelled carrier with a PPMC-2104."""
+"""Modelled carrier with a PPMC-2104."""
 
 from __future__ import annotations
 
@@ -16,8 +16,10 @@ _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
 
 
 class Carrier(carrier.Carrier[Ppmc2104]):
-    """Wired as ppmc2104_carrier: straps bits 1..0 are csel, 3..2 run, 4 errint_n; bit 7 chooses the pins in
-    PINS, 1 for those of axis 1."""
+    """Carrier wired like ppmc2104_carrier.
+
+    Straps bits 1..0 are csel, 3..2 run, 4 errint_n. Bit 7 selects the pins in PINS: 1 = pins of axis 1.
+    """
 
     def __init__(
         self,
@@ -54,6 +56,6 @@ _LIMITS = Limits(slower=2, least=1, shortest=PA_MIN, longest=PA_MAX)
 def predict(
     init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
 ) -> RampMove:
-    """See `single.predict.predict_move`."""
+    """Return the prediction of a move; see `single.predict.predict_move`."""
     ramp = Ramp(*_LIMITS.check(init, n, rate))
     return run(timebase or Timebase(), BaseClock.of_pins(csel, vsel), ramp, n, rate)

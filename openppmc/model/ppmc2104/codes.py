@@ -1,4 +1,7 @@
-"""Instruction codes, status bits and error numbers of the PPMC-2104 (P2104-CMD-01..03, -STA-01, -ERR)."""
+"""Instruction codes, status bits and error numbers of the PPMC-2104.
+
+Rules: P2104-CMD-01..03, -STA-01, -ERR.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ SWITCH_MIN = 0x40
 
 
 class Error(IntEnum):
-    """Contents of an error register."""
+    """Content of an error register."""
 
     NONE = 0
     UNDEFINED = 1
@@ -40,12 +43,12 @@ NEEDS_TABLE = (Kind.INITIALISE, Kind.OPERATION, Kind.EXCITATION_OFF)
 
 
 def is_error_read(command: Command) -> bool:
-    """Error code read, the one register read that is allowed in every state."""
+    """Return True for the error code read, the only register read that is allowed in every state."""
     return command.kind is Kind.READ and command.code & 7 == ERROR_CODE
 
 
 def _register(code: int, axis: int) -> Command:
-    """Group 10: reads, switching times, hold delay."""
+    """Decode group 10: reads, chopper times, hold delay."""
     if code & 0x18 or code & 7 == 7:
         return Command(Kind.UNDEFINED, code, axis=axis)
     if code & 7 == 4:
@@ -56,7 +59,7 @@ def _register(code: int, axis: int) -> Command:
 
 
 def _expansion(code: int, axis: int) -> Command:
-    """Group 11: pulse-only moves, excitation off, auxiliary pins."""
+    """Decode group 11: pulse-only moves, excitation off, auxiliary pins."""
     if code & 7 in RAMP_OPERATIONS:
         return operation_command(code, axis)
     if code in (0xC0, 0xE0):
@@ -86,16 +89,16 @@ def decode(code: int) -> Command:
     return operation_command(code, axis)
 
 
-# Rate limits of DATASHEET timing: P2104-DS-30..35.
+# Rate limits with DATASHEET timing: P2104-DS-30..35.
 
-# (one axis, both axes) by csel; the smallest rates that are accepted.
+# Smallest accepted rates (one axis, both axes) by csel.
 _PULSES = {1: (0x0C, 0x19), 0: (0x03, 0x06)}
 _PHASES = {1: (0x12, 0x23), 0: (0x04, 0x08)}
 _ORIGIN = {1: (0x14, 0x25), 0: (0x05, 0x09)}
 
 
 def rate_error(command: Command, rate: int, setup: Setup, csel: int, other_operating: bool) -> Error:
-    """Error.NONE, RATE_ONE_AXIS or RATE_TWO_AXES for the fastest rate of an operation."""
+    """Return Error.NONE, RATE_ONE_AXIS or RATE_TWO_AXES for the fastest rate of an operation."""
     if command.operation == SINGLE_STEP or setup.external:
         return Error.NONE
     table = _PULSES if command.pulse_only else _ORIGIN if command.operation == ORIGIN else _PHASES
@@ -105,10 +108,8 @@ def rate_error(command: Command, rate: int, setup: Setup, csel: int, other_opera
     return Error.RATE_TWO_AXES if other_operating and rate < together else Error.NONE
 
 
-# Pins of the PPMC-2104 with idle and reset levels (P2104-PORT-01), and how they belong to the axes.
-#
-# A port of both axes is one number, bit 0 = axis 1. `clk_o` is left out: it never stops and depends on
-# nothing.
+# Pins of the PPMC-2104 with idle and reset levels (P2104-PORT-01), and their assignment to the axes. A port
+# of both axes is one number, bit 0 = axis 1. `clk_o` is not modelled: it never stops and depends on nothing.
 
 AXES = (0, 1)
 INPUTS: dict[str, int] = {
@@ -156,12 +157,12 @@ MOTOR_AT_REST = {"s": 0b11111, "pout_n": 1, "hold": 1, "dir": 0}
 
 
 def axis_levels(levels: Mapping[str, int], axis: int) -> dict[str, int]:
-    """The inputs of one axis (0 or 1) as single bits."""
+    """Return the inputs of one axis (0 or 1) as single bits."""
     return {pin: levels[pin] >> axis & 1 for pin in AXIS_INPUTS}
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Write strobe and read strobe in the bus style that busc selects (P2104-BUS-01, -02)."""
+    """Return write strobe and read strobe in the bus style that busc selects (P2104-BUS-01, -02)."""
     if pins["cs_n"]:
         return False, False
     first, second = not pins["ds_wrs_n"], bool(pins["rw_rds_n"])
@@ -174,14 +175,14 @@ def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
 
 
 class Cause(Enum):
-    """Kinds of causes; each axis has one latch of each."""
+    """Kinds of causes; each axis has one latch of each kind."""
 
     END = "end"
     ERROR = "error"
 
 
 class Interrupt:
-    """The latches. `level(t)` is what the pin register takes from the state after edge t."""
+    """Interrupt latches. The pin register loads `level(t)` from the state after edge t."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -193,16 +194,16 @@ class Interrupt:
         self._set.add((cause, axis))
 
     def release(self, t: int, cause: Cause, axis: int) -> None:
-        """A read clears a latch at edge t; if it was set, INT* is H for W (P2104-INT-03, -04)."""
+        """Clear a latch that is read at edge t; if it was set, INT* is H for W (P2104-INT-03, -04)."""
         if (cause, axis) not in self._set:
             return
         self._set.remove((cause, axis))
         self._quiet_until = t + self._context.timebase.w
-        # Something must happen on that edge so that the pins are looked at again.
+        # An event at that edge is required, so that the pins are updated.
         self._context.queue.at(self._quiet_until, Phase.END, lambda now: None)
 
     def level(self, t: int) -> int:
-        """Level of int_n by the latches after edge t."""
+        """Return the level of int_n for the latches after edge t."""
         return 0 if self._set and t >= self._quiet_until else 1
 
     @property

@@ -1,7 +1,7 @@
-"""Instruction processor of the PPMC-2104 model: what each byte does, and which error it makes.
+"""Instruction processor of the PPMC-2104 model: effect and error of each byte.
 
 Handshake: P2104-HSK-04..08. Errors and their order: P2104-ERR-01..06, P2104-FSM-01..05. Setting:
-P2104-INI-01..07. Reads: P2104-RD-01..08. Auxiliary: P2104-AUX-01..06. Times: `windows`.
+P2104-INI-01..07. Reads: P2104-RD-01..08. Auxiliary: P2104-AUX-01..06. `axis.Windows` has the times.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .codes import (
 
 
 class CommandUnit:
-    """Takes one byte per C-event and shares it out to the axes."""
+    """Unit that accepts one byte per C-event and distributes it to the axes."""
 
     def __init__(
         self, context: Context, port: HostPort, axes: list[Axis], interrupt: Interrupt, windows: Windows
@@ -47,7 +47,7 @@ class CommandUnit:
         self._builder_free = -1
 
     def state(self) -> int:
-        """ERROR, CMND and BUSY as they stand in the status register (P2104-STA-04..06)."""
+        """Return ERROR, CMND and BUSY as bits of the status register (P2104-STA-04..06)."""
         bits = 0
         for axis in self._axes:
             n = axis.number
@@ -59,21 +59,21 @@ class CommandUnit:
         return bits
 
     def waits(self, t: int, byte: int, command: bool) -> bool:
-        """Whether a byte must wait for a ramp table at edge t (P2104-HSK-04)."""
+        """Return True if a byte must wait for a ramp table at edge t (P2104-HSK-04)."""
         if not command or self._pending is not None:
             return False
         code = decode(byte)
         return code.kind in NEEDS_TABLE and t <= self._axes[code.axis].table_ready
 
     def take(self, t: int, byte: int, command: bool) -> None:
-        """C-event at edge t."""
+        """Process a C-event at edge t."""
         if command:
             self._code(t, decode(byte))
         else:
             self._parameter(t, byte)
 
     def _charge(self, axis: int, error: Error) -> None:
-        """Put an error into the register of an axis (P2104-ERR-01, P2104-INT-01)."""
+        """Store an error in the register of an axis (P2104-ERR-01, P2104-INT-01)."""
         self._axes[axis].error = error
         if not self._context.levels["errint_n"]:
             self._interrupt.raise_(Cause.ERROR, axis)
@@ -81,7 +81,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ code bytes
 
     def _code(self, t: int, command: Command) -> None:
-        """A code byte: the checks of P2104-ERR-04 in their order."""
+        """Process a code byte with the checks of P2104-ERR-04 in their order."""
         abandoned = self._pending is not None
         self._pending, self._data = None, []
         if abandoned and command.kind not in STOPS:
@@ -103,7 +103,7 @@ class CommandUnit:
             self._execute(t, command, [])
 
     def _refusal(self, command: Command) -> Error:
-        """What the state of the axis has against a code."""
+        """Return the error of a code in the current state of its axis."""
         axis, kind = self._axes[command.axis], command.kind
         motion = axis.motion
         if kind is Kind.UNDEFINED:
@@ -124,7 +124,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ data bytes
 
     def _parameter(self, t: int, byte: int) -> None:
-        """A data byte; the last one of an instruction executes it."""
+        """Process a data byte; the last one of an instruction executes it."""
         command = self._pending
         if command is None:
             self._charge(0, Error.UNASKED_DATA)
@@ -140,7 +140,7 @@ class CommandUnit:
             self._execute(t, command, data)
 
     def _last_check(self, command: Command, data: list[int]) -> Error:
-        """Checks made with the last byte of an instruction (P2104-ERR-05)."""
+        """Return the error of the checks at the last byte of an instruction (P2104-ERR-05)."""
         if command.kind is Kind.INITIALISE:
             return self._setting_error(command, data)
         if command.kind is Kind.OPERATION:
@@ -150,7 +150,7 @@ class CommandUnit:
         return Error.NONE
 
     def _setting_error(self, command: Command, data: list[int]) -> Error:
-        """Values of an initial setting (P2104-INI-03)."""
+        """Return the error of the values of an initial setting (P2104-INI-03)."""
         setup = self._axes[command.axis].setup
         external = setup.external if setup else bool(command.code & 8)
         rl, rh, pa = data[0], data[1], data[2] | data[3] << 8
@@ -159,7 +159,7 @@ class CommandUnit:
         return Error.PA_TOO_LARGE if pa > PA_MAX else Error.NONE
 
     def _start_error(self, command: Command, data: list[int]) -> Error:
-        """Rate, rate limits, switches (P2104-ERR-05, P2104-LIM-06)."""
+        """Return the error of rate, rate limits and switches (P2104-ERR-05, P2104-LIM-06)."""
         axis, other = self._axes[command.axis], self._axes[1 - command.axis]
         setup, levels = axis.setup, axis.context.levels
         assert setup is not None
@@ -178,7 +178,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ execution
 
     def _execute(self, t: int, command: Command, data: list[int]) -> None:
-        """Carry out an instruction at edge t, in DATASHEET with its window."""
+        """Execute an instruction at edge t, with DATASHEET timing in its window."""
         axis, kind = self._axes[command.axis], command.kind
         end = self._window(t, command, data) if self._context.datasheet else t
         if kind is Kind.INITIALISE:
@@ -204,14 +204,14 @@ class CommandUnit:
         return self._windows.open(t, window_us(command, triangle), None if no_axis else command.axis)
 
     def _at(self, t: int, end: int, action: Callable[[int], None]) -> None:
-        """Now, or at the end of the window."""
+        """Execute an action now, or at the end of the window."""
         if end > t:
             self._context.queue.at(end, Phase.BEGIN, action)
         else:
             action(t)
 
     def _simple(self, t: int, axis: Axis, command: Command, data: list[int]) -> None:
-        """Everything that neither starts nor stops a motion."""
+        """Execute an instruction that neither starts nor stops a motion."""
         kind, code = command.kind, command.code
         if kind is Kind.READ:
             self._port.answer(axis.register(t, code & 7))
@@ -229,7 +229,7 @@ class CommandUnit:
     # ------------------------------------------------------------------ initial setting
 
     def _set_up(self, t: int, end: int, axis: Axis, code: int, data: list[int]) -> None:
-        """A good setting: store, show the pattern, build the table (P2104-INI-04, -05)."""
+        """Execute a valid setting: store it, output the pattern, build the table (P2104-INI-04, -05)."""
         ramp = Ramp(data[0], data[1], data[2] | data[3] << 8)
         fresh = axis.setup is None
         if axis.setup is None:
@@ -248,7 +248,7 @@ class CommandUnit:
         self._context.queue.at(ready, Phase.BEGIN, lambda now: self._complete(now, axis, fresh))
 
     def _complete(self, t: int, axis: Axis, fresh: bool) -> None:
-        """The table is ready: NORMAL (P2104-INI-04, -07)."""
+        """Complete the setting when the table is ready: state NORMAL (P2104-INI-04, -07)."""
         axis.building = False
         assert axis.setup is not None
         if fresh and axis.setup.chopping:

@@ -1,10 +1,10 @@
-"""Golden model of the PPMC-2104 at pin level, event driven and exact to the cycle.
+"""Golden model of the PPMC-2104 at pin level, event driven and cycle-accurate.
 
-Pins and time: `chip`, `clock`. Bus: `single.hostport` (P2104-BUS, -HSK). `commands`: P2104-CMD, -INI, -RD,
--AUX, -ERR, -FSM. `codes`: interrupt (P2104-INT). `axis`, one for each axis, with `motion.motion`:
-P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM, -DS. Phases and chopper: `motion.excitation`
-(P2104-PHS, -SW). Ramp: `motion.ramp` (P2104-RMP). Here: P2104-PORT-01..03, P2104-PAR-01. `clk_o` is not
-modelled.
+Rules by module: this one P2104-PORT-01..03, P2104-PAR-01. Bus: `single.hostport` (P2104-BUS, -HSK).
+`commands`: P2104-CMD, -INI, -RD, -AUX, -ERR, -FSM. `codes`: interrupt (P2104-INT). `axis`, one object per
+axis, with `motion.motion`: P2104-OPR, -STP, -BCK, -TIM, -PRO, -FDC, -END, -LIM, -DS. Phases and chopper:
+`motion.excitation` (P2104-PHS, -SW). Ramp: `motion.ramp` (P2104-RMP). `chip` and `clock` have pins and time.
+`clk_o` is not modelled.
 """
 
 from __future__ import annotations
@@ -22,10 +22,17 @@ from .commands import CommandUnit
 
 
 class Ppmc2104(Chip):
-    """One PPMC-2104.
+    """One PPMC-2104. The model starts just after the release of reset, before edge 0.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET"; ValueError for anything else. Ports
-    of both axes are one number, bit 0 = axis 1. The model starts just released from reset, before edge 0.
+    Ports of both axes are one number, bit 0 = axis 1.
+
+    Args:
+        clk_hz: 8e6..200e6.
+        xtal_hz: 1e6..16e6.
+        timing: "FAST" or "DATASHEET".
+
+    Raises:
+        ValueError: another value.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -41,9 +48,10 @@ class Ppmc2104(Chip):
         self._build(0, INPUTS)
 
     def _build(self, released: int, pins: Mapping[str, int]) -> None:
-        """Fresh blocks in their reset state; `released` is the first edge after the reset."""
+        """Create blocks in their reset state. released: first edge after the reset."""
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # The synchronisers wake up with idle inputs, but for clock edges that never were.
+        # The synchronisers start with idle inputs, except extck, so that no clock edge occurs that was not on
+        # the pin.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context
@@ -63,7 +71,7 @@ class Ppmc2104(Chip):
     def _state(self) -> int:
         return self._commands.state()
 
-    # ------------------------------------------------------------------ inside of `chip`
+    # ------------------------------------------------------------------ methods that `chip` calls
 
     def _latch(self, t: int) -> None:
         for axis in self.axes:
@@ -89,10 +97,13 @@ class Ppmc2104(Chip):
             return {"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": int(not write), "a0": reg}
         return {"cs_n": 0, "ds_wrs_n" if write else "rw_rds_n": 0, "a0": reg}
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
-        """Changes (t, level) of one axis's bit (axis 1 or 2) of a port of both, from edge `since` on."""
+        """Return the changes (t, level) of one axis's bit of a common port.
+
+        axis: 1 or 2. since: first edge.
+        """
         place, changes = axis - 1, []
         level = self.log.initial[signal] >> place & 1
         for t, value in self.log.of(signal):
@@ -102,19 +113,22 @@ class Ppmc2104(Chip):
         return [(t, bit) for t, bit in changes if t >= since]
 
     def pulses(self, axis: int, since: int = 0) -> list[int]:
-        """Edges of the pulses of axis 1 or 2: falls of its pout_n (P2104-GEN-05)."""
+        """Return the edges of the pulses of axis 1 or 2: falls of its pout_n (P2104-GEN-05)."""
         return [t for t, level in self.bits("pout_n", axis, since) if level == 0]
 
     def busy(self, axis: int) -> bool:
-        """BUSY of axis 1 or 2."""
+        """Return BUSY of axis 1 or 2."""
         return self.axes[axis - 1].motion.busy
 
     def intervals(self, axis: int) -> list[Interval]:
-        """Intervals of the present or last operation of axis 1 or 2."""
+        """Return the intervals of the current or last operation of axis 1 or 2."""
         return self.axes[axis - 1].motion.intervals
 
     def index(self, axis: int) -> int | None:
-        """Ramp index of the running interval of axis 1 or 2, None at rest and in constant speed."""
+        """Return the ramp index of the running interval of axis 1 or 2.
+
+        Stopped or at constant speed it is `None`.
+        """
         return self.axes[axis - 1].motion.index
 
     @property

@@ -1,4 +1,4 @@
-"""The modelled carrier with a PPMC-312 and a motor with an encoder."""
+"""Modelled carrier with a PPMC-312 and a motor with an encoder."""
 
 from __future__ import annotations
 
@@ -18,10 +18,12 @@ _PINS = dict(zip(SWITCHES, ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"),
 
 
 class Carrier(carrier.Carrier[Ppmc312]):
-    """Wired as ppmc312_carrier: straps bit 0 is RUN, bits 1 and 2 are the event inputs 1 and 2.
+    """Carrier wired like ppmc312_carrier.
 
-    The encoder gives a pulse for each one that the axle follows; the drive says END at once. `positions` is
-    the axle's, the part itself counts pulses.
+    Straps bit 0 is RUN, bits 1 and 2 are event inputs 1 and 2.
+
+    The encoder outputs a pulse for each pulse that the axle follows. The drive asserts END immediately.
+    `positions` holds the position of the axle; the part itself counts pulses.
     """
 
     ADDRESS_BITS = 3
@@ -36,7 +38,10 @@ class Carrier(carrier.Carrier[Ppmc312]):
         on_interrupt: Callable[[], None] = lambda: None,
         part: Ppmc312 | None = None,
     ) -> None:
-        """part: one that has been made already, instead of these figures."""
+        """Create the carrier.
+
+        part: existing part to use instead of a new one with these frequencies and this timing.
+        """
         self._moved, self._plant = False, plant
         super().__init__(part or Ppmc312(clk_hz, xtal_hz, timing), [plant], on_interrupt)
         self.part.pins(self.t - 3, end_n=0, auxi=0xFF)
@@ -89,8 +94,11 @@ class Carrier(carrier.Carrier[Ppmc312]):
 
 @dataclass(frozen=True)
 class TableMove(Move):
-    """Rates are in ticks of the base clock, `divider` crystal periods each; indices are stages of the table,
-    None at constant speed; kind: status bits of the answer."""
+    """Predicted move.
+
+    Rates are in ticks of the base clock, `divider` crystal periods each. Indices are stages of the table,
+    `None` at constant speed. kind: status bits of the response.
+    """
 
     divider: int
     kind: int
@@ -103,10 +111,14 @@ class TableMove(Move):
 def predict_table(
     table: Table, n: int, rate: int = 0, flat: bool = False, timebase: Timebase | None = None
 ) -> TableMove:
-    """Undisturbed move of n pulses with an internal base clock.
+    """Return the prediction of an undisturbed move of n pulses with an internal base clock.
 
-    rate: speed aimed at, 0 for the high speed. flat: without ramps (83). Raises ValueError for a base clock
-    from outside, a rate outside the table and n outside 1..2^32-1.
+    Args:
+        rate: target speed, 0 for the high speed.
+        flat: without ramps (83).
+
+    Raises:
+        ValueError: the base clock is external, the rate is outside the table, or n is outside 1..2^32-1.
     """
     timebase = timebase or Timebase()
     if table.clk not in DIVIDERS:
@@ -133,8 +145,15 @@ def predict_table(
 def predict_setting(
     parameters: bytes, n: int, rate: int | None = None, timebase: Timebase | None = None
 ) -> TableMove:
-    """The same from the parameters of an initial setting (8 or 13 bytes after its code); rate: of a move at
-    constant speed, None for one with ramps. Raises ValueError for what the part refuses."""
+    """Return the prediction of a move for an initial setting.
+
+    Args:
+        parameters: 8 or 13 bytes after the code of the setting.
+        rate: rate of a move at constant speed, `None` for a move with ramps.
+
+    Raises:
+        ValueError: the part would reject the setting or the move.
+    """
     if len(parameters) not in (8, 13):
         raise ValueError(f"an initial setting has 8 or 13 parameters, not {len(parameters)}")
     flags, separate = parameters[0], bool(parameters[0] & LE)
@@ -160,5 +179,8 @@ def predict_setting(
 def predict(
     init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
 ) -> TableMove:
-    """See `single.predict.predict_move`; csel and vsel, which the part has not, are not looked at."""
+    """Return the prediction of a move; see `single.predict.predict_move`.
+
+    csel and vsel are ignored, because the part has no such pins.
+    """
     return predict_setting(init, n, rate, timebase)

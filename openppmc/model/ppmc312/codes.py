@@ -1,4 +1,7 @@
-"""Instruction codes, lengths, accept table and answer numbers of the PPMC-312 (chapters 3.1, 4, 10)."""
+"""Instruction codes, lengths, accept table and response codes of the PPMC-312.
+
+Rules: chapters 3.1, 4, 10.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +54,7 @@ class Code(IntEnum):
 
 
 class Answer(IntEnum):
-    """Answer codes that are no instruction codes (10.1)."""
+    """Response codes that are no instruction codes (10.1)."""
 
     STOPPED = 0xE0
     INTERLOCK_END = 0xE1
@@ -83,7 +86,7 @@ class State(IntEnum):
 
 
 class Source(IntEnum):
-    """Who asked for an instruction; the value is the answer's header (P312-RSP, 2.3)."""
+    """Source of an instruction; the value is the header of the response (P312-RSP, 2.3)."""
 
     HOST = 0x03
     EVENT = 0x0B
@@ -94,7 +97,10 @@ SPONTANEOUS = 0x23
 
 
 class Cause(IntEnum):
-    """Why pulse output stopped; the value is the bit of E0 (10.3). RETURN: phase 1 of a zero return."""
+    """Cause of the end of the pulses; the value is the bit of E0 (10.3).
+
+    RETURN: phase 1 of a zero return.
+    """
 
     RETURN = 0x00
     LIMIT = 0x01
@@ -107,7 +113,7 @@ class Cause(IntEnum):
     ALARM = 0x80
 
 
-# Immediate causes, the first one wins when several act on one clk (P312-MOT-34).
+# Immediate causes; the first one has priority if several act in the same cycle (P312-MOT-34).
 IMMEDIATE = (Cause.ALARM, Cause.LIMIT, Cause.ORIGIN, Cause.STOP)
 
 
@@ -121,7 +127,7 @@ class Alarm(IntEnum):
 
 
 class Trigger(IntEnum):
-    """What executes a registered instruction, in order of priority (P312-OVR-10)."""
+    """Condition that executes a registered instruction, in order of priority (P312-OVR-10)."""
 
     POSITION = 0
     EVT0 = 1
@@ -129,7 +135,7 @@ class Trigger(IntEnum):
 
     @classmethod
     def of_flags(cls, flags: int) -> Trigger:
-        """From bits 1:0 of a flag byte."""
+        """Decode bits 1:0 of a flag byte."""
         return {0b01: cls.EVT0, 0b11: cls.EVT1}.get(flags & 3, cls.POSITION)
 
 
@@ -139,10 +145,10 @@ OV, LE, FO, DIR, IDX = 0x04, 0x10, 0x08, 0x40, 0x10
 OVERRIDABLE = frozenset({0x80, 0x81, 0x82, 0x83, 0x85, 0x86, 0x87, 0x88})
 POSITION_TRIGGERED = frozenset({0x80, 0x81, 0x87, 0x88})
 MOTION_STARTS = frozenset({0x10, 0x11, 0x82, 0x83, 0x84, 0x85, 0x86})
-# Codes that an event buffer may hold but never execute (P312-EVT-03).
+# Codes that an event buffer may hold but never executes (P312-EVT-03).
 NOT_FROM_EVENTS = frozenset({0x01, 0x41, 0x49})
 
-# Lengths that an instruction may have; 00 and 49 depend on their parameters as well (P312-BLK-01 step 6).
+# Valid lengths of an instruction; 00 and 49 also depend on their parameters (P312-BLK-01 step 6).
 LENGTHS: dict[int, tuple[int, ...]] = {
     **dict.fromkeys((0x20, 0x21, 0x22, 0x23, 0x24, 0x25, 0x27, 0x40, 0x41, 0x44, 0x45, 0x4D, 0xFF), (1,)),
     **dict.fromkeys((0x06, 0x26, 0x42, 0x84), (2,)),
@@ -167,7 +173,7 @@ _NORMAL_ONLY = ".O...."
 _START = (_NORMAL_ONLY, ".OOO..")
 _STOP = ("..OO..", ".OOO..")
 
-# One letter a state in the order of `_STATES`; pairs are OV = 0 and OV = 1 (P312-STA-01).
+# One letter per state in the order of `_STATES`; pairs are OV = 0 and OV = 1 (P312-STA-01).
 _ACCEPT: dict[int, tuple[str, str]] = {
     **{code: (_AT_REST, _AT_REST) for code in (0x00, 0x01, 0x02, 0x03, 0x04, 0x06)},
     **{code: (_AT_REST, _AT_REST) for code in (0x20, 0x21, 0x22, 0x23, 0x28, 0x41, 0x43)},
@@ -183,13 +189,15 @@ _ACCEPT: dict[int, tuple[str, str]] = {
 
 
 def known(code: int) -> bool:
-    """Whether there is such an instruction."""
+    """Return True if the instruction exists."""
     return code in _ACCEPT
 
 
 def accepts(code: int, state: State, override: bool, end_wait: bool, table: bool) -> bool:
-    """The accept table of chapter 4. end_wait: FIX because the positioning end is awaited. table: there is a
-    valid one."""
+    """Return True if the accept table of chapter 4 accepts an instruction.
+
+    end_wait: state FIX, because the positioning end is awaited. table: a valid table exists.
+    """
     if code == Code.END_TERMINAL and end_wait:
         return True
     if code == Code.TABLE_READ and not table:
@@ -250,17 +258,17 @@ HOST_PINS = ("d_i", "rs", "cs_n", "we_n", "oe_n")
 SERIAL_PINS = ("rxd",)
 
 
-# The event queue of the PPMC-312 as its blocks see it: a software reset drops what they wait for.
+# Event queue of the PPMC-312 for its blocks: a software reset cancels their events.
 
 
 class _Asked(Event):
-    """What a block has asked for; only the present blocks have any in the queue."""
+    """Event of a block; only the current blocks have such events in the queue."""
 
     __slots__ = ()
 
 
 class Scope(Scheduler):
-    """The queue of a part as its blocks see it: what they have asked for is forgotten with them."""
+    """Queue of a part for its blocks; their events are cancelled when the blocks are replaced."""
 
     def __init__(self, queue: Scheduler) -> None:
         super().__init__()
@@ -275,6 +283,6 @@ class Scope(Scheduler):
         return event
 
     def close(self) -> None:
-        """The blocks are replaced."""
+        """Cancel all events, because the blocks are replaced."""
         self._alive = False
         self._queue.cancel(_Asked)

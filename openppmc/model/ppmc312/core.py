@@ -1,7 +1,7 @@
-"""What instructions of the PPMC-312 act on: all blocks of the part behind its pins, and its state.
+"""All blocks of the PPMC-312 and its state; the instructions act on them.
 
-Chapter 4, P312-GEN-12, P312-INP-30..33. `make_host` makes the host side of the parallel bus; `connect` puts
-another in.
+Rules: chapter 4, P312-GEN-12, P312-INP-30..33. `make_host` creates the host side of the parallel bus;
+`connect` replaces it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,10 @@ from .stages import FreeCurve, Table
 
 
 class Core:
-    """reset(t, source): the part's software reset, which answers."""
+    """All blocks of the part.
+
+    reset(t, source): software reset of the part, which sends a response.
+    """
 
     unit: Unit
     host: HostSide
@@ -74,25 +77,25 @@ class Core:
         self.host = make_host(self)
 
     def connect(self, host: HostSide, serial: bool) -> None:
-        """The host side, when it is known which one it is: right after a reset."""
+        """Connect the host side, which is known just after a reset."""
         self.host, self.responses.serial = host, serial
 
     # ------------------------------------------------------------------ state
 
     @property
     def state(self) -> State:
-        """The operation state of chapter 4."""
+        """Operation state of chapter 4."""
         if self._abnormal:
             return State.ABN
         return self.operation.state or (State.NOR if self.table else State.INI)
 
     def forget_table(self) -> None:
-        """State INI: no table, no registered instructions."""
+        """Change to state INI: no table, no registered instructions."""
         self.table = self.transfer = None
         self._clear_buffers()
 
     def set_table(self, table: Table) -> None:
-        """State NOR with a new table."""
+        """Change to state NOR with a new table."""
         self.table = table
         self.operation.speed_limit = table.high
         self._clear_buffers()
@@ -103,13 +106,16 @@ class Core:
             buffer.clear()
 
     def drop_overrides(self, t: int) -> None:
-        """An override has failed: the FIFO is emptied; pulses that a position has stopped stay stopped."""
+        """Clear the FIFO after an override has failed.
+
+        Pulses that a position has stopped stay stopped.
+        """
         self.fifo.clear()
 
     # ------------------------------------------------------------------ alarms
 
     def alarm(self, t: int, status: Alarm) -> None:
-        """alm_n is low, or multiple occurrence (P312-INP-30..32)."""
+        """Process alm_n = 0, or a multiple occurrence (P312-INP-30..32)."""
         self.responses.report(t, responses.ALARM, Answer.ALARM, status)
         if self._abnormal:
             return
@@ -119,11 +125,14 @@ class Core:
         self.operation.stop(t, Cause.ALARM)
 
     def overrun(self, t: int, status: Alarm) -> None:
-        """A report has been lost at edge t; the alarm is one clk behind."""
+        """Process a report lost at edge t; the alarm occurs one cycle later."""
         self.context.queue.at(t + 1, Phase.LEVELS, lambda now: self.alarm(now, status))
 
     def clear_alarm(self, t: int) -> None:
-        """24: aclr_n goes low, and while it is ABN can be left (P312-INP-33)."""
+        """Execute 24: aclr_n is asserted (low) (P312-INP-33).
+
+        While it is low, the part can leave ABN.
+        """
         self.outputs.alarm_clear(t)
         self._clearing = self._abnormal
         self.context.queue.at(t + 1, Phase.LEVELS, self._leave_abnormal)
@@ -143,7 +152,10 @@ class Core:
             self.watch.was_read(t, report.kind)
 
     def _on_pulse(self, t: int, direction: int) -> bool:
-        """The position has counted a pulse and is compared; whether the output stops here for good."""
+        """Count a pulse in the position and compare the position.
+
+        It returns True if the output ends permanently at this position.
+        """
         position = self.counters.pulse
         released = self.fifo.count(t, position)
         if released:
@@ -157,7 +169,7 @@ class Core:
             self.overrun(t, Alarm.INTERLOCK_OR_HOLD)
 
     def count_encoder(self, t: int, direction: int) -> None:
-        """Rising edge of epin."""
+        """Process a rising edge of epin."""
         self.counters.count_encoder(direction)
         self.watch.look(t)
 

@@ -1,4 +1,7 @@
-"""How long the PPMC-312 of this project takes inside the windows of its rules, and the sheet's times."""
+"""Latencies of the PPMC-312 of this project, and the times of the data sheet.
+
+The latencies are within the bounds of the rules.
+"""
 
 from __future__ import annotations
 
@@ -8,48 +11,66 @@ from .stages import RIGHT_DOWN, TRIANGLE, Plan, Table
 from .stages import TRAPEZOID as TRAPEZOID_KIND
 
 US, WIDTH = 16, 80
-"""XTAL cycles of a microsecond at 16 MHz, and of TW."""
+"""Crystal cycles of a microsecond at 16 MHz, and of TW."""
 
 
 @dataclass(frozen=True)
 class Pace:
-    """Constants of one core, all in clk; the times of plans and tables depend on the table.
+    """Constants of one core in cycles, except `early`.
 
-    Instructions. turn: header write event, trigger, or end of the last one to the begin of processing (the
-    block is fetched at one byte a clk and judged). judge, effect: from there to the checks, and to the effect
-    of anything short. copy: more for what is registered. limits: effect to the limit check of a start, which
-    sees the levels of its edge. answer: effect to the stored answer, without its bytes (one clk each). done:
-    stored to MWEF = 0. reset: begin of processing to the reset by FF, reboot: from there to its effect,
-    reopen: to MWEF = 0. alarm: multiple occurrence to its alarm. halt: effect of 80 to its stop. found:
-    further block of a table read after the one before has been read, without its bytes, three more for each
-    of its stages.
+    The times of plans and tables depend on the table.
 
-    Responses. late: an earlier answer read to the one that waited for it (P312-RSP-20, <= 4). load: store to
-    load; show: load to MREF = 0; reload: MREF = 1 to the next load (P312-PAR-08).
-
-    Motion. report: rest to E0 (<= 64). rest: end of pulses, or fall of pout, to rest. turn_back: phase 1
-    of a zero return to t0 of phase 2 (<= 64). held: RUN to t0 of a held operation. count: pulse to POS,
-    compare: to what the position triggers (P312-MOT-05, P312-OVR-12), unlock: to E1. lead, slow_lead,
-    change_lead, ramp_lead, origin_lead: the high-speed limit, 81, 88, 87, the level of the origin counts
-    for a boundary that comes at least this much later; drop_lead: the same for what a newer 87 or 88
-    replaces; flat_lead: 87 needs a constant rate for so long. search: so much longer after a stage has
-    become the constant rate, whose t(x) must be found first. scan: one pass over the table. young: t0 to
-    the first look at the high-speed limit. least: shortest interval (P312-MOT-04). armed: a new head of
-    the command FIFO to its trigger (P312-OVR-02, <= 4).
-
-    Monitors. compare_lag: POS or ENC to inside or outside, one clk more to the status bit, two to the report.
-    quiet: rest to the first look at the in-position monitor.
-
-    Serial mode. heard: middle of the stop bit to the character. frame: last character to what is a header
-    write in parallel mode. look: the same to the look at reports, state and counters. reply: that look, or
-    the stored answer, to the rise of snd, which clear, clk beyond a bit from the middle of the stop bit, may
-    put off. silence: clk beyond the 20 ms.
-
-    DATASHEET. early: XTAL cycles that a time is shortened by, for what has passed on the way; paced: its end
-    to the effect.
-
-    Pins. pins: internal level to irq_n and intlk_n. wrq_fast: T_WRQ in FAST. ready: first edge after reset
-    to out_oe in FAST, start: the same beyond the time of DATASHEET.
+    Attributes:
+        turn: instructions: header write event, trigger, or end of the last instruction to the begin of
+            processing. The block is fetched at one byte per cycle and checked.
+        judge: begin of processing to the checks.
+        effect: begin of processing to the effect of a short instruction.
+        copy: additional time of an instruction that is registered.
+        data: additional time of a data block of a free curve, without its bytes (one cycle each).
+        limits: effect to the limit check of a start, which uses the levels of its edge.
+        answer: effect to the stored response, without its bytes (one cycle each).
+        done: stored response to MWEF = 0.
+        reset: begin of processing to the reset by FF.
+        reboot: reset by FF to its effect.
+        reopen: reset by FF to MWEF = 0.
+        alarm: multiple occurrence to its alarm.
+        halt: effect of 80 to its stop.
+        late: responses: read of an earlier response to the one that waited for it (P312-RSP-20, <= 4).
+        load: store to load.
+        show: load to MREF = 0.
+        reload: MREF = 1 to the next load (P312-PAR-08).
+        rest: motion: end of the pulses, or fall of pout, to standstill.
+        report: standstill to E0 (<= 64).
+        turn_back: phase 1 of a zero return to t0 of phase 2 (<= 64).
+        held: RUN to t0 of a held operation.
+        count: pulse to POS.
+        compare: pulse to the actions that the position triggers (P312-MOT-05, P312-OVR-12).
+        unlock: pulse to E1.
+        lead, slow_lead, change_lead, ramp_lead, origin_lead: least time until a boundary for which the
+            high-speed limit, 81, 88, 87, the level of the origin counts.
+        drop_lead: the same for a change that a newer 87 or 88 replaces.
+        flat_lead: 87 requires a constant rate for this time.
+        search: addition to flat_lead after the rate of a stage has become the constant rate, whose t(x) must
+            be searched first.
+        scan: one pass over the table.
+        young: t0 to the first check of the high-speed limit.
+        least: shortest interval (P312-MOT-04).
+        armed: new head of the command FIFO to its trigger (P312-OVR-02, <= 4).
+        compare_lag: monitors: POS or ENC to inside or outside; one cycle more to the status bit, two to the
+            report.
+        quiet: standstill to the first evaluation of the in-position monitor.
+        heard: serial mode: middle of the stop bit to the character.
+        frame: last character to the event that is a header write in parallel mode.
+        look: last character to the sampling of reports, state and counters.
+        reply: that sampling, or the stored response, to the rise of snd.
+        clear: snd does not rise earlier than this time plus one bit after the middle of the stop bit.
+        silence: addition to the 20 ms.
+        early: DATASHEET: crystal cycles that a time is shortened by, for the time that has already passed.
+        paced: end of a DATASHEET time to the effect.
+        pins: internal level to irq_n and intlk_n.
+        wrq_fast: T_WRQ with FAST timing.
+        ready: first edge after a reset to out_oe with FAST timing.
+        start: addition to the DATASHEET time from a reset to out_oe.
     """
 
     turn: int = 1
@@ -104,14 +125,21 @@ class Pace:
     start: int = 2
 
     def look_up(self) -> int:
-        """clk from the effect of 87, 88 to the change, or to t0 without a plan: one pass over the table."""
+        """Return the cycles of one look-up in the table.
+
+        It lies between the effect of 87 or 88 and the change, or t0 without a plan.
+        """
         return self.scan + 4
 
     def starting(self, plan: Plan, single: bool = False, ramped: bool = False) -> int:
-        """clk from the effect to t0. single: single step, which needs no look-up. ramped: planned.
+        """Return the cycles from the effect to t0.
 
-        The look-up sums the sides, too. It takes another pass over the deceleration side where that does not
-        begin with a full stage; a triangle multiplies and divides.
+        The look-up also adds up the ramps. It needs another pass over the deceleration ramp if that does not
+        begin with a full stage. A triangular profile needs a multiplication and a division.
+
+        Args:
+            single: single step, which needs no look-up.
+            ramped: the operation has a plan with ramps.
         """
         if single:
             return 3
@@ -127,11 +155,12 @@ class Pace:
         return clk + part * (5 + max(0, end - table.sd))
 
     def filling(self, table: Table) -> int:
-        """clk from the effect of 00 to the last word of the table.
+        """Return the cycles from the effect of 00 to the last word of the table.
 
-        One operation of n steps takes n + 4 clk, a division one more: K RH, K Rs (24 steps each); then for
-        each stage its speed D (24), D / 2 (1), C + D / 2 and C / D (16 each), and S + D for each side (24);
-        then again D, and for each side that uses the stage P D and its share of S (24 each).
+        One operation of n steps takes n + 4 cycles, a division one more. First K RH and K Rs are calculated
+        (24 steps each). For each stage follow its speed D (24), D / 2 (1), C + D / 2 and C / D (16 each), and
+        S + D for each ramp (24). Then D is calculated again, and for each ramp that uses the stage P D and
+        its share of S (24 each).
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)
@@ -140,24 +169,30 @@ class Pace:
         return 3 + 28 + 28 + stages * rates + stages * (speed + 1) + shares + 1
 
     def looking_up(self) -> int:
-        """clk from the last word of a table to the valid one: the start-up rate is looked up."""
+        """Return the cycles from the last word of a table to the valid table.
+
+        The start-up rate is looked up during this time.
+        """
         return self.scan + 3
 
     def reading(self, block: bytes) -> int:
-        """clk from a read block of a table read to the next one in its store."""
+        """Return the cycles from the read of a block of a table read to the next block in its store.
+
+        Each byte takes one cycle, and each stage three cycles more.
+        """
         stages = (len(block) - 3) // (2 if block[2] == 1 else 3)
         return len(block) + 3 * stages
 
 
-# Section 8, in XTAL cycles from the header write or the trigger.
+# Section 8, in crystal cycles from the write of the header, or from the trigger.
 READY = 1600 * US
 BUILD = {(False, False): 115_000 * US, (False, True): 200_000 * US}
 BUILD |= {(True, False): 175_000 * US, (True, True): 260_000 * US}
-"""By (sigmoid, separate deceleration)."""
+"""Build time by (sigmoid, separate deceleration)."""
 TRAPEZOID, OTHER_SHAPE, TRAPEZOID_RATE, OTHER_SHAPE_RATE = 100 * US, 700 * US, 900 * US, 1400 * US
 CONSTANT, ENDLESS, ENDLESS_RATE, GENERAL = 400 * US, 60 * US, 400 * US, 500 * US
 STOP, OUTPUT = 350 * US, 300 * US
 PIN_LOW, EVT_LOW = 200 * US, 25_000 * US
 
-# Functional times, in XTAL cycles, the same in both modes.
+# Functional times in crystal cycles, the same in both modes.
 CLEAR_PULSE, CURRENT_DOWN, SAMPLE, SILENCE = 393_216, 1_600_000, 800, 320_000

@@ -1,8 +1,8 @@
-"""Golden model of the PPMC-312 at pin level, event driven and exact to the cycle.
+"""Golden model of the PPMC-312 at pin level, event driven and cycle-accurate.
 
-Pins and time: `chip`, `clock`. What the host sees: `front`. Instructions: `instructions`. Tables and plans:
-`stages`. Motion, positions, inputs and outputs: `motion`. All of them together: `core`.
-Here: P312-PRT-01..03, reset, software reset.
+`chip` and `clock` have pins and time, `front` the host interface, `instructions` the instructions, `stages`
+tables and plans, `motion` motion, positions, inputs and outputs; `core` connects them. This module:
+P312-PRT-01..03, reset, software reset.
 """
 
 from __future__ import annotations
@@ -21,18 +21,27 @@ from .pace import READY, Pace
 
 _LATE = ("irq_n", "intlk_n")
 _SYNCHRONISED = {pin: (1 << WIDTHS.get(pin, 1)) - 1 for pin in INPUTS}
-"""What the inside sees of the pins before it has sampled them."""
+"""Internal levels of the pins before they have been sampled."""
 
 
 class Ppmc312(Chip):
-    """One PPMC-312.
+    """One PPMC-312. The model starts just after the release of reset, before edge 0.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..16e6, timing "FAST" or "DATASHEET", version 0..255; ValueError for
-    anything else. sum_mode "BINARY" or "CHARS": checksum of the serial mode. snd_lead 1..16: bits from the
-    rise of snd to the start bit; snd_wait 0..8: bits that snd waits beyond half a bit. straps: pin levels
-    from the beginning on, as mode, mod, adr. The model starts just released from reset, before edge 0.
-    replies: (edge at which snd rises, whole frame) of all that the station has sent; sent: (edge in the
-    middle of the stop bit, character). Both may be emptied at any time.
+    Args:
+        clk_hz: 8e6..200e6.
+        xtal_hz: 1e6..16e6.
+        timing: "FAST" or "DATASHEET".
+        version: 0..255.
+        sum_mode: "BINARY" or "CHARS", checksum rule of the serial mode.
+        snd_lead: 1..16, bits from the rise of snd to the start bit.
+        snd_wait: 0..8, delay of snd in bits in addition to half a bit.
+        straps: pin levels from the beginning on, for example mode, mod, adr.
+
+    Raises:
+        ValueError: another value.
+
+    replies: (edge at which snd rises, whole frame) of all frames that the station has sent. sent: (edge in
+    the middle of the stop bit, character). Both lists may be cleared at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -72,7 +81,7 @@ class Ppmc312(Chip):
         self._sample(0, self.INPUTS)
 
     def _build(self) -> None:
-        """Fresh blocks in their reset state; the synchronisers show inactive levels."""
+        """Create blocks in their reset state; the synchronisers hold inactive levels."""
         levels = dict(_SYNCHRONISED)
         self._scope = Scope(self._queue)
         self._context = Context(
@@ -85,12 +94,12 @@ class Ppmc312(Chip):
         return self._mailbox
 
     def _latch_mode(self, t: int) -> None:
-        """The end of a reset: what the pins say of the host side (P312-PRT-03)."""
+        """Latch the pins that select the host side, at the end of a reset (P312-PRT-03)."""
         self._latched = {pin: self._pins[pin] for pin in ("mode", "mod", "adr")}
         self._connect()
 
     def _connect(self) -> None:
-        """The host side that the latched pins say."""
+        """Connect the host side that the latched pins select."""
         self._host: HostSide = self._mailbox
         self._host_pins = {*self.HOST_PINS}
         if not self._latched["mode"]:
@@ -108,7 +117,7 @@ class Ppmc312(Chip):
         self._out_oe = 0
 
     def _released(self, t: int) -> None:
-        """Edge t is the first one after a reset (P312-PRT-02, -03)."""
+        """Process edge t, the first one after a reset (P312-PRT-02, -03)."""
         self._latch_mode(t)
         self._out_oe = 0
         self._held = self._levels()
@@ -121,7 +130,10 @@ class Ppmc312(Chip):
         self._queue.at(ready, Phase.END, self._ready)
 
     def _make_registers(self) -> list[tuple[tuple[str, ...], PinRegister]]:
-        """Most outputs are registers themselves, some follow an internal level."""
+        """Return the output registers.
+
+        Most outputs are registers themselves, some follow an internal level.
+        """
         late = {name: level for name, level in self._held.items() if name in _LATE}
         early = {name: level for name, level in self._held.items() if name not in _LATE}
         return [
@@ -134,7 +146,7 @@ class Ppmc312(Chip):
         self._host.ready(t)
 
     def _sample(self, t: int, changed: Iterable[str]) -> None:
-        """Nothing is sampled while a part is in reset; its first edge samples everything."""
+        """Sample pins; in reset no pin is sampled, and the first edge after it samples all pins."""
         names = set(changed)
         if self._host_pins & names:
             self._queue.at(max(t, self._bus_from), Phase.PINS, lambda now: self._sample_bus(now, self._pins))
@@ -147,20 +159,25 @@ class Ppmc312(Chip):
         self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._see_run(now, level))
 
     def _see_run(self, t: int, level: int) -> None:
-        """RUN is a gate: a start sees its level of the same edge, not what there was before (P312-INP-20)."""
+        """Update RUN, which is a gate.
+
+        A start uses its level at the same edge, not that of the previous one (P312-INP-20).
+        """
         if t >= self._pins_from + self.latency.input_sync:
             self.core.operation.run_level = level
 
     def _software_reset(self, t: int, source: Source) -> None:
-        """FF (P312-CMD-FF): all as after a reset but the levels of the pins, then its answer.
+        """Execute FF (P312-CMD-FF) and send its response.
 
-        A strobe on the bus goes on (P312-PAR-11), unless the pins say now that there is none.
+        The state is that after a reset, except the levels of the pins.
+
+        A strobe on the bus continues (P312-PAR-11), unless the pins now select the serial mode.
         """
         self._scope.close()
         self._queue.at(t, Phase.PIN, self._reset_outputs)
         self._build()
         self._connect()
-        # What a read shows at this very edge comes from the old registers.
+        # A read at this edge still returns the old registers.
         self._queue.at(t, Phase.COMMAND, lambda now: self._strobes.replaced(now, self._mailbox))
         self._line_from = self._pins_from = t + self.pace.reboot
         self._queue.at(t + self.pace.reboot, Phase.PINS, self._switch)
@@ -171,7 +188,10 @@ class Ppmc312(Chip):
         self._queue.at(t + self.pace.reboot, Phase.BUS, self.core.unit.answer_reset)
 
     def _switch(self, t: int) -> None:
-        """Edge t is the first one that samples the pins of the host side by the mode of a software reset."""
+        """Process edge t, the first one with the mode of a software reset.
+
+        This edge samples the pins of the host side.
+        """
         self._parallel = bool(self._latched["mode"])
         if not self._parallel:
             self._strobes.sample(t, IDLE)
@@ -182,29 +202,36 @@ class Ppmc312(Chip):
             self._host.ready(t)
 
     def _reset_outputs(self, t: int) -> None:
-        """The pins that follow no internal level, and those that do so a clk later."""
+        """Reset the pins that follow no internal level, and those that follow it one cycle later."""
         for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 
     def hear(self, t: int, byte: int | None) -> None:
-        """A whole character on the line, whose stop bit edge t samples, without the levels of rxd; None for
-        one with a low stop bit. Serial mode only; ValueError for an edge already run."""
+        """Process a whole character on the line without the levels of rxd. Serial mode only.
+
+        Args:
+            t: edge that samples the stop bit.
+            byte: the character, `None` if its stop bit is low.
+
+        Raises:
+            ValueError: edge t was already run.
+        """
         self._queue.at(t, Phase.BUS, lambda now: self.station.hear(now, byte))
 
-    # ------------------------------------------------------------------ inside of `chip`
+    # ------------------------------------------------------------------ methods that `chip` calls
 
     def _levels(self) -> dict[str, int]:
-        """Internal levels behind the pins."""
+        """Return the internal levels of the pins."""
         core, motion = self.core, self.motion
         pulse = {"pout": motion.pout, "dir": motion.direction, "intlk_n": int(not core.interlock.on)}
         return {**core.outputs.levels(), **pulse, **self._host.levels(), "out_oe": self._out_oe}
 
     def _latch(self, t: int) -> None:
-        """Before out_oe the pins keep their reset levels (P312-PRT-02)."""
+        """Update the pins; before out_oe they keep their reset levels (P312-PRT-02)."""
         if not self._out_oe:
             levels = self._held
         else:
-            # Most edges change none of them.
+            # At most edges, no pin changes.
             core, motion = self.core, self.motion
             seen = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
             if seen == self._seen:
@@ -240,22 +267,22 @@ class Ppmc312(Chip):
     def _strobe(self, write: bool, reg: int) -> dict[str, int]:
         return {"cs_n": 0, "we_n" if write else "oe_n": 0, "rs": reg}
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     @property
     def motion(self) -> Motion:
-        """The pulse output."""
+        """Pulse output."""
         return self.core.operation.motion
 
     @property
     def csr(self) -> int:
-        """What a read of CSR would show, without the access; parallel mode only."""
+        """Value of CSR, without an access; parallel mode only."""
         assert isinstance(self._host, Mailbox)
         return self._host.csr
 
     @property
     def station(self) -> Station:
-        """The host side of the serial mode; there is a new one after every reset."""
+        """Host side of the serial mode; every reset creates a new one."""
         assert isinstance(self._host, Station)
         return self._host
 

@@ -1,7 +1,8 @@
 """Acceleration tables of the PPMC-312 from an initial setting: P312-TBL-01..06, P312-CMD-00.
 
 Rates are rounded fractions of exact speeds, pulses are differences of floors of the exact running sum, and
-the raised cosine comes from its power series: nothing here divides step by step as a table engine would.
+the raised cosine is calculated from its power series. In contrast to a table engine, nothing is divided step
+by step.
 """
 
 from __future__ import annotations
@@ -23,11 +24,14 @@ LAST = STAGES - 1
 SLOWEST_START, FASTEST, SLOWEST = 0x0011, 0x0002, 0xFFEF
 LEAST_DIFFERENCE, LEAST_PULSES = 127, 2
 DIVIDERS = {0: 2, 1: 16, 2: 32, 3: 64, 4: 256, 5: 1024}
-"""CLK to XTAL cycles of a tick; 6 and 7 are the edges of EXTCK."""
+"""CLK to crystal cycles of a tick; 6 and 7 are the edges of EXTCK."""
 
 
 class SettingError(ValueError):
-    """A setting is refused; `number` is the error number of F0 (10.2), `table` what was built for nothing."""
+    """Rejected setting.
+
+    number: error number of F0 (10.2). table: table that was built, but is invalid.
+    """
 
     def __init__(self, number: int, table: Table | None = None) -> None:
         super().__init__(f"setting refused with error {number:#04x}")
@@ -36,10 +40,12 @@ class SettingError(ValueError):
 
 @dataclass(frozen=True)
 class Table:
-    """A valid table: 127 rates in ticks, pulses of each stage for both sides, first stage of each side.
+    """Valid table of 127 stages.
 
-    Index 126 is the fastest stage. Below its first stage a side has 0 pulses; below both the rates mean
-    nothing. clk: base clock 0..7. separate: deceleration has its own side (LE = 1).
+    It has 127 rates in ticks, the pulses of each stage for both ramps, and the first stage of each ramp.
+
+    Index 126 is the fastest stage. Below its first stage a ramp has 0 pulses; below both first stages the
+    rates have no meaning. clk: base clock 0..7. separate: the deceleration has its own ramp (LE = 1).
     """
 
     rates: tuple[int, ...]
@@ -52,7 +58,7 @@ class Table:
 
     @property
     def first(self) -> int:
-        """Slowest stage that either side uses."""
+        """Slowest stage that either ramp uses."""
         return min(self.sa, self.sd)
 
     @property
@@ -62,7 +68,7 @@ class Table:
 
     @property
     def slowest(self) -> int:
-        """Rmax, the slowest rate that an instruction may ask for."""
+        """Rmax, the slowest rate of an instruction."""
         return self.rates[self.first]
 
     @property
@@ -86,19 +92,22 @@ class Table:
         return list(accumulate(self.pd))
 
     def stage(self, rate: int) -> int:
-        """t(rate): the last stage that is at least as slow; one before the first if there is none."""
+        """Return t(rate), the last stage that is at least as slow.
+
+        If there is no such stage, it returns the first stage - 1.
+        """
         for i in range(LAST, self.first - 1, -1):
             if self.rates[i] >= rate:
                 return i
         return self.first - 1
 
     def contains(self, rate: int) -> bool:
-        """Whether an instruction may ask for this rate."""
+        """Return True if this rate is valid in an instruction."""
         return self.high <= rate <= self.slowest
 
 
 def _pi() -> Decimal:
-    """Machin's formula in the present precision."""
+    """Return pi by Machin's formula in the current precision."""
 
     def arccot(x: int) -> Decimal:
         term, n, total = Decimal(1) / x, 1, Decimal(0)
@@ -113,7 +122,7 @@ def _pi() -> Decimal:
 
 @cache
 def sigmoid_weights() -> tuple[int, ...]:
-    """W_i = round(65536 (1 - cos(pi i / 126)) / 2), i = 0..126."""
+    """Return W_i = round(65536 (1 - cos(pi i / 126)) / 2), i = 0..126."""
     weights = []
     with localcontext() as context:
         context.prec = 60
@@ -128,29 +137,32 @@ def sigmoid_weights() -> tuple[int, ...]:
 
 
 def _shares(sigmoid: bool) -> list[Fraction]:
-    """How much of the way from the slowest to the fastest speed each stage has made."""
+    """Return the fraction of the distance from the slowest to the fastest speed for each stage."""
     if sigmoid:
         return [Fraction(w, 65536) for w in sigmoid_weights()]
     return [Fraction(i, LAST) for i in range(STAGES)]
 
 
 def speeds(slow: int, high: int, sigmoid: bool) -> list[Fraction]:
-    """Speed of each stage in pulses a tick (P312-TBL-01)."""
+    """Return the speed of each stage in pulses per tick (P312-TBL-01)."""
     bottom, top = Fraction(1, slow), Fraction(1, high)
     return [bottom + (top - bottom) * share for share in _shares(sigmoid)]
 
 
 def side(total: int, speed: Sequence[Fraction], first: int) -> tuple[int, ...]:
-    """Pulses of each stage: `total` shared out in proportion to speed, the rest carried on (P312-TBL-04)."""
+    """Return the pulses of each stage (P312-TBL-04).
+
+    `total` is distributed in proportion to speed, and remainders are carried to the next stage.
+    """
     whole = sum(speed[first:])
     sums = [floor(total * part / whole) for part in accumulate(speed[first:])]
     return (0,) * first + tuple(b - a for a, b in zip([0, *sums], sums, strict=False))
 
 
 def first_stage(rates: Sequence[int], ordered: int) -> int:
-    """Where the side begins whose slowest rate was ordered so (P312-TBL-03)."""
+    """Return the first stage of the ramp with this slowest rate (P312-TBL-03)."""
     if ordered == rates[0]:
-        return 0  # the slower side has all stages, whatever rounding makes of R[1]
+        return 0  # the slower ramp has all stages, for any rounding of R[1]
     return max(i for i in range(STAGES) if rates[i] >= ordered)
 
 
@@ -164,9 +176,16 @@ def build(
     sigmoid: bool = False,
     separate: bool = True,
 ) -> Table:
-    """Table of an initial setting with LE = `separate`; without it stop and nd are not looked at.
+    """Return the table of an initial setting with LE = `separate`.
 
-    start, stop, high: 16-bit rates. na, nd: 24-bit pulses. Raises SettingError as P312-CMD-00 says.
+    Without `separate`, stop and nd are ignored.
+
+    Args:
+        start, stop, high: 16-bit rates.
+        na, nd: 24-bit pulses.
+
+    Raises:
+        SettingError: the setting is invalid (P312-CMD-00).
     """
     if not separate:
         stop, nd = start, na
@@ -189,7 +208,10 @@ def build(
 
 
 def read_back(table: Table) -> list[tuple[int, bytes]]:
-    """Blocks of the table read as (header, bytes after the length byte), in order (P312-CMD-41)."""
+    """Return the blocks of the table read (P312-CMD-41).
+
+    They are (header, bytes after the length byte), in order.
+    """
     upward = range(LAST, -1, -1)
     counts = (STAGES - table.first, STAGES - table.sa, STAGES - table.sd if table.separate else 0)
     head = bytes([0x41, *counts]) + table.na.to_bytes(3, "big") + table.nd.to_bytes(3, "big")
@@ -212,13 +234,13 @@ _MOST_PULSES = 0xFFFFFF
 
 
 class FreeCurve:
-    """One transfer, opened by the code block. Every error raises SettingError and ends the transfer.
+    """Transfer that the code block opens. Every error raises SettingError and ends the transfer.
 
-    table: the finished one, None until the last block is in.
+    table: finished table, `None` before the last block.
     """
 
     def __init__(self, header: int, parameters: bytes) -> None:
-        """Code block: parameters after the code. Errors 0x10, 0x11."""
+        """Process the code block. parameters: bytes after the code. Errors 0x10, 0x11."""
         if header != CODE_HEADER:
             raise SettingError(0x10)
         if len(parameters) not in (2, 3) or (len(parameters) == 2 and parameters[0] & LE):
@@ -233,14 +255,14 @@ class FreeCurve:
         self.table: Table | None = None
 
     def _expected(self) -> int | None:
-        """List that the next block belongs to; None if nothing is missing."""
+        """Return the list that the next block belongs to, `None` if all lists are complete."""
         for item, (need, values) in enumerate(zip(self._needs, self._lists, strict=True)):
             if len(values) < need:
                 return item
         return None
 
     def answer(self) -> bytes:
-        """Parameters of the answer to the last block (P312-CMD-FC-1..3)."""
+        """Return the parameters of the response to the last block (P312-CMD-FC-1..3)."""
         if self.table:
             return b"\x0f" + self.table.na.to_bytes(3, "big") + self.table.nd.to_bytes(3, "big")
         item = self._expected()
@@ -248,7 +270,7 @@ class FreeCurve:
         return bytes([item, self._needs[item] - len(self._lists[item])])
 
     def add(self, header: int, data: bytes) -> None:
-        """Data block. Errors 0x16..0x1A in the order of P312-CMD-FC-4."""
+        """Process a data block. Errors 0x16..0x1A in the order of P312-CMD-FC-4."""
         item = self._expected()
         assert item is not None
         width, values = _WIDTH[item], self._lists[item]
@@ -284,7 +306,7 @@ class FreeCurve:
 
 
 def curve(rates: list[int], pa: list[int], pd: list[int] | None = None, clk: int = 1) -> Table:
-    """Table of a free curve given at once, fastest stage first. Raises SettingError."""
+    """Return the table of a complete free curve, fastest stage first. Raises SettingError."""
     stages = [len(pa), len(pd)] if pd else [len(pa)]
     transfer = FreeCurve(CODE_HEADER, bytes([clk | (LE if pd else 0), *stages]))
     for item, values in ((RATES, rates), (ACCELERATION, pa), (DECELERATION, pd or [])):
@@ -296,14 +318,19 @@ def curve(rates: list[int], pa: list[int], pd: list[int] | None = None, clk: int
     return transfer.table
 
 
-# Plan of an operation of the PPMC-312: where it accelerates and decelerates (P312-MOT-10..13).
+# Plan of an operation of the PPMC-312: its acceleration and deceleration (P312-MOT-10..13).
 
 TRAPEZOID, TRIANGLE, RIGHT_DOWN, RIGHT_UP = 0x00, 0x10, 0x20, 0x40
 
 
 class Step(NamedTuple):
-    """One pulse and the interval after it: rate in ticks, table stage (None: constant speed), and whether it
-    belongs to a planned final deceleration."""
+    """Pulse and the interval after it.
+
+    Attributes:
+        rate: in ticks.
+        stage: stage of the table, `None` at constant speed.
+        planned: it belongs to a planned final deceleration.
+    """
 
     rate: int
     stage: int | None = None
@@ -312,8 +339,15 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Plan:
-    """n pulses (None: endless), the first `up` of them accelerating, the last `down` decelerating, between
-    them constant at `rate`. kind: status bits of the answer."""
+    """Plan of an operation.
+
+    Attributes:
+        n: pulses, `None` for an endless operation.
+        up: accelerating pulses at the beginning.
+        down: decelerating pulses at the end.
+        rate: constant rate between them.
+        kind: status bits of the response.
+    """
 
     table: Table
     rate: int
@@ -323,7 +357,7 @@ class Plan:
     kind: int = TRAPEZOID
 
     def step(self, number: int) -> Step:
-        """Pulse `number`, 1 .. n (P312-MOT-12)."""
+        """Return pulse `number`, 1 .. n (P312-MOT-12)."""
         table = self.table
         if number <= self.up:
             stage = bisect_left(table.sums_up, number)
@@ -334,19 +368,19 @@ class Plan:
         return Step(self.rate)
 
     def steps(self) -> list[Step]:
-        """All pulses of an undisturbed operation. Raises ValueError for an endless one."""
+        """Return all pulses of an undisturbed operation. Raises ValueError for an endless one."""
         if self.n is None:
             raise ValueError("endless operation")
         return [self.step(number) for number in range(1, self.n + 1)]
 
 
 def constant(table: Table, rate: int, n: int | None = None) -> Plan:
-    """Constant speed: 83, 84, 86, 10."""
+    """Return a plan of constant speed: 83, 84, 86, 10."""
     return Plan(table, rate, n)
 
 
 def ramped(table: Table, rate: int, n: int | None) -> Plan:
-    """82 with n pulses, 85 and phase 1 of 11 without; `rate` is the speed aimed at."""
+    """Return a plan with ramps: 82 with n pulses, 85 and phase 1 of 11 without. rate: target rate."""
     top, sa, sd = table.stage(rate), table.sa, table.sd
     if top <= sa:
         down = 0 if n is None else min(n, sum(table.pd[sd : top + 1]))

@@ -1,1 +1,1 @@
-"""What the parts with one axis on a byte bus share: host port, commands, timed motion, prediction."""
+"""Parts with one axis on a byte bus: host port, commands, timed motion, prediction."""

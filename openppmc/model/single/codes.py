@@ -1,4 +1,7 @@
-"""Command codes, status bits, error numbers of the PPMC-104 (P104-CMD-01..03, P104-ERR-00, P104-STA-01)."""
+"""Command codes, status bits and error numbers of the PPMC-104.
+
+Rules: P104-CMD-01..03, P104-ERR-00, P104-STA-01.
+"""
 
 from __future__ import annotations
 

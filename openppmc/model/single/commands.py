@@ -1,7 +1,9 @@
-"""Command processor of the parts with one axis: from bytes to commands, and which error a byte makes.
+"""Command processor of the parts with one axis.
+
+It converts bytes to commands and determines the error of a byte.
 
 Errors and their order: P104-ERR-00..03, P104-STA-05/06, P104-FSM-01..03 (STMC-ST-01..03, STMC-CMD-01..03).
-Parameters: P104-HSK-07. What the commands do is the business of the part's own `commands`.
+Parameters: P104-HSK-07. The module of each part defines the effect of the commands.
 """
 
 from __future__ import annotations
@@ -17,9 +19,8 @@ from ..motion.ramp import Ramp
 from .codes import BUSY, ERR, Error, Kind
 from .hostport import BytePort
 
-# Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08.
-#
-# The STMC has the same times under STMC-DS-01 and -04..10. What is special to a part: its own `motion`.
+# Motion of a part with one axis: start, interrupt, and the DATASHEET times of P104-DS-03..08. The STMC has
+# the same times under STMC-DS-01 and -04..10. The `Motion` class of each part has its own behaviour.
 
 DS_BUSY_RAMP, DS_BUSY_CONSTANT = 1792, 432
 DS_PULSE_CONSTANT, DS_PULSE_RAMP, DS_PULSE_STEP = 3104, 3200, 1376
@@ -27,7 +28,7 @@ DS_END, DS_CLOSED, DS_END_RAMP_STOP = 416, 2496, 3200
 
 
 class TimedMotion(Motion):
-    """The axis of a part whose mailbox is closed while an operation starts and ends."""
+    """Axis of a part whose mailbox is closed while an operation starts and ends."""
 
     def __init__(
         self, context: Context, port: BytePort, excitation: Excitation, chopper: Chopper, guard: GuardPins
@@ -43,14 +44,14 @@ class TimedMotion(Motion):
 
     @abstractmethod
     def _latch_operation(self, command: Command, data: list[int], setup: Setup) -> None:
-        """`_load` with what the part's pins say."""
+        """Call `_load` with the settings of the part's pins."""
 
     @abstractmethod
     def slow_stop(self, t: int, reference: int) -> None:
-        """Decelerating stop taken at edge t in START, ACC or HIGH of 011/110."""
+        """Process a deceleration stop accepted at edge t in START, ACC or HIGH of 011/110."""
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
-        """C-event of an operation's last byte (P104-OPR-01, P104-BCK-02, P104-DS-03..06)."""
+        """Process the C-event of an operation's last byte (P104-OPR-01, P104-BCK-02, P104-DS-03..06)."""
         timebase = self._context.timebase
         self._latch_operation(command, data, setup)
         if not self._context.datasheet:
@@ -94,23 +95,26 @@ class TimedMotion(Motion):
         return not self._context.datasheet
 
     def _datasheet_end(self, t: int, since: int, end_cycles: int, open_cycles: int) -> None:
-        """End and closed mailbox, both counted from `since` (P104-DS-06..08)."""
+        """Schedule the end and the closed mailbox, both counted from `since` (P104-DS-06..08)."""
         context = self._context
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))
         self._ending(t)
-        # Before COMMAND: a byte that waited for this very edge is judged with BUSY = 0.
+        # Before COMMAND: a byte that waited for this edge is checked with BUSY = 0.
         context.queue.at(since + context.timebase.cyc(end_cycles), Phase.BEGIN, self._finish)
 
     def _ending(self, t: int) -> None:
-        """The end of the operation has been decided at edge t."""
+        """Process the decision at edge t to end the operation."""
 
 
 _DS_PATTERN = 704  # crystal cycles to the first pattern (P104-DS-01)
 
 
 class ByteUnit(ABC):
-    """Takes one byte per C-event. Readable: error (None or number), expected, setup (None: UNINIT)."""
+    """Unit that accepts one byte per C-event.
+
+    Readable: error (`None` or number), expected, setup (`None`: UNINIT).
+    """
 
     while_busy: ClassVar[tuple[Kind, ...]] = (
         Kind.STOP,
@@ -141,28 +145,28 @@ class ByteUnit(ABC):
 
     @abstractmethod
     def _decode(self, byte: int) -> Command:
-        """The command a code stands for."""
+        """Return the command of a code."""
 
     @abstractmethod
     def _execute(self, t: int, command: Command, reference: int, data: list[int]) -> Error | None:
-        """Carry out a command with all its data bytes, or refuse them."""
+        """Execute a command with all its data bytes, or return its error."""
 
     @property
     def expected(self) -> int:
-        """Parameter bytes still to come for the current command."""
+        """Number of parameter bytes that the current command still requires."""
         return self._pending.parameters - len(self._data) if self._pending else 0
 
     def state(self) -> int:
-        """ERR, NUM and BUSY as they stand in the status register (P104-STA-04..06)."""
+        """Return ERR, NUM and BUSY as bits of the status register (P104-STA-04..06)."""
         field = self.expected << 4 if self.error is None else ERR | self.error << 4
         return field | (BUSY if self._motion.busy else 0)
 
     def take(self, t: int, byte: int, command: bool, reference: int) -> None:
-        """C-event at edge t."""
+        """Process a C-event at edge t."""
         self.error = self._command(t, byte, reference) if command else self._parameter(t, byte, reference)
 
     def _command(self, t: int, byte: int, reference: int) -> Error | None:
-        """A command byte; drops what an earlier one still asked for (P104-HSK-07). Returns its error."""
+        """Process a command byte; return its error. An unfinished command is discarded (P104-HSK-07)."""
         self._pending, self._data = None, []
         command = self._decode(byte)
         error = self._refusal(command)
@@ -174,7 +178,7 @@ class ByteUnit(ABC):
         return self._execute(t, command, reference, [])
 
     def _refusal(self, command: Command) -> Error | None:
-        """Checks in the order of P104-ERR-01."""
+        """Return the error of the checks in the order of P104-ERR-01."""
         motion, kind = self._motion, command.kind
         if kind is Kind.UNDEFINED:
             return Error.UNDEFINED
@@ -189,7 +193,7 @@ class ByteUnit(ABC):
         return None
 
     def _parameter(self, t: int, byte: int, reference: int) -> Error | None:
-        """A data byte; the last one a command asks for executes it (P104-FSM-03). Returns its error."""
+        """Process a data byte; return its error. The last one executes its command (P104-FSM-03)."""
         if self._pending is None:
             return Error.UNASKED_DATA_BUSY if self._motion.busy else Error.UNASKED_DATA
         self._data.append(byte)
@@ -200,16 +204,16 @@ class ByteUnit(ABC):
         return self._execute(t, command, reference, data)
 
     def _stop(self, t: int, kind: Kind, reference: int) -> None:
-        """A stop command that was not refused (P104-STP-01..03)."""
+        """Execute an accepted stop command (P104-STP-01..03)."""
         if kind is Kind.STOP or not self._motion.is_ramp:
             self._motion.stop(t)
         else:
             self._motion.slow_stop(t, reference)
 
     def _set_up(self, t: int, code: int, ramp: Ramp, reference: int, ds_build: int) -> None:
-        """Store an initialisation that was checked and begin the table build (P104-INI-05, STMC-INI-04..07).
+        """Store a checked initialisation and begin the table build (P104-INI-05, STMC-INI-04..07).
 
-        ds_build: crystal cycles of the build in DATASHEET, from `reference` on.
+        ds_build: crystal cycles of the build with DATASHEET timing, from `reference` on.
         """
         context = self._context
         if self.setup is None:
@@ -230,12 +234,15 @@ class ByteUnit(ABC):
         self._complete_after(done)
 
     def _complete_after(self, done: int) -> None:
-        """The table stands on edge `done`; until the initialisation completes no byte is taken."""
+        """Complete the initialisation at edge `done`, when the table is ready.
+
+        Until then no byte is accepted.
+        """
         self._port.close_until(done)
         self._context.queue.at(done, Phase.BEGIN, self._complete)
 
     def _complete(self, t: int) -> None:
-        """End of the table build: bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
+        """Process the end of the table build: bit 5 takes effect (P104-INI-07/08, STMC-CHP-01/02)."""
         assert self.setup is not None
         if self.setup.chopping:
             self._chopper.start(t)

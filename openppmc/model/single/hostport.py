@@ -1,8 +1,8 @@
 """Host side of the models: write path, early read path, mailbox, output queue.
 
-Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04.
-Output queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Which pins make a strobe, the other status bits and
-what makes a byte wait are the part's business.
+Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04. Output
+queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Each part defines the pins of a strobe, the other status
+bits, and the conditions under which a byte waits.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from ..clock import Event
 from ..motion.codes import IBF, OBF
 from .codes import Kind, decode
 
-# What is special in the host port of the PPMC-104: its strobes, and the over-speed rule.
+# Host port of the PPMC-104, where it differs: its strobes, and the over-speed rule.
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Write strobe and read strobe; both low at once is neither (P104-BUS-02)."""
+    """Return write strobe and read strobe; both low together are no strobe (P104-BUS-02)."""
     selected = not pins["cs_n"]
     writing = selected and not pins["wr_n"] and bool(pins["rd_n"])
     reading = selected and not pins["rd_n"] and bool(pins["wr_n"])
@@ -27,9 +27,9 @@ def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
 
 
 class SpeedGate:
-    """DATASHEET: above a speed only stop commands are taken (P104-DS-12).
+    """Gate that only lets stop commands pass above a speed, with DATASHEET timing (P104-DS-12).
 
-    retry(t): lets the host port look again at a waiting byte.
+    retry(t): called when the host port shall check a waiting byte again.
     """
 
     def __init__(self, retry: Callable[[int], None]) -> None:
@@ -37,7 +37,7 @@ class SpeedGate:
         self._fast = (False, False, 0)
 
     def set(self, t: int, fast: bool) -> None:
-        """From edge t on only stop commands are taken, or everything again."""
+        """Close the gate at edge t, except for stop commands, or open it again."""
         self._fast = (self._is_fast(t), fast, t)
         if not fast:
             self._retry(t)
@@ -47,7 +47,7 @@ class SpeedGate:
         return after if t >= since else before
 
     def waits(self, t: int, byte: int, command: bool) -> bool:
-        """Whether this byte must stay in the buffer at edge t."""
+        """Return True if this byte must stay in the buffer at edge t."""
         stop = command and decode(byte).kind in (Kind.STOP, Kind.SLOW_STOP)
         return self._is_fast(t) and not stop
 
@@ -61,22 +61,25 @@ READ_SYNC = 2
 
 
 class BytePort(Protocol):
-    """What commands and motion need of the way to the host."""
+    """Members of the host side that commands and motion need."""
 
     def answer(self, values: Iterable[int]) -> None:
-        """A read command loads its bytes."""
+        """Load the bytes of a read command."""
 
     def close_until(self, t: int) -> None:
-        """Processing window: no byte is taken before edge t."""
+        """Accept no byte before edge t (processing window)."""
 
 
 class HostPort:
-    """Bus strobes to bytes and back.
+    """Host side: conversion of bus strobes to bytes and back.
 
-    take(t, byte, is_command, stored_at): the command processor, called on the C-event; stored_at is the
-    write event. state(): all status bits but IBF and OBF. strobes(pins): whether the bus pins make a write
-    strobe and a read strobe. waits(t, byte, is_command): the byte must stay in the buffer at edge t; whoever
-    says so calls `retry` when it may go.
+    Args:
+        take: take(t, byte, is_command, stored_at), the command processor, is called on the C-event; stored_at
+            is the write event.
+        state: state() returns all status bits except IBF and OBF.
+        strobes: strobes(pins) returns write strobe and read strobe.
+        waits: waits(t, byte, is_command) returns True if the byte must stay in the buffer at edge t. The
+            function that returns True also calls `retry` when the byte may pass.
     """
 
     def __init__(
@@ -108,7 +111,7 @@ class HostPort:
     # ------------------------------------------------------------------ strobes
 
     def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins (P104-BUS-05, -06)."""
+        """Sample new levels of the bus pins at edge t (P104-BUS-05, -06)."""
         writing, reading = self._strobes(pins)
         if self._writing and not writing:
             self._in_pipe += 1
@@ -131,7 +134,7 @@ class HostPort:
             self._load(t)
 
     def _load(self, t: int) -> None:
-        """d_o takes the chosen register as it stands just before edge t."""
+        """Load d_o from the selected register, with its value just before edge t."""
         self._taken = False
         if self._pins["a0"]:
             value = self.status
@@ -146,14 +149,14 @@ class HostPort:
 
     @property
     def status(self) -> int:
-        """Status register as a read sees it, a byte on its way in or out included."""
+        """Status register as a read returns it, including a byte that is being stored or cleared."""
         waiting = self.ibf or self._in_pipe > 0
         return self._state() | (IBF if waiting else 0) | (OBF if self._readable else 0)
 
     # ------------------------------------------------------------------ output queue
 
     def answer(self, values: Iterable[int]) -> None:
-        """A read command loads its bytes; whatever was there is dropped (P104-HSK-08)."""
+        """Load the bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
         self._queue = list(values)
         self._shown = self._queue.pop(0)
         self.obf = True
@@ -178,7 +181,7 @@ class HostPort:
     # ------------------------------------------------------------------ mailbox
 
     def _store(self, t: int, byte: int, command: bool) -> None:
-        """Write event: the byte replaces one that still waits (P104-HSK-02)."""
+        """Process a write event: the byte replaces one that still waits (P104-HSK-02)."""
         self._in_pipe -= 1
         self._buffer = (byte, command)
         self._stored_at = t
@@ -186,11 +189,11 @@ class HostPort:
         self._context.queue.at(t + self._context.latency.c_event, Phase.COMMAND, self._try)
 
     def close_until(self, t: int) -> None:
-        """Processing window: no byte is taken before edge t."""
+        """Accept no byte before edge t (processing window)."""
         self._closed_until = max(self._closed_until, t)
 
     def retry(self, t: int) -> None:
-        """A waiting byte is looked at again at edge t."""
+        """Check a waiting byte again at edge t."""
         self._context.queue.at(t, Phase.COMMAND, self._try)
 
     def _try(self, t: int) -> None:

@@ -1,7 +1,9 @@
-"""Prediction of one move from its initialisation bytes: pulse times and speeds, for plots and tables.
+"""Prediction of one move from its initialisation bytes, for plots and tables.
 
-`predict_move` asks the part's own `predict.py`, which the table of parts names; what those of parts with four
-initialisation bytes have in common is here.
+It contains pulse times and speeds.
+
+`predict_move` calls the `predict` function of the part, which the table of parts names. This module has the
+shared code of parts with four initialisation bytes.
 """
 
 from __future__ import annotations
@@ -17,8 +19,13 @@ from ..motion.ramp import BaseClock, Ramp, profile_index
 
 @dataclass(frozen=True)
 class Move(ABC):
-    """A predicted move. `clk[j]` is pulse j+1 in clk after pulse 1; `indices` (of the ramp; None, or no
-    indices at all, at constant speed) and `rates` belong to the intervals that follow the pulses."""
+    """Predicted move.
+
+    Attributes:
+        clk: `clk[j]` is pulse j+1 in cycles after pulse 1.
+        indices: ramp index of the interval after each pulse; `None`, or an empty tuple, at constant speed.
+        rates: rate of the interval after each pulse.
+    """
 
     timebase: Timebase
     clk: tuple[int, ...]
@@ -37,13 +44,16 @@ class Move(ABC):
 
     @property
     def intervals(self) -> list[int]:
-        """Length of each interval between two pulses in clk."""
+        """Length of each interval between two pulses in cycles."""
         return [b - a for a, b in zip(self.clk, self.clk[1:], strict=False)]
 
 
 @dataclass(frozen=True)
 class RampMove(Move):
-    """One with rates or divisors of a byte. `quanta`: length of each interval."""
+    """Predicted move of a part with rates or divisors of one byte.
+
+    quanta: length of each interval.
+    """
 
     quanta: tuple[int, ...]
 
@@ -53,12 +63,12 @@ class RampMove(Move):
 
 
 class Predict(Protocol):
-    """What a part's `predict.py` has; the arguments are those of `predict_move`."""
+    """Function `predict` of a part; the arguments are those of `predict_move`."""
 
     def __call__(
         self, init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
     ) -> Move:
-        """The move. Raises ValueError for what the part refuses."""
+        """Return the move. Raises ValueError for values that the part rejects."""
 
 
 def predict_move(
@@ -70,13 +80,19 @@ def predict_move(
     timebase: Timebase | None = None,
     part: str = "ppmc104",
 ) -> Move:
-    """Undisturbed move of n pulses with the internal clock.
+    """Return the prediction of an undisturbed move of n pulses with the internal clock.
 
-    init: the four initialisation bytes RL, RH, PA low, PA high. rate: None for an acceleration /
-    deceleration move, else the rate of a constant-speed move. part: "ppmc104", "ppmc2104" (which has no
-    vsel: leave it 1), "stmc" (neither csel nor vsel; rates are divisors) or "ppmc312" (init: the parameters
-    of an initial setting, see `ppmc312.predict`, which also has free curves). Raises ValueError for bytes
-    that the part refuses and for n outside 1..2^24.
+    Args:
+        init: the four initialisation bytes RL, RH, PA low, PA high; for "ppmc312" the parameters of an
+            initial setting, see `ppmc312.carrier`, which also has free curves.
+        n: number of pulses, 1..2^24.
+        rate: `None` for a move with ramps, otherwise the rate of a constant-speed move.
+        csel, vsel: levels of these pins.
+        part: "ppmc104", "ppmc2104" (has no vsel, leave it 1), "stmc" (has neither csel nor vsel; rates are
+            divisors) or "ppmc312".
+
+    Raises:
+        ValueError: the part would reject the bytes, or n is out of range.
     """
     predict: Predict = parts.part(part).load("predict")
     return predict(init, n, rate, csel, vsel, timebase)
@@ -84,8 +100,13 @@ def predict_move(
 
 @dataclass(frozen=True)
 class Limits:
-    """What a part takes. slower: least RL - RH. least: smallest rate with the internal clock. shortest,
-    longest: range of PA."""
+    """Limits of a part.
+
+    Attributes:
+        slower: least RL - RH.
+        least: smallest rate with the internal clock.
+        shortest, longest: range of PA.
+    """
 
     slower: int
     least: int
@@ -93,7 +114,10 @@ class Limits:
     longest: int
 
     def check(self, init: bytes, n: int, rate: int | None) -> tuple[int, int, int]:
-        """RL, RH and PA. Raises ValueError for what the part refuses, and for n outside 1..2^24."""
+        """Return RL, RH and PA.
+
+        Raises ValueError for values that the part rejects, and for n outside 1..2^24.
+        """
         if len(init) != 4:
             raise ValueError(f"an initialisation has 4 data bytes, not {len(init)}")
         rl, rh, pa = init[0], init[1], init[2] | init[3] << 8
@@ -109,8 +133,10 @@ class Limits:
 def run(
     timebase: Timebase, clock: BaseClock, ramp: Ramp, n: int, rate: int | None, beyond: int = 0
 ) -> RampMove:
-    """The pulses of a checked move. beyond: base clocks of an interval that a rate leaves out, and which
-    `rates` of the outcome have."""
+    """Return the pulses of a checked move.
+
+    beyond: base clocks of an interval minus its rate; `rates` of the result include them.
+    """
     indices = tuple(profile_index(n, ramp.pa, j) for j in range(1, n)) if rate is None else ()
     rates = tuple(ramp.rate(k) + beyond for k in indices) if rate is None else (rate,) * (n - 1)
     quanta = tuple(clock.quanta(r - beyond) for r in rates)

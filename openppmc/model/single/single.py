@@ -1,7 +1,7 @@
-"""A part with one axis at pin level: what `ppmc104` and `stmc` have in common.
+"""Part with one axis at pin level; `ppmc104` and `stmc` share this code.
 
-Command bytes on their way in, pin registers on their way out, synchronised inputs to the axis, and the
-properties that tests and tools read.
+It has the path of command bytes, the pin registers, the synchronised inputs of the axis, and the properties
+that tests and tools read.
 """
 
 from __future__ import annotations
@@ -20,9 +20,13 @@ from .hostport import HostPort
 
 
 class SingleAxis(Chip):
-    """One part. phase_idle: level of `s` from reset to the first initialisation, 0 or 1 (else ValueError).
+    """Part with one axis.
 
-    Subclasses name their switches in GUARD and the pin of the external clock in CLOCK_PIN.
+    Subclasses define their switches in GUARD and the pin of the external clock in CLOCK_PIN.
+
+    Args:
+        phase_idle: level of `s` from reset to the first initialisation, 0 or 1; another value raises
+            ValueError.
     """
 
     GUARD: ClassVar[GuardPins]
@@ -53,27 +57,27 @@ class SingleAxis(Chip):
         )
         self._build()
 
-    # ------------------------------------------------------------------ for the part
+    # ------------------------------------------------------------------ implemented by the part
 
     @abstractmethod
     def _blocks(self, context: Context) -> None:
-        """Make `_port`, `_motion`, `_commands` and `_chopper` in their reset state."""
+        """Create `_port`, `_motion`, `_commands` and `_chopper` in their reset state."""
 
     @abstractmethod
     def _motor_levels(self) -> dict[str, int]:
-        """Internal levels behind the motor pins, but for `s`."""
+        """Return the internal levels of the motor pins, except `s`."""
 
-    # ------------------------------------------------------------------ inside of `chip`
+    # ------------------------------------------------------------------ methods that `chip` calls
 
     def _build(self) -> None:
-        """Fresh blocks in their reset state."""
+        """Create blocks in their reset state."""
         self._excitation = Excitation(self._phase_idle)
         self._blocks(self._context)
         at_rest = {name: self._reset_levels[name] for name in ("s", *self._motor_levels())}
         self._motor_pins = PinRegister(self._queue, self.latency.motor_pins, at_rest, self.log.set)
 
     def _take(self, t: int, byte: int, command: bool, stored_at: int) -> None:
-        """C-event; DATASHEET times count from the write event, or from the end of a wait."""
+        """Process a C-event; DATASHEET times count from the write event, or from the end of a wait."""
         latency = self.latency
         waited = t > stored_at + latency.c_event
         reference = t + latency.ds_waited if waited else stored_at + latency.ds_host
@@ -111,15 +115,18 @@ class SingleAxis(Chip):
         return {"cs_n": 0, "wr_n" if write else "rd_n": 0, "a0": reg}
 
     def clock_rise(self, t: int) -> None:
-        """A rising edge of the external clock acts at edge t; its pin stands still. For boards with a clock
-        of their own: all its edges at the pin would take the model too long."""
+        """Process a rising edge of the external clock at edge t, while its pin does not change.
+
+        It is for boards with their own clock, because processing all its edges at the pin would take too
+        long.
+        """
         self._queue.at(t, Phase.BASE, self._motion.base_rise)
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     @property
     def counts_clock(self) -> bool:
-        """An operation runs that counts the external clock."""
+        """True while an operation runs that counts the external clock."""
         return self._motion.external
 
     @property
@@ -134,17 +141,20 @@ class SingleAxis(Chip):
 
     @property
     def index(self) -> int | None:
-        """Ramp index of the running interval, None at rest, before the first pulse and in constant speed."""
+        """Ramp index of the running interval.
+
+        It is None if stopped, before the first pulse, or at constant speed.
+        """
         return self._motion.index
 
     @property
     def intervals(self) -> list[Interval]:
-        """Intervals of the present or last operation."""
+        """Intervals of the current or last operation."""
         return self._motion.intervals
 
     @property
     def initialised(self) -> bool:
-        """An initialisation is in force (its table build may still run)."""
+        """True if an initialisation is active (its table build may still run)."""
         return self._commands.setup is not None
 
     @property

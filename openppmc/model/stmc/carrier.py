@@ -1,4 +1,4 @@
-"""The modelled carrier with an STMC and the step clock of the J105 board."""
+"""Modelled carrier with an STMC and the step clock of the J105 board."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon"), str
 
 
 class Carrier(carrier.Carrier[Stmc]):
-    """Wired as stmc_carrier: no straps, MON in the place of the alarm. The motor follows the phases.
+    """Carrier wired like stmc_carrier: no straps, MON instead of the alarm.
+
+    The motor follows the phases.
 
     The step clock only ticks while a motion counts it.
     """
@@ -42,7 +44,7 @@ class Carrier(carrier.Carrier[Stmc]):
         return {_PINS[name]: level for name, level in levels[0].items()}
 
     def straps(self, levels: int) -> None:
-        """None are wired."""
+        """Ignore the levels, because no straps are connected."""
 
     def shown(self) -> object:
         return self.part.status
@@ -57,7 +59,7 @@ class Carrier(carrier.Carrier[Stmc]):
 
     def _next_event(self) -> int | None:
         if self.part.counts_clock and self._tick <= self.part.now:
-            # Rise n = 0, 1, .. of a square wave comes (n + 1/2) periods after power-up.
+            # Rise n = 0, 1, .. of a square wave occurs (n + 1/2) periods after power-up.
             rise = (self.part.now * 2 * BOARD_CLOCK_HZ // self.clk_hz + 1) // 2
             self._tick = -(-(2 * rise + 1) * self.clk_hz // (2 * BOARD_CLOCK_HZ))
             self.part.clock_rise(self._tick)
@@ -66,14 +68,14 @@ class Carrier(carrier.Carrier[Stmc]):
     def _follow(self, edge: Edge) -> None:
         if edge.signal != "s":
             super()._follow(edge)
-        elif edge.value not in (0, ALL_PHASES):  # else the chopper, or no initialisation yet
+        elif edge.value not in (0, ALL_PHASES):  # otherwise the chopper, or no initialisation yet
             step = self._directions_of.get((self._phases, edge.value))
             self._phases = edge.value
             if step is not None:
                 self._step(0, step)
 
 
-# Prediction of one motion of an STMC (STMC-INI-02); its rates are divisors of the internal step clock.
+# Prediction of one motion of an STMC (STMC-INI-02). Its rates are divisors of the internal step clock.
 
 _LIMITS = Limits(slower=0, least=1, shortest=0, longest=65_535)
 
@@ -81,8 +83,11 @@ _LIMITS = Limits(slower=0, least=1, shortest=0, longest=65_535)
 def predict(
     init: bytes, n: int, rate: int | None, csel: int, vsel: int, timebase: Timebase | None
 ) -> RampMove:
-    """See `single.predict.predict_move`; csel and vsel, which the part has not, are not looked at."""
+    """Return the prediction of a move; see `single.predict.predict_move`.
+
+    csel and vsel are ignored, because the part has no such pins.
+    """
     ramp = profile(*_LIMITS.check(init, n, rate))
     timebase = timebase or Timebase()
-    # A divisor counts its base clocks, a rate those beyond the first.
+    # A divisor counts all base clocks of an interval, a rate all except the first.
     return run(timebase, BaseClock(TICK_XT // timebase.quantum), ramp, n, rate, beyond=1)

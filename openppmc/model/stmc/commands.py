@@ -1,7 +1,9 @@
-"""Command processor of the STMC: what each command does. The bytes before that: `single.commands`.
+"""Command processor of the STMC: the effect of each command.
 
-Initialisation: STMC-INI-01..08, STMC-DS-02/03. Motion commands: STMC-MOT-01..04. Reads: STMC-FIN, -INP,
--OUT, -REM, -RD.
+`single.commands` processes the bytes before.
+
+Initialisation: STMC-INI-01..08, STMC-DS-02/03. Motion commands: STMC-MOT-01..04. Reads: STMC-FIN, -INP, -OUT,
+-REM, -RD.
 """
 
 from __future__ import annotations
@@ -26,16 +28,15 @@ from ..single.hostport import HostPort
 from .codes import FINISH_STATUS, INPUTS, OUTPUTS, READ_MAPS, TICK_XT, decode
 from .pins import GUARD, INPUT_REGISTER
 
-# What is special in the motion of the STMC: STMC-MOT, -CLK, -DEC, -IN, -DS.
-#
-# Divisors: a gap of x ticks is an interval of rate x - 1 on a base clock of 1280 crystal periods, so the
-# family's ramp and rate counter serve as they are (STMC-INI-01, STMC-RMP-01). There is no pulse output: a
-# motion is over with its last step (STMC-MOT-08). An operation that starts while its deceleration limit is
-# active makes one step (STMC-DEC-03); at the start-up speed a request ends it at once.
+# Motion of the STMC, where it differs: STMC-MOT, -CLK, -DEC, -IN, -DS. Divisors: a gap of x ticks is an
+# interval of rate x - 1 on a base clock of 1280 crystal periods, so the ramp and the rate counter of the PPMC
+# family are used unchanged (STMC-INI-01, STMC-RMP-01). There is no pulse output: a motion is over with its
+# last step (STMC-MOT-08). An operation that starts while its deceleration limit is active makes one step
+# (STMC-DEC-03); at the start-up speed a request ends it immediately.
 
 
 class Motion(TimedMotion):
-    """The axis of an STMC. hold_xt: crystal periods from the fall of BUSY to `hold`."""
+    """Motion of the axis of an STMC. hold_xt: crystal periods from the fall of BUSY to `hold`."""
 
     stops_at_start_speed = True
 
@@ -49,7 +50,7 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ start
 
     def _latch_operation(self, command: Command, data: list[int], setup: Setup) -> None:
-        """data: as written, divisor before count."""
+        """Latch an operation. data: as written, divisor before count."""
         rated = [data[0] - 1, *data[1:]] if data and command.operation in (4, 5, 7) else data
         self._load(command, rated, setup, csel=1, plain=True)
         self._clock = BaseClock(TICK_XT // self._context.timebase.quantum)
@@ -57,11 +58,11 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ stops and inputs
 
     def slow_stop(self, t: int, reference: int) -> None:
-        """Command 1 in state S or A of commands 3 and 6 (STMC-STP-03, STMC-DS-11)."""
+        """Process command 1 in state S or A of commands 3 and 6 (STMC-STP-03, STMC-DS-11)."""
         self._request(t, "flag", FINISH_STOP)
 
     def _seen(self, t: int) -> Seen:
-        """Command 7 ends at its deceleration limit, too (STMC-IN-04, ruling R-19)."""
+        """Return the causes; command 7 also ends at its deceleration limit (STMC-IN-04, ruling R-19)."""
         seen = super()._seen(t)
         if self.operation == ORIGIN and seen.slow:
             return Seen(seen.bits | FINISH_SLOW, seen.origin)
@@ -70,7 +71,7 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ steps and end
 
     def _begin_low(self, t: int, rate: int | None, gap: int | None) -> None:
-        """No pulse output."""
+        """Do nothing, because there is no pulse output."""
 
     def _train_over(self, t: int) -> None:
         if self._context.datasheet:
@@ -80,7 +81,10 @@ class Motion(TimedMotion):
 
 
 def profile(d1: int, d2: int, pa: int) -> Ramp:
-    """Ramp of divisors d1 >= d2 >= 1; without ramp steps all gaps are d2 (STMC-MOV-02, -04)."""
+    """Return the ramp of divisors d1 >= d2 >= 1 (STMC-MOV-02, -04).
+
+    Without ramp steps all gaps are d2.
+    """
     return Ramp(d1 - 1, d2 - 1, pa) if pa and d1 > d2 else Ramp(d2 - 1, d2 - 1, 0)
 
 
@@ -119,7 +123,7 @@ class CommandUnit(ByteUnit):
     # ------------------------------------------------------------------ registers
 
     def _register(self, t: int, which: str) -> list[int]:
-        """Bytes of a read command, sampled at edge t."""
+        """Return the bytes of a read command, sampled at edge t."""
         motion = self._motion
         if which == FINISH_STATUS:
             self._context.drive(t, "int_n", 1)
@@ -135,7 +139,10 @@ class CommandUnit(ByteUnit):
     # ------------------------------------------------------------------ initialisation
 
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
-        """Fourth byte of an initialisation: check, store, begin the table build (STMC-INI-02..07)."""
+        """Process the fourth byte of an initialisation (STMC-INI-02..07).
+
+        It is checked and stored, and the table build begins.
+        """
         d1, d2 = data[0], data[1]
         pa = data[2] | data[3] << 8
         if not 1 <= d2 <= d1:

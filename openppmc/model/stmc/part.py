@@ -1,9 +1,10 @@
-"""Golden model of the STMC stepper controller core at pin level, event driven and exact to the cycle.
+"""Golden model of the STMC core at pin level, event driven and cycle-accurate.
 
-Pins and time: `chip`, `clock`, `single.single`. Bus: `single.hostport` (STMC-BUS). Commands and motion:
-`commands` here and in `single` (STMC-ST, -CMD, -INI, -RD), `motion.motion` (STMC-MOT, -STP, -CLK, -MOV, -DEC,
--IN, -DS). Phases and chopper: `motion.excitation` (STMC-EXC, -CHP). Ramp: `motion.ramp` (STMC-RMP). Here:
-parameters and reset values of chapter 1. `clock.Latency` has the constants that the rules leave open.
+Rules by module: this one parameters and reset values of chapter 1. Bus: `single.hostport` (STMC-BUS).
+Commands and motion: `commands` in this folder and in `single` (STMC-ST, -CMD, -INI, -RD), `motion.motion`
+(STMC-MOT, -STP, -CLK, -MOV, -DEC, -IN, -DS). Phases and chopper: `motion.excitation` (STMC-EXC, -CHP). Ramp:
+`motion.ramp` (STMC-RMP). `chip`, `clock` and `single.single` have pins and time. `clock.Latency` has the
+constants that the rules leave open.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from .codes import READ_MAPS
 from .commands import CommandUnit, Motion
 from .pins import GUARD, HOST_PINS, INPUTS, OUTPUTS, WIDTHS
 
-# The table of 16-bit thresholds takes longer to build than that of the sister parts.
+# The table of 16-bit thresholds takes longer to build than that of the related parts.
 LATENCY = Latency(build_base=2032, build_per_rate=144)
 
 
@@ -32,16 +33,23 @@ class FixedSwitching:
     quantum: int
 
     def quanta(self, on: bool) -> int:
-        """Length of a phase that begins now."""
+        """Return the length in quanta of a phase that begins now."""
         return -(-(self.on if on else self.off) // self.quantum)
 
 
 class Stmc(SingleAxis):
-    """One STMC core.
+    """One STMC core. The model starts just after the release of reset, before edge 0.
 
-    clk_hz 8e6..200e6, xtal_hz 1e6..20e6, timing "FAST" or "DATASHEET", read_map "FAMILY" or "SHEET",
-    phase_idle 0 or 1, hold_xt, chop_on_xt and chop_off_xt in crystal periods, at least 1; ValueError for
-    anything else. The model starts just released from reset, before edge 0.
+    Args:
+        clk_hz: 8e6..200e6.
+        xtal_hz: 1e6..20e6.
+        timing: "FAST" or "DATASHEET".
+        read_map: "FAMILY" or "SHEET".
+        phase_idle: 0 or 1.
+        hold_xt, chop_on_xt, chop_off_xt: in crystal periods, at least 1.
+
+    Raises:
+        ValueError: another value.
     """
 
     XTAL_MAX = 20_000_000

@@ -1,6 +1,8 @@
-"""Golden model of the J105 STMC board: ISA slave, 48.675 kHz step clock and interrupt around the core.
+"""Golden model of the J105 STMC board: bus, step clock and interrupt of the core.
 
-Rules J105-01..07. Only what lies between the core and the bus is here; the core is `part`.
+It has an ISA slave and a step clock of 48.675 kHz.
+
+Rules J105-01..07. This module has the logic between the core and the bus; the core is in `part`.
 """
 
 from __future__ import annotations
@@ -27,10 +29,16 @@ WIDTHS: dict[str, int] = {"sa": 10, "sd_i": 8, "sd_o": 8, "s": 5, "drv": 4}
 
 
 class J105Stmc:
-    """One board.
+    """J105 board. Time and edges are those of the core.
 
-    The parameters of the core but phase_idle; base_addr: even, 0..0x3FE; ext_hz: 1..clk_hz/4. ValueError for
-    anything else. Time and edges as those of the core.
+    The other arguments are those of the core; phase_idle does not exist.
+
+    Args:
+        base_addr: even, 0..0x3FE.
+        ext_hz: 1..clk_hz/4.
+
+    Raises:
+        ValueError: another value.
     """
 
     def __init__(
@@ -60,7 +68,7 @@ class J105Stmc:
         )
         self._base = base_addr
         self._pins = dict(INPUTS)
-        # The register that leaves the accumulator is seen by the core one edge later.
+        # The core sees the register of the accumulator one edge later.
         self._lag = self.core.latency.reset_tick + 1
         self._square = Square(clk_hz, ext_hz, self._lag)
         self.log = EdgeLog(OUTPUTS)
@@ -71,12 +79,12 @@ class J105Stmc:
 
     @property
     def now(self) -> int:
-        """The last edge that was run, -1 before edge 0."""
+        """Last edge that was run, -1 before edge 0."""
         return self.core.now
 
     @property
     def next_event(self) -> int:
-        """The next edge on which anything happens by itself."""
+        """Next edge with an event that needs no input change."""
         edges = [self._square.next_edge, *(at for at, _ in self._irq_due)]
         event = self.core.next_event
         return min(edges if event is None else [*edges, event])
@@ -93,7 +101,7 @@ class J105Stmc:
     # ------------------------------------------------------------------ pins
 
     def pins(self, t: int, **levels: int) -> None:
-        """Input levels that rising edge t samples first. Raises ValueError for an unknown pin."""
+        """Set input levels that rising edge t samples first. Raises ValueError for an unknown pin."""
         for pin in levels:
             if pin not in INPUTS:
                 raise ValueError(f"no input pin {pin!r}")
@@ -124,12 +132,12 @@ class J105Stmc:
     # ------------------------------------------------------------------ outputs
 
     def _drive_bus(self, t: int) -> None:
-        """sd_oe by the present pins and the core (J105-03)."""
+        """Update sd_oe from the current pins and the core (J105-03)."""
         enabled = self.core.log.levels["d_oe"] and self._selected and not self._pins["ior_n"]
         self.log.set(t, "sd_oe", int(bool(enabled)))
 
     def _follow(self) -> None:
-        """Pass new edges of the core on to the pins of the board, in time order."""
+        """Pass new edges of the core to the pins of the board, in order of time."""
         fresh = self.core.edges[self._seen :]
         self._seen += len(fresh)
         for edge in fresh:
@@ -148,14 +156,14 @@ class J105Stmc:
         self._irq_until(self.now)
 
     def _irq_until(self, t: int) -> None:
-        """irq is one register behind int_n (J105-05)."""
+        """Update irq, which follows int_n by one cycle (J105-05)."""
         while self._irq_due and self._irq_due[0][0] <= t:
             at, level = self._irq_due.pop(0)
             self.log.set(at, "irq", level)
 
     @property
     def edges(self) -> list[Edge]:
-        """All output edges so far, in time order."""
+        """All output edges so far, in order of time."""
         return self.log.edges
 
     @property

@@ -1,6 +1,6 @@
 """Pins of the STMC core with idle and reset levels (chapter 1.3 of its rules).
 
-"mon" stands where the other parts have their alarm: low stops the motor (STMC-IN-05, ruling R-18).
+"mon" replaces the alarm of the other parts: low stops the motor (STMC-IN-05, ruling R-18).
 """
 
 from __future__ import annotations
@@ -26,5 +26,5 @@ OUTPUTS: dict[str, int] = {"d_o": 0, "d_oe": 0, "int_n": 1, "s": 0b00000, "hold"
 WIDTHS: dict[str, int] = {"d_i": 8, "d_o": 8, "s": 5}
 HOST_PINS = ("cs_n", "a0", "rd_n", "wr_n", "d_i")
 GUARD = GuardPins(limits=("l1_n", "l2_n"), slow_limits=("l3_n", "l4_n"), alarm="mon", origin="cnp_n")
-# Levels of the inputs register (STMC-INP-01), bit by bit.
+# Bits of the inputs register and their pins (STMC-INP-01).
 INPUT_REGISTER = {7: "cnp_n", 6: "mon", 3: "l1_n", 2: "l2_n", 1: "l3_n", 0: "l4_n"}

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -231,6 +232,7 @@ def load(path: Path) -> Description:
     return Description(name=name, path=path, devices=tuple(devices), **{**optional, **keys})
 
 
+@cache
 def load_all(folder: Path = FOLDER) -> tuple[Description, ...]:
     """Return every board, in the order of `place`."""
     found = (load(path) for path in sorted(folder.glob("*/board.yml")))

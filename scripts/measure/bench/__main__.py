@@ -65,8 +65,8 @@ def bench(name: str, demo: Demo) -> None:
     times, rows = played(name, demo)
     mhz = int(str(times.recording.params["CLK_HZ"])) / 1e6
     text = (
-        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, with the start of the simulator.\n"
-        "All sides make the same output edges. Seconds depend on the machine and its other load; the "
+        f"The run of `make demo` at {mhz:g} MHz, median of {RUNS} turns, start of the simulator included.\n"
+        "All sides produce the same output edges. The seconds depend on the machine and its load; the "
         f"last column is the median of the ratios in one turn. {machine()}."
     )
     if name == costs.PART:
@@ -83,7 +83,8 @@ def bench(name: str, demo: Demo) -> None:
             ]
         )
         text += (
-            " The virtual board runs at full speed with a moving motor; its cycles / s are of processor time."
+            " The virtual board runs at full speed with a turning motor; its cycles / s are of "
+            "processor time."
         )
         tell(
             "board",
@@ -96,9 +97,9 @@ def bench(name: str, demo: Demo) -> None:
         tell(
             "costs",
             "cycles of commands",
-            "Waiting times of a host, counted at the pins of the PPMC-104 (FAST) with the shortest accesses: "
+            "Waits of a host, counted at the pins of the PPMC-104 (FAST) with the shortest bus accesses: "
             "from the end of the last data byte until the next command is executed, and from the start of "
-            "a command until its last response byte is read.",
+            "a command until its last answer is read.",
             costs.HEADS,
             costs.rows(costs.measure()),
         )

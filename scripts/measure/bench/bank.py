@@ -52,7 +52,7 @@ def main() -> int:
         rows.append([side, f"{clk:,}", f"{edges:,}", f"{middle:.2f}", f"{clk / middle:,.0f}"])
     text = (
         f"{AXES} axes of a bank: the run of `make demo PART={NAME}` at {CLK_HZ / 1e6:g} MHz, median of "
-        f"{RUNS} runs, including the files of pin changes and edges. Both sides make the same output edges. "
+        f"{RUNS} runs, files of pin changes and edges included. Both sides produce the same output edges. "
         f"{machine()}."
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(HEADS, rows))

@@ -12,7 +12,7 @@ from scripts.measure.bench.sides import FOLDER
 
 PART, MODULE, TEST = "ppmc104", "cocotb_tests.ppmc104.costs", "count_costs"
 CLOCKS = (16, 100)  # MHz
-HEADS = ["operation", "cycles", *(f"µs at {mhz} MHz" for mhz in CLOCKS)]
+HEADS = ["what", "cycles", *(f"µs at {mhz} MHz" for mhz in CLOCKS)]
 
 
 def measure() -> dict[str, int]:

@@ -119,8 +119,8 @@ def main() -> int:
         console.print(", ".join(f"{head}: {value}" for head, value in zip(HEADS, rows[-1], strict=True)))
     text = (
         "Virtual lines (`sim:`, `make board`), the RTL of each station at 8 MHz, at full speed. A station at "
-        "standstill uses no processor time until it is addressed. Moving stations share the processors, "
-        "which may have other work. "
+        "standstill needs no time until it is addressed; moving stations share the processors, which may "
+        "have other work. "
         f"{machine()}."
     )
     project.update_benchmarks("bench:lines", f"{text}\n\n{markdown_table(HEADS, rows)}")

@@ -110,8 +110,8 @@ def main() -> int:
     text = (
         f"{STATIONS} stations of the PPMC-312 on one line: the run of `make demo PART={NAME}` at "
         f"{F8L.clk_hz / 1e6:g} MHz and 83 333 bps, {measured[0][1] / F8L.clk_hz * 1e3:.0f} ms of the line, "
-        f"median of {RUNS} runs, including the start of the simulator. Cycles / s and the share of real time "
-        f"are relative to processor time. {machine()}."
+        f"median of {RUNS} runs, start of the simulator included. The cycles/s and the share of real time "
+        f"refer to processor time. {machine()}."
     )
     project.update_benchmarks(f"bench:{NAME}", text + "\n\n" + markdown_table(heads, rows))
     console.print("written: docs/benchmarks.md")

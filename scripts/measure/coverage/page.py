@@ -14,16 +14,16 @@ from scripts.measure.coverage.sums import LEFT_OUT, Sums, folder_of
 KINDS = (LINE, BRANCH, TOGGLE)
 HEAD = """# Coverage
 
-`make coverage` writes this page.
-It runs all simulations of `make test` with builds in which Verilator counts.
-A point is a line, a path of a branch, or a rising or falling bit.
-It is covered if any instance in any simulation covers it.
-[Mutants](mutants.md) show whether a test would detect a fault there.
-A second figure, without the explained points, follows the figure for all points.
+`make coverage` writes this page: it runs all simulations of `make test` with builds in which Verilator \
+counts.
+A point (a line, a way of a branch, a bit that rises or falls) is covered if any instance in any simulation \
+reaches it.
+The page [mutants](mutants.md) shows whether a test would detect a fault there.
+Each figure of all points is followed by the figure without the explained points.
 
-Counting builds use copies of the sources in which Verilator counts `return` and packages correctly
+Counting builds have copies of the sources in which Verilator counts `return` and packages correctly \
 ([how](testing.md#coverage)).
-Functions that only elaboration calls are listed below and have no points.
+Functions that only elaboration calls are listed below; they are not points.
 """
 
 
@@ -136,11 +136,14 @@ def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool
     lines += ["\n### Files with holes\n", *files(sums), "\n### Holes of lines and branches\n", *holes(sums)]
     lines += ["\n### Left out: functions that only elaboration calls\n"]
     lines += [
-        "Each call has only constant arguments, or is in a parameter, a dimension, a generate block's head"
+        "Each call has only constants, or is in a parameter, a dimension, the head of a generate block or "
+        "such a function.",
+        "No simulation executes these functions.\n",
+        *elaborated(),
     ]
-    lines += ["or such a function. No simulation runs these functions.\n", *elaborated()]
     lines += ["\n## Crosses of the data sheets\n"]
-    lines += ["The golden models of the simulations count these combinations. **0**: not seen.\n"]
+    lines += ["They are counted in the golden models that the simulations are compared with."]
+    lines += ["A **0** was not observed.\n"]
     for part in parts.having("crosses"):
         lines += of_part(part, counts)
     return "\n".join(lines).rstrip() + "\n"

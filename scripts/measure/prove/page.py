@@ -29,8 +29,8 @@ def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
 
 
 def without(every: Sequence[Proof]) -> list[str]:
-    """Return the table of files of the shared folders without their own proof, and the reason."""
-    lines = ["### Blocks without their own proof", "", "| File | Why | It is part of |", "|---|---|---|"]
+    """The files of the shared rooms without a proof of their own, and why."""
+    lines = ["### Without a separate proof", "", "| File | Why | It is part of |", "|---|---|---|"]
     for name, by in unproved(every).items():
         package = "package: constants, types and functions, no state"
         why = package if name.endswith("_pkg") else "**open**"
@@ -47,8 +47,8 @@ def method(proof: Proof) -> str:
 
 
 def row(proof: Proof) -> str:
-    """Return one row of the table."""
-    says = "<br>".join(proof.says)
+    """One line of the table."""
+    says = " <br>".join(f"{text}." for text in proof.says)
     if proof.why:
         says += f"<br>*Bounded:* {proof.why}"
     taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "no assumption"
@@ -63,7 +63,7 @@ def table(every: Sequence[Proof]) -> str:
         "",
         f"{len(every)} proofs of {len({one.block for one in every})} blocks;"
         f" {sum(not one.bound for one in every)} are unbounded,"
-        f" {sum(bool(one.bound) for one in every)} hold for the first cycles, as the table states.",
+        f" {sum(bool(one.bound) for one in every)} hold for the first cycles that the table states.",
         "",
     ]
     for folder, group in groupby(every, key=lambda one: one.folder):

@@ -114,7 +114,7 @@ CIRCUITS = (
         lambda pad: "RESET, L = reset" if pad.port == "host_rst_n" else f"{_old(pad)} of the old socket",
         "5 V in",
         items=(
-            Item("buffer at 3.3 V, 5 V tolerant inputs", "SN74LVC245AN (DIP-20)", chips(8)),
+            Item("buffer at 3.3 V, inputs tolerate 5 V", "SN74LVC245AN (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
             Item("33 Ω, in series at the host's side", "CFR-25JB-52-33R", each()),
         ),
@@ -131,7 +131,7 @@ CIRCUITS = (
         lambda pad: "3.3 V",
         (
             Item("open-drain buffer, at 3.3 V", "SN74LVC1G07DBVR, on a SOT-23 adapter", each()),
-            Item("4.7 kΩ to 5 V, if the board has none", "CFR-25JB-52-4K7", each()),
+            Item("4.7 kΩ to 5 V, if not on the old board", "CFR-25JB-52-4K7", each()),
             Item(CAPACITOR, "K104K15X7RF5TL2", each()),
         ),
     ),
@@ -149,7 +149,7 @@ CIRCUITS = (
             Item("1 kΩ, from the pin to GND", "CFR-25JB-52-1K", each()),
             Item("10 nF, at the pin to GND", "K103K15X7RF5TH5", each()),
         ),
-        note="One for each pin: collector to 3.3 V, emitter to the pin. LED off or wire broken = L = active.",
+        note="One for each pin, collector to 3.3 V, emitter to the pin. Dark or wire broken = L = active.",
     ),
     Circuit(
         "origin",
@@ -164,7 +164,7 @@ CIRCUITS = (
             Item("optocoupler", "PC817X2CSP9F or LTV-817", each()),
             Item("2.2 kΩ 0.5 W, in series with the LED", "CFR-50JB-52-2K2", each()),
         ),
-        "One for each pin: collector to the pin, emitter to GND. LED on = L = active.",
+        "One for each pin. Collector to the pin, emitter to GND: lit = L = active.",
     ),
     Circuit(
         "steps",
@@ -207,7 +207,7 @@ CIRCUITS = (
         "5 V",
         _gate,
         (
-            Item("buffer at 5 V, 3.3 V inputs", "SN74HCT244N (DIP-20)", chips(8)),
+            Item("buffer at 5 V, accepts 3.3 V", "SN74HCT244N (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
         ),
         "VCC = 5 V of the drive's side, both G* to GND.",
@@ -222,10 +222,10 @@ CIRCUITS = (
         "5 V",
         _idle,
         (
-            Item("buffer at 5 V, 3.3 V inputs", "SN74HCT244N (DIP-20)", chips(8)),
+            Item("buffer at 5 V, accepts 3.3 V", "SN74HCT244N (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
         ),
-        "Relays and lamps: connect them through a ULN2803A.",
+        "Relays and lights: add a ULN2803A.",
     ),
     Circuit(
         "inputs",
@@ -236,11 +236,11 @@ CIRCUITS = (
         lambda pad: f"{_old(pad)} of the machine",
         "3.3 or 5 V in",
         items=(
-            Item("buffer at 3.3 V, 5 V tolerant inputs", "SN74LVC245AN (DIP-20)", chips(8)),
+            Item("buffer at 3.3 V, inputs tolerate 5 V", "SN74LVC245AN (DIP-20)", chips(8)),
             Item(CAPACITOR, "K104K15X7RF5TL2", chips(8)),
             Item("10 kΩ, from each used input to 3.3 V", "CFR-25JB-52-10K", each()),
         ),
-        note="VCC = 3.3 V, OE* to GND. Leave board pins open that the machine does not use.",
+        note="VCC = 3.3 V, OE* to GND. Leave unused inputs open at the board.",
     ),
     Circuit(
         "straps",
@@ -251,7 +251,7 @@ CIRCUITS = (
         lambda pad: "jumper to GND = L, open = H",
         "GND or open",
         items=(Item("jumper 2.54 mm with two pins", "M20-9990245 and M7582-05", each()),),
-        note="Only a jumper to GND: never connect a voltage here.",
+        note="Only a jumper to GND: never connect a voltage.",
     ),
     Circuit(
         "line",
@@ -299,7 +299,7 @@ CIRCUITS = (
         "3.3 V logic",
         lambda pad: "GND" if pad.way == "out" and not pad.port.startswith("pwm") else "",
         (),
-        "Choose it for the motor: docs/pmc006/README.md, Power stage.",
+        "Select it for the motor: docs/pmc006/README.md, Power stage.",
     ),
     Circuit(
         "spi",
@@ -310,7 +310,7 @@ CIRCUITS = (
         lambda pad: pad.port.removesuffix("_n").upper(),
         "3.3 V only",
         items=(Item("33 Ω, in series at the sender", "CFR-25JB-52-33R", each()),),
-        note="Connect 3.3 V microcontrollers directly, 5 V microcontrollers through a 74LVC245.",
+        note="3.3 V pins of the microcontroller direct, 5 V pins through a 74LVC245.",
     ),
     Circuit(
         "direct",

@@ -17,21 +17,23 @@ HEAD = """\
 
 For {revisions}: [revisions](../boards.md#revisions).
 
-Written by `make docs` from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change those, not this.
-This page has a drawing, the levels and an order list for each part of the board.
-[boards.md](../boards.md#4-power-and-levels) gives the reasons and describes other drivers and switches.
+`make docs` writes this page from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change these \
+files, not this page.
+For each part that the board carries, the page has a drawing, the levels and an order list.
+[boards.md](../boards.md#4-power-and-levels) has the reasons, other drivers and other switches.
 Before you connect a winding, read [Before the motor turns](../boards.md#10-before-the-motor-turns).
-This project has not built these circuits.
+These circuits were not built or tested.
 
-- **Never apply more than 3.3 V to a header pin**: not 5 V, not the motor supply, not through a pull-up.
-  5 V and more are permitted only on the right side of the drawings, beyond the shifter, buffer,
-  optocoupler or driver.
-- {resistor} at a wire is a resistor to GND or 3.3 V on the FPGA's side.
-  It keeps the line stable while the FPGA is not configured.
-- Build only what your machine needs.
-  Omit unused circuits and their lines of the order list. With `HOST=uart`, leave the bus pins open.
-- Order numbers are examples of parts that were sold when this page was written.
-  Any part of the same type and package works.
+- **Every pin of a header is 3.3 V and must never carry more**: not 5 V, not the motor's supply, not through \
+a pull-up.
+  5 V and more are allowed only on the right side of the drawings, on the far side of the shifter, buffer, \
+optocoupler or driver.
+- {resistor} at a wire is connected from there to GND or 3.3 V, on the FPGA's side.
+  It holds the line at a fixed level while the FPGA is not configured.
+- Build only the circuits that your machine needs, and omit the lines of the others in the order list.
+  With `HOST=uart` nothing is connected to the bus pins.
+- Order numbers are examples of components that were sold when this page was written.
+  Any component of the same type and case is suitable.
 
 Contents: {contents}
 """
@@ -71,7 +73,7 @@ def _section(one: Fitted) -> str:
     rows += [f"![Wiring](img/{one.board.name}-{one.on.name}.svg)", ""]
     rows += ["| circuit | header pins | the other side |", "|---|---|---|"]
     rows += [_levels(use) for use in found]
-    rows += ["", "Order list for all circuits:", "", "| quantity | item | order number |", "|---:|---|---|"]
+    rows += ["", "Order list for all circuits:", "", "| number | what | order number |", "|---:|---|---|"]
     rows += [f"| {number} | {what} | {which} |" for number, what, which in order(found)]
     return "\n".join([*rows, ""])
 

@@ -44,7 +44,7 @@ def test_open_part_takes_the_driver_of_what_is_there() -> None:
         ((0xFF, 0xFF, 0xFF), r"INFO of the bank begins with 0xff, not with 0x42 \(B\): there is no bank"),
         ((0x42, 2, 4), "window is of version 2, this package knows 1: renew this package"),
         ((0x42, 0, 4), "window is of version 0, this package knows 1: renew the board's bitstream"),
-        ((0x42, 1, 5), "tells of 5 axes, and there are such of 4, 8, 16, 32, 64"),
+        ((0x42, 1, 5), "the bank reports 5 axes; expected one of 4, 8, 16, 32, 64"),
     ],
 )
 def test_info_that_is_none_of_ours(info: tuple[int, ...], text: str) -> None:

@@ -1,1 +1,1 @@
-"""Virtual boards, as `make board` makes them: fixtures of all parts, ports, the pseudo-terminal."""
+"""Virtual boards, as `make board` builds them: fixtures for all devices, ports, the pseudo-terminal."""

@@ -1,4 +1,4 @@
-"""Virtual boards for the tests, driven from outside as a user would."""
+"""Virtual boards for the tests, driven from outside as a user would drive them."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ StartBoard = Callable[..., sim.SimBoard]
 Wait = Callable[..., None]
 
 PATIENCE = 30.0
-"""Wall seconds after which a test gives up; on a busy machine the board is slower than real time."""
+"""Wall-clock seconds after which a test times out; on a busy machine the board is slower than real time."""
 
 SETUP = {"start_pps": 2000, "high_pps": 20000, "ramp_pulses": 400}
-"""A set-up that covers the plant's 40 000 pulses in some 2 s of board time."""
+"""A set-up that covers the plant's 40 000 pulses in about 2 s of board time."""
 
 
 @pytest.fixture
 def start_board() -> Iterator[StartBoard]:
-    """Starts virtual boards and ends them after the test."""
+    """Start virtual boards and close them after the test."""
     boards: list[sim.SimBoard] = []
 
     def start(text: str = "", **options: object) -> sim.SimBoard:
@@ -40,13 +40,13 @@ def start_board() -> Iterator[StartBoard]:
 
 @pytest.fixture
 def board(start_board: StartBoard) -> sim.SimBoard:
-    """A board with the default plant."""
+    """Start a board with the default plant."""
     return start_board()
 
 
 @pytest.fixture
 def until() -> Wait:
-    """Waits for something that happens in another process, or fails with `what`."""
+    """Wait for an event in another process, or fail with `what`."""
 
     def wait(condition: Callable[[], object], what: str, seconds: float = PATIENCE) -> None:
         end = time.monotonic() + seconds
@@ -58,7 +58,7 @@ def until() -> Wait:
 
 
 class CommandLine:
-    """The program `openppmc` in a process of its own."""
+    """The program `openppmc` in a separate process."""
 
     def __init__(self, state: Path) -> None:
         self._env = {**os.environ, "OPENPPMC_STATE": str(state), "PYTHONPATH": str(ROOT), "COLUMNS": "200"}
@@ -71,7 +71,7 @@ class CommandLine:
         )
 
     def run(self, port: str, *words: str) -> tuple[int, str, str]:
-        """Exit status, standard output, standard error."""
+        """Run it and return exit status, standard output and standard error."""
         process = self.begin(port, *words)
         out, err = process.communicate(timeout=2 * PATIENCE)
         return process.returncode, out, err
@@ -79,10 +79,10 @@ class CommandLine:
 
 @pytest.fixture
 def openppmc(tmp_path: Path) -> CommandLine:
-    """The command line with a state folder of its own."""
+    """Provide the command line with a separate state folder."""
     return CommandLine(tmp_path / "state")
 
 
 def one_line(text: str) -> bool:
-    """True for exactly one line of error text without a traceback."""
+    """Return whether the text is exactly one line of error text without a traceback."""
     return len(text.strip().splitlines()) == 1 and text.startswith("error: ") and "Traceback" not in text

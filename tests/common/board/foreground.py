@@ -1,4 +1,4 @@
-"""A program that Ctrl-C ends, also where the tests run in the background."""
+"""A program that Ctrl-C ends, even if the tests run in the background."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 
 def foreground(command: Sequence[str], **options: Any) -> subprocess.Popen[str]:
-    """Start it with its output in a pipe; a shell's background jobs ignore SIGINT, and so would it."""
+    """Start it with its output in a pipe and SIGINT enabled, which background jobs of a shell ignore."""
 
     def listen() -> None:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

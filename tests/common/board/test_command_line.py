@@ -14,12 +14,12 @@ from openppmc.sim import SimBoard
 
 from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line
 
-# Options of the set-up; each motion command carries them out by itself.
+# Options of the set-up; each motion command applies them.
 SLOW = ("--start", "1000", "--high", "4000", "--ramp", "300")
 
 
 def test_info(board: SimBoard, openppmc: CommandLine) -> None:
-    """What answers at the port."""
+    """`info --json` reports the clocks of the board."""
     code, out, err = openppmc.run(board.port, "info", "--json")
     assert code == 0, err
     values = json.loads(out)
@@ -27,7 +27,7 @@ def test_info(board: SimBoard, openppmc: CommandLine) -> None:
 
 
 def test_init_move_home(board: SimBoard, openppmc: CommandLine) -> None:
-    """A session in single commands; the set-up is remembered for the port."""
+    """A session of single commands works; the set-up is stored for the port."""
     for words in (("init", *SLOW), ("move", "500"), ("move", "--", "-200"), ("home",)):
         code, _, err = openppmc.run(board.port, *words)
         assert code == 0, f"{words}: {err}"
@@ -36,7 +36,7 @@ def test_init_move_home(board: SimBoard, openppmc: CommandLine) -> None:
 
 
 def test_limit_is_one_line(start_board: StartBoard, openppmc: CommandLine) -> None:
-    """A move into the limit switch: status 1 and one line."""
+    """A move into the limit switch ends with status 1 and one line."""
     board = start_board(start=39_500)
     code, _, err = openppmc.run(board.port, "move", "2000", *SLOW)
     assert code == 1 and one_line(err), err
@@ -46,7 +46,7 @@ def test_limit_is_one_line(start_board: StartBoard, openppmc: CommandLine) -> No
 def test_ctrl_c_decelerates(
     board: SimBoard, openppmc: CommandLine, until: Wait, words: tuple[str, ...]
 ) -> None:
-    """Ctrl-C brings the motor to rest with its ramp; a second connection sees it standing."""
+    """Ctrl-C stops the motor with its deceleration ramp; a second connection finds it stopped."""
     process = openppmc.begin(board.port, *words, *SLOW)
     try:
         until(lambda: board.status().pulses > 1000, "motor at high speed")
@@ -66,7 +66,7 @@ def test_ctrl_c_decelerates(
 
 
 def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
-    """`--port sim:…` starts a board of its own for one command: its log has every pulse."""
+    """`--port sim:…` starts a separate board for one command; its log contains every pulse."""
     log = tmp_path / "pulses.txt"
     code, _, err = openppmc.run(f"sim:start=300,log={log}", "home", *SLOW)
     assert code == 0, err
@@ -74,12 +74,12 @@ def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
 
 
 def test_ctrl_c_on_sim_port(openppmc: CommandLine, tmp_path: Path, until: Wait) -> None:
-    """Ctrl-C goes to the whole group of a terminal; the board must live long enough for the ramp down."""
+    """Ctrl-C is sent to the whole process group; the board lives long enough for the deceleration ramp."""
     log = tmp_path / "pulses.txt"
     process = openppmc.begin(f"sim:log={log}", "move", "30000", *SLOW)
     children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
     try:
-        # The log is written in blocks of some 200 lines.
+        # The log is written in blocks of about 200 lines.
         until(lambda: log.exists() and log.read_text().count("\n") > 600, "motor turning")
         for pid in [*children.read_text().split(), str(process.pid)]:
             os.kill(int(pid), signal.SIGINT)
@@ -101,6 +101,6 @@ def test_ctrl_c_on_sim_port(openppmc: CommandLine, tmp_path: Path, until: Wait) 
     ],
 )
 def test_bad_text(openppmc: CommandLine, port: str, expected: str) -> None:
-    """A mistake after `sim:` is one line that says what is known."""
+    """A mistake after `sim:` produces one line with the expected value."""
     code, _, err = openppmc.run(port, "info")
     assert code == 1 and one_line(err) and expected in err, err

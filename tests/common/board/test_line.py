@@ -1,4 +1,4 @@
-"""The line itself: raw bytes through pyserial, noise, rates, block transfers."""
+"""The line itself: raw bytes through pyserial, noise, baud rates, block transfers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ IDENT = encode(bytes([0]) + bytes(Script().ident()))
 
 
 class Line:
-    """A serial port with its frames; what comes behind the frame asked for is kept for the next call."""
+    """A serial port with its frames; frames after the requested one are kept for the next call."""
 
     def __init__(self, port: serial.Serial) -> None:
         self.port = port
@@ -28,7 +28,7 @@ class Line:
         self._frames: list[bytes] = []
 
     def frame(self, seconds: float = PATIENCE) -> bytes:
-        """The next frame without its check sum; nothing after `seconds` of wall time."""
+        """Return the next frame without its checksum; b"" after `seconds` of wall-clock time."""
         end = time.monotonic() + seconds
         while not self._frames and time.monotonic() < end:
             items = self._deframer.feed(self.port.read(self.port.in_waiting or 1))
@@ -36,7 +36,7 @@ class Line:
         return self._frames.pop(0) if self._frames else b""
 
     def answer(self, seconds: float = PATIENCE) -> bytes:
-        """The next frame that is no message (UB-MSG)."""
+        """Return the next frame that is not a message (UB-MSG)."""
         while (frame := self.frame(seconds)) and frame[0] & 0x80:
             pass
         return frame
@@ -44,13 +44,13 @@ class Line:
 
 @pytest.fixture
 def line(board: SimBoard) -> Iterator[Line]:
-    """The port of a board at 115 200 baud."""
+    """Open the port of a board at 115 200 baud."""
     with serial.Serial(board.port, 115_200, timeout=0.1) as port:
         yield Line(port)
 
 
 def test_ident(line: Line) -> None:
-    """One frame in, one frame out: SEQ, RESULT and the 16 bytes of docs/uart_bridge.md."""
+    """One request frame produces one response: SEQ, RESULT and the 16 bytes of docs/uart_bridge.md."""
     line.port.write(IDENT)
     part, clocks = (104).to_bytes(2, "little"), (16_000_000, 8_000_000)
     flags = 1 << 1 | 4 << 4
@@ -59,7 +59,7 @@ def test_ident(line: Line) -> None:
 
 
 def test_garbage_before_a_good_frame(line: Line) -> None:
-    """Noise without a flag costs at most NAKs; the good frame after it is always answered."""
+    """Noise without a flag causes only NAKs; the valid frame after it is always answered."""
     seed = 104
     noise = random.Random(seed)
     for turn in range(20):
@@ -70,7 +70,7 @@ def test_garbage_before_a_good_frame(line: Line) -> None:
 
 
 def test_broken_checksum_is_told_and_nothing_done(line: Line) -> None:
-    """A frame with one wrong bit gets NAK 2, and no answer."""
+    """A frame with one wrong bit causes NAK 2 and no response."""
     broken = bytearray(IDENT)
     broken[-2] ^= 0x04
     line.port.write(bytes(broken))
@@ -79,7 +79,7 @@ def test_broken_checksum_is_told_and_nothing_done(line: Line) -> None:
 
 
 def test_half_a_frame(line: Line) -> None:
-    """Silence inside a frame gets NAK 5 after 100 ms of board time, and the next frame is answered."""
+    """Silence inside a frame causes NAK 5 after 100 ms of board time, and the next frame is answered."""
     line.port.write(IDENT[:-2])
     assert line.frame() == bytes([MESSAGE_NAK, Nak.SILENCE])
     line.port.write(IDENT)
@@ -87,7 +87,7 @@ def test_half_a_frame(line: Line) -> None:
 
 
 def test_does_not_sleep_while_a_script_waits(board: SimBoard, line: Line) -> None:
-    """A wait of 4 s inside the bridge is work for the board: it ends after 4 s of board time."""
+    """The board does not sleep during a wait of 4 s in a script; the wait ends after 4 s of board time."""
     begin = board.status().seconds
     line.port.write(encode(bytes([0]) + bytes(Script().timeout(4000).wait(1, 0xFF, 0x55))))
     answer = line.frame(4 * PATIENCE)
@@ -95,10 +95,10 @@ def test_does_not_sleep_while_a_script_waits(board: SimBoard, line: Line) -> Non
     assert 4.0 <= board.status().seconds - begin < 5.0
 
 
-# 106 000 is 8 % low: the bridge takes the last data bit for the stop bit.
+# 106 000 is 8 % low: the bridge samples the last data bit as the stop bit.
 @pytest.mark.parametrize("baud", [9600, 57_600, 106_000, 230_400, 921_600])
 def test_wrong_rate_hears_no_answer(board: SimBoard, baud: int) -> None:
-    """At another rate than the bridge's nothing that could be an answer comes back; at its own it does."""
+    """At a wrong baud rate the bridge sends nothing that could be a response; at its own rate it responds."""
     with serial.Serial(board.port, baud, timeout=0.1) as port:
         for _ in range(3):
             port.write(IDENT)
@@ -115,14 +115,14 @@ def test_wrong_rate_hears_no_answer(board: SimBoard, baud: int) -> None:
 
 @pytest.mark.parametrize("baud", [113_000, 117_500])
 def test_small_rate_error_does_no_harm(board: SimBoard, baud: int) -> None:
-    """Two percent off is what real oscillators and dividers are; the middle of the bits is still hit."""
+    """A baud rate error of two percent, as real oscillators and dividers have, causes no errors."""
     with serial.Serial(board.port, baud, timeout=0.1) as port:
         port.write(IDENT)
         assert Line(port).frame()[2:6] == b"PPMC"
 
 
 def test_all_rates(board: SimBoard) -> None:
-    """The host package works at every rate that the board has; a higher one falls back to the base rate."""
+    """The host package works at every baud rate of the board; a higher one falls back to the base rate."""
     for baud in (115_200, 230_400, 460_800, 921_600, 1_000_000, 3_000_000):
         with Link(board.port, baud) as link:
             assert link.baud == (baud if baud <= 1_000_000 else 115_200)
@@ -131,7 +131,7 @@ def test_all_rates(board: SimBoard) -> None:
 
 
 def test_block_transfer(board: SimBoard) -> None:
-    """A full frame of accesses each way at 1 Mbaud, and many a second (loose: machines differ)."""
+    """Frames of 240 accesses work at 1 Mbaud, with over 1000 accesses per second (a loose limit)."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         begin, count = time.monotonic(), 0

@@ -25,18 +25,18 @@ from .fixtures import SETUP, StartBoard, Wait
 
 
 def test_info(board: SimBoard, until: Wait) -> None:
-    """The bridge tells part, clocks and the rates that this clock allows; the link works at 1 Mbaud."""
+    """The bridge reports device, clocks and the possible baud rates; the link works at 1 Mbaud."""
     with Ppmc104.open(board.port) as axis:
         identity = axis.link.identity
         assert (identity.part, identity.clk_hz, identity.xtal_hz) == (104, 8_000_000, 16_000_000)
         assert (identity.version, identity.counter, identity.datasheet) == (1, True, False)
-        assert identity.best_rate == 4  # 5 clk a bit at least
+        assert identity.best_rate == 4  # at least 5 cycles per bit
         assert board.status().rate == axis.link.baud == 1_000_000
     until(lambda: not board.status().open, "the board sees the port closed")
 
 
 def test_not_initialised(board: SimBoard) -> None:
-    """A fresh part refuses to move, with a reason; nothing turns."""
+    """A device that is not initialised rejects a move with a reason, and the motor does not move."""
     with Ppmc104.open(board.port) as axis:
         with pytest.raises(NotInitialised):
             axis.move(10)
@@ -44,7 +44,7 @@ def test_not_initialised(board: SimBoard) -> None:
 
 
 def test_move_with_event(board: SimBoard) -> None:
-    """A move ends with an interrupt message, the motor is where it should be, then it is at rest."""
+    """A move ends with an interrupt message, and the motor is at the correct position."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         axis.start_move(1500)
@@ -59,7 +59,7 @@ def test_move_with_event(board: SimBoard) -> None:
 
 @pytest.mark.parametrize("start", [3000, -150, 0], ids=["above", "below_on_switch", "on_the_edge"])
 def test_home(start_board: StartBoard, start: int) -> None:
-    """Homing finds the same edge from wherever it begins."""
+    """Homing finds the same edge from any start position."""
     board = start_board(start=start)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -72,7 +72,7 @@ def test_home(start_board: StartBoard, start: int) -> None:
 
 
 def test_home_without_switch(start_board: StartBoard) -> None:
-    """An origin switch that is out of reach: the limit ends the search, and the error says so."""
+    """If the origin switch is out of reach, the limit ends the search and the error reports it."""
     board = start_board(start=500, origin=-10_000)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -82,7 +82,7 @@ def test_home_without_switch(start_board: StartBoard) -> None:
 
 
 def test_hard_limit_stops(start_board: StartBoard) -> None:
-    """At constant speed only the hard limit ends the motion: on its first pulse, and back is possible."""
+    """At constant speed the hard limit ends the motion on its first pulse, and the way back is possible."""
     board = start_board(start=37_000, cw=38_500)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -99,7 +99,7 @@ def test_hard_limit_stops(start_board: StartBoard) -> None:
 
 
 def test_slow_down_limit_stops(start_board: StartBoard) -> None:
-    """A ramped move into L3 comes to rest by its ramp of at most 400 pulses, before the hard limit."""
+    """A ramped move into L3 stops with its ramp of at most 400 pulses, before the hard limit."""
     board = start_board(start=37_000)
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -111,7 +111,7 @@ def test_slow_down_limit_stops(start_board: StartBoard) -> None:
 
 
 def test_alarm_stops(start_board: StartBoard) -> None:
-    """The alarm ends a motion at once and refuses the next one."""
+    """The alarm ends a motion immediately and prevents the next one."""
     board = start_board(alarm="5000..5100")
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -123,7 +123,7 @@ def test_alarm_stops(start_board: StartBoard) -> None:
 
 
 def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
-    """A jog runs until the stop, which takes a ramp; the motor then stands still."""
+    """A jog runs until the stop, which decelerates with the ramp; after that the motor does not move."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         axis.jog(CW, high=True)
@@ -141,7 +141,7 @@ def test_jog_and_stop(board: SimBoard, until: Wait) -> None:
 
 
 def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
-    """Refused commands during a move leave its number of pulses alone."""
+    """Commands rejected during a move do not change its number of pulses."""
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
         motion = axis.start_move(4000)
@@ -154,7 +154,7 @@ def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
 
 @pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
 def test_edges_exact(start_board: StartBoard, tmp_path: Path, timing: str) -> None:
-    """Every interval between POUT edges of a ramped move is the predicted number of clk."""
+    """Every interval between POUT edges of a ramped move has the predicted number of cycles."""
     log = tmp_path / "pulses.txt"
     board = start_board(log=log, timing=timing)
     with Ppmc104.open(board.port) as axis:

@@ -1,4 +1,4 @@
-"""Ports that are no board, taken, or gone: a clear error each time."""
+"""Ports that are not a board, are in use, or disappear: each causes a clear error."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MakeStranger = Callable[[Reply], str]
 
 
 def refusal(port: str, kind: type[Exception]) -> str:
-    """Open `port`, expect `kind`; its message must be one line that names the port."""
+    """Open `port` and expect `kind`; its message must be one line that names the port. Return the message."""
     with pytest.raises(kind) as caught:
         Ppmc104.open(port).close()
     text = str(caught.value)
@@ -31,25 +31,25 @@ def refusal(port: str, kind: type[Exception]) -> str:
 
 
 def test_no_such_port() -> None:
-    """A path that is not there."""
+    """A path that does not exist is rejected."""
     assert "no such port" in refusal("/dev/ttyNotThere7", PortError)
 
 
 def test_not_a_port(tmp_path: Path) -> None:
-    """A plain file."""
+    """A regular file is rejected."""
     (tmp_path / "file").touch()
     assert "not a serial port" in refusal(str(tmp_path / "file"), PortError)
 
 
 def test_busy_port(board: SimBoard) -> None:
-    """Opened twice: the second one is told, the first one works on."""
+    """The second open of a port is rejected with an error; the first connection continues to work."""
     with Ppmc104.open(board.port) as axis:
         assert "close it first" in refusal(board.port, PortError)
         assert axis.status().busy is False
 
 
 class Stranger:
-    """A pseudo-terminal with something else than a board behind it."""
+    """A pseudo-terminal with a device that is not a board."""
 
     def __init__(self, reply: Reply) -> None:
         self._reply = reply
@@ -79,7 +79,7 @@ class Stranger:
 
 @pytest.fixture
 def stranger() -> Iterator[MakeStranger]:
-    """Makes strangers and removes them after the test."""
+    """Create such devices and remove them after the test."""
     made: list[Stranger] = []
 
     def make(reply: Reply) -> str:
@@ -92,28 +92,28 @@ def stranger() -> Iterator[MakeStranger]:
 
 
 def test_silent_port(stranger: MakeStranger) -> None:
-    """Nobody there: the error says what to check."""
+    """A port without a device is reported as "no answer"."""
     assert "no answer" in refusal(stranger(lambda data: b""), NoAnswer)
 
 
 def test_echo(stranger: MakeStranger) -> None:
-    """A device that sends everything back is not taken for a bridge."""
+    """A device that echoes all bytes is not accepted as a bridge."""
     refusal(stranger(lambda data: data), (NoAnswer, WrongDevice))
 
 
 def test_modem(stranger: MakeStranger) -> None:
-    """A device that talks text."""
+    """A device that sends text is rejected."""
     assert "right port" in refusal(stranger(lambda data: b"ERROR unknown command\r\n" * 3), WrongDevice)
 
 
 def test_garbage(stranger: MakeStranger) -> None:
-    """A device that answers with random bytes."""
+    """A device that sends random bytes is rejected."""
     noise = random.Random(7)
     refusal(stranger(lambda data: noise.randbytes(64)), (NoAnswer, WrongDevice))
 
 
 def test_board_dies_in_a_move(board: SimBoard) -> None:
-    """The port goes away under a motion: Disconnected, with what to do, and soon."""
+    """If the board disappears during a motion, Disconnected is raised within 10 s, in one line."""
     axis = Ppmc104.open(board.port)
     axis.initialise(**SETUP)
     motion = axis.start_move(30_000)

@@ -1,4 +1,4 @@
-"""The virtual board as a program: texts, life and death, sleep, waveforms."""
+"""The virtual board as a program: texts, start and end, sleep, waveforms."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PYTHON = (sys.executable, "-m", "openppmc.sim")
 
 
 def alive(pid: int) -> bool:
-    """A process that exists and is no zombie."""
+    """Return whether a process exists and is not a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
@@ -48,7 +48,7 @@ def alive(pid: int) -> bool:
     ],
 )
 def test_bad_text(text: str, expected: str) -> None:
-    """Each mistake is a ValueError of one line; unknown words get the list."""
+    """Each mistake is a ValueError of one line; unknown words are answered with the list of words."""
     with pytest.raises(sim.SpecError) as caught:
         sim.start(text)
     message = str(caught.value)
@@ -58,7 +58,7 @@ def test_bad_text(text: str, expected: str) -> None:
 
 
 def test_needs_a_checkout(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """A folder without the project is told as such."""
+    """A folder without the project is reported as such."""
     monkeypatch.setenv("OPENPPMC_ROOT", str(tmp_path))
     with pytest.raises(sim.SimError, match="no checkout of OpenPPMC"):
         find_root()
@@ -67,7 +67,7 @@ def test_needs_a_checkout(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> No
 
 
 def test_close_ends_the_program(start_board: StartBoard) -> None:
-    """close() leaves no process behind, and may be called twice."""
+    """close() leaves no process, and may be called twice."""
     board = start_board()
     pid = board.process.pid
     board.close()
@@ -78,7 +78,7 @@ def test_close_ends_the_program(start_board: StartBoard) -> None:
 
 
 def test_dies_with_its_parent(until: Wait) -> None:
-    """A parent that is killed takes its board along."""
+    """If the parent process is killed, its board ends, too."""
     code = "import time; from openppmc import sim"
     code += "; board = sim.start(); print(board.process.pid, flush=True); time.sleep(60)"
     parent = subprocess.Popen([sys.executable, "-c", code], cwd=ROOT, stdout=subprocess.PIPE, text=True)
@@ -92,7 +92,7 @@ def test_dies_with_its_parent(until: Wait) -> None:
 
 
 def test_foreground(tmp_path: Path, until: Wait) -> None:
-    """`make board`: tells the port, keeps a link to it, ends with Ctrl-C without a trace."""
+    """`make board` prints the port, keeps a link to it, and ends with Ctrl-C without a traceback."""
     link = tmp_path / "board"
     process = subprocess.Popen(
         [*PYTHON, f"start=700,link={link}"],
@@ -100,7 +100,7 @@ def test_foreground(tmp_path: Path, until: Wait) -> None:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        # Whoever runs the tests in the background has SIGINT ignored, and that is inherited.
+        # If the tests run in the background, SIGINT is ignored, and child processes inherit that.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     try:
@@ -118,19 +118,19 @@ def test_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_foreground_bad_text() -> None:
-    """One line and status 1."""
+    """A mistake produces one line and status 1."""
     done = subprocess.run([*PYTHON, "cw=x"], cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
     assert done.returncode == 1 and done.stderr.startswith("error: cw=x") and done.stderr.count("\n") == 1
 
 
 def cpu_seconds(pid: int) -> float:
-    """Processor time that a process has used."""
+    """Return the CPU time that a process has used."""
     words = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def test_sleeps_at_rest(start_board: StartBoard, until: Wait) -> None:
-    """Nothing to do: no processor time, yet board time goes on; the first byte wakes it up."""
+    """An idle board uses no CPU time while board time continues; the first byte wakes it up."""
     board = start_board()
     with Ppmc104.open(board.port) as axis:
         axis.initialise(**SETUP)
@@ -145,7 +145,7 @@ def test_sleeps_at_rest(start_board: StartBoard, until: Wait) -> None:
 
 
 def test_not_faster_than_real_time(board: sim.SimBoard) -> None:
-    """Half a second on the wall is at most half a second on the board."""
+    """The board is not faster than real time."""
     first, begin = board.status(), time.monotonic()
     time.sleep(0.5)
     wall, last = time.monotonic() - begin, board.status()
@@ -153,7 +153,7 @@ def test_not_faster_than_real_time(board: sim.SimBoard) -> None:
 
 
 def test_slow_motion(start_board: StartBoard) -> None:
-    """speed=0.05: a twentieth of real time."""
+    """With speed=0.05 the board runs at a twentieth of real time."""
     board = start_board("speed=0.05")
     first, begin = board.status(), time.monotonic()
     time.sleep(1)
@@ -162,7 +162,7 @@ def test_slow_motion(start_board: StartBoard) -> None:
 
 
 def test_vcd_window(start_board: StartBoard, tmp_path: Path, until: Wait) -> None:
-    """The waveform file has the wanted milliseconds, both clock edges, and the names of the RTL."""
+    """The waveform file covers the requested milliseconds, both clock edges and the names of the RTL."""
     file = tmp_path / "board.vcd"
     board = start_board(vcd=file, vcd_from=5, vcd_for=2)
     until(lambda: board.status().seconds > 0.02, "end of the window")
@@ -176,6 +176,6 @@ def test_vcd_window(start_board: StartBoard, tmp_path: Path, until: Wait) -> Non
 
 
 def test_log_cannot_be_written(start_board: StartBoard) -> None:
-    """A folder that forbids it: an error from the start, not a board without a log."""
+    """If the log cannot be written, the start fails; there is no board without a log."""
     with pytest.raises(sim.SimError, match="cannot write"):
         start_board(log="/proc/openppmc.txt")

@@ -1,4 +1,4 @@
-"""Pulling the cable in the middle of a motion, and coming back."""
+"""Unplugging the cable during a motion, and reconnecting."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from .fixtures import SETUP, Wait
 
 
 def yank(axis: Ppmc104) -> None:
-    """Close the port with no good-bye: what a crash of the host or a pulled cable looks like."""
+    """Close the port without notice, as a crash of the host or a pulled cable would."""
     axis.link.port._serial.close()
 
 
 @pytest.mark.parametrize("baud", [115_200, 460_800, 1_000_000])
 def test_move_ends_by_itself(board: SimBoard, until: Wait, baud: int) -> None:
-    """The motor makes its pulses without a host; a new host gets in touch from any rate."""
+    """The motor completes its pulses without a host; a new host can connect at any baud rate."""
     axis = Ppmc104.open(board.port, baud)
     axis.initialise(**SETUP)
     axis.start_move(8000)
@@ -40,7 +40,7 @@ def test_move_ends_by_itself(board: SimBoard, until: Wait, baud: int) -> None:
 
 
 def test_stays_away_until_the_move_is_over(board: SimBoard, until: Wait) -> None:
-    """Nobody has the port open when the interrupt message is due: it is no trouble for anyone later."""
+    """An interrupt message that occurs while the port is closed causes no error later."""
     axis = Ppmc104.open(board.port)
     axis.initialise(**SETUP)
     axis.start_move(3000)
@@ -54,7 +54,7 @@ def test_stays_away_until_the_move_is_over(board: SimBoard, until: Wait) -> None
 
 
 def test_stop_what_a_dead_host_left_running(board: SimBoard, until: Wait) -> None:
-    """An endless motion goes on without its host, and another one can stop it."""
+    """A continuous motion continues without its host, and another host can stop it."""
     axis = Ppmc104.open(board.port)
     axis.initialise(start_pps=1000, high_pps=5000, ramp_pulses=100)
     axis.jog(CW, high=True)
@@ -72,7 +72,7 @@ def test_stop_what_a_dead_host_left_running(board: SimBoard, until: Wait) -> Non
 
 @pytest.mark.parametrize("baud", RATES[1:5])
 def test_host_lost_at_a_higher_rate(board: SimBoard, baud: int) -> None:
-    """The host dies in the middle of its own frame at a high rate; the next one begins at 115 200 baud."""
+    """If the host dies within a frame at a high baud rate, the next one connects at 115 200 baud."""
     axis = Ppmc104.open(board.port, baud)
     axis.link.port._serial.write(b"\x7e\x01\x3a\x40")
     yank(axis)
@@ -96,7 +96,7 @@ def test_many_times(board: SimBoard, until: Wait) -> None:
 
 
 def test_move_duration_is_that_of_the_board(board: SimBoard, until: Wait) -> None:
-    """A move lasts its time on the board's clock, host or no host."""
+    """A move takes the same time on the board's clock without a host."""
     axis = Ppmc104.open(board.port)
     setup = axis.initialise(**SETUP)
     begin = board.status()
@@ -104,5 +104,5 @@ def test_move_duration_is_that_of_the_board(board: SimBoard, until: Wait) -> Non
     yank(axis)
     until(lambda: board.status().hold and board.status().pulses, "end of the move")
     seconds = predict_move(bytes(setup.data), 6000).seconds[-1]
-    # 34 ms from rest to hold; the rest is the time of the frames and of asking.
+    # 34 ms from standstill to hold; the rest is the time of the frames and of polling.
     assert seconds + 0.034 <= board.status().seconds - begin.seconds < seconds + 1.0

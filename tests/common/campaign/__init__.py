@@ -1,1 +1,1 @@
-"""Campaigns on Dask: `make test WITH=campaign`, in an environment that `make test` has no need of."""
+"""Campaigns on Dask: `make test WITH=campaign`, in an environment that `make test` does not need."""

@@ -1,4 +1,4 @@
-"""What `make coverage` does with Verilator's counts and with crosses. One test builds with Verilator."""
+"""How `make coverage` evaluates Verilator's counts and crosses. One test builds with Verilator."""
 
 from __future__ import annotations
 
@@ -29,20 +29,20 @@ FILE = "rtl/common/ppmc_sync.sv"
 
 
 def row(file: str, line: int, column: int, kind: str, what: str, span: str, count: int) -> str:
-    """A line of coverage.dat."""
+    """Return a line of coverage.dat."""
     given = {"f": file, "l": line, "n": column, "page": f"v_{kind}/m", "o": what}
     given |= {"S": span} if span else {}
     return "C '" + "".join(f"\x01{key}\x02{value}" for key, value in given.items()) + f"' {count}"
 
 
 def points(folder: Path, *rows: str) -> Points:
-    """Of a file with these lines."""
+    """Return the points of a file with these lines."""
     (folder / "one.dat").write_text("\n".join(["# SystemC::Coverage-3", *rows]), encoding="utf-8")
     return read([folder / "one.dat"])
 
 
 def test_points_of_the_rtl(tmp_path: Path) -> None:
-    """Given counts of instances and wrappers, then points of the RTL are reached if any instance is."""
+    """A point of the RTL is covered if any instance covers it; points of wrappers do not count."""
     found = points(
         tmp_path,
         row(f"../../../{FILE}", 20, 3, LINE, "block", "20-21,25", 0),
@@ -60,7 +60,7 @@ def test_points_of_the_rtl(tmp_path: Path) -> None:
 
 
 def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given holes, then a folder is good only if there are few and each has its reason."""
+    """A folder is good only if it has few holes and each has a reason."""
     text = sums.source(FILE)[21].strip()
     rows = [row(f"../{FILE}", n, 1, LINE, "block", str(n), int(n != 22)) for n in range(15, 23)]
     rows += [row(f"../{FILE}", 16, 1, TOGGLE, "clk_i:0->1", "", 1)]
@@ -81,7 +81,7 @@ def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_explained_holes_fit_the_tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given holes.yml, then each text stands in its file; one that does not is told in one line."""
+    """Each text of holes.yml is in its file; one that is not is reported in one line."""
     assert all(entry["why"] for entry in sums.explained())
     monkeypatch.setattr(sums, "HOLES", tmp_path / "holes.yml")
     sums.HOLES.write_text(f"- {{file: {FILE}, line: no such line, why: none}}", encoding="utf-8")
@@ -93,7 +93,7 @@ def test_explained_holes_fit_the_tree(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def test_a_function_explains_all_of_its_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given a function in holes.yml, then its lines from head to end are explained, and none behind it."""
+    """A function in holes.yml explains its lines from head to end, and no line after it."""
     monkeypatch.setattr(sums, "HOLES", tmp_path / "holes.yml")
     sums.HOLES.write_text("- {file: rtl/common/ppmc_lfsr_pkg.sv, function: after, why: so}", encoding="utf-8")
     lines = [entry["line"] for entry in sums.explained()]
@@ -119,7 +119,7 @@ endpackage
 
 
 def test_copies_in_which_verilator_counts() -> None:
-    """Given functions, then a return that ends one is an assignment, and no line moves."""
+    """In a copy, a return that ends a function is an assignment, and no line moves."""
     copy = Copy(PACKAGE).text
     assert copy.splitlines()[0] == "package p;" + KEPT
     assert copy.splitlines()[2:8] == [
@@ -136,7 +136,7 @@ def test_copies_in_which_verilator_counts() -> None:
 
 
 def test_verilator_counts_a_copy(tmp_path: Path) -> None:
-    """Given the functions above called with each number, then Verilator counts the copy, not the file."""
+    """When the functions above are called with each number, Verilator counts the copy, but not the file."""
     main = """#include "Vtop.h"
 int main() { VerilatedContext c; Vtop t{&c};
   for (int i = 0; i < 8; i++) { t.clk = 0; t.x = i; t.eval(); t.clk = 1; t.eval(); }
@@ -169,7 +169,7 @@ endmodule"""
 
 
 def test_functions_that_only_elaboration_calls() -> None:
-    """Given calls, then a function is one if all its calls are constant or in such a one."""
+    """A function is called only by elaboration if all its calls are constant or inside such a function."""
     text = """module m #(parameter int W = one(4), localparam int V = W + 1) (input logic [two(W):0] a_i);
   localparam int X = outer(3);
   for (genvar i = 0; i < three(V); i++) begin : g
@@ -187,7 +187,7 @@ endmodule"""
 
 @pytest.mark.parametrize("part", parts.having("crosses"), ids=lambda part: part.name)
 def test_crosses_of_the_parts(part: parts.Row) -> None:
-    """Given a part's crosses, then what cannot be lies in their tables."""
+    """The combinations that cannot occur are in the tables of a device's crosses."""
     found: Crosses = part.load("crosses")
     for table in found.tables:
         assert len(set(table.rows)) == len(table.rows) and len(set(table.columns)) == len(table.columns)
@@ -196,14 +196,14 @@ def test_crosses_of_the_parts(part: parts.Row) -> None:
 
 
 def test_a_cross_as_a_table() -> None:
-    """Given counts, then what was not seen is bold, and what cannot be is a dash unless it was seen."""
+    """Combinations not seen are bold; combinations that cannot occur are a dash unless they were seen."""
     table = Cross("t", ("a", "b"), ("x", "y"), {("b", "*"): "why not"})
     shown = list(page.cross(table, Counter({("a", "x"): 1200, ("b", "y"): 1})))
     assert shown[2:4] == ["| a | 1,200 | **0** |", "| b | – | 1 |"] and "why not" in shown[4]
 
 
 def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given a PPMC-104 that makes 14 pulses and gets a bad byte, then the end and the error are counted."""
+    """For a PPMC-104 that makes 14 pulses and receives an invalid byte, the end and the error are counted."""
     monkeypatch.setenv(COVERAGE, str(tmp_path))
     chip = new_model("ppmc104", {})
     t = 10
@@ -223,7 +223,7 @@ def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_tally(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given what simulations tell, then sums in words; without a file nothing is told."""
+    """The counts of simulations are summed and shown as text; without a file, nothing is counted."""
     add_counts(edges=1)
     file = tmp_path / "tally"
     monkeypatch.setenv(TALLY, str(file))

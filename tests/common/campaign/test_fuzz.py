@@ -1,4 +1,4 @@
-"""`make fuzz`: what it says, that RTL and golden models agree, and that a difference is found and told."""
+"""`make fuzz`: its output, agreement of RTL and golden models, and detection of differences."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OUTCOMES = {
     "ppmc312": {(1, None), (2, None), (3, None), (4, None)},
     "ppmc312-chars": {(1, None), (2, None), (3, None), (4, None)},
 }
-"""Kinds of events, of the bridge with the NAK."""
+"""Kinds of events; those of the bridge with the NAK."""
 BROKEN_RTL = {
     "bridge": (
         "rtl/host/ppmc_bridge_rx.sv",
@@ -46,7 +46,7 @@ def words_of(name: str, seed: int = 1) -> array[int]:
 
 @each
 def test_streams_are_rich(name: str) -> None:
-    """Given a stream, then every kind of event comes, often, and there are silences and broken characters."""
+    """A stream contains every kind of event often, and silences and broken characters."""
     words = words_of(name)
     kinds = Counter(
         (what >> 56, what & 0xFF if name == "bridge" and what >> 56 == 2 else None)
@@ -59,12 +59,12 @@ def test_streams_are_rich(name: str) -> None:
 
 @each
 def test_as_the_golden_model(name: str) -> None:
-    """Given a stream, then RTL and golden model make the same of it, at the same characters."""
+    """RTL and golden model produce the same events from a stream, at the same characters."""
     assert bench.difference(name, LINES[name], words_of(name)) is None
 
 
 def test_what_differs_is_told_in_few_words() -> None:
-    """Given a model that forgets one instruction, then a handful of characters shows it."""
+    """A model that omits one instruction is detected, and a few characters are enough to show it."""
     line = LINES["pmc006"]
 
     def forgetful(words: array[int]) -> Events:
@@ -80,7 +80,7 @@ def test_what_differs_is_told_in_few_words() -> None:
 
 @pytest.mark.parametrize("name", BROKEN_RTL)
 def test_a_fault_of_the_rtl_is_found(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given a deframer with one line wrong, then it differs."""
+    """A deframer with one wrong line differs from the golden model."""
     file, good, bad = BROKEN_RTL[name]
     text = (ROOT / file).read_text(encoding="utf-8")
     assert text.count(good) == 1

@@ -1,4 +1,4 @@
-"""Mutants by rule: what is changed and what is not, and a copy that holds them all."""
+"""Mutants by rule: the changed and unchanged parts of a module, and a copy that holds all mutants."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ endmodule
 
 
 def test_what_is_changed() -> None:
-    """Given a module, then only what runs is changed: no width, parameter, generate condition, assertion."""
+    """Only code that runs is changed: no width, parameter, generate condition or assertion."""
     found = [(fault.line, fault.what) for fault in faults(TEXT)]
     assert {line for line, _ in found} == {5, 8, 9}
     assert {what for line, what in found if line == 5} == {
@@ -60,7 +60,7 @@ def test_what_is_changed() -> None:
 
 
 def test_a_copy_holds_all_and_keeps_lines() -> None:
-    """Given a file, then its copy has each mutant by its number, and as many lines."""
+    """The copy of a file holds each mutant by its number, and has the same number of lines."""
     every = faults(TEXT)
     copy = instrumented(TEXT, every)
     assert copy.count("\n") == TEXT.count("\n")
@@ -70,7 +70,7 @@ def test_a_copy_holds_all_and_keeps_lines() -> None:
 
 
 def test_one_alone() -> None:
-    """Given a mutant, then its file alone is as good SystemVerilog, and differs from the others'."""
+    """The file of a single mutant is valid SystemVerilog, and differs from those of the others."""
     texts = [alone(TEXT, fault) for fault in faults(TEXT)]
     assert len({*texts, TEXT}) == len(texts) + 1
     assert all(findings(text) == findings(TEXT) for text in texts)
@@ -79,7 +79,7 @@ def test_one_alone() -> None:
 
 
 def test_proofs_of_a_file() -> None:
-    """Given a file, then the proofs of its block are apart from those of the blocks that it is in."""
+    """The proofs of a file's block are separate from those of the blocks that contain it."""
     own, others = proofs_of("rtl/motion/ppmc_stop_guard.sv")
     assert {one.block for one in own} == {"ppmc_stop_guard"}
     assert {"ppmc_axis", "ppmc_pace"} & {one.block for one in others}
@@ -101,7 +101,7 @@ def test_proofs_of_a_file() -> None:
 def test_order_of_what_a_mutant_meets(
     monkeypatch: pytest.MonkeyPatch, proof: str | None, group: str | None, wanted: list[str]
 ) -> None:
-    """Given what kills it, then nothing behind that is tried, and the result names it."""
+    """After the first failure of a mutant, no further check runs, and the result names that failure."""
     file, tried = "rtl/motion/ppmc_stop_guard.sv", []
     own = proofs_of(file)[0]
 
@@ -124,7 +124,7 @@ def test_order_of_what_a_mutant_meets(
 
 
 def test_letters_of_several_bytes() -> None:
-    """Given such letters in comments, then the same mutants in the same places."""
+    """Multi-byte characters in comments do not change the mutants or their places."""
     text = TEXT.replace("begin\n", "begin  // 0 µs, 1 …\n")
     assert [text[fault.start : fault.end] for fault in faults(text)] == [
         TEXT[fault.start : fault.end] for fault in faults(TEXT)
@@ -132,8 +132,10 @@ def test_letters_of_several_bytes() -> None:
 
 
 def test_every_file_can_be_changed() -> None:
-    """Given each file of rtl/, then its copy is as good SystemVerilog, with as many lines, and there are
-    thousands of mutants in all."""
+    """The copy of each file of rtl/ is valid SystemVerilog with the same number of lines.
+
+    There are more than 10 000 mutants in all.
+    """
     count = 0
     for file in rtl_files():
         text = (ROOT / file).read_text(encoding="utf-8")
@@ -146,7 +148,7 @@ def test_every_file_can_be_changed() -> None:
 
 
 def test_a_sample_keeps_what_it_has() -> None:
-    """Given a higher count, then the lower one's mutants are among them, so many of each folder."""
+    """A sample with a higher count contains that with a lower one; each folder has `count` mutants."""
     files = [*rtl_files("motion"), *rtl_files("common")]
     few, more = ({(file, fault.number) for file, fault in sample(files, n)} for n in (5, 20))
     assert len(few) == 10 and len(more) == 40 and few < more
@@ -155,7 +157,7 @@ def test_a_sample_keeps_what_it_has() -> None:
 
 
 def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given verdicts, then those without end and equivalent ones count apart."""
+    """Endless and equivalent mutants are counted separately."""
     file = "rtl/common/ppmc_sync.sv"
     fault = faults(TEXT)[0]
     tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, ENDLESS, ALIVE)]
@@ -168,5 +170,5 @@ def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_judged_mutants_fit_the_tree() -> None:
-    """Given judged.yml, then each text stands in its file, with a reason."""
+    """Each text of judged.yml is in its file and has a reason."""
     assert all(page.judged().values())

@@ -1,4 +1,4 @@
-"""The runner of campaigns: results, a lost worker, interruption and going on, mistakes in one line."""
+"""The runner of campaigns: results, a lost worker, interruption and continuation, mistakes in one line."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TWO = Workers(2)
 
 
 def ran(folder: Path, how: object, count: int, workers: Workers = TWO, stamp: str = "") -> dict[str, Done]:
-    """Run jobs 0 … count - 1; the results by key."""
+    """Run jobs 0 … count - 1; return the results by key."""
     with Store(folder / "results.sqlite") as store:
         return {
             done.key: done for done in run(work.campaign(how, folder, count, stamp), workers, store=store)
@@ -30,7 +30,7 @@ def ran(folder: Path, how: object, count: int, workers: Workers = TWO, stamp: st
 
 
 def test_all_results_come_from_both_workers(tmp_path: Path) -> None:
-    """Given forty jobs and two workers, then each has run once, and one that is no good says so."""
+    """Of forty jobs on two workers, each runs once, and a failed job is reported as failed."""
     done = ran(tmp_path, work.square, 40)
     assert [done[str(n)].data["square"] for n in range(40)] == [n * n for n in range(40)]
     assert [key for key in done if not done[key].good] == ["13"]
@@ -39,7 +39,7 @@ def test_all_results_come_from_both_workers(tmp_path: Path) -> None:
 
 
 def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
-    """Given two workers of which one is killed in the middle, then its job is done again, and all others."""
+    """If one of two workers is killed, its job runs again, and all other jobs run, too."""
     done = ran(tmp_path, work.dies, 40)
     assert len(done) == 40 and done["5"].good and done["5"].data["square"] == 25
     assert work.begun(tmp_path, 5) == 2
@@ -47,14 +47,14 @@ def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
 
 
 def test_a_job_that_kills_each_worker_is_no_good(tmp_path: Path) -> None:
-    """Given a job that no worker outlives, then it is listed as such, and the others have their results."""
+    """A job that kills every worker is listed as failed, and the other jobs have their results."""
     done = ran(tmp_path, work.dies_always, 12)
     assert [key for key in done if not done[key].good] == ["5"]
     assert done["5"].data["message"] == "its workers were lost" and len(done) == 12
 
 
 def test_good_results_are_taken_over(tmp_path: Path) -> None:
-    """Given a campaign that has run, when more of it is, then only what was no good or not there begins."""
+    """When a campaign is extended, only failed and missing jobs run."""
     ran(tmp_path, work.square, 15)
     done = ran(tmp_path, work.square, 20)
     assert len(done) == 20 and sum(one.old for one in done.values()) == 14
@@ -65,7 +65,7 @@ def test_good_results_are_taken_over(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
-    """Given Ctrl-C in the middle, then it ends within seconds, and the next run does what is left, once."""
+    """Ctrl-C ends a campaign within seconds, and the next run executes the remaining jobs once."""
     command = [sys.executable, "-m", work.__name__, str(tmp_path)]
     with subprocess.Popen(
         command,
@@ -73,7 +73,7 @@ def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored behind `&` of a script
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # ignored in `&` jobs
     ) as first:
         assert first.stdout and first.stderr
         seen = [first.stdout.readline() for _ in range(5)]
@@ -92,7 +92,7 @@ def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
 
 
 def test_mistakes_are_one_line(tmp_path: Path) -> None:
-    """Given a job, an address, a count or a file that will not do, then a ProjectError of one line."""
+    """An invalid job, address, count or file causes a ProjectError of one line."""
     with pytest.raises(ProjectError, match="^no such thing$"):
         ran(tmp_path, work.refuses, 3)
     with pytest.raises(ProjectError, match="SCHEDULER=tcp://127.0.0.1:1: no answer"):

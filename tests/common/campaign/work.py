@@ -1,4 +1,4 @@
-"""Work for the campaigns of the tests; a worker imports it. It leaves a file for each job that begins."""
+"""Jobs for the campaigns of the tests; a worker imports it. Each job that starts creates a file."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from scripts.measure.campaign.store import Store
 
 
 def note(folder: Path, number: int) -> None:
-    """Leave a file for each time that a job has begun."""
+    """Create a file that records a start of a job."""
     (folder / f"{number}-{os.getpid()}-{time.monotonic_ns()}").touch()
 
 
 def begun(folder: Path, number: int) -> int:
-    """How often a job has begun."""
+    """Return how often a job has started."""
     return len(list(folder.glob(f"{number}-*")))
 
 
 def square(what: tuple[Path, int]) -> Result:
-    """The square; 13 is no good number."""
+    """Return the square; 13 fails."""
     folder, number = what
     note(folder, number)
     time.sleep(0.05)
@@ -34,7 +34,7 @@ def square(what: tuple[Path, int]) -> Result:
 
 
 def dies(what: tuple[Path, int]) -> Result:
-    """As `square`, but 5 ends its worker the first time, as a machine does that loses its power."""
+    """Do the same as `square`, but 5 kills its worker the first time, like a machine that loses power."""
     folder, number = what
     if number == 5 and not begun(folder, 5):
         note(folder, number)
@@ -43,31 +43,31 @@ def dies(what: tuple[Path, int]) -> Result:
 
 
 def dies_always(what: tuple[Path, int]) -> Result:
-    """As `square`, but 5 ends each worker."""
+    """Do the same as `square`, but 5 kills each worker."""
     if what[1] == 5:
         os.kill(os.getpid(), signal.SIGKILL)
     return square(what)
 
 
 def refuses(what: tuple[Path, int]) -> Result:
-    """A mistake of the user that shows on the worker."""
+    """Raise a mistake of the user that is found on the worker."""
     raise ProjectError("no such thing")
 
 
 def slow(what: tuple[Path, int]) -> Result:
-    """As `square`, with a child that Ctrl-C must end as well, in 0.3 s."""
+    """Do the same as `square`, after a delay of 0.3 s."""
     time.sleep(0.3)
     return square(what)
 
 
 def campaign(work: object, folder: Path, count: int, stamp: str = "") -> Campaign:
-    """Jobs 0 … count - 1."""
+    """Return the campaign of jobs 0 … count - 1."""
     jobs = (Job(str(number), (folder, number), stamp) for number in range(count))
     return Campaign("test", work, jobs, count)  # type: ignore[arg-type]
 
 
 def main() -> int:
-    """`python -m tests.common.campaign.work FOLDER`: twenty slow jobs, for the test of Ctrl-C."""
+    """Run twenty slow jobs, for the test of Ctrl-C: `python -m tests.common.campaign.work FOLDER`."""
     folder = Path(sys.argv[1])
     with Store(folder / "results.sqlite") as store:
         for done in run(campaign(slow, folder, 20), Workers(2), store=store):

@@ -1,1 +1,1 @@
-"""Captures of old chips: files as analysers write them, decoded and compared."""
+"""Captures of the original chips: files as logic analysers write them, decoded and compared."""

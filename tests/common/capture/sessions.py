@@ -1,4 +1,4 @@
-"""What an analyser would have seen of each part: a host that initialises, moves and reads."""
+"""Sessions of each device as an analyser would record them: a host initialises, moves and reads."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from openppmc.model.ppmc2104.part import Ppmc2104
 from openppmc.model.stmc.part import Stmc
 
 CLK_HZ = 20_000_000
-"""Another clock than that of the model beside the capture."""
+"""A clock different from that of the golden model that is compared with the capture."""
 US = CLK_HZ // 1_000_000
 MS = 1000 * US
 
 
 @dataclass
 class Tape:
-    """A model of a part whose pin changes are kept. inputs, outputs: their levels before the first change."""
+    """A model of a device whose pin changes are kept. inputs, outputs: levels before the first change."""
 
     part: str
     model: Any
@@ -44,20 +44,20 @@ class Tape:
         self.model.pins = pins
 
     def reset(self) -> int:
-        """A reset at power-up; when it is over."""
+        """Reset at power-up; return the time of its end."""
         self.model.pins(20 * US, rst_n=0)
         self.model.pins(40 * US, rst_n=1)
         return 45 * US
 
     def finish(self, t: int) -> Tape:
-        """Run to the end."""
+        """Run to time t, the end of the recording."""
         self.model.run_until(t)
         self.end = t
         return self
 
 
 def _bytes(tape: Tape, t: int, *written: tuple[int, int]) -> int:
-    """Writes (register, byte) with a status read behind each."""
+    """Write (register, byte) pairs with a status read after each; return the time after the last one."""
     for register, byte in written:
         t = tape.model.write(t, register, byte, strobe=11) + 2 * US
         tape.model.read(t, 1, strobe=11)
@@ -74,7 +74,7 @@ def _answers(tape: Tape, t: int, code: int, count: int) -> int:
 
 
 def ppmc104() -> Tape:
-    """A ramp and a run into a limit."""
+    """Record a ramp and a run into a limit."""
     tape = Tape("ppmc104", Ppmc104(CLK_HZ))
     t = _bytes(tape, tape.reset(), (1, 0x2A), (0, 99), (0, 9), (0, 60), (0, 0)) + 3 * MS
     t = _bytes(tape, t, (1, 0x43), (0, 199), (0, 0), (0, 0)) + 25 * MS
@@ -86,7 +86,7 @@ def ppmc104() -> Tape:
 
 
 def ppmc2104() -> Tape:
-    """Both axes at once, then a single step."""
+    """Record a move of both axes at the same time, then a single step."""
     tape = Tape("ppmc2104", Ppmc2104(CLK_HZ))
     t = _bytes(tape, tape.reset(), (1, 0x12), (0, 127), (0, 39), (0, 50), (0, 0)) + 3 * MS
     t = _bytes(tape, t, (1, 0x36), (0, 255), (0, 79), (0, 30), (0, 0)) + 3 * MS
@@ -98,7 +98,7 @@ def ppmc2104() -> Tape:
 
 
 def stmc() -> Tape:
-    """A ramp of steps, then one backwards."""
+    """Record a ramp of steps, then one backwards."""
     tape = Tape("stmc", Stmc(CLK_HZ))
     t = _bytes(tape, tape.reset(), (1, 0x0A), (0, 20), (0, 4), (0, 20), (0, 0)) + 3 * MS
     t = _bytes(tape, t, (1, 0x43), (0, 99), (0, 0), (0, 0)) + 90 * MS
@@ -108,7 +108,7 @@ def stmc() -> Tape:
 
 
 def ppmc312() -> Tape:
-    """Blocks through the windows: a table, a move, its report."""
+    """Record blocks through the windows: a table, a move, its report."""
     tape = Tape("ppmc312", Ppmc312(CLK_HZ))
     model, t = tape.model, tape.reset()
 
@@ -140,7 +140,7 @@ def ppmc312() -> Tape:
 
 
 def _say(tape: Tape, t: int, data: bytes, baud: int) -> int:
-    """Characters on rxd."""
+    """Send characters on rxd."""
     bit = CLK_HZ / baud
     for number, byte in enumerate(data):
         levels = [0, *(byte >> place & 1 for place in range(8)), 1]
@@ -150,7 +150,7 @@ def _say(tape: Tape, t: int, data: bytes, baud: int) -> int:
 
 
 def ppmc312_serial() -> Tape:
-    """Frames to two stations, of which one is here."""
+    """Record frames to two stations, one of which is present."""
     tape = Tape("ppmc312-serial", Ppmc312(CLK_HZ, straps={"mode": 0, "mod": 6, "adr": 3}))
     t = tape.reset() + 3 * MS
     for station, data in ((3, "00000140004000047e"), (5, "42"), (3, "8300000000012c"), (3, "42")):
@@ -160,7 +160,7 @@ def ppmc312_serial() -> Tape:
 
 
 def pmc006() -> Tape:
-    """Settings, a move, its end, in frames."""
+    """Record settings, a move and its end, in frames."""
     tape = Tape("pmc006", Pmc006(CLK_HZ, baud=19_200))
     t = tape.reset() + 90 * MS
     for code, value in (

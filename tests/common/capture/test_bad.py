@@ -1,4 +1,4 @@
-"""Bad captures and maps: one line that says what to do; the command line."""
+"""Invalid captures and maps: one line with advice; the command line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .sessions import CLK_HZ, SESSIONS
 from .test_compare import session
 
 PORT = ""
-"""No board is opened."""
+"""The command opens no board."""
 MAP = """\
 part: ppmc104
 timing: FAST
@@ -40,7 +40,7 @@ NAMES = {f"d[{n}]": f"D{n}" for n in range(8)} | {
 
 @pytest.fixture
 def wired(tmp_path: Path) -> Path:
-    """A capture whose channels have names of their own, and its map."""
+    """Write a capture whose channels have other names, and its map."""
     seen = probe(session("ppmc104"), rate=1e12)
     wires = {NAMES[name]: seen.wires[name] for name in NAMES}
     level, changes = seen.wires["pout_n"]
@@ -51,7 +51,7 @@ def wired(tmp_path: Path) -> Path:
 
 
 def test_the_command(wired: Path, run: Run, tmp_path: Path) -> None:
-    """Given a map, then bytes, moves and comparison are printed, and JSON has the same."""
+    """With a map, bytes, moves and the comparison are printed, and JSON contains the same."""
     words = ("decode", str(wired), "--map", str(tmp_path / "map.yml"), "--compare")
     out = run(*words, "--plot", str(tmp_path / "speed.png")).out
     assert "accelerate/decelerate, CW, 200 pulses" in out and "0 differences" in out
@@ -62,7 +62,7 @@ def test_the_command(wired: Path, run: Run, tmp_path: Path) -> None:
 
 
 def test_a_difference_is_an_error(wired: Path, run: Run, tmp_path: Path) -> None:
-    """Given another crystal in the map, then edges differ, the exit status is 1, the first one is named."""
+    """With another crystal in the map, edges differ, the exit status is 1, and the first edge is named."""
     (tmp_path / "map.yml").write_text(MAP + "crystal: 8000000\n")
     outcome = run("decode", str(wired), "--map", str(tmp_path / "map.yml"), "--compare")
     assert "inputs that were not captured: " in outcome.err
@@ -102,7 +102,7 @@ def test_wrong_maps(old: str, new: str, says: str, wired: Path, run: Run, tmp_pa
 
 
 def test_of_another_part(wired: Path, run: Run, tmp_path: Path) -> None:
-    """Given the bytes of a PPMC-312 for a PPMC-104, then the line doubts the part."""
+    """If a PPMC-312 is decoded as a PPMC-104, the error suggests that the device is wrong."""
     seen = probe(SESSIONS["ppmc312"](), rate=1e12)
     names = {"we_n": "wr_n", "oe_n": "rd_n", "rs[0]": "a0"}
     seen.wires = {names.get(name, name): wire for name, wire in seen.wires.items()}
@@ -122,7 +122,7 @@ def test_a_clock_too_slow(run: Run, tmp_path: Path) -> None:
 
 
 def test_cut_files(tmp_path: Path) -> None:
-    """Given half of a file, then it says so; half a VCD is read as far as it goes or refused, never wrong."""
+    """Half of a file is rejected with advice; so is a VCD that is cut after 300 bytes."""
     seen = probe(session("ppmc104"), rate=4e6, until=0.01)
     for write, name in ((write_saleae, "a.csv"), (write_sigrok_csv, "b.csv"), (write_sr, "c.sr")):
         path = write(seen, tmp_path / name)
@@ -159,7 +159,7 @@ def test_no_captures(name: str, text: str | None, says: str, tmp_path: Path) -> 
 
 
 def test_maps_in_toml(tmp_path: Path) -> None:
-    """Given TOML, then it is the same map; on Python 3.10 a line says to write YAML."""
+    """A TOML file is read as the same map; Python 3.10 rejects it with the advice to write YAML."""
     path = tmp_path / "map.toml"
     path.write_text('part = "stmc"\n[pins]\na0 = "A0"\n')
     try:

@@ -1,4 +1,4 @@
-"""Accesses in columns: the same lines as one access after the other."""
+"""Accesses in columns are decoded to the same lines as single accesses in sequence."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CODES = (0x2A, 0x43, 0x63, 0x4D, 0x42, 0x80, 0xA0, 0x83, 0xA3, 0xC3, 0x81, 0x40,
 
 
 def session(source: random.Random, count: int) -> Accesses:
-    """Commands, data, answers and polls in any order."""
+    """Return random commands, data, responses and polls in any order."""
     np = numpy()
     rows = []
     t = 0
@@ -34,7 +34,7 @@ def session(source: random.Random, count: int) -> Accesses:
 
 
 def judge(row: Exchange) -> Judged:
-    """Depends on the bytes and on no status."""
+    """Return a result that depends on the bytes and not on a status."""
     return Judged(len(row.sent) > 3, row.sent[:1] == [0x2A], len(row.answer))
 
 
@@ -54,7 +54,7 @@ def test_rows_at_once(words: Words, seed: int) -> None:
 
 
 def test_polls_are_left_out() -> None:
-    """Only reads of the status that repeat the read before are left out."""
+    """Only reads of the status that repeat the previous read are omitted."""
     np = numpy()
     rows = [
         (True, 1, 4),

@@ -1,4 +1,4 @@
-"""Captures of all parts beside the golden model: whole, jittered, pins missing, from the middle, wrong."""
+"""Captures of all devices compared with the golden model: complete, with jitter, partial, late, wrong."""
 
 from __future__ import annotations
 
@@ -27,29 +27,29 @@ WRITERS: dict[str, Callable[[Seen, Path], Path]] = {
 }
 CORE = {"CLK_HZ": CLK_HZ}
 SHORT = ("mon_step",)
-"""Outputs of our core whose pulses are shorter than a sample; the old chip does not have them."""
+"""Outputs of our core whose pulses are shorter than a sample; the original chip does not have them."""
 
 
 @cache
 def session(part: str) -> Tape:
-    """Played once for all tests."""
+    """Return a session, played once for all tests."""
     return SESSIONS[part]()
 
 
 def decoded(part: str, seen: Seen, path: Path, **parameters: object) -> Decoded:
-    """What an analyser saw, through a VCD."""
+    """Decode the record of an analyser, written to a VCD."""
     chosen = PinMap(timing="FAST", parameters=CORE | parameters)
     return decode(read_capture(write_vcd(seen, path / "capture.vcd")), chosen, part)
 
 
 def compared(part: str, seen: Seen, path: Path, tolerance: float = 1.0) -> Result:
-    """The same beside the model. tolerance: µs."""
+    """Compare the record with the golden model. tolerance: in µs."""
     return compare(decoded(part, seen, path), round(tolerance * US))
 
 
 @pytest.mark.parametrize("part", PARTS)
 def test_whole_captures(part: str, tmp_path: Path) -> None:
-    """Given each edge on its ps, then none differs, and none is off by a clk."""
+    """With each edge at its exact ps, no edge differs, and the largest deviation is at most 0.1 µs."""
     result = compared(part, probe(session(part), rate=1e12), tmp_path)
     assert not result.differences and result.compared > 100
     assert result.worst <= US / 10 and not result.skipped
@@ -57,16 +57,16 @@ def test_whole_captures(part: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_jitter_and_other_clocks(part: str, tmp_path: Path) -> None:
-    """Given 24 MS/s, edges off by 40 ns and an analyser that is 60 ppm slow, then still none differs."""
+    """With 24 MS/s, errors of 40 ns per edge and an analyser that is 60 ppm slow, no edge differs."""
     seen = probe(session(part), rate=24e6, jitter=40_000, ppm=60, without=SHORT)
-    # Frames alone do not tell how fast a crystal is.
+    # Frames alone do not reveal the frequency of the crystal.
     result = compared(part, seen, tmp_path, 10.0 if part == "pmc006" else 2.0)
     assert not result.differences and result.compared > 100
 
 
 @pytest.mark.parametrize("part", PARTS)
 def test_missing_pins(part: str, tmp_path: Path) -> None:
-    """Given switches, interrupt and half of the outputs not wired, then the others are compared."""
+    """If switches, interrupt and half of the outputs are not connected, the other pins are compared."""
     gone = ("int_n", "irq_n", "hold", "auxo", "auxo_n", "alm_n", "fl_n", "gpo", "cd_n", "l1_n", "snd", *SHORT)
     seen = probe(session(part), without=gone)
     found = decoded(part, seen, tmp_path)
@@ -78,8 +78,10 @@ def test_missing_pins(part: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", [part for part in PARTS if part != "pmc006"])
 def test_captures_that_begin_in_the_middle(part: str, tmp_path: Path) -> None:
-    """Given a capture that misses the reset, then edges count from the initialisation on; given one that
-    misses that, too, then one line says so."""
+    """In a capture that misses the reset, edges are compared from the initialisation on.
+
+    A capture that also misses the initialisation is rejected in one line.
+    """
     seen = probe(session(part), begin=42e-6, without=("rst_n",))
     result = compared(part, seen, tmp_path, 10)
     assert not result.differences and result.compared > 100
@@ -89,14 +91,14 @@ def test_captures_that_begin_in_the_middle(part: str, tmp_path: Path) -> None:
 
 
 def test_frames_from_the_middle(tmp_path: Path) -> None:
-    """Given a line of PMC006B4 from the middle, then the frames are read, and replies come when they must."""
+    """On a PMC006B4 line that is captured from the middle, the frames are decoded."""
     found = decoded("pmc006", probe(session("pmc006"), begin=0.1, without=SHORT), tmp_path)
     assert "to controller 255: 8 microsteps" in [line.text for line in found.lines]
 
 
 @pytest.mark.parametrize("part", PARTS)
 def test_a_glitch(part: str, tmp_path: Path) -> None:
-    """Given a spike of 10 ns on a strobe and on an output, then both are left out and told."""
+    """A spike of 10 ns on a strobe or an output is ignored and counted."""
     seen = probe(session(part), rate=100e6, without=SHORT)
     names = ("wr_n", "ds_wrs_n", "we_n", "rxd", "pout_n", "pout_n[1]", "pout", "s[2]", "txd")
     spoiled = [name for name in names if name in seen.wires and len(seen.wires[name][1]) > 1]
@@ -121,7 +123,7 @@ def test_a_glitch(part: str, tmp_path: Path) -> None:
     ],
 )
 def test_a_chip_that_differs(part: str, pin: str, tmp_path: Path) -> None:
-    """Given a pulse that is missing and an edge 20 µs late, then both are found, and nothing else."""
+    """A missing pulse and an edge that is 20 µs late are found, and no other difference."""
     seen = probe(session(part), without=SHORT)
     level, changes = seen.wires[pin]
     at = len(changes) // 2
@@ -135,7 +137,7 @@ def test_a_chip_that_differs(part: str, pin: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", WRITERS)
 def test_files_of_all_analysers(name: str, tmp_path: Path) -> None:
-    """Given the same samples in four formats, then the same is read."""
+    """The same samples in four formats are decoded to the same session."""
     seen = probe(session("ppmc104"), rate=8e6, jitter=30_000, until=0.045)
     chosen = PinMap(timing="FAST", parameters=CORE)
     found = decode(read_capture(WRITERS[name](seen, tmp_path / name)), chosen, "ppmc104")
@@ -146,6 +148,6 @@ def test_files_of_all_analysers(name: str, tmp_path: Path) -> None:
 
 
 def test_another_crystal(tmp_path: Path) -> None:
-    """Given a chip whose crystal is 60 ppm off by the analyser, then the line says by how much."""
+    """If the crystal of the chip is 60 ppm off by the analyser, the result reports it within 5 ppm."""
     result = compared("ppmc312", probe(session("ppmc312"), ppm=60), tmp_path, 2.0)
     assert abs(result.ppm - 60) < 5

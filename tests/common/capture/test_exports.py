@@ -1,4 +1,4 @@
-"""Files as programs of analysers and oscilloscopes export them: read, or refused in one line."""
+"""Files as programs of analysers and oscilloscopes export them: read, or rejected in one line."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def test_files_of_other_kinds(suffix: str, says: str, tmp_path: Path) -> None:
 
 
 def test_vcd_of_pulseview(tmp_path: Path) -> None:
-    """Changes are in the line of their time, and there is no $dumpvars."""
+    """Changes in the same line as their time are read, and $dumpvars is not required."""
     (tmp_path / "a.vcd").write_text(
         "$date Sat Apr  1 10:00:00 2023 $end\n$version libsigrok 0.5.2 $end\n$comment\n"
         "  Acquisition with 2/8 channels at 24 MHz\n$end\n"

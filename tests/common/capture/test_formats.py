@@ -1,4 +1,4 @@
-"""Captures as people have them: variants of CSV, VCD and .sr are read alike, or refused in one line."""
+"""Captures from real tools: variants of CSV, VCD and .sr are read alike, or rejected in one line."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ from .test_compare import session
 from .variants import RATE, edited, exact, saleae, sigrok_cli, with_bus
 
 PORT = ""
-"""No board is opened."""
+"""The command opens no board."""
 CORE = {"CLK_HZ": CLK_HZ}
 
 
 @cache
 def seen() -> Seen:
-    """A ramp of a PPMC-104, at 24 MS/s, on exact ps of the samples' numbers."""
+    """Return a ramp of a PPMC-104, at 24 MS/s, with times that are whole multiples of the sample period."""
     return probe(session("ppmc104"), rate=RATE, until=0.016)
 
 
 def lines_of(path: Path, chosen: PinMap | None = None) -> Decoded:
-    """Decoded as a PPMC-104."""
+    """Decode a file as a PPMC-104."""
     return decode(read_capture(path), chosen or PinMap(timing="FAST", parameters=CORE), "ppmc104")
 
 
 def check(path: Path, notes: int = 0, tolerance: float = 0.5) -> Decoded:
-    """The file has the session: texts, pulses, no difference to the golden model."""
+    """Check that the file contains the session: texts, pulses, no difference from the golden model."""
     found = lines_of(path)
     assert [line.text for line in found.lines][1] == "accelerate/decelerate, CW, 200 pulses → BUSY"
     assert found.moves[0].way == 1 and found.moves[0].pulses > 10
@@ -66,7 +66,7 @@ SIGROK: dict[str, dict[str, object]] = {
 
 @pytest.mark.parametrize("name", SIGROK)
 def test_csv_of_sigrok(name: str, tmp_path: Path) -> None:
-    """The sample rate and the number of the row give the times, not the 41 ns that sigrok writes."""
+    """The times follow from sample rate and row number, not from the 41 ns that sigrok writes."""
     path = sigrok_cli(seen(), tmp_path / "a.csv", **SIGROK[name])  # type: ignore[arg-type]
     check(path)
     true = exact(seen()).wires["pout_n"][1]
@@ -75,7 +75,7 @@ def test_csv_of_sigrok(name: str, tmp_path: Path) -> None:
 
 
 def test_sigrok_without_its_head(tmp_path: Path) -> None:
-    """Whole times without a unit and without a sample rate are refused."""
+    """Whole-number times without a unit and without a sample rate are rejected."""
     path = sigrok_cli(seen(), tmp_path / "a.csv", label="channel", header=False)
     with pytest.raises(CaptureError, match=r"whole numbers without a unit: write it .* as `Time \[ns\]`"):
         read_capture(path)
@@ -98,7 +98,7 @@ def test_rate_without_a_unit(tmp_path: Path) -> None:
 
 
 def iso(t: Fraction) -> str:
-    """A time stamp with ns."""
+    """Return a time stamp with ns."""
     ns = round(t * 10**9)
     second = datetime(2026, 3, 3, 23, 59, 59) + timedelta(seconds=ns // 10**9)
     return f"{second:%Y-%m-%dT%H:%M:%S}.{ns % 10**9:09d}+00:00"
@@ -129,7 +129,7 @@ TIMES: dict[str, dict[str, object]] = {
 
 @pytest.mark.parametrize("name", TIMES)
 def test_columns_of_times(name: str, tmp_path: Path) -> None:
-    """Units, signs, time stamps, separators: the first row is the start of the capture."""
+    """Units, signs, time stamps and separators are read; the first row is the start of the capture."""
     found = check(saleae(exact(seen()), tmp_path / "a.csv", **TIMES[name]))  # type: ignore[arg-type]
     assert abs(found.wires.end - exact(seen()).end) < 1000
 
@@ -151,7 +151,7 @@ def test_columns_of_times(name: str, tmp_path: Path) -> None:
     ],
 )
 def test_bad_tables(rows: str, says: str, tmp_path: Path) -> None:
-    """One line that names the row and the remedy."""
+    """One line names the row and the remedy."""
     (tmp_path / "a.csv").write_text(rows)
     with pytest.raises(CaptureError, match=says) as error:
         read_capture(tmp_path / "a.csv")
@@ -160,7 +160,7 @@ def test_bad_tables(rows: str, says: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "latin-1"])
 def test_encodings(encoding: str, run: Run, tmp_path: Path) -> None:
-    """Captures and maps with a byte order mark, in UTF-16 or Latin-1."""
+    """Captures and maps may have a byte order mark and may be in UTF-16 or Latin-1."""
     for path in (
         saleae(seen(), tmp_path / "a.csv"),
         edited(
@@ -181,7 +181,7 @@ def test_encodings(encoding: str, run: Run, tmp_path: Path) -> None:
     [("[7:0]", False), ("[8:1]", False), ("[0:7]", True), ("[1:8]", True), ("", False)],
 )
 def test_declared_ranges(declared: str, turned: bool, tmp_path: Path) -> None:
-    """The lowest index is D0, whichever bit the file writes first; a rising range is reported."""
+    """The lowest index is D0, regardless of the first bit in the file; an ascending range is reported."""
     path = with_bus(seen(), tmp_path / "a.vcd", declared, turned)
     check(path, notes=int(turned))
     low = 1 if declared in ("[8:1]", "[1:8]") else 0
@@ -195,7 +195,7 @@ def test_declared_ranges(declared: str, turned: bool, tmp_path: Path) -> None:
 
 
 def test_names_of_variables(tmp_path: Path) -> None:
-    """`name [0:0]`, escaped names, names with spaces, scopes of one bit each."""
+    """`name [0:0]`, escaped names, names with spaces and scopes with one bit each are read."""
     check(edited(seen(), tmp_path / "a.vcd", (r" wr_n \$end", " wr_n [0:0] $end")))
     check(edited(seen(), tmp_path / "a.vcd", (r" d\[(\d)\] \$end", r" d [\1:\1] $end")))
     check(edited(seen(), tmp_path / "a.vcd", (r" d\[(\d)\] \$end", r" d [\1] $end")))
@@ -208,7 +208,7 @@ def test_names_of_variables(tmp_path: Path) -> None:
 
 
 def test_duplicate_names(tmp_path: Path) -> None:
-    """Two variables of one name in one scope are refused when this name is used."""
+    """Two variables with the same name in one scope are rejected when this name is used."""
     path = edited(seen(), tmp_path / "a.vcd", (r" hold \$end", " dir $end"))
     with pytest.raises(CaptureError, match=r"two channels are dir .*: name the right one with --map"):
         lines_of(path)
@@ -246,7 +246,7 @@ INPUTS = ("l1_n", "l2_n", "alm_n", "cnp_n")
 
 
 def without_values(path: Path, names: tuple[str, ...], level: str | None) -> Path:
-    """All values of these variables are this level, or there are none."""
+    """Replace all values of these variables by this level, or remove them."""
     text = path.read_text()
     codes = [
         line.split()[3] for line in text.splitlines() if line.startswith("$var") and line.split()[4] in names
@@ -275,14 +275,14 @@ def test_unknown_inputs(level: str | None, run: Run, tmp_path: Path) -> None:
 
 
 def test_unknown_strobes(tmp_path: Path) -> None:
-    """A strobe without any known level is as good as not captured."""
+    """A strobe without any known level is rejected like one that was not captured."""
     path = without_values(write_vcd(seen(), tmp_path / "a.vcd"), ("wr_n",), "x")
     with pytest.raises(CaptureError, match="wr_n has no known level .*; capture it"):
         lines_of(path)
 
 
 def test_a_dump_that_is_switched_off(tmp_path: Path) -> None:
-    """Levels between $dumpoff and $dumpon are unknown, inputs inactive; outputs keep their level."""
+    """Between $dumpoff and $dumpon levels are unknown: inputs are inactive, outputs keep their level."""
     path = write_vcd(seen(), tmp_path / "a.vcd")
     text = path.read_text()
     codes = [line.split()[3] for line in text.splitlines() if line.startswith("$var")]
@@ -301,7 +301,7 @@ def test_a_dump_that_is_switched_off(tmp_path: Path) -> None:
 
 
 def test_vectors_with_unknown_bits(tmp_path: Path) -> None:
-    """Known bits of a vector count; x is written short, as the format wants it."""
+    """The known bits of a vector are used; a vector of x may be written in the short form of the format."""
     path = with_bus(seen(), tmp_path / "a.vcd", "[7:0]")
     text = path.read_text()
     name, code = "l", "LL"
@@ -334,7 +334,7 @@ def test_cells_without_a_level(tmp_path: Path) -> None:
 
 
 def test_comments_anywhere(tmp_path: Path) -> None:
-    """Comments, real variables and a final $vcdclose are passed over."""
+    """Comments, real variables and a final $vcdclose are ignored."""
     path = edited(
         seen(),
         tmp_path / "a.vcd",
@@ -358,7 +358,7 @@ def test_comments_anywhere(tmp_path: Path) -> None:
     ],
 )
 def test_damaged_dumps(old: str, new: str, says: str, tmp_path: Path) -> None:
-    """One line that names the line and the remedy."""
+    """One line names the line of the file and the remedy."""
     with pytest.raises(CaptureError, match=says) as error:
         lines_of(edited(seen(), tmp_path / "a.vcd", (old, new)))
     assert "\n" not in str(error.value)
@@ -366,7 +366,7 @@ def test_damaged_dumps(old: str, new: str, says: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("level", "begin"), [(0, 0.0), (1, 0.0), (1, 42e-6)])
 def test_a_constant_output(level: int, begin: float, run: Run, tmp_path: Path) -> None:
-    """DIR that is stuck at the wrong level is one difference; at the right one there is none."""
+    """DIR that is stuck at the wrong level is one difference; at the correct level it is no difference."""
     without = ("rst_n",) if begin else ()
     one = probe(session("ppmc104"), rate=1e9, until=0.016, begin=begin, without=without)
     one.wires["dir"] = (level, [])
@@ -379,7 +379,7 @@ def test_a_constant_output(level: int, begin: float, run: Run, tmp_path: Path) -
 
 
 def test_hint_needs_pins_that_differ(run: Run, tmp_path: Path) -> None:
-    """A PPMC-104 that was sampled too slowly has no pins of another part."""
+    """For a PPMC-104 that was sampled too slowly, the error does not suggest another device."""
     path = write_vcd(probe(session("ppmc104"), rate=1e6), tmp_path / "slow.vcd")
     outcome = run("decode", str(path), "--part", "ppmc104")
     assert "sampled every 1 µs" in outcome.err and "another part" not in outcome.err

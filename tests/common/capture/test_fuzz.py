@@ -1,4 +1,4 @@
-"""Damaged capture files: one line or a result, no traceback and no hang."""
+"""Damaged capture files: one line or a result, no traceback and no endless loop."""
 
 from __future__ import annotations
 
@@ -52,8 +52,11 @@ PIECES = (
 
 
 def damaged(data: bytes, source: random.Random) -> bytes:
-    """Some bytes changed, left out, put in or twice there, the end cut off, fields or rows exchanged, or all
-    of it in another encoding."""
+    """Return the data with random damage.
+
+    Bytes are changed, removed, inserted or duplicated, the end is cut off, fields or rows are exchanged, or
+    the encoding is changed.
+    """
     for _ in range(source.choice((1, 1, 2, 5))):
         at = source.randrange(len(data)) if source.random() < 0.6 else source.randrange(min(len(data), 1500))
         size = source.choice((1, 1, 2, 8, 100))
@@ -92,7 +95,7 @@ def damaged(data: bytes, source: random.Random) -> bytes:
 
 @pytest.mark.parametrize("name", FILES)
 def test_damaged_files(name: str, tmp_path: Path) -> None:
-    """A damaged file is refused in one line or read; a seeded random sample of damages."""
+    """A damaged file is rejected in one line or read; a seeded random sample of damages."""
     path = FILES[name](tmp_path)
     data = path.read_bytes()
     source = random.Random(f"captures {name}")
@@ -112,7 +115,7 @@ def test_damaged_files(name: str, tmp_path: Path) -> None:
 
 
 def _levels(path: Path) -> dict[str, tuple[int, list[tuple[int, int]], int]] | None:
-    """Content of a file; None if it is refused."""
+    """Return the content of a file; None if it is rejected."""
     try:
         found = read_capture(path)
     except PpmcError:
@@ -122,7 +125,7 @@ def _levels(path: Path) -> dict[str, tuple[int, list[tuple[int, int]], int]] | N
 
 @pytest.mark.parametrize("name", ["saleae", "sigrok"])
 def test_blocks_of_a_table(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A damaged table has the same levels, or is refused, if it is read in blocks of a few lines."""
+    """A damaged table has the same levels, or is rejected, regardless of the size of the blocks read."""
     data = FILES[name](tmp_path).read_bytes()[:20_000]
     path = tmp_path / "damaged.csv"
     source = random.Random(f"blocks {name}")
@@ -138,7 +141,7 @@ def test_blocks_of_a_table(name: str, tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def rewritten(rows: list[str], source: random.Random) -> str:
-    """The same table in other words: some cells quoted, spaced, with decimals or letters; lines between."""
+    """Return the same table in other forms: cells quoted, spaced, with decimals or letters; lines between."""
     found = []
     for row in rows:
         time, *levels = row.split(",")
@@ -160,7 +163,7 @@ def rewritten(rows: list[str], source: random.Random) -> str:
 
 
 def test_rewritten_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Lines of another form have the same levels as plain ones, wherever a block ends."""
+    """Lines of another form have the same levels as plain ones, regardless of the ends of blocks."""
     path = FILES["saleae"](tmp_path)
     head, *rows = path.read_text().splitlines()[:800]
     path.write_text("\n".join([head, *rows]) + "\n")

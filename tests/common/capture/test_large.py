@@ -13,7 +13,7 @@ from scripts.measure.bench.captures import COMPARED, EDGES, measure
 
 BYTES = 24
 PLAIN = {"moves.vcd": 40.0, "bus.vcd": 60.0, "moves.csv": 17.0}
-"""Most that a file may take, with a numpy pass over its bytes as 1: twice what it takes."""
+"""Maximum time of a file, relative to a numpy pass over its bytes: twice the measured value."""
 
 
 @pytest.mark.parametrize("name", PLAIN)
@@ -26,7 +26,7 @@ def test_four_million_edges(name: str, tmp_path: Path) -> None:
 
 
 def test_compare_needs_columns(tmp_path: Path) -> None:
-    """A comparison needs two columns of times and levels for each edge more, and no objects."""
+    """A comparison needs two more columns of times and levels per edge, and no objects."""
     small, large = (measure(tmp_path, COMPARED, edges, runs=1) for edges in (50_000, 250_000))
     assert (large.size * large.edges - small.size * small.edges) / (large.edges - small.edges) <= 2 * BYTES
 
@@ -42,7 +42,7 @@ def test_a_side_without_edges(mine: int, other: int) -> None:
 
 
 def test_differences_need_columns() -> None:
-    """Edges without a partner need two columns, too."""
+    """Edges without a partner also need only two columns."""
     np = numpy()
     count = 40_000
     times = np.arange(count) * 1_000_000

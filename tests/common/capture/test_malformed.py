@@ -1,4 +1,4 @@
-"""Malformed captures and maps: one short line, no traceback, no hang."""
+"""Malformed captures and maps: one short line, no traceback, no endless loop."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .test_compare import session
 
 LONGEST_S = 20
 MANY = "9" * 5000
-"""More digits than Python converts at once."""
+"""More digits than Python converts in one call."""
 HUGE = "1e999999999"
 VCD = """$timescale 1 ns $end
 $var wire 1 ! a $end
@@ -36,7 +36,7 @@ CSV = "; Samplerate: {} Hz\nA\n0\n1\n"
 
 @pytest.fixture(autouse=True)
 def _limit() -> Iterator[None]:
-    """Fail a test that hangs."""
+    """Fail a test that does not end."""
 
     def stop(*_: object) -> None:
         raise TimeoutError
@@ -49,7 +49,7 @@ def _limit() -> Iterator[None]:
 
 
 def sigrok(path: Path, metadata: str) -> Path:
-    """A .sr with these metadata."""
+    """Write a .sr file with these metadata."""
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("metadata", metadata)
         archive.writestr("logic-1-1", b"\0\1" * 50)
@@ -88,7 +88,7 @@ def sigrok(path: Path, metadata: str) -> Path:
     ],
 )
 def test_malformed_files(name: str, text: str, says: str, tmp_path: Path) -> None:
-    """A number that is too long or too large gets one short line."""
+    """A number that is too long or too large is rejected in one short line."""
     path = tmp_path / name
     if path.suffix == ".sr":
         sigrok(path, text)
@@ -100,13 +100,13 @@ def test_malformed_files(name: str, text: str, says: str, tmp_path: Path) -> Non
 
 
 def test_a_range_with_many_digits(tmp_path: Path) -> None:
-    """A range that is no number is a part of the name."""
+    """A range that is not a number is a part of the name."""
     (tmp_path / "a.vcd").write_text(VCD.replace("a $end", f"a [{MANY}:0] $end"))
     assert list(read_capture(tmp_path / "a.vcd").channels) == [f"a [{MANY}:0]"]
 
 
 def test_empty_text(tmp_path: Path) -> None:
-    """A text variable may be empty; the levels after it count."""
+    """A text variable may be empty; the levels after it are read."""
     text = VCD.replace("$enddef", "$var string 1 $ note $end\n$enddef") + "s $\n#9\nshi $\n0!\n#11\ns $ 1!\n"
     (tmp_path / "a.vcd").write_text(text)
     found = read_capture(tmp_path / "a.vcd")
@@ -127,14 +127,14 @@ def test_empty_text(tmp_path: Path) -> None:
     ],
 )
 def test_malformed_maps(text: str, says: str, tmp_path: Path) -> None:
-    """A value of a wrong form gets one line that names it."""
+    """A value of a wrong form is rejected in one line that names it."""
     (tmp_path / "map.yml").write_text(f"pins: {{a0: A0}}\n{text}\n")
     with pytest.raises(CaptureError, match=says):
         read_map(tmp_path / "map.yml")
 
 
 def host_of_312(*accesses: tuple[str, int, int]) -> Seen:
-    """Accesses (strobe, rs, byte) to a PPMC-312, 1 µs apart."""
+    """Return accesses (strobe, rs, byte) to a PPMC-312, 1 µs apart."""
     seen = Seen(step=10_000)
     names = [f"d[{bit}]" for bit in range(8)] + [f"rs[{bit}]" for bit in range(3)]
     seen.wires = {name: (0, []) for name in names} | {name: (1, []) for name in ("cs_n", "we_n", "oe_n")}
@@ -165,14 +165,14 @@ def test_short_blocks_of_a_312(tmp_path: Path) -> None:
 
 
 def test_many_reports_of_a_312(tmp_path: Path) -> None:
-    """Time rises with the number of accesses, not with its square."""
+    """The time increases linearly with the number of accesses, not with its square."""
     words = [("oe_n", 7, 0)] * 20_000 + [("we_n", 3, 0x1D), *[("we_n", 5, 9)] * 3, ("oe_n", 3, 0x3D)] * 2000
     path = write_vcd(host_of_312(*words), tmp_path / "a.vcd")
     assert len(decode(read_capture(path), PinMap(), "ppmc312").lines) == 2000
 
 
 def test_a_long_serial_line(tmp_path: Path) -> None:
-    """The rate of a line is found in a time that rises with the number of characters."""
+    """The time to find the baud rate of a line increases linearly with the number of characters."""
     tape: Tape = session("pmc006")
     seen = probe(tape, rate=1e7, without=("txd",))
     level, changes = seen.wires["rxd"]

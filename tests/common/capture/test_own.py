@@ -1,4 +1,4 @@
-"""VCDs of our own cores, which tell themselves what they are; hints for files that do not."""
+"""VCDs of our own cores, which contain device and parameters; hints for files without them."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from .sessions import CLK_HZ
 from .test_compare import PARTS, session
 
 PORT = ""
-"""No board is opened."""
+"""The command opens no board."""
 CORE = {"CLK_HZ": CLK_HZ, "XTAL_HZ": 16_000_000, "TIMING": "FAST"}
 
 
 def test_nothing_has_to_be_named(run: Run, tmp_path: Path) -> None:
-    """Given a file that tells part and parameters, then the command needs neither."""
+    """For a file that contains device and parameters, the command needs neither."""
     path = write_vcd(probe(session("pmc006"), rate=1e12), tmp_path / "own.vcd", core_comment("pmc006", CORE))
     out = run("decode", str(path), "--compare", "--tolerance", "0.2").out
     assert "a PMC006B4" in out and "(FAST), 0 differences" in out
@@ -34,7 +34,7 @@ def test_nothing_has_to_be_named(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_the_file_tells_the_clock(part: str, tmp_path: Path) -> None:
-    """Given a file with part and clock, then no edge is off; given another clock, planning ends elsewhere."""
+    """With device and clock in the file, no edge differs; with a wrong clock, those of a PMC006B4 differ."""
     seen = probe(session(part), rate=1e12)
     path = write_vcd(seen, tmp_path / "own.vcd", core_comment(part, CORE))
     result = compare(decode(read_capture(path), PinMap()), US)
@@ -45,7 +45,7 @@ def test_the_file_tells_the_clock(part: str, tmp_path: Path) -> None:
 
 
 def test_options_go_before_the_file(tmp_path: Path) -> None:
-    """Given another TIMING in the map, or another part, then these are taken and nothing of the file."""
+    """Another TIMING in the map, or another device, takes precedence over the values in the file."""
     path = write_vcd(probe(session("stmc")), tmp_path / "own.vcd", core_comment("stmc", CORE))
     assert decode(read_capture(path), PinMap(timing="DATASHEET")).timing == "DATASHEET"
     other = decode(read_capture(path), PinMap(), "ppmc104")
@@ -64,7 +64,7 @@ def test_options_go_before_the_file(tmp_path: Path) -> None:
     ],
 )
 def test_damaged_comments(comment: str, tmp_path: Path) -> None:
-    """Given a comment that nobody can read, then one line says what to do."""
+    """A comment that cannot be read is rejected in one line with advice."""
     path = write_vcd(probe(session("ppmc104")), tmp_path / "own.vcd", comment)
     with pytest.raises(CaptureError, match="own.vcd: its comment .* is damaged: take it out"):
         read_capture(path)
@@ -79,7 +79,7 @@ def test_damaged_comments(comment: str, tmp_path: Path) -> None:
     ],
 )
 def test_pins_of_another_part(part: str, named: str, says: str, run: Run, tmp_path: Path) -> None:
-    """Given a file of another part, then the line names the parts whose pins it has."""
+    """For a file of another device, the line names the devices whose pins it has."""
     path = write_vcd(probe(session(part)), tmp_path / "other.vcd")
     outcome = run("decode", str(path), "--part", named)
     assert outcome.code == 1
@@ -88,7 +88,7 @@ def test_pins_of_another_part(part: str, named: str, says: str, run: Run, tmp_pa
 
 @pytest.mark.parametrize("part", ["ppmc104", "ppmc2104"])
 def test_the_other_timing(part: str, run: Run, tmp_path: Path) -> None:
-    """Given a fast core beside the model of the old chip, then a line says which TIMING fits, else none."""
+    """If a FAST core is compared with the DATASHEET model, a line names the matching TIMING; else not."""
     comment = core_comment(part, CORE | {"TIMING": "DATASHEET"})
     path = write_vcd(probe(session(part)), tmp_path / "own.vcd", comment)
     outcome = run("decode", str(path), "--compare")
@@ -98,8 +98,10 @@ def test_the_other_timing(part: str, run: Run, tmp_path: Path) -> None:
 
 
 def test_stations_in_scopes(run: Run, tmp_path: Path) -> None:
-    """Given two stations in one file, then the first one is read, or that of the scope; one that is not
-    there is told with those that are."""
+    """Of two stations in one file, the first is read, or the one of --scope.
+
+    A scope that does not exist is rejected with the list of existing scopes.
+    """
     seen = probe(session("ppmc312-serial"), rate=1e12)
     idle = {f"station0.{name}": (level, []) for name, (level, _) in seen.wires.items() if name != "rxd"}
     idle["station0.rxd"] = seen.wires["rxd"]
@@ -115,8 +117,10 @@ def test_stations_in_scopes(run: Run, tmp_path: Path) -> None:
 
 
 def test_what_a_switch_ended_tells_no_crystal() -> None:
-    """Given moves of one length and one that ended 50 µs later, then the crystals are alike; given 60 ppm in
-    all others, then these are it."""
+    """A move that ended 50 µs late (by a switch) does not influence the estimate of the crystal.
+
+    If all other moves are 60 ppm longer, the estimate is 60 ppm.
+    """
     long, slack = 300_000 * US, US // 4
     assert learned([(long, long)] * 3 + [(long, long + 50 * US)], slack) == 1.0
     fast = [(length, round(length * (1 + 60e-6))) for length in (long, long // 2, long // 3)]

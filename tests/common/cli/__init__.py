@@ -1,1 +1,1 @@
-"""The command line, but for what parts add to it."""
+"""The command line, except commands of single devices."""

@@ -1,4 +1,4 @@
-"""A command line for every command of every part."""
+"""A command line for every command of every device."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from tests.common.capture import sessions
 from tests.common.capture.analyser import probe, write_saleae
 
 REJECTED = {"stop": 1, "table": 1, "selftest": 1}
-"""Commands that a model at rest rejects, and their status: they print nothing to stdout."""
-# Arguments by part ("": behind the bridge) and command. Words in braces are files of `files`.
+"""Commands that an idle model rejects, and their exit status: they print nothing to stdout."""
+# Arguments by device ("": accessed through the bridge) and command. Words in braces are files of `files`.
 ARGUMENTS: dict[str, dict[str, str]] = {
     "": {
         "ports": "",
@@ -79,7 +79,7 @@ ARGUMENTS: dict[str, dict[str, str]] = {
 
 
 def files(folder: Path) -> dict[str, Path]:
-    """Write what the commands read, with names that few encodings have."""
+    """Write the input files of the commands, with characters in their names that few encodings have."""
     texts = {
         "script": "move 5\nposition\nmove -5\n",
         "stations": "init axis=1\nmove 5 axis=1\nposition axis=1\n",
@@ -106,7 +106,7 @@ def files(folder: Path) -> dict[str, Path]:
 
 
 def lines(paths: dict[str, Path]) -> dict[str, list[str]]:
-    """Command lines by name: of all commands, and of tables that parts add."""
+    """Return command lines by name: of all commands, and of the tables that devices add."""
     port = ["--port", "model:speed=max"]
     found = {}
     for part, commands in ARGUMENTS.items():
@@ -120,7 +120,7 @@ def lines(paths: dict[str, Path]) -> dict[str, list[str]]:
 
 
 def without_line() -> set[str]:
-    """Commands that ARGUMENTS lacks."""
+    """Return the commands that ARGUMENTS lacks."""
     return {
         f"{part} {name}".strip()
         for row in Commands.rows
@@ -131,5 +131,5 @@ def without_line() -> set[str]:
 
 
 def _names(name: str, command: Any) -> list[str]:
-    """The command, or those of a group after its name."""
+    """Return the command, or the commands of a group after its name."""
     return [f"{name} {one}" for one in command.commands] if hasattr(command, "commands") else [name]

@@ -1,4 +1,4 @@
-"""What the tests of the command line share; the fixture `run` is in conftest."""
+"""Types that the tests of the command line share; the fixture `run` is in conftest."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Outcome(NamedTuple):
 
     @property
     def only_line(self) -> str:
-        """The one line of an error."""
+        """The only line of an error."""
         assert self.code and self.err.startswith("error: ") and self.err.count("\n") == 1, self
         return self.err
 

@@ -1,4 +1,4 @@
-"""The command line on the modelled board: what it prints, what it refuses, Ctrl-C."""
+"""The command line on the modelled board: its output, its errors, Ctrl-C."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_status_and_monitor(run: Run) -> None:
 
 
 def test_plan_and_plot(run: Run, tmp_path: Path) -> None:
-    """14 pulses of the ramp of P104-EX-01 take 170 us."""
+    """14 pulses of the ramp of P104-EX-01 take 170 µs."""
     options = ["--start", "50000", "--high", "100000", "--ramp", "4"]
     values = json.loads(run("plan", "14", *options, "--json").out)
     assert values["move"]["seconds"] == pytest.approx(170e-6)
@@ -101,7 +101,7 @@ def test_ports(run: Run) -> None:
     assert isinstance(json.loads(run("ports", "--json").out), list)
 
 
-# ---------------------------------------------------------------------- refusals
+# ---------------------------------------------------------------------- errors
 
 
 @pytest.mark.parametrize(
@@ -163,7 +163,7 @@ def test_a_fault_of_the_program_is_one_line_too(run: Run, monkeypatch: pytest.Mo
         main(["ports"])
 
 
-# ---------------------------------------------------------------------- what is remembered
+# ---------------------------------------------------------------------- stored values
 
 
 def test_the_setup_of_a_port_is_remembered(run: Run) -> None:
@@ -299,8 +299,10 @@ def test_program_nesting_is_bounded() -> None:
 
 
 def interrupted(name: str, signals: int, cwd: Path) -> subprocess.CompletedProcess[str]:
-    """Play a script in a process of its own and send Ctrl-C: half a second after its first line of output,
-    and once more if `signals` is 2."""
+    """Play a script in a separate process and send Ctrl-C half a second after its first line of output.
+
+    A second Ctrl-C follows if `signals` is 2.
+    """
     env = dict(os.environ, PYTHONPATH=str(Path(__file__).parents[3]), PYTHONUNBUFFERED="1")
     process = subprocess.Popen(
         [sys.executable, "-m", "openppmc.cli", "--port", "model:", "script", name],
@@ -325,7 +327,10 @@ def interrupted(name: str, signals: int, cwd: Path) -> subprocess.CompletedProce
 def test_the_second_ctrl_c_is_not_patient(
     monkeypatch: pytest.MonkeyPatch, again: bool, least: int, most: int
 ) -> None:
-    """Two seconds into a ramp of 11 000 pulses a deceleration takes about two seconds more."""
+    """After the second Ctrl-C the motor stops immediately, without a deceleration ramp.
+
+    Two seconds into a ramp of 11 000 pulses, a deceleration takes about two more seconds.
+    """
     with Ppmc104.open(FAST) as axis:
         axis.initialise(start_pps=1000, high_pps=1200, ramp_pulses=11_000)
         axis.start_move(30_000)

@@ -37,13 +37,13 @@ def _environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def commands(tmp_path: Path) -> dict[str, list[str]]:
-    """A line for every command."""
+    """Return a command line for every command."""
     return all_commands.lines(all_commands.files(tmp_path))
 
 
 @pytest.fixture(autouse=True)
 def no_console() -> Iterator[None]:
-    """A console keeps what a lost stdout did not accept: the next test has another one."""
+    """Remove the console, which keeps text that a broken stdout did not accept, after each test."""
     yield
     vars(output).pop("console", None)
 
@@ -51,7 +51,7 @@ def no_console() -> Iterator[None]:
 def printed(
     words: list[str], encoding: str, columns: int = 200, run: Callable[[list[str]], int] = main
 ) -> tuple[int, str, str]:
-    """Exit status, stdout and stderr of a command whose streams have this encoding. run: its function."""
+    """Return exit status, stdout and stderr of a command with this encoding. run: its function."""
     both = [io.TextIOWrapper(io.BytesIO(), encoding) for _ in range(2)]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("COLUMNS", str(columns))
@@ -64,7 +64,7 @@ def printed(
 
 
 def test_the_list_of_commands_is_complete() -> None:
-    """The tests below run every command of every part."""
+    """The tests below run every command of every device."""
     assert all_commands.without_line() == set()
 
 
@@ -89,7 +89,7 @@ def test_every_command_in_ascii_on_a_narrow_terminal(commands: dict[str, list[st
 def test_text_in_every_encoding(
     encoding: str, commands: dict[str, list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Results, help and errors with characters that few encodings have arrive in each encoding."""
+    """Results, help and errors with characters that few encodings have are printed in each encoding."""
     monkeypatch.chdir(tmp_path)
     code, out, _ = printed(["--help"], encoding)
     assert code == 0 and ("sim:…" if encoding in ("cp1252",) else "sim:...") in out
@@ -104,7 +104,7 @@ def test_text_in_every_encoding(
 
 
 def test_scripts_of_the_project_print_in_ascii() -> None:
-    """Scripts behind `project.run` (make demo, make bench …) accept any encoding, too."""
+    """Scripts that use `project.run` (make demo, make bench …) also accept any encoding."""
 
     def show(words: list[str]) -> int:
         project.console.print(*words, highlight=False)
@@ -128,7 +128,7 @@ def test_columns_stay_aligned() -> None:
     assert attempted and not failed
 
 
-# Tables and one of their headings.
+# Tables, each with one of its headings.
 TABLES = {
     "ppmc312-serial scan": "line faults",
     "ppmc312-serial status": "line faults",
@@ -151,7 +151,7 @@ def test_tables_on_a_narrow_terminal(name: str, commands: dict[str, list[str]]) 
 
 
 def broken(mode: str, words: list[str]) -> tuple[int, str]:
-    """Exit status and stderr of a command with a stdout that is full, closed, or a pipe without a reader."""
+    """Return exit status and stderr of a command whose stdout is full, closed or a pipe without a reader."""
     with ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
         stdout = None
         if mode == "full":
@@ -169,8 +169,10 @@ def broken(mode: str, words: list[str]) -> tuple[int, str]:
 @posix
 @pytest.mark.parametrize("mode", ["pipe", "full", "closed"])
 def test_every_command_with_a_broken_stdout(mode: str, commands: dict[str, list[str]]) -> None:
-    """Without a reader a command ends with 141 and no line, with a full or closed stdout with 1 and one line.
-    An error of the command itself takes precedence: the command writes nothing to stdout then."""
+    """A broken stdout causes status 141 and no line (no reader), or status 1 and one line (full, closed).
+
+    An error of the command itself takes precedence: the command then writes nothing to stdout.
+    """
     reason = {"full": "No space left on device", "closed": "closed"}.get(mode, "the reader has ended")
     cause = f"error: stdout: cannot be written ({reason})"
     for name, words in commands.items():
@@ -205,7 +207,7 @@ SHELL = {
 @posix
 @pytest.mark.parametrize("line", SHELL)
 def test_in_a_shell(line: str) -> None:
-    """Streams as a shell makes them: the exit status of the page on the command line, at most one line."""
+    """With streams as a shell creates them, the exit status is the documented one, with at most one line."""
     command = f"{sys.executable} -m openppmc.cli"
     done = subprocess.run(
         ["bash", "-c", f"{line.format(command)}; exit ${{PIPESTATUS[0]}}"],

@@ -1,4 +1,4 @@
-"""The table of commands: what `--help` prints without importing them is what they are."""
+"""The table of commands: the data that `--help` prints without importing commands matches the commands."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_a_row_is_true_of_its_command(row: Command) -> None:
 
 
 def test_every_command_of_a_part_has_a_row() -> None:
-    """A part has one command of a name; each part on a line has commands, and `--help` lists all names."""
+    """A device has one command per name; each device on a line has commands, and `--help` lists all names."""
     counts = Counter((part, row.name) for row in Commands.rows for part in row.parts)
     assert {*counts.values()} == {1}
     assert {part for part, _ in counts} == {BRIDGE, *(row.name for row in parts.having("line"))}
@@ -44,7 +44,7 @@ def test_every_command_of_a_part_has_a_row() -> None:
 
 
 def test_options_in_front_state_what_the_library_has() -> None:
-    """The default rate in the help of --baud is that of the link; `axes` in the table is that of the part."""
+    """The default rate in the help of --baud is that of the link; `axes` of a row is that of the device."""
     shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
     assert f"line rate to work with ({DEFAULT_BAUD};" in shown
     rows = parts.having("number", "kind")
@@ -52,14 +52,14 @@ def test_options_in_front_state_what_the_library_has() -> None:
 
 
 def test_a_misspelt_command_gets_the_nearest() -> None:
-    """Names of commands of all parts are suggested."""
+    """For a misspelt command, the nearest command name of all devices is suggested."""
     for wrong, near in (("mvoe", "move"), ("scna", "scan"), ("reset-flag", "reset-flags")):
         result = CliRunner().invoke(app, [wrong])
         assert result.exit_code == 2 and f"Did you mean '{near}'" in " ".join(result.output.split())
 
 
 def test_help_is_that_of_typer() -> None:
-    """The help is the same if typer's formatter has all modules of rich, and these are whole afterwards."""
+    """The help is the same if typer's formatter has all modules of rich, which are complete afterwards."""
     code = "from openppmc.cli import main; main(['--help'])"
     after = "; import rich.markdown, rich.traceback; rich.markdown.Markdown('x').parsed; rich.traceback.Stack"
     made = [

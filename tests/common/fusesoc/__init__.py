@@ -1,1 +1,1 @@
-"""FuseSoC builds boards: what needs yosys."""
+"""FuseSoC builds boards: tests that need yosys."""

@@ -1,4 +1,4 @@
-"""Boards in plain Verilog as yosys makes and reads them; `make test WITH=fusesoc` has yosys."""
+"""Boards in plain Verilog as yosys writes and reads them; `make test WITH=fusesoc` has yosys."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ MODULE = "module m (input a, output b);\n  assign b = ~a;\nendmodule\n"
 
 
 def test_library():
-    """Given one board, then its folder holds core, Verilog and pins, and nothing names this machine."""
+    """The folder of a board holds core, Verilog and pins, and no file contains a path of this machine."""
     folder = BUILD / "test" / "plain_boards"
     made = plain_boards.write_library(["ulx3s-25f"], folder)
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
     assert names == ["board_ulx3s_ppmc104.v", made.name, "ulx3s/ppmc104/pins.lpf"]
     verilog = (folder / "board_ulx3s_ppmc104.v").read_text(encoding="utf-8")
-    # The loop of the PLL is in its attributes; without them it would be another.
+    # The PLL loop is set by attributes; without them it would be a different one.
     assert '(* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8", ' in verilog
     assert 'MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)\n  EHXPLLL #(\n' in verilog
     assert "    inout  wire [7:0] d,\n" in verilog and str(ROOT) not in verilog
 
 
 def test_yosys_does_what_tcl_says(tmp_path):
-    """Given a script as edalize writes it, then yosys carries it out; its words are in the log alone."""
+    """yosys executes a script as edalize writes it; its output is only in the log."""
     (tmp_path / "m.v").write_text(MODULE)
     (tmp_path / "procs.tcl").write_text("proc read_files {} {\nread_verilog {m.v}\n}\nset top m\n")
     script = "yosys -import\nsource procs.tcl\nread_files\nsynth -top $top\nprocs\nwrite_json $top.json\n"
@@ -38,7 +38,7 @@ def test_yosys_does_what_tcl_says(tmp_path):
 
 
 def test_what_yosys_refuses(tmp_path):
-    """Given Verilog that yosys does not read, then its error is on the terminal, and the code is not 0."""
+    """If yosys cannot read the Verilog, its error is on the terminal, and the exit code is not 0."""
     (tmp_path / "m.v").write_text("module m (;\n")
     (tmp_path / "s.tcl").write_text("read_verilog m.v\n")
     done = launched("yosys", "-l", "y.log", "-p", "tcl s.tcl", folder=tmp_path)

@@ -1,1 +1,1 @@
-"""The simulator harness, the scripts behind make targets, the pages that these write."""
+"""The simulator harness, the scripts of make targets, and the pages that these write."""

@@ -1,4 +1,4 @@
-"""Pins of the boards in constraints/ that something else on the board uses, too, and where that is told.
+"""Pins of the boards in constraints/ that another circuit on the board also uses, and the sources.
 
 Facts only, from public files: constraint files and schematics of the makers and of other open projects.
 """
@@ -10,18 +10,18 @@ from enum import Enum, auto
 
 
 class Kind(Enum):
-    """What a second job forbids."""
+    """The uses that the second function excludes."""
 
-    NEVER = auto()  # configuration, flash, JTAG, a monitor's control lines: no use at all
-    DRIVEN = auto()  # another chip on the board can drive it: no output, no limit or alarm
+    NEVER = auto()  # configuration, flash, JTAG, control lines of a monitor: not usable
+    DRIVEN = auto()  # another chip on the board can drive it: not usable as an output, limit or alarm
     SOCKET = auto()  # a socket or a section that can be left empty
-    LOADED = auto()  # lamp, converter, amplifier, other bank voltage, a function during configuration
-    NEAR_5V = auto()  # beside a header pin of 5 V
+    LOADED = auto()  # LED, converter, amplifier, other bank voltage, a function during configuration
+    NEAR_5V = auto()  # next to a header pin of 5 V
 
 
 @dataclass(frozen=True)
 class Special:
-    """Some pins of a board: what else they are, and the source of that."""
+    """Some pins of a board: their other function, and the source of that."""
 
     pins: tuple[str, ...]
     kind: Kind
@@ -30,7 +30,7 @@ class Special:
 
 
 def pins(text: str) -> tuple[str, ...]:
-    """Names between blanks; 36-39 is four of them."""
+    """Return the names between spaces; 36-39 represents four names."""
     names = []
     for word in text.split():
         first, _, last = word.partition("-")

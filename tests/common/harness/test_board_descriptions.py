@@ -1,4 +1,4 @@
-"""Descriptions of FPGA boards: a new one makes top and constraints, a wrong one is refused in one line."""
+"""Descriptions of FPGA boards: a new one produces top and constraints; a mistake is reported in one line."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ code: BREA
 
 
 def described(folder: Path, text: str = BOARD) -> Description:
-    """The description with this text, of a board called bread."""
+    """Load a description with this text, of a board called bread."""
     path = folder / "bread" / "board.yml"
     path.parent.mkdir()
     path.write_text(text)
@@ -60,14 +60,14 @@ def described(folder: Path, text: str = BOARD) -> Description:
 
 
 def fitted(folder: Path, text: str = BOARD) -> Fitted:
-    """Its first part on that board."""
+    """Return the first device of that board, fitted to its pins."""
     board = described(folder, text)
     on = board.parts[0]
     return fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
 
 
 def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
-    """Given a board.yml, then there are a top and a pin file that fit each other."""
+    """A board.yml is enough to produce a top and a pin file that match."""
     one = fitted(tmp_path)
     ((name, text),) = top.file(one.board, one).items()
     assert name == "boards/bread/board_bread_ppmc104.sv"
@@ -88,7 +88,7 @@ def test_a_new_board_needs_its_description_only(tmp_path: Path) -> None:
 
 
 def test_what_has_no_pin(tmp_path: Path) -> None:
-    """Given fewer pins than ports, then inputs read 1, or 0 where that is said, and outputs end."""
+    """Inputs without a pin read as 1, or as 0 if the description says so; outputs without a pin are open."""
     ((_, text),) = top.file((one := fitted(tmp_path)).board, one).items()
     joined = re.sub(r" +", "", text)
     for words in (
@@ -141,9 +141,9 @@ def test_bits_in_the_middle_are_not_left_out(tmp_path: Path) -> None:
 
 
 def test_written_files_are_fresh() -> None:
-    """`make boards` would change nothing but spaces, and nothing is left of a board that is gone.
+    """`make boards` would change only spaces, and no file of a removed board is left.
 
-    `make lint` compares the spaces, too: it has the program that lays the tops out.
+    `make lint` also compares the spaces, because it has the program that formats the tops.
     """
     wanted = all_files(layout=str)
     same = {
@@ -170,7 +170,7 @@ endmodule
 
 
 def test_vectors_as_wide_as_a_parameter(tmp_path: Path) -> None:
-    """Given ports as wide as a parameter says, then its default counts, or what the board sets."""
+    """A width that depends on a parameter follows its default, or the value that the board sets."""
     path = tmp_path / "tiny_carrier.sv"
     path.write_text(VECTORS)
     for given, axes in ((None, 4), ({"AXES": 8}, 8)):
@@ -182,7 +182,7 @@ def test_vectors_as_wide_as_a_parameter(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("wrong", ["HOST-1", "AXIS-1", "AXES"])
 def test_a_width_that_cannot_be_known(tmp_path: Path, wrong: str) -> None:
-    """Given a width by something else, then it is refused in one line."""
+    """A width that depends on anything else is rejected in one line."""
     path = tmp_path / "tiny_carrier.sv"
     path.write_text(VECTORS.replace("5*AXES-1", wrong))
     with pytest.raises(ProjectError, match=rf"^\[{wrong}:0\]: expected a number or \[n\*\]PARAMETER-1$"):

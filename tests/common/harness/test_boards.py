@@ -15,7 +15,7 @@ from scripts.fpga.flow.boards import BY_PART, HOSTS
 CONSTRAINTS = project.ROOT / "constraints"
 TOPS = project.RTL / "boards"
 
-# Clock input of each board and its MHz.
+# Clock input of each board and its frequency in MHz.
 OSCILLATORS = {
     "icebreaker": ("clk_12m", 12),
     "ulx3s": ("clk_25m", 25),
@@ -29,7 +29,7 @@ APART = (".cst", ".qsf")  # their clocks are in clocks.sdc
 
 
 def entries() -> list[tuple[str, str, str, str, float]]:
-    """Top module, file of pins, file of the clock, clock input and its MHz, as the tree has them."""
+    """Return top module, pin file, clock file, clock input and its MHz, for each pin file in the tree."""
     found = []
     for path in sorted(CONSTRAINTS.glob("*/*/pins.*")):
         board, part = path.parts[-3:-1]
@@ -74,7 +74,7 @@ class Port:
 
 
 def ports_of(text: str) -> dict[str, Port]:
-    """The ports that a top's source declares, one a line."""
+    """Return the ports that a top's source declares, one per line."""
     found = {}
     pattern = r"^ +(input|output|inout) +(?:wire )?logic *(?:\[ *(\d+): *(\d+)\])? +(\w+)"
     for direction, high, low, name in re.findall(pattern, text, re.M):
@@ -85,23 +85,23 @@ def ports_of(text: str) -> dict[str, Port]:
 
 
 def source(top: str) -> Path:
-    """Where a top is."""
+    """Return the path of a top."""
     (path,) = TOPS.glob(f"*/{top}.sv")
     return path
 
 
 def ports(top: str) -> dict[str, Port]:
-    """The ports of a top in rtl/boards."""
+    """Return the ports of a top in rtl/boards."""
     return ports_of(source(top).read_text())
 
 
 def pins(text: str, suffix: str) -> list[tuple[str, str]]:
-    """(port, pin) pairs of a constraint file's text."""
+    """Return the (port, pin) pairs of a constraint file's text."""
     return [(match["port"], match["pin"]) for match in PIN[suffix].finditer(text)]
 
 
 def clocks(text: str, suffix: str) -> dict[str, float]:
-    """Clock constraints of a file: port and MHz."""
+    """Return the clock constraints of a file: port and MHz."""
     if suffix in MHZ:
         return {match["port"]: float(match["mhz"]) for match in MHZ[suffix].finditer(text)}
     return {match["port"]: 1000 / float(match["ns"]) for match in NS.finditer(text)}
@@ -116,7 +116,7 @@ def test_every_top_has_a_constraint_file() -> None:
 
 @pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])
 def test_files_of_a_board_are_checked_here(on: boards.Board) -> None:
-    """What `make bitstream` takes is among the files of these tests, with the same oscillator."""
+    """The files that `make bitstream` uses are among those of these tests, with the same oscillator."""
     for host in on.top:
         (entry,) = (entry for entry in ALL if entry[0] == on.top[host])
         assert entry[1] == on.constraints[host]
@@ -153,7 +153,7 @@ def test_open_inputs_are_pulled_up(top: str, file: str, clock_file: str, clock: 
 
 @pytest.mark.parametrize(("top", "file"), [entry[:2] for entry in ALL], ids=IDS)
 def test_table_of_the_pins(top: str, file: str) -> None:
-    """docs/boards.md has each port with its pin and direction."""
+    """docs/boards.md lists each port with its pin and direction."""
     page = (project.DOCS / "boards.md").read_text()
     table = page.split(f"<!-- pins {file} -->")[1].split(f"<!-- /pins {file} -->")[0]
     told = re.findall(r"^\| `([^`]+)` \| ([a-z, ]+) \| (\w+) \|", table, re.M)

@@ -14,7 +14,7 @@ MODELS = [row.name for row in parts.folders()]
 
 
 def accesses() -> list[Change]:
-    """Initialisation and a move of 14 pulses, as pin changes."""
+    """Return an initialisation and a move of 14 pulses, as pin changes."""
     rows, t = [], 100
     for register, byte in [(1, 0x0A), (0, 9), (0, 4), (0, 4), (0, 0), (1, 0x43), (0, 13), (0, 0), (0, 0)]:
         rows += [Change(t, "a0", register), Change(t, "d_i", byte), Change(t, "cs_n", 0)]
@@ -25,7 +25,7 @@ def accesses() -> list[Change]:
 
 @pytest.mark.parametrize("reset", [False, True])
 def test_a_move(reset: bool) -> None:
-    """Given the pins of a move, then all edges come out, in order, also behind a reset in the recording."""
+    """The pins of a move produce all edges in order, also after a reset in the recording."""
     changes = accesses()
     if reset:
         changes = [Change(0, "rst_n", 0), Change(16, "rst_n", 1), *changes]
@@ -37,7 +37,7 @@ def test_a_move(reset: bool) -> None:
 
 
 def test_a_late_edge_is_found() -> None:
-    """Given one edge a clk late, then it is the first difference."""
+    """An edge that is one cycle late is the first difference."""
     changes = accesses()
     edges = expected_edges("ppmc104", PARAMS, changes, 400_000)
     place = next(n for n, edge in enumerate(edges) if edge.signal == "pout_n")
@@ -50,14 +50,14 @@ def test_a_late_edge_is_found() -> None:
 
 @pytest.mark.parametrize("part", MODELS)
 def test_pins_of_every_part(part: str) -> None:
-    """Given a golden model, then its pins are known: each input and output has its width and idle level."""
+    """Each pin of a golden model is known with its width and idle level."""
     pins = pins_of(new_model(part, {}))
     assert "rst_n" not in pins.inputs and pins.bus_pins <= set(pins.inputs) and pins.outputs
     assert all(0 <= level < 1 << pins.width(pin) for pin, level in {**pins.inputs, **pins.outputs}.items())
 
 
 def test_bad_inputs() -> None:
-    """Given a pin that is not there or a level it cannot have, then a ValueError says so."""
+    """A pin that does not exist, or a level that it cannot have, causes a ValueError that names the pin."""
     for row in (Change(5, "colour", 1), Change(5, "cs_n", 2)):
         with pytest.raises(ValueError, match=row.pin):
             expected_edges("ppmc104", PARAMS, [row], 10)

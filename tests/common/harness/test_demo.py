@@ -1,10 +1,8 @@
-"""The demo: bytes in words, single pins of the waves, and the choice of the part. No simulator."""
+"""The demo: bytes as text, single pins in the waves, and the choice of the device. No simulator."""
 
 from __future__ import annotations
 
 import pytest
-from scripts.demo.ppmc2104.demo import VIEW as VIEW_2104
-from scripts.demo.stmc.demo import VIEW as VIEW_STMC
 
 from cocotb_tests.harness import PARTS
 from cocotb_tests.harness.compare import compare_recording, replay
@@ -21,11 +19,13 @@ from scripts.demo import waves
 from scripts.demo.__main__ import chosen, hexes
 from scripts.demo.demos import Demo
 from scripts.demo.ppmc312.demo import VIEW as VIEW_312
+from scripts.demo.ppmc2104 import VIEW as VIEW_2104
 from scripts.demo.scenes import register_text
+from scripts.demo.stmc import VIEW as VIEW_STMC
 
 
 def accesses(script: str) -> list[Access]:
-    """Accesses from words such as cA0 (code), d01 (data), s04 (status), r83 (data read)."""
+    """Return accesses from words such as cA0 (code), d01 (data), s04 (status), r83 (data read)."""
     kinds = {"c": ("write", 1), "d": ("write", 0), "s": ("read", 1), "r": ("read", 0)}
     return [Access(t, *kinds[word[0]], int(word[1:], 16)) for t, word in enumerate(script.split())]
 
@@ -57,19 +57,19 @@ def accesses(script: str) -> list[Access]:
     ],
 )
 def test_bytes_of_the_2104_in_words(script, meaning, reply):
-    """Given one exchange of a host, then it reads as the manual says."""
+    """An exchange of a PPMC-2104 host is described as in the manual."""
     (row,) = exchanges(Words2104(), accesses(script))
     assert (row.meaning, row.reply) == (meaning, reply)
 
 
 def test_remaining_pulses_know_the_end_of_their_axis():
-    """Given axis 1 stopped early and axis 2 complete, then 0 remaining means one pulse and none."""
+    """With axis 1 stopped early and axis 2 complete, 0 remaining means one pulse for axis 1, 0 for axis 2."""
     rows = exchanges(Words2104(), accesses("c80 rC3 cA0 r83 c83 r00 r00 r00 cA3 r00 r00 r00"))
     assert [row.reply for row in rows[2:]] == ["1 pulse not made", "no pulse left"]
 
 
 def test_bytes_of_the_104_in_words():
-    """Given the same codes for a PPMC-104, then no axis is named and the error is in the status."""
+    """With the same codes for a PPMC-104, no axis is named and the error is in the status."""
     rows = exchanges(Words104(), accesses("c43 d18 d00 d00 s04 c42 s94 c80 r83"))
     assert [row.meaning for row in rows] == [
         "accelerate/decelerate, CW, 25 pulses",
@@ -108,14 +108,14 @@ def test_bytes_of_the_104_in_words():
     ],
 )
 def test_bytes_of_the_stmc_in_words(script, meaning, reply):
-    """Given one exchange of a host with the read codes of the sheet, then it reads as the manual says."""
+    """An exchange with the read codes of the data sheet is described as in the manual."""
     (row,) = exchanges(WordsStmc("SHEET"), accesses(script))
     assert row.meaning == meaning
     assert row.reply.startswith(reply)
 
 
 def registers(script: str) -> list[Access]:
-    """Accesses of a PPMC-312 host: `> block` and `< block` in logical order, `p` a poll of CSR."""
+    """Return accesses of a PPMC-312 host: `> block` and `< block` in logical order, `p` a poll of CSR."""
     found: list[tuple[str, int, int]] = []
     for line in script.split(";"):
         kind, _, text = line.strip().partition(" ")
@@ -161,7 +161,7 @@ def registers(script: str) -> list[Access]:
     ],
 )
 def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
-    """Given one instruction and its answer, then they read as the manual says."""
+    """An instruction and its response are described as in the manual."""
     (row,) = Words312().exchanges(registers(f"> {sent}; p 14; p 10; < {got}"))
     assert (row.meaning, row.reply) == (meaning, reply)
     assert (row.sent, row.answer) == (list(bytes.fromhex(sent)), list(bytes.fromhex(got)))
@@ -169,7 +169,7 @@ def test_blocks_of_the_312_in_words(sent, got, meaning, reply):
 
 
 def test_reports_of_the_312_are_rows_of_their_own():
-    """Given a stop report behind an answer, and an override's, then each has its row and no instruction."""
+    """A stop report after a response, and the report of an override, have their own rows."""
     rows = Words312().exchanges(
         registers("> 03 02 84 00; < 03 01 84; p 14; < 23 06 E0 40 00000001; < 1B 02 82 00; < 23 02 F4 01")
     )
@@ -183,7 +183,7 @@ def test_reports_of_the_312_are_rows_of_their_own():
 
 
 def test_a_report_before_the_answer_has_its_own_row():
-    """Given an alarm that is read first, then the answer still belongs to its instruction."""
+    """If an alarm is read first, the response still belongs to its instruction."""
     rows = Words312().exchanges(registers("> 03 01 40; < 23 02 F4 00; < 03 02 40 12"))
     assert [(row.meaning, row.reply) for row in rows] == [
         ("read version", "version 12"),
@@ -192,13 +192,13 @@ def test_a_report_before_the_answer_has_its_own_row():
 
 
 def test_long_blocks_lose_their_end():
-    """Given a block that would not fit into its column, then its first bytes are printed."""
+    """Of a block that would not fit into its column, the first bytes are printed."""
     assert hexes([3, 1, 64]) == "03 01 40"
     assert hexes(list(range(20))) == "00 01 02 03 04 05 06 07 08 09 0A …"
 
 
 def test_waves_name_the_registers(tmp_path):
-    """Given a version read in a recording, then the VCD has the host's accesses by name, and its pins."""
+    """The VCD of a version read contains the host's accesses by name, and the pins."""
     recording = Recording("ppmc312", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
     t = 10
     for reg, byte in ((2, 0x20), (3, 0x1D), (5, 0x40), (5, 0x01), (5, 0x03)):
@@ -220,13 +220,13 @@ def test_waves_name_the_registers(tmp_path):
 
 
 def test_chopping_is_no_step():
-    """Given phases that are switched off and on at rest, then only a change of pattern is a step."""
+    """If phases are switched off and on at standstill, only a change of the pattern is a step."""
     changes = [(5, 0b0011), (9, 0), (12, 0b0011), (15, 0), (16, 0b0011), (20, 0b0110), (30, 0), (33, 0b0110)]
     assert steps(changes) == [20]
 
 
 def test_waves_show_the_steps_of_the_board(tmp_path):
-    """Given two single steps on the ISA bus with chopping at rest, then the VCD has them and the driver."""
+    """The VCD of two single steps on the ISA bus, chopped at standstill, contains steps and driver."""
     recording = Recording("j105_stmc", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
     t = 10
     for reg, byte in ((1, 0x3A), (0, 20), (0, 5), (0, 8), (0, 0), (1, 0x42), (1, 0x42)):
@@ -247,7 +247,7 @@ def test_waves_show_the_steps_of_the_board(tmp_path):
 
 
 def test_waves_show_each_axis(tmp_path):
-    """Given a step of axis 2 in a recording, then the VCD has its pins, its pulse and its speed by name."""
+    """The VCD of a step of axis 2 contains its pins, its pulse and its speed by name."""
     recording = Recording("ppmc2104", {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"})
     t = 10
     for reg, byte in ((1, 0x22), (0, 99), (0, 19), (0, 10), (0, 0), (1, 0x62)):
@@ -276,7 +276,7 @@ def test_waves_show_each_axis(tmp_path):
 
 
 def test_every_shown_signal_exists():
-    """Given the saved views, then each names a pin of its part or one of the signals beside them."""
+    """Each saved view names only pins of its device or the additional signals."""
     demos = [row.load("demo") for row in having("demo")]
     for demo in (found for found in demos if isinstance(found, Demo)):
         part = PARTS[demo.part]
@@ -289,7 +289,7 @@ def test_every_shown_signal_exists():
 
 
 def test_unknown_part_is_one_line():
-    """Given a part without a demo, then the message names those that have one."""
+    """For a device without a demo, the message names the devices with one."""
     assert chosen([]).part == "ppmc104"
     assert chosen(["--part", "ppmc2104"]).part == "ppmc2104"
     assert chosen(["--part", "stmc"]).part == "j105_stmc"

@@ -1,4 +1,4 @@
-"""`directed`: when a test is compared with the golden model, and what a failure says."""
+"""`directed`: when a test is compared with the golden model, and the message of a failure."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from cocotb_tests.ppmc104.bench import PPMC104
 
 
 class Simulated(ModelBench):
-    """A golden model that says it is the RTL."""
+    """A golden model that is treated as the RTL."""
 
     simulated = True
 
 
 class Judge:
-    """Compares nothing; keeps the sides, and fails if told to."""
+    """Compares nothing; stores the sides, and fails on request."""
 
     def __init__(self) -> None:
         self.sides: list[Any] = []
@@ -34,7 +34,7 @@ class Judge:
 
 @pytest.fixture
 def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
-    """In place of the comparison; `start_bench` makes sides that want to be compared."""
+    """Replace the comparison; `start_bench` returns sides that must be compared."""
     found = Judge()
     monkeypatch.setattr("cocotb_tests.harness.running.check_against_model", found)
     monkeypatch.setattr("cocotb_tests.harness.running.ModelBench", Simulated)
@@ -42,7 +42,7 @@ def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
 
 
 def run(test: Any, **arguments: Any) -> None:
-    """The test on the golden model."""
+    """Run the test on the golden model."""
     on_model(test.func(OnModel(), **arguments))
 
 
@@ -128,7 +128,7 @@ def test_a_timeout_stays_one(judge: Judge) -> None:
     async def hangs(dut: Any) -> None:
         await (await start()).edge("pout_n", 0, timeout=50)
 
-    with pytest.raises(TimeoutError, match="(?s)no level 0 of pout_n within 50 clk.*same edges$"):
+    with pytest.raises(TimeoutError, match="(?s)no level 0 of pout_n within 50 cycles.*same edges$"):
         run(hangs)
 
 
@@ -138,7 +138,9 @@ def test_uncompared_is_not_compared(judge: Judge) -> None:
         await start()
         raise AssertionError("wrong")
 
-    with pytest.raises(AssertionError, match="^wrong\nnothing is compared with the golden model here$"):
+    with pytest.raises(
+        AssertionError, match="^wrong\nthe outputs of this test are not compared with the golden model$"
+    ):
         run(free)
     assert not judge.sides
     assert free.func._openppmc_uncompared == "no rule fixes it"
@@ -165,7 +167,7 @@ def test_parameters_go_with_it(judge: Judge) -> None:
 
 
 def test_golden_follows_and_is_never_ahead() -> None:
-    """On a side that is not the model: its pins so far, up to the edge before the next one."""
+    """`golden` has the pins of its side so far, and has run up to the edge before the next one."""
     bench, golden = ModelBench(PPMC104, OnModel()), Side.golden.fget
     model = golden(bench)
     assert model.now == bench.now - 1

@@ -1,6 +1,6 @@
-"""The environment that make installs: stamps, the lock between two makes, a broken .venv, pip's reasons.
+"""The environment that make installs: stamps, the lock between two makes, a broken .venv, errors of pip.
 
-A script takes the place of pip, so nothing is downloaded.
+A script replaces pip, so nothing is downloaded.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ esac
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    """A folder with the module, its groups and the lock; `fake` gives it a .venv."""
+    """Create a folder with the module, its groups and the lock file; `fake` adds a .venv."""
     (tmp_path / "scripts").mkdir()
     for name in ("scripts/__init__.py", "scripts/env.py", "pyproject.toml", "requirements.lock"):
         shutil.copy(ROOT / name, tmp_path / name)
@@ -35,7 +35,7 @@ def project(tmp_path: Path) -> Path:
 
 
 def fake(project: Path, install: str = "echo Collecting cocotb", version: str = "") -> None:
-    """A .venv whose Python does `install` as `pip install`; version of pip: by default that of the lock."""
+    """Create a .venv whose Python runs `install` as `pip install`; default version of pip: the locked one."""
     lock = (project / "requirements.lock").read_text(encoding="utf-8")
     version = version or lock.split("\npip==")[1].split()[0]
     (project / ".venv" / "bin").mkdir(parents=True)
@@ -47,27 +47,27 @@ def fake(project: Path, install: str = "echo Collecting cocotb", version: str = 
 
 
 def start(project: Path, *groups: str) -> subprocess.Popen[str]:
-    """`python -m scripts.env GROUP…` there."""
+    """Start `python -m scripts.env GROUP…` in the project."""
     command = [sys.executable, "-B", "-m", "scripts.env", *groups]
     pipe = subprocess.PIPE
     return subprocess.Popen(command, cwd=project, stdout=pipe, stderr=pipe, text=True)
 
 
 def install(project: Path, *groups: str) -> tuple[int | None, str, str]:
-    """The same; exit code and both outputs."""
+    """Run it to its end; return exit code and both outputs."""
     process = start(project, *groups)
     out, err = process.communicate(timeout=120)
     return process.returncode, out, err
 
 
 def calls(project: Path) -> list[str]:
-    """What pip was called with, a call a line."""
+    """Return the arguments of each call of pip."""
     path = project / "calls"
     return path.read_text().splitlines() if path.exists() else []
 
 
 def test_groups_are_installed_once(project: Path) -> None:
-    """Until groups or lock change; `dev` includes `sim`."""
+    """Groups are installed only once until groups or lock file change; `dev` includes `sim`."""
     fake(project)
     for groups in (("dev", "campaign"), ("dev",), ("sim",)):
         assert install(project, *groups)[0] == 0
@@ -84,7 +84,7 @@ def test_groups_are_installed_once(project: Path) -> None:
 
 
 def test_an_old_pip_is_replaced_first(project: Path) -> None:
-    """Old ones know no groups."""
+    """An old pip, which does not support groups, is replaced first."""
     fake(project, version="23.2")
     install(project, "sim")
     assert [call.split("requirements.lock ")[1] for call in calls(project)] == [
@@ -94,7 +94,7 @@ def test_an_old_pip_is_replaced_first(project: Path) -> None:
 
 
 def test_two_makes_wait_for_each_other(project: Path) -> None:
-    """The second one says so, installs nothing a second time and succeeds."""
+    """The second make reports that it waits, does not install again, and succeeds."""
     fake(project, "sleep 2; echo Collecting cocotb")
     both = [start(project, "sim"), start(project, "sim")]
     outputs = [process.communicate(timeout=120) for process in both]
@@ -106,7 +106,7 @@ def test_two_makes_wait_for_each_other(project: Path) -> None:
 def test_waiting_ends(
     project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """After WAIT_S there is one line that says what to do."""
+    """After WAIT_S, one line states what to do."""
     monkeypatch.setattr(env, "LOCK", project / "requirements.lock")
     monkeypatch.setattr(env, "VENV", project / ".venv")
     monkeypatch.setattr(env, "WAIT_S", 1)
@@ -132,7 +132,7 @@ def test_waiting_ends(
     ],
 )
 def test_pip_fails(project: Path, says: str, line: str) -> None:
-    """One line with the reason and what to do; the next make tries again."""
+    """One line states the reason and what to do; the next make tries again."""
     fake(project, f"echo '{says}'; exit 1")
     for _ in range(2):
         code, _, err = install(project, "sim")
@@ -141,7 +141,7 @@ def test_pip_fails(project: Path, says: str, line: str) -> None:
 
 
 def test_a_broken_environment_is_made_again(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """One without its Python, without pip or of another version, although it has stamps."""
+    """An environment without Python or pip, or of another version, is rebuilt, even if it has stamps."""
     for name, path in (
         ("ROOT", "."),
         ("VENV", ".venv"),
@@ -174,7 +174,7 @@ def test_a_broken_environment_is_made_again(project: Path, monkeypatch: pytest.M
 
 
 def test_a_broken_environment_that_cannot_be_removed(project: Path) -> None:
-    """One line says to remove it."""
+    """If a broken environment cannot be removed, one line asks the user to remove it."""
     (project / ".venv").write_text("a file")
     code, _, err = install(project, "sim")
     assert (code, err) == (
@@ -184,7 +184,7 @@ def test_a_broken_environment_that_cannot_be_removed(project: Path) -> None:
 
 
 def test_a_linked_environment_is_left_alone(project: Path) -> None:
-    """It belongs to another checkout."""
+    """A linked environment belongs to another checkout and is not changed."""
     (project / "other").mkdir()
     (project / ".venv").symlink_to("other")
     assert install(project, "sim", "dev") == (0, "", "")

@@ -1,6 +1,6 @@
-"""examples/cocotb: its tests pass on cocotb's main program, and say what is wrong if something is.
+"""examples/cocotb: its tests pass on cocotb's main program, and fail with a clear message if broken.
 
-`.ci/run` has the way of its Makefile.
+`.ci/run` tests the way through its Makefile.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ WITH_MODEL = Item("test_with_model", "ramp_as_the_golden_model_has_it", F16, "pp
 
 
 def run(item: Item, folder: Path) -> None:
-    """As the Makefile does; SimError with what went wrong."""
+    """Run the test as the Makefile does; SimError states the failure."""
     run_sim(replace(part_design(item.part, item.config), main="cocotb"), item, 1, folder=folder)
 
 
@@ -44,7 +44,7 @@ def test_it_imports_nothing_of_this_project() -> None:
 def test_it_fails_when_broken(
     right: str, wrong: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Given a wrong expectation, or a host that orders another move."""
+    """A wrong expectation, or a host that orders another move, fails the test."""
     text = (EXAMPLE / "test_ppmc104.py").read_text(encoding="utf-8")
     assert right in text
     (tmp_path / "broken_ppmc104.py").write_text(text.replace(right, wrong), encoding="utf-8")

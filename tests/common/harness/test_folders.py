@@ -1,6 +1,7 @@
-"""Folders with names that tools stumble over: what is built there, what is refused in one line.
+"""Folders with names that break tools: builds work there, or are rejected in one line.
 
-`.ci/run` has the whole way in such a folder: a clone, its environment, demo, test, bitstream, virtual board.
+`.ci/run` tests the whole way in such a folder: a clone, its environment, demo, test, bitstream, virtual
+board.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ def test_an_odd_folder_is_not_refused(tmp_path: Path) -> None:
 
 
 def check(folder: Path) -> subprocess.CompletedProcess[str]:
-    """The checks of `make demo` in `folder`; nothing else is there."""
+    """Run the checks of `make demo` in `folder`, which contains nothing else."""
     for name in (
         "Makefile",
         "scripts/find_python.sh",
@@ -51,7 +52,7 @@ def check(folder: Path) -> subprocess.CompletedProcess[str]:
 
 
 def test_verilator_builds_in_an_odd_folder(tmp_path: Path) -> None:
-    """Sources, an include folder and C++ there, under their absolute names."""
+    """Sources, an include folder and C++ are found there under their absolute names."""
     project = tmp_path / ODD
     work = project / "build" / "x"
     for path, text in {"odd.sv": DESIGN, "inc/half.svh": "assign b = a;\n", "main.cpp": MAIN}.items():
@@ -80,7 +81,7 @@ def test_verilator_elsewhere_in_an_odd_folder_is_refused(monkeypatch: pytest.Mon
 
 
 def test_the_command_starts_in_an_odd_folder(tmp_path: Path) -> None:
-    """Through a link, too; the Python beside it runs it."""
+    """The command starts, also through a link; the Python in the same folder runs it."""
     folder = tmp_path / ODD / "bin"
     folder.mkdir(parents=True)
     (folder / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')

@@ -1,4 +1,4 @@
-"""Which tests run on netlists, and what a netlist is made into. (Netlists themselves: `make test-gates`.)"""
+"""Which tests run on netlists, and how a netlist is built. (Netlists themselves: `make test-gates`.)"""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_another_parameter_source_or_yosys_is_another_netlist() -> None:
 
 
 def test_tests_of_the_suite_are_those_of_the_part() -> None:
-    """Only tag and target differ from the item of `make test`."""
+    """Tests of the suite differ from the items of `make test` only in tag and target."""
     own = {param.values[0].id: param.values[0] for part in SUITES for param in part.directed.ITEMS}
     for test in EVERYTHING:
         if test.item.module.startswith(

@@ -1,4 +1,4 @@
-"""Pin changes of two sources: what a golden model that follows has been fed stays where it is."""
+"""Pin changes of two sources: changes already passed to a following golden model keep their place."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from openppmc.check.records import Change
 
 
 def test_what_comes_later_stands_behind() -> None:
-    """Given a change of the bench's top that is in the list, when a test drives a pin at the same edge, then
-    that comes behind it: a model that counts what it has been fed misses nothing."""
+    """A change driven by a test is added after those already in the list, even at the same edge.
+
+    Otherwise a model that counts the changes it has received would miss one.
+    """
     given, driven = Given(), [Change(3, "rxd", 0)]
     made = {"sda_i": [(4, 0), (7, 1)], "scl_i": [(6, 0)]}
     fed = list(given.add(driven, made))
@@ -20,7 +22,7 @@ def test_what_comes_later_stands_behind() -> None:
 
 
 def test_a_level_that_has_changed_within_its_edge() -> None:
-    """Given the last level of a pin, when it is another one at the end of that edge, then that follows."""
+    """If the last level of a pin changes again within its edge, the new level is added after it."""
     given = Given()
     given.add([], {"sda_i": [(4, 0)]})
     assert given.add([], {"sda_i": [(4, 1)]}) == [Change(5, "sda_i", 0), Change(5, "sda_i", 1)]

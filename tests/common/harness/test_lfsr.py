@@ -1,4 +1,4 @@
-"""The polynomials of ppmc_lfsr_pkg: a count of n bits comes back after 2**n - 1 steps and not before."""
+"""The polynomials of ppmc_lfsr_pkg: a counter of n bits repeats after 2**n - 1 steps and not earlier."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TAPS = [int(word, 16) for word in re.findall(r"8'h([0-9A-F]{2})", SOURCE)]
 
 
 def primes(number: int) -> set[int]:
-    """Those that divide it."""
+    """Return the prime factors of a number."""
     found, divisor = set(), 2
     while divisor * divisor <= number:
         while number % divisor == 0:
@@ -25,7 +25,7 @@ def primes(number: int) -> set[int]:
 
 
 def after(steps: int, bits: int, taps: int) -> int:
-    """x**steps modulo x**bits + taps."""
+    """Return x**steps modulo x**bits + taps."""
     state = 1
     for bit in f"{steps:b}":
         square = 0

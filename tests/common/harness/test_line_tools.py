@@ -1,4 +1,4 @@
-"""Demo, soak and bench of the PPMC-312's line: frames in words, figures, a line of models. No simulator."""
+"""Demo, soak and bench of the PPMC-312 line: frames as text, figures, a line of models. No simulator."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from scripts.measure.soak import main as soak
 
 
 def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
-    """One question and its answer."""
+    """Return one question and its response."""
     return [(0, 100, "master", question.hex()), (200, 300, "station", answer.hex())]
 
 
@@ -40,20 +40,20 @@ def talk(question: bytes, answer: bytes) -> list[tuple[int, int, str, str]]:
     ],
 )  # fmt: skip
 def test_frames_in_words(sent, got, meaning, reply):
-    """Given one exchange on the line, then the demo says what it means."""
+    """The demo describes an exchange on the line."""
     (one,) = exchanges(talk(sent, got))
     assert (one.meaning, one.reply) == (meaning, reply)
     assert (one.sent[:2], one.got[-2:]) == (f"{sent[0]:02X}", f"{got[-1]:02X}")
 
 
 def test_a_question_without_an_answer():
-    """Given two questions of which only the second is answered, then the first has no kind."""
+    """Of two questions of which only the second is answered, the first has no kind."""
     rows = exchanges([(0, 10, "master", "817e"), *talk(frame(0x82), frame(0x92))])
     assert [row.kind for row in rows] == ["", "ready"]
 
 
 def test_levels_of_a_line():
-    """Given the sheet's bits, then a character is low for its zeros, and two drivers make it low together."""
+    """A character is low for the zeros of its bits, and two drivers drive the line low together."""
     assert wave(b"\x55", 0, 10) == [(10 * number, number & 1) for number in range(10)]
     assert wave(b"\xff", 5, 9.6) == [(5, 0), (15, 1)]
     assert merged([(0, 0), (10, 1)], [(5, 0), (20, 1)]) == [(0, 0), (20, 1)]
@@ -61,7 +61,7 @@ def test_levels_of_a_line():
 
 
 def test_what_a_station_hears():
-    """Given a low driver of station 2, then the pins say who hears it."""
+    """The pins select which stations receive a low level of station 2."""
     driven = ALL & ~(1 << 2)
     levels = {**LINE.inputs, "hear_others": 1, "hear_self": 0}
     assert [heard(levels, driven, number) for number in (1, 2)] == [0, 1]
@@ -74,13 +74,13 @@ def test_what_a_station_hears():
     "data", ["", "81", "c17e", "816e", "a13338 27", "a1333826ff", "b1344C0d", "a1338a26"]
 )
 def test_what_is_no_frame(data):
-    """Given other characters than a frame, then they are refused."""
+    """Characters that are not a frame are rejected."""
     with pytest.raises(NoFrameError):
         understood(bytes.fromhex(data))
 
 
 def test_a_line_of_models_answers():
-    """Given sixteen models on a line, then the polled one answers, in the window, and the master hears it."""
+    """Of sixteen models on a line, the polled one responds within the window, and the master receives it."""
     line = ModelLine()
     at_once(line.until(8))
     master = Master(line)
@@ -90,7 +90,7 @@ def test_a_line_of_models_answers():
 
 
 def test_demo_and_its_waves():
-    """Given the name of the line, then its demo is found by it, and each shown pin is one of a station."""
+    """The demo is found by the name of the line, and each pin shown is one of a station."""
     assert part_of(["--part", "ppmc312-serial"]) == "ppmc312-serial"
     with pytest.raises(ProjectError, match="ppmc312, ppmc312-serial"):
         chosen(["--part", "isa_4axis"])
@@ -100,7 +100,7 @@ def test_demo_and_its_waves():
 
 
 def test_soak_counts_its_bytes():
-    """Given a thousand seeds, then more than 100 000 bytes have been on a line bit by bit."""
+    """A thousand seeds put more than 100 000 bytes on a line, bit by bit."""
     assert 1000 * line_soak.SIZE >= 100_000
     played = line_soak.SOAK.some([1, 2])
     assert not played.failures and played.compared == {"seeds": 2, line_soak.MODEL_BYTES: 1040}
@@ -111,7 +111,7 @@ def test_soak_counts_its_bytes():
 
 
 def test_blocks_of_seeds_begin_where_they_always_do():
-    """Given other first seeds and counts, then blocks between are the same, and each seed is in one."""
+    """With other first seeds and counts, the inner blocks are the same, and each seed is in one block."""
     assert list(blocks(1, 60)) == [(1, 24), (25, 25), (50, 11)]
     assert list(blocks(30, 30)) == [(30, 20), (50, 10)]
     for first, count in ((1, 1), (25, 25), (7, 12_345)):
@@ -120,6 +120,6 @@ def test_blocks_of_seeds_begin_where_they_always_do():
 
 
 def test_figures_against_the_goal():
-    """Given 8 million clk in 40 and in 60 s, then one reaches 1/50 of real time."""
+    """Of 8 million cycles in 40 s and in 60 s, only the former reaches 1/50 of real time."""
     rows = line_bench.rows_of([("a", 8_000_000, 70, 40), ("b", 8_000_000, 70, 60)], 8_000_000)
     assert [row[-2:] for row in rows] == [["1/40", "reached"], ["1/60", "missed"]]

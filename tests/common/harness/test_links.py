@@ -1,4 +1,4 @@
-"""Every link inside the pages leads somewhere: the file exists, and the heading too."""
+"""Every link inside the pages has a target: the file exists, and the heading, too."""
 
 from __future__ import annotations
 
@@ -17,13 +17,16 @@ FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
 
 
 def prose(page: Path) -> str:
-    """Text of a page without blocks of code."""
+    """Return the text of a page without blocks of code."""
     return FENCE.sub("", page.read_text(encoding="utf-8"))
 
 
 @cache
 def anchors(page: Path) -> frozenset[str]:
-    """What GitHub makes of headings: small letters, no punctuation, dashes, a number behind repeated ones."""
+    """Return the anchors that GitHub makes of headings.
+
+    An anchor has lower-case letters, dashes, no punctuation, and a number after repeated headings.
+    """
     found: set[str] = set()
     for heading in re.findall(r"^#{1,6} +(.+?) *#*$", prose(page), re.MULTILINE):
         text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").lower()
@@ -37,7 +40,7 @@ def anchors(page: Path) -> frozenset[str]:
 
 
 def dead(page: Path, text: str) -> list[str]:
-    """Targets of a page's links that are not there."""
+    """Return the targets of a page's links that do not exist."""
     wrong = []
     for target in LINK.findall(text):
         if re.match(r"[a-z]+:", target):
@@ -60,7 +63,7 @@ def test_a_dead_link_is_found() -> None:
 
 
 def test_links_of_a_rule_move_with_it() -> None:
-    """`make trace` copies statements into a page beside the manual."""
+    """`make trace` copies statements to a page in the folder of the manual; their links are adapted."""
     text = "[a](#7-states), [b](../boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
     moved = "[a](README.md#7-states), [b](../boards.md#3-pins), [c](img/x.svg), [d](https://example.org)"
     assert at_home(text) == moved

@@ -1,4 +1,4 @@
-"""What `make` runs, by a stored list, and the one line for each wrong word of its command line."""
+"""The commands that `make` runs, from a stored list, and the one line for each wrong word."""
 
 from __future__ import annotations
 
@@ -69,18 +69,18 @@ WRONG = {
     "bitstream READ_MAP=old": "READ_MAP=old: expected SHEET or FAMILY",
     "bitstream RECORD=3": "RECORD=3: expected 0, or 4 to 16",
 }
-"""Words of a command line, and the beginning of the line that they give."""
+"""Words of a command line, and the beginning of the line that they produce."""
 
 
 @pytest.fixture(autouse=True)
 def clean(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No variables of a surrounding `make` or shell."""
+    """Remove the variables of a surrounding `make` or shell."""
     for name in VARIABLES:
         monkeypatch.delenv(name, raising=False)
 
 
 def make(*words: str, folder: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
-    """`make -n` with these words and variables of the environment."""
+    """Run `make -n` with these words and environment variables."""
     around = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
     return subprocess.run(
         ["make", "-n", *words],
@@ -102,7 +102,7 @@ def test_command(line: str, command: str, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_every_target_and_variable_is_listed() -> None:
-    """The stored list has all targets and variables, WRONG all variables that have a check."""
+    """The stored list has all targets and variables, and WRONG has all variables that are checked."""
     given = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line, _ in LIST]
     goals = [run.Goal(line.split()[0], values).name for (line, _), values in zip(LIST, given, strict=True)]
     assert set(goals) == set(TARGETS)
@@ -114,7 +114,7 @@ def test_every_target_and_variable_is_listed() -> None:
 
 @pytest.mark.parametrize(("words", "line"), WRONG.items(), ids=WRONG)
 def test_wrong_word(words: str, line: str) -> None:
-    """A wrong target, variable or value gives its line, also in a goal that is not the first."""
+    """A wrong target, variable or value produces its line, also in a goal that is not the first."""
     with pytest.raises(run.WrongError) as error:
         run.plan(words.split(" "))
     assert str(error.value).startswith(line)
@@ -122,7 +122,7 @@ def test_wrong_word(words: str, line: str) -> None:
 
 
 def test_make_prints_the_line_and_runs_nothing() -> None:
-    """make itself adds no second line, and no goal runs before all are checked."""
+    """make adds no second line, and no goal runs before all goals are checked."""
     done = make("demo", "test", "T=a b", "SEED=x")
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()
@@ -130,20 +130,20 @@ def test_make_prints_the_line_and_runs_nothing() -> None:
 
 
 def test_a_value_reaches_the_command_unchanged() -> None:
-    """Neither make nor a shell changes it."""
+    """Neither make nor a shell changes a value."""
     value = "a'b\"c`id`  d;e#f|ä\\"
     done = make("replay", f"FILE={value}")
     assert shlex.split(done.stdout)[-1] == value, done.stderr
 
 
 def test_variables_of_the_environment() -> None:
-    """Those that the target has count, an empty one and those of other targets do not."""
+    """Environment variables of the target are used; empty ones and those of other targets are ignored."""
     assert " -n 7 -k a " in make("test", J="7", T="a", COUNT="x", SEED="").stdout
     assert "J=x: expected" in make("test", J="x").stderr
 
 
 def test_boards_without_yaml() -> None:
-    """The hosts are those that the descriptions have."""
+    """The boards and hosts are those of the descriptions."""
     found: dict[str, dict[str, list[str]]] = {}
     for board in load_all():
         hosts: dict[str, list[str]] = {}
@@ -154,7 +154,7 @@ def test_boards_without_yaml() -> None:
 
 
 def test_the_old_name_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """`make test-lab` prints a note and runs what `make test WITH=ophyd` runs."""
+    """`make test-lab` prints a note and runs the same as `make test WITH=ophyd`."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     note, _, command = run.plan(["test-lab", "T=a"]).partition(" >&2; ")
     assert "use `make test WITH=ophyd" in note
@@ -162,7 +162,7 @@ def test_the_old_name_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_environment_is_made_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The groups that are missing are installed before the command, which runs only if that succeeds."""
+    """Missing groups are installed before the command, which runs only if that succeeds."""
     monkeypatch.setattr(env, "missing", lambda groups: [name for name in groups if name != "sim"])
     assert run.plan(["mutate"]).startswith(
         f"{sys.executable} -m scripts.env dev campaign || exit; .venv/bin/"
@@ -189,7 +189,7 @@ def test_another_python_than_that_of_the_environment(python: str, said: str) -> 
 
 @pytest.fixture
 def bare(tmp_path: Path) -> Path:
-    """A folder with the Makefile and find_python.sh alone."""
+    """Create a folder with only the Makefile and find_python.sh."""
     (tmp_path / "scripts").mkdir()
     for name in ("Makefile", "scripts/find_python.sh"):
         shutil.copy(ROOT / name, tmp_path / name)
@@ -197,12 +197,12 @@ def bare(tmp_path: Path) -> Path:
 
 
 def test_no_python(bare: Path) -> None:
-    """Without a new enough Python there is one line that names the one that was asked for."""
+    """Without a Python that is new enough, one line names the requested one."""
     (line,) = make("demo", "PYTHON=/no/python3", folder=bare).stderr.splitlines()
     assert "Python 3.10 or newer is needed (/no/python3: not found): install one, or name it with" in line
 
 
 def test_a_failure_is_not_success(bare: Path) -> None:
-    """If run.py itself fails, make does, too."""
+    """If run.py itself fails, make fails, too."""
     done = make("test", f"PYTHON={sys.executable}", folder=bare)
     assert done.returncode == 2 and "*** scripts/run.py failed.  Stop." in done.stderr

@@ -1,4 +1,4 @@
-"""The golden model in place of the RTL: time, pins, waits; which tests it gets; that a wrong figure fails."""
+"""The golden model in place of the RTL: time, pins, waits; the tests it runs; a wrong figure fails."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def bench(part: str = "ppmc104", **pins: int) -> ModelBench:
 
 
 def test_time_goes_forward_only() -> None:
-    """Given now = 4, when another time is asked for, then it comes, and none of the past."""
+    """From now = 4, later times are reached, and a time in the past is rejected."""
     side = bench()
     assert side.now == 4 and on_model(side.until(10)) == 10 and on_model(side.clocks(5)) == 15
     with pytest.raises(ValueError, match="already edge 15"):
@@ -41,7 +41,7 @@ def test_time_goes_forward_only() -> None:
 
 
 def test_pins_change_at_their_stamps() -> None:
-    """Given changes now and later, then the model's recording has each at its edge, bit by bit."""
+    """Present and scheduled pin changes are in the model's recording at their edges, bit by bit."""
     side = bench("ppmc2104", busc=1)
     assert side.set(**{"fl_n[2]": 0}) == 4
     cancelled = side.at(20, errint_n=0)
@@ -53,7 +53,7 @@ def test_pins_change_at_their_stamps() -> None:
 
 
 def test_an_external_clock_runs_beside_the_test() -> None:
-    """Given a clock of 20 clk, then its edges are where they shall be, until it is stopped."""
+    """An external clock of 20 cycles has its edges at the correct times until it is stopped."""
     side = bench()
     clock = side.external_clock(repeat(20), high=5)
     on_model(side.until(50))
@@ -64,7 +64,7 @@ def test_an_external_clock_runs_beside_the_test() -> None:
 
 
 def test_waits_end_at_the_edge_or_after_their_time() -> None:
-    """Given a pulse, when it is waited for, then now is just behind it; what never comes is an error."""
+    """After a wait for a pulse, now is the next edge; a wait for an edge that does not occur times out."""
     side = bench()
 
     async def step() -> int:
@@ -79,19 +79,19 @@ def test_waits_end_at_the_edge_or_after_their_time() -> None:
 
     assert on_model(step()) > 0
     now = side.now
-    with pytest.raises(TimeoutError, match="no level 0 of aux_n within 500 clk"):
+    with pytest.raises(TimeoutError, match="no level 0 of aux_n within 500 cycles"):
         on_model(side.edge("aux_n", 0, 500))
     assert side.now == now + 500
 
 
 def test_a_wait_for_the_simulator_is_told() -> None:
-    """Given a coroutine that suspends, then it is closed and said so."""
+    """A coroutine that suspends is closed, and the error reports it."""
     with pytest.raises(RuntimeError, match="only a simulator has"):
         on_model(asyncio.sleep(0))
 
 
 def test_the_bench_is_that_of_the_part_in_its_build() -> None:
-    """Given a build, then the model has its parameters and the outputs their levels."""
+    """The model has the parameters of its build, and the outputs have their reset levels."""
     side: Any = on_model(start_bench(OnModel(D16), PARTS["ppmc104"], settle=0))
     assert side.now == 0 and not side.simulated and side.model.datasheet
     assert {name: side.level(name) for name in side.outputs} == PARTS["ppmc104"].reset_levels()
@@ -99,7 +99,7 @@ def test_the_bench_is_that_of_the_part_in_its_build() -> None:
 
 @pytest.mark.parametrize("part", ACCEPTANCE)
 def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
-    """Given the modules, then all tests but those for the RTL only, each with its rules and text."""
+    """All acceptance tests except RTL-only ones run on the model, each with its rules and text."""
     names = [f"tb_acceptance_{name}" for name in ACCEPTANCE[part]]
     made = model_tests(__name__, f"cocotb_tests.{part}", *names)
     modules = [importlib.import_module(f"cocotb_tests.{part}.{name}") for name in names]
@@ -111,7 +111,7 @@ def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
 
 
 def test_a_wrong_figure_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given a table with another interval, when the check runs on the model, then it fails and says where."""
+    """With a wrong interval in the table, the check on the model fails and names the difference."""
     module = importlib.import_module("cocotb_tests.ppmc104.tb_acceptance_moves")
     monkeypatch.setattr(module, "A_INTERVALS", [321, *module.A_INTERVALS[1:]])
     made = model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves")

@@ -1,4 +1,4 @@
-"""What is asked of inner modules of the RTL: a module that breaks each rule is found."""
+"""Rules for inner modules of the RTL: a module that breaks a rule is found."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ HEAD = "// x\nmodule x (\n    input  wire logic clk_i,\n"
 
 
 def module(ports: int, comment: str = "  // level", lines: int = 0) -> str:
-    """A module with clk_i and so many ports more, and so many lines behind them."""
+    """Return a module with clk_i, `ports` more ports, and `lines` lines after them."""
     text = "".join(f"    output logic p{n}_o,{comment}\n" for n in range(ports))
     return HEAD + text + "\n);\n" + "//\n" * lines + "endmodule\n"
 

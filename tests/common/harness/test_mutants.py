@@ -1,4 +1,4 @@
-"""The mutants by hand (`python -m scripts.measure.mutants`): each entry still fits the RTL and the tests."""
+"""The mutants by hand (`python -m scripts.measure.mutants`): each entry fits the RTL and the tests."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ EVERY = list(mutants())
 
 @pytest.mark.parametrize("mutant", [pytest.param(one, id=one.id) for one in EVERY])
 def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
-    """Its old text stands in its file once, the new one is another; its tests exist and simulate the file."""
+    """The old text of a mutant occurs once in its file, the new one differs; its tests simulate the file."""
     assert mutant.new != mutant.old
     mutant.source()
     items = mutant.items()
@@ -23,7 +23,7 @@ def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
 
 
 def test_there_are_enough() -> None:
-    """At least forty, and of each part some."""
+    """There are at least forty mutants, and some of each device."""
     assert len(EVERY) >= 40
     assert {one.part for one in EVERY} == {"ppmc104", "ppmc2104", "stmc", "ppmc312", "bank", "pmc006"}
     assert len({one.id for one in EVERY}) == len(EVERY)

@@ -1,4 +1,4 @@
-"""The pictures of docs/: lines recorded from a model, and labels that their arrows do not strike through."""
+"""The pictures of docs/: lines recorded from a model, and labels that arrows do not cross."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SINGLE_STEP = 0x42
 
 
 def test_a_line_has_one_brick_a_column():
-    """Given levels with a gap and one that does not matter, then the line shows changes only."""
+    """A line with a gap and a level that does not matter shows only changes."""
     levels = [{"a": 0}, {"a": 0}, None, {"a": 1}, {"a": 1}, {"a": 2}]
     assert wave(Row("a", "a"), levels[:5])["wave"] == "0.|1."
     assert wave(Row("a", "a", str), levels) == {"name": "a", "wave": "3.|4.5", "data": ["0", "1", "2"]}
@@ -31,7 +31,7 @@ def test_a_line_has_one_brick_a_column():
 
 
 def test_columns_without_a_change_are_left_out():
-    """Given columns, then those with an edge and their neighbours stay, and one each where two rows meet."""
+    """Columns with an edge and their neighbours stay; two rows that join have one column each."""
     samples = [{"a": level} for level in (0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0)]
     assert thinned(range(11), samples, [Row("a", "a")]) == [0, None, 3, 4, 5, 6, 7, 8]
     gap = [*samples[:2], None, *samples[4:6]]
@@ -39,7 +39,7 @@ def test_columns_without_a_change_are_left_out():
 
 
 def test_long_numbers_have_letters():
-    """Given edges, then those of many digits are told once, below the diagram."""
+    """Edges with many digits are explained once, below the diagram."""
     words, foot = numbered([-1, 0, None, 1_601_599, 1_601_600, 1_601_601, None, 25_600])
     assert words == ["-1", "0", None, "n-1", "n", "n+1", None, "m"]
     assert foot == "n = 1601600, m = 25600"
@@ -58,7 +58,7 @@ LONG = {
 
 
 def test_a_long_diagram_gets_rows():
-    """Given 25 columns, then they stand in rows of at most the page's width that begin with their levels."""
+    """A diagram of 25 columns is split into rows no wider than the page, which begin with their levels."""
     found = fitted(LONG)
     edges = [lane for lane in lanes(found["signal"]) if lane.get("name") == "edge"]
     assert "".join(lane["wave"] for lane in edges) == LONG["signal"][0]["wave"]
@@ -70,7 +70,7 @@ def test_a_long_diagram_gets_rows():
 
 
 def test_no_arrow_is_torn():
-    """Given an arrow, then no row ends between its ends."""
+    """No row ends between the two ends of an arrow."""
     torn = {**LONG, "edge": ["A~>B"]}
     assert wrapped(torn, [5]) is None and wrapped(torn, [10]) is None
     with pytest.raises(ValueError, match="cannot be cut"):
@@ -87,7 +87,7 @@ def _ids(paths: list[Path]) -> list[str]:
 
 @pytest.mark.parametrize("path", DIAGRAMS, ids=_ids(DIAGRAMS))
 def test_no_diagram_is_wider_than_a_page(path):
-    """Given a picture of the manuals, then its smallest text is 10 px or more where the site shows it."""
+    """No picture of the manuals is wider than a page, so its smallest text has 10 px or more on the site."""
     root = ET.parse(path).getroot()
     assert float(root.get("width")) <= MOST
 
@@ -98,7 +98,7 @@ def _moved(node: ET.Element) -> tuple[float, float]:
 
 
 def _struck(root: ET.Element) -> list[str]:
-    """Texts that a break mark lies on."""
+    """Return the texts that a break mark covers."""
     marks, texts = [], []
 
     def walk(node: ET.Element, x: float, y: float) -> None:
@@ -128,12 +128,12 @@ def _struck(root: ET.Element) -> list[str]:
 
 @pytest.mark.parametrize("path", DIAGRAMS, ids=_ids(DIAGRAMS))
 def test_no_break_mark_strikes_through_a_text(path):
-    """Given a picture of the manuals, then none of its texts is below a break mark."""
+    """No text of a picture of the manuals is below a break mark."""
     assert not _struck(ET.parse(path).getroot())
 
 
 def test_record_follows_the_model():
-    """Given a write that is sampled for 3 clk, then IBF and pins change on the edges of the manual."""
+    """After a write that is sampled for 3 cycles, IBF and pins change on the edges of the manual."""
     bench = Bench()
     bench.init(0x0A, 20, 5, 8)
     end = bench.t + 3
@@ -146,21 +146,21 @@ def test_record_follows_the_model():
 
 
 def test_diagrams_are_drawn_with_wide_labels():
-    """Given a diagram with a labelled arrow, then the sheet below the label is as wide as its text is."""
+    """The background of a labelled arrow is as wide as its text."""
     svg = waves.draw(waves_stmc.DIAGRAMS["end"](), "stmc_end").decode()
     (width,) = re.findall(r'<rect[^>]*fill:#FFF;[^>]*width="([\d.]+)"[^>]*/><text[^>]*><tspan>34 ms', svg)
     assert float(width) > 5 * 6
 
 
 def test_letters_stand_where_a_line_changes():
-    """Given a line with three changes, one of them in a gap, then letters go to the changes in turn."""
+    """Letters are assigned to the changes of a line in turn; a dot skips a change."""
     samples = [{"a": 0}, {"a": 1}, {"a": 1}, None, {"a": 0}, {"a": 1}]
     assert marked(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}
     assert marked(Row("a", "a"), samples, "").nodes == {}
 
 
 def test_a_block_of_the_312_is_drawn_byte_by_byte():
-    """Given the version read, then its accesses are those of the manual, and the flags change with them."""
+    """The accesses of the version read are those of the manual, and the flags change with them."""
     access, mwef, mref, irq = waves_312.DIAGRAMS["block"]()["signal"]
     there = [word.strip() for word in access["data"]]
     assert there[:5] == ["WCR 20", "WAR 1D", "DWR 40", "DWR 01", "DWR 03"]
@@ -170,7 +170,7 @@ def test_a_block_of_the_312_is_drawn_byte_by_byte():
 
 
 def test_worked_moves_of_the_312():
-    """Given the table of moves, then shapes, pulses and times are those of the rules' worked examples."""
+    """Shapes, pulses and times of the table of moves are those of the rules' worked examples."""
     rows = tables.moves_table().splitlines()
     assert "| TF, 82, N = 30 | 00 | 12, 6, 12 | 400×3 200×4 100×16 200×4 400×3 | 5600 |" in rows
     assert "| TF, 82, N = 24 | 00 | 12, 0, 12 | 400×3 200×4 100×10 200×4 400×3 | 5000 |" in rows

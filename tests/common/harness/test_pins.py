@@ -1,4 +1,4 @@
-"""The pins of the parts as benches see them: those of the golden models are the ports of the RTL."""
+"""The pins of the devices as benches see them: those of the golden models are the ports of the RTL."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from openppmc import parts
 
 @pytest.mark.parametrize("name", list(PARTS))
 def test_pins_are_the_ports_of_the_rtl(name: str) -> None:
-    """Given the header of the top, then the bench has its ports, with direction, width and lowest bit."""
+    """The bench has the ports of the top's header, with direction, width and lowest bit."""
     part, wanted = PARTS[name], {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
     for direction, pins in (("input", part.inputs), ("output", part.outputs)):
         for pin in pins:
@@ -29,7 +29,7 @@ def test_levels_fit_the_ports(name: str) -> None:
 
 
 def test_every_part_with_a_folder_has_a_bench() -> None:
-    """Given the table of parts, then the harness knows each by its own name."""
+    """The harness knows each device of the table of parts by its name."""
     assert {row.name for row in parts.folders()} <= set(PARTS)
     assert all(PARTS[name].name == name and name in parts.PARTS for name in PARTS)
     assert "isa_4axis" not in PARTS and "nonsense" not in PARTS

@@ -1,4 +1,4 @@
-"""Every command that a page prints is accepted: by make, by the parser of `openppmc`, by that of a script."""
+"""Every command that a page prints is accepted: by make, the parser of `openppmc` or that of a script."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ PAGES = [
     path
     for below in (".", "docs", "drivers", "examples", "openppmc")
     for path in sorted((ROOT / below).glob("*.md" if below == "." else "**/*.md"))
-    if path.name not in ("CHANGELOG.md", "decisions.md")  # they name commands of earlier versions
+    # The changelog and the decision records name commands of earlier versions.
+    if path.name not in ("CHANGELOG.md", "decisions.md") and path.parent.name != "decisions"
 ]
 COMMAND = re.compile(
     r"(?:\$ )?(?:[A-Z_]+=\S+ )*(?P<what>make|(?:\.venv/bin/)?openppmc|(?:\.venv/bin/)?python3? -m)"
@@ -48,13 +49,13 @@ PLACEHOLDERS = {
     "openppmc": {},
     "python -m": {"[WORD…]": "word"},
 }
-"""Words of a page that the reader replaces, each with what it becomes here."""
+"""Words of a page that the reader replaces, each with its replacement here."""
 SYNTAX = ("openppmc COMMAND --help", "openppmc [--port PORT]")
 """Beginnings of texts that describe commands."""
 
 
 def _blocks(text: str) -> Iterator[tuple[str, bool]]:
-    """Lines of code blocks (True) and pieces of inline code (False) of a page."""
+    """Yield the lines of code blocks (True) and pieces of inline code (False) of a page."""
     fenced = False
     for line in text.replace("\\\n", " ").splitlines():
         if line.lstrip().startswith("```"):
@@ -66,7 +67,7 @@ def _blocks(text: str) -> Iterator[tuple[str, bool]]:
 
 
 def printed() -> dict[tuple[str, str, bool], str]:
-    """Kind of command, its arguments, whether it is a whole line -> the page that has it first."""
+    """Return (kind of command, its arguments, whether it is a whole line) -> the first page with it."""
     found: dict[tuple[str, str, bool], str] = {}
     for page in PAGES:
         for text, whole in _blocks(page.read_text(encoding="utf-8")):
@@ -82,7 +83,7 @@ PRINTED = printed()
 
 
 def of(what: str) -> list[Any]:
-    """Arguments of the commands of a kind, as words, and whether they are whole lines."""
+    """Return the arguments of the commands of a kind, as words, and whether they are whole lines."""
     known = PLACEHOLDERS[what]
     rows = {}
     for kind, rest, whole in PRINTED:
@@ -105,7 +106,7 @@ def test_the_pages_have_commands() -> None:
 
 @pytest.mark.parametrize("words, whole, page", of("make"))
 def test_make(words: list[str], whole: bool, page: str) -> None:
-    """`make -n` accepts the targets and variables; those of cocotb's makefiles are in that of the example."""
+    """`make -n` accepts targets and variables; variables of cocotb's makefiles are in the example's one."""
     own = (ROOT / page).parent / "Makefile"
     if own.parent != ROOT and own.exists() and all("=" in word for word in words):
         assert all(word.split("=")[0] in own.read_text(encoding="utf-8") for word in words)
@@ -115,7 +116,7 @@ def test_make(words: list[str], whole: bool, page: str) -> None:
 
 
 def parse(command: Any, words: list[str], parent: Any = None, name: str = "openppmc") -> None:
-    """The contexts of a command line, without calling the command. Raises what the parser does."""
+    """Create the contexts of a command line, without calling the command. Raises the errors of the parser."""
     context = command.make_context(name, list(words), parent=parent)
     if hasattr(command, "commands"):
         rest = [*getattr(context, "_protected_args", getattr(context, "protected_args", [])), *context.args]
@@ -127,7 +128,7 @@ def parse(command: Any, words: list[str], parent: Any = None, name: str = "openp
 
 @pytest.mark.parametrize("words, whole, page", of("openppmc"))
 def test_openppmc(words: list[str], whole: bool, page: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """The parser accepts the options and arguments; a name in a sentence may come without its arguments."""
+    """The parser accepts the options and arguments; a command in a sentence may lack its arguments."""
     usage_error: Any = typer.BadParameter.__bases__[0]
     try:
         parse(typer.main.get_command(app), words)
@@ -143,7 +144,7 @@ class AcceptedError(Exception):
 
 @pytest.mark.parametrize("words, whole, page", of("python -m"))
 def test_python(words: list[str], whole: bool, page: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The module is there, and its parser accepts the arguments."""
+    """The module exists, and its parser accepts the arguments."""
     module, *arguments = words
     spec = importlib.util.find_spec(module)
     assert spec is not None, module

@@ -1,6 +1,6 @@
-"""The table of proofs against the tree: wrappers, rules, what breaks them; mistakes of a user in one line.
+"""The table of proofs against the tree: wrappers, rules, faults; mistakes of a user in one line.
 
-The proofs themselves are run by `make prove`: they need yosys, which `make test` does without.
+`make prove` runs the proofs themselves: they need yosys, which `make test` does not use.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ each = pytest.mark.parametrize("proof", EVERY, ids=lambda proof: proof.name)
 
 @each
 def test_a_proof_fits_the_tree(proof: Proof) -> None:
-    """Wrapper and block are there, its labels stand in the wrapper, what breaks it stands in the RTL."""
+    """Wrapper and block exist, the labels are in the wrapper, and the text of the fault is in the RTL."""
     text = proof.file.read_text(encoding="utf-8")
     assert f"module {proof.file.stem}" in text and re.search(rf"\b{proof.block}\b", text)
     assert list(RTL.rglob(f"{proof.block}.sv"))
@@ -39,7 +39,7 @@ def test_a_proof_fits_the_tree(proof: Proof) -> None:
 
 
 def test_every_wrapper_has_an_entry() -> None:
-    """Each file of tb/formal is used, each name once, and each assumption is told of."""
+    """Each file of tb/formal is used, each name occurs once, and each assumption is documented."""
     names = [one.name for one in EVERY]
     assert len(names) == len(set(names))
     stubs = {FORMAL / stub for one in EVERY for stub in one.stubs}
@@ -47,14 +47,14 @@ def test_every_wrapper_has_an_entry() -> None:
 
 
 def test_every_block_has_a_proof() -> None:
-    """Each block of the shared rooms is proved; those without are packages, which hold no state."""
+    """Each block of the shared folders is proved; only packages, which hold no state, have no proof."""
     assert set(unproved(EVERY)) == {
         path.stem for room in ROOMS for path in (RTL / room).glob("*.sv") if path.stem.endswith("_pkg")
     }
 
 
 def test_packages_are_in_the_proofs_of_who_calls_them() -> None:
-    """Each package of the shared rooms is read by a proof, and the page says so."""
+    """Each package of the shared folders is read by a proof, and the page lists it."""
     page = text()
     for package, by in unproved(EVERY).items():
         assert by, package
@@ -68,7 +68,10 @@ def test_rules_are_known() -> None:
 
 
 def test_names_choose() -> None:
-    """A whole name is that proof alone, a word all that hold it, no word the quick ones; else one line."""
+    """A full name selects that proof, a word all proofs that contain it, no word the quick ones.
+
+    Any other word causes an error of one line.
+    """
     assert [one.name for one in chosen(["ppmc_sync"], night=False)] == ["ppmc_sync"]
     assert {one.name for one in chosen(["ppmc_axis_"], night=False)} > {"ppmc_axis_stop"}
     assert chosen([], night=True) == EVERY
@@ -78,7 +81,7 @@ def test_names_choose() -> None:
 
 
 def test_unknown_proof_in_one_line() -> None:
-    """Given a name that is none, then the command ends with 1 or 2 and one line."""
+    """An unknown name ends the command with a non-zero code and one line."""
     done = subprocess.run(
         [sys.executable, "-m", "scripts.measure.prove", "nosuch"],
         cwd=ROOT,
@@ -91,14 +94,14 @@ def test_unknown_proof_in_one_line() -> None:
 
 
 def test_missing_tool_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Given no pyosys, then a line that says what to do."""
+    """Without pyosys, one line states what to do."""
     monkeypatch.setattr(engine, "find_spec", lambda name: None)
     with pytest.raises(ProjectError, match="yosys-abc: not found.*make setup"):
         engine.abc()
 
 
 def test_what_abc_says(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its words become proved, failed with output and clk, or open: never proved by mistake."""
+    """The output of abc is read as proved, failed with output and cycle, or open: never proved by mistake."""
     answers: list[str] = []
     monkeypatch.setattr(engine, "ask", lambda folder, what, script: answers.pop(0) if answers else "")
     here = Path(".")

@@ -1,4 +1,4 @@
-"""Random hosts act on what they are answered: on the golden model alone they do what they do on the RTL."""
+"""Random hosts react to the responses: on the golden model alone they do the same as on the RTL."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from cocotb_tests.stmc import test_random as stmc
         (ppmc2104.random_item, 1),
         (stmc.random_item, 3),
         (ppmc312.random_item, 2),
-        (ppmc312.random_item, 8043),  # a motion waits for its start until the host has enough
+        (ppmc312.random_item, 8043),  # a motion waits for its start until the host has sent enough
         (ppmc312.noise_item, 1),
         (ppmc312.serial_item, 1),
         (pmc006.random_item, 2),
@@ -29,6 +29,6 @@ from cocotb_tests.stmc import test_random as stmc
     ids=lambda value: value.test if isinstance(value, RandomItems) else str(value),
 )
 def test_a_host_does_the_same_on_both_sides(items: RandomItems, seed: int) -> None:
-    """Given a seed, when it is played on RTL and on the model alone, then all pin changes are the same."""
+    """All pin changes of a seed are the same on the RTL and on the model alone."""
     on_rtl, on_the_model = items.pins(seed)
     assert on_rtl == on_the_model != ""

@@ -1,4 +1,4 @@
-"""Each table of the RTL is among those whose words `make lint` compares with the netlist's."""
+"""Each table of the RTL is among those that `make lint` compares with the contents in the netlist."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every way in which a cocotb test can end, alone and among others: what the run says of it."""
+"""Every way in which a cocotb test can end, alone and in a group, and the message of the run."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ endmodule
 
 
 def counter() -> Design:
-    """A counter that can be made to complain; its inside is hidden."""
+    """Return a counter whose assertion can be made to fire; its inner signals are hidden."""
     path = BUILD / "blocks" / "runs_top.sv"
     with locked(path.with_suffix(".lock")):
         if not path.exists() or path.read_text(encoding="ascii") != SOURCE:
@@ -50,35 +50,37 @@ def _design() -> Design:
 
 
 def kinds(design: Design, *names: str, **env: str) -> dict[str, str]:
-    """What becomes of tests in one group."""
+    """Return the outcomes of tests in one group."""
     job = Job(design, tuple(ITEMS[name] for name in names), 1, env=env)
     return {item.test: outcome.kind for item, (outcome, _) in run_group(job).items()}
 
 
 def said(design: Design, *names: str, seed: int = 1, **env: str) -> str:
-    """The message of the last one, of a group of these tests. Two that fail at the same time need two seeds:
-    what a failure leaves has the seed in its name."""
+    """Return the message of the last test of a group.
+
+    Two failures at the same time need two seeds, because the files of a failure have the seed in their name.
+    """
     items = tuple(ITEMS[name] for name in names)
     return attempt(items[-1], SimOptions(seed=seed, group=items), env, design)
 
 
 def test_each_ends_in_its_own_way(design: Design) -> None:
-    """raises, skip, xfail, parametrize and a fired assertion in the middle of a group."""
+    """raises, skip, xfail, parametrize and a fired assertion have their own outcomes in a group."""
     names = "passes fires raises skips xfails expected cases/step=1 cases/step=-2 follows".split()
     ends = "passed failed passed skipped xfailed xfailed passed failed passed".split()
     assert kinds(design, *names) == dict(zip(names, ends, strict=True))
 
 
 def test_nothing_is_asserted_of_the_first_edge(design: Design) -> None:
-    """What state there is at power-up, no assertion tells of it; of the second edge it does."""
-    design = replace(design, main="own")  # cocotb's cannot turn them off
+    """No assertion checks the state at power-up on the first edge; on the second edge it does."""
+    design = replace(design, main="own")  # cocotb's own main program cannot turn them off
     assert kinds(design, "clocked/edge=1", "passes") == {"clocked/edge=1": "passed", "passes": "passed"}
     assert kinds(design, "clocked/edge=2", "passes") == {"clocked/edge=2": "failed", "passes": "passed"}
 
 
 @pytest.mark.parametrize("end", ["dies", "crashes", "loops"])
 def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
-    """$fatal, a segmentation fault and an endless loop are named; the others have results of their own."""
+    """$fatal, a segmentation fault and an endless loop are reported; the other tests have own results."""
     found = kinds(design, "passes", end, "raises", "shows", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
     assert found == {"passes": "passed", "raises": "passed", "shows": "failed"}
@@ -86,7 +88,7 @@ def test_the_rest_of_a_group_still_runs(design: Design, end: str) -> None:
 
 @pytest.mark.parametrize("end", ["shows", "dies", "loops"])
 def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A failure ends its process, which has no successor: 36 tests at 100 s each would come to an hour."""
+    """A failure of a mutant ends the process without another one: 36 tests of 100 s would take an hour."""
     monkeypatch.setenv(MUTANT, "rtl/none.sv 1 none.sv")
     found = kinds(design, "passes", end, "leaks", "looks", OPENPPMC_WALL_S="6")
     assert found.pop(end) in ("failed", "crashed")
@@ -100,12 +102,12 @@ def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch
         ("fires", r"%Error: .*it fired"),
         ("dies", r"it died"),
         ("crashes", r"crashed\n(.*\n)*.*Segmentation fault(.*\n)*.*tb_runs\.py\", line \d+ in crashes"),
-        ("loops", r"no end within the wall-clock limit\n(.*\n)*.*tb_runs\.py\", line \d+ in loops"),
+        ("loops", r"not finished within the wall-clock limit\n(.*\n)*.*tb_runs\.py\", line \d+ in loops"),
         ("cases/step=-2", r"assert -2 > 0"),
     ],
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
-    """The message names the test, shows values or the line, and how to repeat it, with no word of doubt."""
+    """The message has the test, values or line, and the repeat command; it does not doubt the result."""
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
@@ -113,7 +115,7 @@ def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
 
 
 def test_a_failure_leaves_log_and_waves(design: Design) -> None:
-    """Both are in build/failures/."""
+    """A failure leaves log and waves in build/failures/."""
     text = said(design, "shows", seed=2)
     folder = FAILURES / "shows-f16-own-s2"
     assert f"log {relative(folder / 'log.txt')}" in text
@@ -122,7 +124,7 @@ def test_a_failure_leaves_log_and_waves(design: Design) -> None:
 
 
 def test_what_needs_another_test_names_it(design: Design) -> None:
-    """Of three tests before it one leaks; the line repeats those two."""
+    """Of three tests before a failing one, one causes the failure; the command repeats these two tests."""
     text = said(design, "passes", "leaks", "raises", "follows")
     assert "(fails only behind leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
     assert "repeat with: make test T=leaks-f16-own,follows-f16-own SEED=1 CLK_HZ=16000000" in text
@@ -132,20 +134,20 @@ def test_what_needs_another_test_names_it(design: Design) -> None:
 def test_only_the_same_run_once_more_tells_of_chance(
     design: Design, tmp_path: Path, others: tuple[str, ...]
 ) -> None:
-    """A test that fails the first time only, alone and in a group, is called not deterministic."""
+    """A test that fails only the first time, alone or in a group, is called not deterministic."""
     text = said(design, *others, "wavers", OPENPPMC_SEEN=str(tmp_path / "seen"))
     assert "once more" in text and "it is not deterministic)" in text and "the first time" in text
 
 
 def test_waves_may_hide_a_failure(design: Design) -> None:
-    """That says nothing about the test."""
+    """A failure that disappears with waves is reported as not reproduced, not as not deterministic."""
     text = said(design, "shy")
     assert "nobody looks" in text and "(not reproduced with waves: there it passed)" in text
     assert "determin" not in text
 
 
 def test_a_hidden_signal_says_so(design: Design) -> None:
-    """Alone and in a group; with everything visible the test passes."""
+    """A hidden signal is reported as such, alone and in a group; with all signals visible the test passes."""
     for names in (("pries",), ("passes", "pries")):
         text = said(design, *names)
         assert "AttributeError: runs_top contains no child object named u_inner" in text and HINT in text
@@ -154,7 +156,7 @@ def test_a_hidden_signal_says_so(design: Design) -> None:
 
 
 def test_a_test_may_look_inside(design: Design) -> None:
-    """What it names is visible; other names stay hidden."""
+    """The signals that a test names are visible; other signals stay hidden."""
     assert ITEMS["looks"].inside == ("u_inner.count",)
     assert attempt(ITEMS["looks"], design=design) == ""
     assert seen(design, ()) == design and not seen(design, ("q",), True).ports
@@ -163,7 +165,7 @@ def test_a_test_may_look_inside(design: Design) -> None:
 
 
 def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixture[str]) -> None:
-    """The VCD has views of the ports beside it, and its path is printed."""
+    """The folder of the VCD also has views of the ports, and the paths are printed."""
     assert outcome_of(ITEMS["passes"], SimOptions(waves=True), {}, design).good
     folder = "build/waves/passes-f16-own/dump"
     assert capsys.readouterr().out == f"waves in {folder}.vcd, {folder}.gtkw, {folder}.sucl\n"
@@ -173,13 +175,13 @@ def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixtu
 
 @pytest.mark.parametrize(("name", "reason"), [("skips", "nothing to do"), ("skipped", "skip=True")])
 def test_a_skip_is_a_skip_of_pytest(design: Design, name: str, reason: str) -> None:
-    """With its reason."""
+    """A skipped test is skipped in pytest with its reason."""
     with pytest.raises(pytest.skip.Exception, match=reason):
         run_item(ITEMS[name], design=design)
 
 
 @pytest.mark.parametrize(("name", "reason"), [("xfails", "known fault"), ("expected", "failed as expected")])
 def test_an_expected_failure_is_one_of_pytest(design: Design, name: str, reason: str) -> None:
-    """With its reason."""
+    """An expected failure is one of pytest, with its reason."""
     with pytest.raises(pytest.xfail.Exception, match=reason):
         run_item(ITEMS[name], design=design)

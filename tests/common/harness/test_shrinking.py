@@ -1,4 +1,4 @@
-"""Shrinking of failing random runs: what an act is, and that a mutant is found with a handful of them."""
+"""Shrinking of failing random runs: the definition of an act, and a mutant found with a few acts."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:
-    """Sixty acts and more on a PPMC-104; somewhere between them the select pin, an alarm and a look at it."""
+    """Return a run of over sixty acts on a PPMC-104 with a change of csel, an alarm and a read of it."""
 
     async def run(bench: ModelBench) -> None:
         host, rng = HostBus(bench), random.Random(seed)
@@ -56,7 +56,7 @@ def busy_run(seed: int = 1) -> Recording:
 
 
 class Mutant:
-    """A PPMC-104 that does not see an alarm when csel is not as it was in the reset."""
+    """A PPMC-104 that ignores an alarm if csel differs from its level in the reset."""
 
     def __init__(self, recording: Recording) -> None:
         self.model = new_model("ppmc104", recording.params)
@@ -78,7 +78,7 @@ class Mutant:
 
 
 def difference(recording: Recording, acts: Sequence[Act]) -> int | None:
-    """Edge at which the mutant is told from the golden model by these acts."""
+    """Return the edge at which these acts distinguish the mutant from the golden model."""
     some = Recording(
         "ppmc104", recording.params, 1, recording.end, changes_of(PPMC104, acts), recording.edges
     )
@@ -101,7 +101,7 @@ def shrunk(recording: Recording, **limits: Any) -> Shrinker:
 
 
 def test_a_mutant_is_shrunk_to_a_handful() -> None:
-    """Two of sixty acts set the trap, two look into it; the rest goes, and the pauses, too."""
+    """Of sixty acts, two set up the fault and two read it; all others and the pauses are removed."""
     recording = busy_run()
     assert len(acts_of(recording)) >= 60 and difference(recording, acts_of(recording))
     shrinker = shrunk(recording)
@@ -122,7 +122,7 @@ def test_limits_end_the_search_with_the_best_so_far() -> None:
 
 
 def normal(changes: Sequence[Change]) -> list[Change]:
-    """Without the order of pins that change together."""
+    """Return the changes without the order of pins that change together."""
     return sorted(changes)
 
 
@@ -138,7 +138,7 @@ HOSTS = (
 
 
 def played(play: Any, seed: int, build: Config) -> Recording:
-    """What a random host leaves on the golden model."""
+    """Return the recording of a random host on the golden model."""
     with running_test(None, seed) as running:
         on_model(play(OnModel(build, seed), seed))
         assert running.side
@@ -146,7 +146,10 @@ def played(play: Any, seed: int, build: Config) -> Recording:
 
 
 def test_all_acts_together_are_the_run() -> None:
-    """No pin change is lost or moved, no act by its messages: on a bus, on a line, noise, clocks, resets."""
+    """The acts contain every pin change at its time, and the messages every act.
+
+    Checked for a bus, a line, noise, clocks and resets.
+    """
     recordings = [busy_run(), *(played(play, seed, build(seed)) for play, build, seed in HOSTS)]
     for recording in recordings:
         acts = acts_of(recording)
@@ -156,14 +159,14 @@ def test_all_acts_together_are_the_run() -> None:
 
 
 def place(words: Sequence[str], wanted: Sequence[str], start: int = 0) -> int | None:
-    """Where a run of words ends in a list, at the earliest."""
+    """Return the first position where a run of words ends in a list."""
     size = len(wanted)
     ends = range(start + size, len(words) + 1)
     return next((end for end in ends if words[end - size : end] == list(wanted)), None)
 
 
 def test_messages_are_left_out_together() -> None:
-    """Two blocks that say nothing unless they are whole, then a response: found among some thousand acts."""
+    """Two blocks that only work as a whole, then a response, are found among more than a thousand acts."""
     acts = acts_of(played(random_host.play, 1, random_host.build(1)))
     blocks = [run for run in messages(acts) if run[0].what == "WCR := 20" and len(run) > 9]
     responses = [run for run in messages(acts) if run[-1].kind.startswith("DRR")]
@@ -197,7 +200,7 @@ def access(t: int, kind: str, byte: int, reg: int = 0) -> Act:
 
 
 def test_a_message_is_told_in_a_line() -> None:
-    """A block, a response, polls; what comes after a pause has its own time."""
+    """A block, a response or polls are one line; an access after a pause has its own time."""
     block = [access(20, "WCR :=", 0x20, 2), access(28, "WAR :=", 0x1E, 3)]
     block += [access(36, "DWR :=", 0x40, 5), access(44, "DWR :=", 0x03, 5)]
     polls = [access(60, "CSR read", 4), access(68, "CSR read", 0)]
@@ -219,13 +222,13 @@ def rows(part: str, *changes: tuple[int, str, int]) -> list[str]:
 
 
 def line(t: int, byte: int) -> list[tuple[int, str, int]]:
-    """A character with bits of 192 clk."""
+    """Return a character with bits of 192 cycles."""
     bits = [0, *(byte >> place & 1 for place in range(8)), 1]
     return [(t + 192 * k, "rxd", bit) for k, bit in enumerate(bits) if bit != [1, *bits][k]]
 
 
 def test_acts_are_told_in_words() -> None:
-    """Pins by their names, bits by their numbers, resets, bytes of a frame, groups of clock periods."""
+    """Acts are shown as text: pin names, bit numbers, resets, bytes of a frame, groups of clock periods."""
     assert rows("ppmc104", (40, "alm_n", 0), (50, "rst_n", 0), (62, "rst_n", 1)) == [
         "alm_n = 0 at 40", "reset for 12 clk at 50",
     ]  # fmt: skip
@@ -242,7 +245,7 @@ def test_acts_are_told_in_words() -> None:
 
 
 def test_what_is_left_out_takes_nothing_along() -> None:
-    """The second access brings its address and data itself; the other bit of a port stays."""
+    """An access contains its own address and data, also if the one before it is omitted."""
     recording = busy_run()
     one = next(act for act in acts_of(recording) if act.what == "write C 81")
     wanted = {(change.pin, change.value) for change in changes_of(PPMC104, [one])}

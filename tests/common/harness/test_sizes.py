@@ -1,4 +1,4 @@
-"""docs/sizes.json: growth, digests of the RTL, tables, unreadable files. No test synthesizes a design."""
+"""docs/sizes.json: growth, digests of the RTL, tables, unreadable files. No test synthesises a design."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ OLD: figures.Figures = {KEY: {"lut": 1000, "ff": 600, "ram": 2, "of": "0"}}
 
 
 def changed(**counts: int) -> figures.Figures:
-    """OLD with other counts."""
+    """Return OLD with other counts."""
     return {KEY: {**OLD[KEY], **counts}}
 
 
@@ -95,11 +95,26 @@ def test_a_damaged_file_is_one_clear_error(tmp_path: Path, text: str, message: s
 def test_the_check_returns_the_exit_code(monkeypatch: pytest.MonkeyPatch, lut: int, code: int) -> None:
     monkeypatch.setattr(figures, "read", lambda: OLD)
     monkeypatch.setattr(size, "sizes", lambda wanted: changed(lut=lut))
-    assert size.check([]) == code
+    assert size.check([], fresh=False) == code
+
+
+@pytest.mark.parametrize(
+    ("of", "fresh", "count"), [("same", False, 0), ("same", True, 1), ("other", False, 1)]
+)
+def test_the_check_synthesizes_changed_designs(
+    monkeypatch: pytest.MonkeyPatch, of: str, fresh: bool, count: int
+) -> None:
+    """A design with the digest of its figures is synthesized again only on request."""
+    design = designs.Design("a", "ecp5", "tuned")
+    monkeypatch.setattr(designs.Design, "digest", lambda self: "same")
+    monkeypatch.setattr(figures, "read", lambda: {design.key: {"of": of}})
+    synthesized: list[designs.Design] = []
+    monkeypatch.setattr(size, "sizes", lambda wanted: synthesized.extend(wanted) or {})
+    assert size.check([design], fresh) == 0 and len(synthesized) == count
 
 
 def test_a_design_of_other_rtl_is_stale(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A changed source makes the figures stale; a changed comment does not; no information is stale too."""
+    """A changed source makes the figures stale, a changed comment does not; missing figures are reported."""
     source = tmp_path / "a.sv"
     monkeypatch.setattr(project, "ROOT", tmp_path)
     job = {"top": "a", "include": [], "sources": ["a.sv"], "params": {}}

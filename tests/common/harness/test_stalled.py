@@ -1,4 +1,4 @@
-"""A block that does not answer fails its test quickly, with a message that names the wait."""
+"""A block that does not respond fails its test quickly, with a message that names the wait."""
 
 from __future__ import annotations
 
@@ -22,17 +22,18 @@ ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
     [
         (
             "waits_for_an_edge",
-            r"no end within 1500000 clk, the test waits in tb_stalled\.py:\d+: await u\.run_until\(\"q2_o",
+            r"not finished within 1500000 cycles; the test waits in tb_stalled\.py:\d+: "
+            r"await u\.run_until\(\"q2_o",
         ),
-        ("polls", r"no end within 3000 clk, the test waits in tb_stalled\.py:\d+: await risen\(\)"),
+        ("polls", r"not finished within 3000 cycles; the test waits in tb_stalled\.py:\d+: await risen\(\)"),
     ],
 )
 def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -> None:
-    """Also as a second test of its process."""
+    """This also holds for a second test of the process."""
     items = tuple(ITEMS[name] for name in sorted({"polls", test}))
     job = Job(area_design("stalled", BLOCKS), items, 1)
     build(job.design)
     begin = time.monotonic()
     outcome = tried(job)[items[-1]]
     assert outcome.kind == FAILED and re.search(said, outcome.text), outcome
-    assert time.monotonic() - begin < 120  # 10 s; many minutes without the limit
+    assert time.monotonic() - begin < 120  # 10 s; without the limit, many minutes

@@ -17,7 +17,7 @@ RULES = {"P104-BUS-01": "Register map", "P104-BUS-02": "Strobes", "AC-01": "Rese
 def record(
     test: str, *rules: str, outcome: str = "passed", config: str = "f16", runs: int = 1
 ) -> dict[str, object]:
-    """A result line as the pytest plugin writes it."""
+    """Return a result line as the pytest plugin writes it."""
     return {"test": f"t.py::t[{test}-{config}]", "name": test, "part": "ppmc104", "config": config,
             "runs": runs, "rules": list(rules), "outcome": outcome}  # fmt: skip
 
@@ -99,7 +99,7 @@ def test_part_of_rule() -> None:
 
 
 def test_proofs_stand_beside_the_tests() -> None:
-    """Given a rule with proofs, then its row names them, with the clk of a bounded one."""
+    """The row of a rule names its proofs, with the number of cycles of a bounded one."""
     rules = {"P104-OPR-02": "Count", "P104-BUS-01": "Register map"}
     trace = join(rules, [record("a", *rules)], "ppmc104")
     first, second = by_rule()["P104-OPR-02"]

@@ -1,4 +1,4 @@
-"""Advice about wiring that would break hardware must not come back into the pages."""
+"""Advice about wiring that would damage hardware must not return to the pages."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ NAMES = [page.name for page in PAGES]
 
 
 def sentences(text: str) -> list[str]:
-    """Sentences, bullets and cells of a page."""
+    """Return the sentences, list items and table cells of a page."""
     return re.split(r"(?<=[.;:])\s+(?=[A-Z*`0-9])|\n(?=[-|#]|\n)|\|", text)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_transceiver(page: object) -> None:
-    """The 74LVC4245 has 5 V at its A side and DIR the other way round: named only in a warning."""
+    """The 74LVC4245 has 5 V at its A side and inverted DIR: the pages name it only in a warning."""
     text = page.read_text()  # type: ignore[attr-defined]
     wrong = [part for part in sentences(text) if "4245" in part and "Not the 74LVC4245" not in part]
     assert not wrong
@@ -31,7 +31,7 @@ def test_transceiver(page: object) -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_resistors_before_configuration(page: object) -> None:
-    """2.2 kΩ or 1 kΩ; a pull-up of an FPGA pin goes to 3.3 V."""
+    """Pull resistors have 2.2 kΩ or 1 kΩ; a pull-up of an FPGA pin is connected to 3.3 V."""
     text = page.read_text()  # type: ignore[attr-defined]
     assert not re.findall(r"^.*(?:4\.7 kΩ|4\.7 … 10 kΩ) to.*$", text, re.MULTILINE)
     assert not re.findall(r"^.*kΩ to the supply.*$", text, re.MULTILINE)
@@ -43,7 +43,7 @@ def test_resistors_before_configuration(page: object) -> None:
 
 
 def test_drivers_that_do_not_fit() -> None:
-    """A bootstrap runs empty at rest; a ULN2004 wants 5 V inputs."""
+    """The page mentions the bootstrap of an IR2104, and its tables name no ULN2004 (it needs 5 V inputs)."""
     page = (project.DOCS / "boards.md").read_text()
     assert not [row for row in page.splitlines() if row.startswith("|") and "ULN2004" in row]
     assert [part for part in page.split("\n\n") if "IR2104" in part and "bootstrap" in part]
@@ -51,7 +51,7 @@ def test_drivers_that_do_not_fit() -> None:
 
 
 def test_optocoupler_of_a_limit_is_fail_safe() -> None:
-    """Dark is L, which is active: collector to 3.3 V, emitter to the pin, resistor to GND."""
+    """Dark is low, which is active: collector to 3.3 V, emitter to the pin, resistor to GND."""
     page = (project.DOCS / "boards.md").read_text()
     row = next(line for line in page.splitlines() if line.startswith("|") and "PC817" in line)
     for words in (
@@ -72,13 +72,13 @@ def test_state_before_configuration_is_told(family: str) -> None:
 
 @pytest.mark.parametrize("line", ["exon_n", "int_n", "irq_n", "rs485_de", "d_oe", "sd_oe"])
 def test_lines_active_before_configuration(line: str) -> None:
-    """Section 4 of boards.md says which way each is held."""
+    """Section 4 of boards.md states how each line is held."""
     section = (project.DOCS / "boards.md").read_text().split("\n## 4 ")[1].split("\n## 5 ")[0]
     assert f"`{line}`" in section
 
 
 def test_readme_says_what_was_not_done() -> None:
-    """Below the table that says "complete": no board, no motor, no living chip, and what was done instead."""
+    """Below the table that says "complete": no board, motor or original chip, and what was done instead."""
     parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
     text = " ".join(parts.split("|")[-1].split())
     for words in ("No board has been driven", "no motor has turned", "no living chip", "What was done:"):

@@ -1,1 +1,1 @@
-"""The host package below the parts: frames, sessions, ports, units."""
+"""The host package below the device drivers: frames, sessions, ports, units."""

@@ -1,4 +1,4 @@
-"""Ports for tests of a line: one that spoils frames and replies of a modelled line, one that plays a text."""
+"""Ports for tests of a line: one corrupts frames and replies of a modelled line, one plays a text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "
 
 
 class Spoiled(ModelLine):
-    """A modelled line. frames: all that was sent. plan: says what happens to a frame, or None."""
+    """A modelled line. frames: all frames sent. plan: returns the fault for a frame, or None."""
 
     def __init__(self, text: str, baud: int, part: str) -> None:
         super().__init__(text, baud, part)
@@ -24,7 +24,7 @@ class Spoiled(ModelLine):
         self.forward(data)
 
     def forward(self, data: bytes) -> None:
-        """Give a frame to the line, or what is left of it."""
+        """Pass a frame to the line, completely or with its fault."""
         if self._fate == LOSE_FRAME:
             self.line.run(round(len(data) * 10 * self.line.bit))
         elif self._fate == BREAK_FRAME:
@@ -42,7 +42,7 @@ class Spoiled(ModelLine):
         return self.spoil(data) if data else data
 
     def spoil(self, data: bytes) -> bytes:
-        """What becomes of bytes of a reply."""
+        """Return the bytes of a reply that are received."""
         if self._fate == BREAK_REPLY:
             self._fate = None
             return bytes([data[0] ^ 8]) + data[1:]
@@ -50,7 +50,10 @@ class Spoiled(ModelLine):
 
 
 class Played:
-    """A port that answers each frame with the next text, whatever it was. Time passes only here."""
+    """A port that answers each frame with the next text, regardless of the frame.
+
+    Its time advances only in `read`.
+    """
 
     name = "played"
 

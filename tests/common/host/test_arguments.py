@@ -1,4 +1,4 @@
-"""What a caller can get wrong in Python, the same for all parts: one clear error, and nothing is sent."""
+"""Wrong arguments in Python, the same for all devices: one clear error, and no byte is sent."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ HARMLESS: dict[str, Any] = {"block": b"", "path": "", "baud": 9600}
 
 
 class Index:
-    """An integer of another library, such as numpy's."""
+    """An integer of another library, such as numpy."""
 
     def __init__(self, value: int) -> None:
         self.value = value
@@ -51,7 +51,7 @@ class Index:
 
 
 class Single:
-    """A real number of another library, such as numpy's float32."""
+    """A real number of another library, such as float32 of numpy."""
 
     def __init__(self, value: float) -> None:
         self.value = value
@@ -62,7 +62,7 @@ class Single:
 
 @pytest.fixture(params=[*BRIDGED, "ppmc312-serial", "pmc006"])
 def axis(request: pytest.FixtureRequest) -> Iterator[Any]:
-    """An initialised axis of each part."""
+    """Open an initialised axis of each device."""
     if request.param == "pmc006":
         with Pmc006.open(Spoiled("speed=max,eeprom=none", 9600, "pmc006"), 255) as motor:
             motor.start_speed = motor.stop_speed = motor.max_speed = 2000
@@ -127,7 +127,7 @@ def test_no_part_moves_by_what_is_no_whole_number(axis: Any, value: Any) -> None
 
 
 def _quiet(part: Any) -> list[bytes]:
-    """What is written from now on."""
+    """Return the list of all data written from now on."""
     port, sent = part.link.port, []
     write = port.write
     port.write = lambda data: (sent.append(data), write(data))
@@ -135,7 +135,7 @@ def _quiet(part: Any) -> list[bytes]:
 
 
 def _wrong_calls(part: Any) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Each public method with each parameter wrong in each way, the others left out or harmless."""
+    """Yield each public method with each parameter wrong in each way; others are omitted or harmless."""
     for name in dir(type(part)):
         entry = getattr(type(part), name)
         if name.startswith("_") or not isinstance(entry, check.Entry):
@@ -216,7 +216,7 @@ def test_a_mistyped_name_is_refused(axis: Any) -> None:
 
 
 class Lamp(check.Checked):
-    """Has one name of each kind."""
+    """A class with one name of each kind."""
 
     on = False
     watts: float
@@ -235,7 +235,7 @@ class Lamp(check.Checked):
         self.watts = 4 if value else 60
 
     def blink(self, times: int = 1, self_test: bool = False) -> list[str]:
-        """Returns the functions that called it."""
+        """Return the functions that called it."""
         return [frame.f_code.co_name for frame, _ in traceback.walk_stack(sys._getframe())]
 
     @classmethod
@@ -245,13 +245,13 @@ class Lamp(check.Checked):
 
 
 class Lantern(Lamp):
-    """Declares one more name."""
+    """A class that declares one more name."""
 
     handle: str
 
 
 def test_names_that_a_class_declares_can_be_set() -> None:
-    """Properties, class attributes and annotations, of bases too, are set before and after construction."""
+    """Properties, class attributes and annotations, also of bases, can be set in and after construction."""
     lamp = Lantern(3)
     assert lamp.dimmed
     lamp.on, lamp.watts, lamp.dimmed, lamp.handle, lamp._spare, lamp._new = True, 9.5, False, "brass", 1, 2
@@ -261,7 +261,7 @@ def test_names_that_a_class_declares_can_be_set() -> None:
 
 
 def test_names_that_a_class_does_not_declare_are_refused() -> None:
-    """Also in the constructor of a class; the nearest name may be one that has no value yet."""
+    """Undeclared names are rejected, also in a constructor; the suggested name may be one without a value."""
     lamp = Lantern(3)
     for wrong, near in (("handel", "handle"), ("wats", "watts"), ("dimed", "dimmed")):
         with pytest.raises(PpmcError, match=f"^Lantern has no attribute '{wrong}': do you mean '{near}'\\?$"):
@@ -278,7 +278,7 @@ def test_names_that_a_class_does_not_declare_are_refused() -> None:
 
 
 def test_a_checked_call_passes_one_frame() -> None:
-    """Between the caller and the method is the check alone, with arguments by place or by name."""
+    """Only the check is between the caller and the method, with positional or keyword arguments."""
     lamp = Lamp(3)
     here = "test_a_checked_call_passes_one_frame"
     for called in (lamp.blink(), lamp.blink(2.0), lamp.blink(times=2, self_test=True), Lamp.blink(lamp, 3)):  # type: ignore[arg-type]
@@ -286,7 +286,7 @@ def test_a_checked_call_passes_one_frame() -> None:
 
 
 def test_a_class_method_gets_the_class_that_it_was_called_by() -> None:
-    """Class methods check their arguments, too, and keep their help."""
+    """Class methods also check their arguments and keep their help."""
     assert type(Lantern.large(60.0)) is Lantern and Lamp(1).large(60).watts == 60  # type: ignore[arg-type]
     with pytest.raises(OutOfRange, match="^watts 'much' is not a whole number$"):
         Lantern.large("much")  # type: ignore[arg-type]
@@ -310,7 +310,7 @@ USES: list[Callable[[Any], object]] = [
 
 
 def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
-    """Programs that look for a method, keep it, or choose between two, need not call it."""
+    """Programs that look up a method, store it, or choose between two methods need not call it."""
     motion = axis.start_move(40)
     for thing in (axis, motion):
         names = [name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), check.Entry)]
@@ -373,7 +373,7 @@ def test_help_still_shows_what_a_method_takes() -> None:
     assert "open(spec: 'str | Port', baud: 'int'" in text and "and check what is there" in text
 
 
-# ---------------------------------------------------------------------- what a set-up prints
+# ---------------------------------------------------------------------- text of a set-up
 
 
 def test_a_set_up_prints_its_speeds_and_no_table(axis: Any) -> None:

@@ -12,7 +12,7 @@ NAK = {code: frame(bytes([0x81, code])) for code in range(1, 9)}
 
 
 class Bus:
-    """Registers with a list of values to read; a log of everything that happens."""
+    """Registers with a list of values to read, and a log of all accesses."""
 
     def __init__(self, status: int = 0x00) -> None:
         self.status = [status]
@@ -180,7 +180,7 @@ def test_ub_frm_07_a_wait_is_cut_short() -> None:
     assert bridge.receive(frame(b"\x02\x71\xff\x00") + b"x") == reply(2, "00 00") + NAK[7], "already true"
 
 
-# ---------------------------------------------------------------------- requests and answers
+# ---------------------------------------------------------------------- requests and responses
 
 
 def test_ub_seq_02_repeats_are_not_executed() -> None:
@@ -302,7 +302,7 @@ def test_ident() -> None:
 
 
 def test_two_axes() -> None:
-    """UB-OPS-02: ops of axis 2 exist where IDENT says two axes, and nowhere else."""
+    """UB-OPS-02: ops of axis 2 exist only if IDENT reports two axes."""
     bus = Bus()
     assert talk(Bridge(bus), 1, "0A") == talk(Bridge(bus), 1, "0B") == reply(1, "03 00 00")
     bridge = Bridge(bus, part=2104, axes=2)
@@ -363,7 +363,7 @@ def test_ub_wait_01_limits() -> None:
 
 
 def test_the_golden_part_behind_the_bridge() -> None:
-    """The examples of the contract on the model of the PPMC-104."""
+    """The examples of the contract work with the model of the PPMC-104."""
     board = Carrier(Plant())
     bridge = Bridge(board)
     assert talk(bridge, 0, "55 0A 09 04 04 00") == reply(0, "00 00")

@@ -1,4 +1,4 @@
-"""What an end says when it is checked."""
+"""Messages of an end when it is checked."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from openppmc.host import Cause, End, LimitReached, StoppedEarly
 
 
 def test_messages_of_ends() -> None:
-    """With what was made, if that is known: not for a motion that another program started."""
+    """A message contains the pulses made if they are known: not for a motion that another program started."""
     assert End(Cause.COMPLETE, 5, 0, 5, 0).check(5).complete
     with pytest.raises(StoppedEarly, match="^stop command ended the motion at position 7 after 3 of 5 p"):
         End(Cause.STOP, 3, 2, 7, 0).check(5)

@@ -51,12 +51,12 @@ def test_host_and_golden_model_see_the_same_frames_in_noise(noise: bytes) -> Non
 
 
 def test_known_crc() -> None:
-    """The check value of this CRC for the digits 1 to 9."""
+    """The CRC of the digits 1 to 9 is the check value of this CRC."""
     assert crc16(b"123456789") == 0x29B1
 
 
 def test_escapes() -> None:
-    """UB-FRM-02; any byte may be escaped."""
+    """UB-FRM-02: any byte may be escaped."""
     assert encode(b"\x7e\x7d")[1:5] == b"\x7d\x5e\x7d\x5d"
     plain = b"\x01\x41"
     line = (
@@ -77,7 +77,7 @@ def test_escapes() -> None:
     ],
 )
 def test_broken_frames(line: bytes, fault: Fault) -> None:
-    """UB-FRM-06, and the flag that ends a broken frame begins the next one (but after too long)."""
+    """UB-FRM-06: the flag that ends an invalid frame begins the next one (except after too long)."""
     deframer = Deframer()
     assert deframer.feed(line) == [Broken(fault)]
     good = encode(b"\x05\x00")
@@ -86,7 +86,7 @@ def test_broken_frames(line: bytes, fault: Fault) -> None:
 
 
 def test_hunt_and_idle_flags() -> None:
-    """UB-FRM-01, -05: noise before the first flag and flags in a row say nothing."""
+    """UB-FRM-01, -05: noise before the first flag and repeated flags have no effect."""
     deframer = Deframer()
     assert deframer.feed(b"noise\x7d") == []
     assert deframer.feed(b"\x7e\x7e\x7e" + encode(b"\x01\x00") + b"\x7e") == [Frame(b"\x01\x00")]
@@ -99,6 +99,6 @@ def test_payload_size_is_checked(size: int) -> None:
 
 
 def test_longest_answer_is_taken() -> None:
-    """UB-ANS-01 with 256 data bytes and an error is longer than any request."""
+    """A response of UB-ANS-01 with 256 data bytes and an error is accepted; it exceeds any request."""
     payload = bytes(4 + 256)
     assert Deframer().feed(encode(payload)) == [Frame(payload)]

@@ -1,4 +1,4 @@
-"""The examples of docs/host.md do what the page says."""
+"""The examples of docs/host.md produce the output of the page."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ PAGE = Path(__file__).parents[3] / "docs" / "host.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 PORT = "model:speed=max"
 LINE_PORTS = {"ppmc312-serial": "model:speed=max,stations=3", "pmc006": "model:speed=max,address=1..2"}
-"""What the sessions with lines are played on, by part."""
+"""Ports of the sessions with lines, by device."""
 
 
 def blocks(kind: str) -> list[str]:
-    """Fenced blocks of a kind."""
+    """Return the fenced blocks of a kind."""
     return re.findall(rf"^```{kind}\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
 
 
 def dialogues() -> list[tuple[str, str]]:
-    """Command and expected output of every console block."""
+    """Return command and expected output of every console block."""
     pairs = []
     for block in blocks("console"):
         for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:

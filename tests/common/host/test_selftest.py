@@ -18,7 +18,7 @@ from openppmc.host.selftest.recording import Layout, NoReset, Recorded, recordin
 
 PLANS = [row.name for row in parts.having("selftest")]
 WIDTHS = {"ppmc104": 49, "ppmc2104": 63, "stmc": 36, "ppmc312": 63, "bank": 144}
-"""Levels of a record, as the carriers have them (the bank with 8 axes)."""
+"""Number of levels in a record of each carrier (the bank with 8 axes)."""
 BEGIN, RESET = 5, 16
 CLK = 8_000_000
 
@@ -33,7 +33,7 @@ def identity(part: str) -> Identity:
 
 
 def word(layout: Layout, levels: dict[str, int]) -> int:
-    """Levels of pins as a record has them."""
+    """Return the levels of pins as a record stores them."""
     value, place = 0, 0
     for pin, width in layout:
         value |= levels[pin] << place
@@ -42,7 +42,10 @@ def word(layout: Layout, levels: dict[str, int]) -> int:
 
 
 def recorded(part: str, changes: Iterable[Change], end: int) -> list[tuple[int, int]]:
-    """Records of a board that does what the golden model says: junk before the reset, then these changes."""
+    """Return the records of a board that behaves as the golden model.
+
+    They contain arbitrary output levels before the reset, then these changes.
+    """
     layout = plan_of(part).layout(WIDTHS[part])
     (params, *_) = plan_of(part).params(identity(part), WIDTHS[part], {"s": 1})
     pins = pins_of(new_model(part, params))
@@ -59,7 +62,7 @@ def recorded(part: str, changes: Iterable[Change], end: int) -> list[tuple[int, 
 
 
 def compared(part: str, samples: list[tuple[int, int]]) -> tuple[int, str]:
-    """Edges that were compared, and the output that differs first."""
+    """Return the number of edges compared, and the output that differs first."""
     plan, width = plan_of(part), WIDTHS[part]
     layout = plan.layout(width)
     (params, *_) = plan.params(identity(part), width, reset_levels(samples, layout))
@@ -82,7 +85,7 @@ def initialisation() -> list[Change]:
 
 @pytest.mark.parametrize("part", PLANS)
 def test_layouts(part: str) -> None:
-    """Given a part, then the pins of its records are those of its golden model, as wide, and all of them."""
+    """The pins of a device's records are all pins of its golden model, with the same widths."""
     width = WIDTHS[part]
     layout = plan_of(part).layout(width)
     assert sum(bits for _, bits in layout) == width
@@ -91,14 +94,14 @@ def test_layouts(part: str) -> None:
     assert all(pins.width(name) == bits for name, bits in layout)
     names = {name for name, _ in layout}
     assert names <= {*pins.inputs, *pins.outputs, "rst_n"}
-    # What a PPMC-312 on a bus has no use for: its serial line and the straps of it.
+    # A PPMC-312 on a bus does not use its serial line and the related straps.
     serial = {"mode", "rxd", "hsp", "mod", "adr", "txd", "snd"}
     assert {*pins.inputs, *pins.outputs} - names == (serial if part == "ppmc312" else set())
 
 
 @pytest.mark.parametrize("part", PLANS)
 def test_sections(part: str) -> None:
-    """Given a part, then there are sections of every kind, names apart, more of them for a small memory."""
+    """Each device has sections of every kind with different titles, and more sections for a small memory."""
     plan, width = plan_of(part), WIDTHS[part]
     large, small = (plan.sections(identity(part), width, n) for n in (8192, 512))
     wired = plan.switches(identity(part), width)
@@ -110,7 +113,7 @@ def test_sections(part: str) -> None:
 
 @pytest.mark.parametrize("part", PLANS)
 def test_a_reset_is_no_difference(part: str) -> None:
-    """Given records of a reset behind anything, then no output differs; a wrong level in reset does."""
+    """After a reset from any state, no output differs; a wrong level in reset is found."""
     samples = recorded(part, [], 5_000)
     assert compared(part, samples)[1] == ""
     flip = 1 << WIDTHS[part] - 1
@@ -119,7 +122,7 @@ def test_a_reset_is_no_difference(part: str) -> None:
 
 
 def test_a_step_and_one_clk_too_late() -> None:
-    """Given a step as the golden model does it, then all edges agree; one clk later they do not."""
+    """A step as in the golden model agrees in all edges; an edge one cycle later is found."""
     samples = recorded("ppmc104", initialisation(), 120_000)
     count, wrong = compared("ppmc104", samples)
     assert count == 6 and not wrong  # s, hold, pout_n, s, pout_n, int_n
@@ -130,13 +133,13 @@ def test_a_step_and_one_clk_too_late() -> None:
 
 
 def test_no_reset() -> None:
-    """Given records without a reset, then NoReset says so."""
+    """Records without a reset cause NoReset."""
     with pytest.raises(NoReset):
         compared("ppmc104", [(0, 1), (9, 1)])
 
 
 def test_recorded() -> None:
-    """UB-REC-02, -03: the state, and records as (clk, levels); half a record at the end is left out."""
+    """UB-REC-02, -03: state and records (cycle, levels) are read; half a record at the end is omitted."""
     info = Recorded.parse(bytes([3, 15, 5, 2, 7, 0, 0, 0]) + bytes(8))
     assert (info.width, info.most, info.running, info.full, info.count) == (9, 32, False, True, 7)
     words = [0x155 << 15, 0x0AA << 15 | 4, 0x0AB << 15 | 1]
@@ -148,7 +151,7 @@ def test_recorded() -> None:
 
 
 def test_versions() -> None:
-    """UB-VER-01: what the RTL is given is what the host reads; a misfit is one line that says what to do."""
+    """UB-VER-01: the host reads the data that the RTL has; a mismatch is one line that states what to do."""
     data = sources.build_id("1.2.3", bytes.fromhex("1a2b3c4d"), bytes.fromhex("deadbeef99"), True, "ICEB")
     build = Build.parse(data)
     assert build == Build("1.2.3", True, "1a2b3c4d", "deadbeef", "ICEB")

@@ -1,4 +1,4 @@
-"""Session of the host: SEQ, repeats, events, stale answers (UB-SEQ, UB-MSG), on good and on bad lines."""
+"""Session of the host: SEQ, repeats, events, late responses (UB-SEQ, UB-MSG), on good and bad lines."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def sent_seq(line: bytes) -> int:
 
 
 def test_sequence_numbers() -> None:
-    """0 once, then 1 to 127 for ever; restart begins with 0 again."""
+    """SEQ is 0 once, then 1 to 127 repeatedly; restart begins with 0 again."""
     session, seen = Session(), []
     for _ in range(300):
         seen.append(sent_seq(session.request(b"", 1, 0)))
@@ -101,7 +101,7 @@ def test_stale_and_foreign_frames_are_ignored() -> None:
 
 
 class Counter:
-    """A part that counts its writes."""
+    """A device that counts its writes."""
 
     def __init__(self) -> None:
         self.written: list[int] = []
@@ -117,7 +117,7 @@ faults = st.sampled_from(["good"] * 5 + ["lost", "flipped", "doubled", "noise be
 
 
 def spoil(line: bytes, fault: str, where: int) -> bytes:
-    """What arrives of a line."""
+    """Return the bytes of a line that are received."""
     place = where % len(line) if line else 0
     if not line or fault == "good":
         return line
@@ -134,14 +134,16 @@ def spoil(line: bytes, fault: str, where: int) -> bytes:
 
 @given(st.lists(st.tuples(faults, faults, st.integers(0, 5000)), min_size=1, max_size=60))
 def test_every_request_is_carried_out_exactly_once(weather: list[tuple[str, str, int]]) -> None:
-    """Over a line that loses, flips, doubles and cuts frames in both directions no command is lost or done
-    twice, as long as the host does not give up."""
+    """On a line that loses, flips, doubles and cuts frames both ways, each command is executed exactly once.
+
+    This holds as long as the host does not abort a request.
+    """
     part = Counter()
     bridge = Bridge(part)
     session = Session(attempts=100)
     sky = iter(weather)
     now, expected = 0.0, []
-    # SEQ 0 is always executed, so a session begins with a script that changes nothing.
+    # SEQ 0 is always executed, so a session begins with a script that changes no state.
     for number in range(6):
         script = b"\x01" if number == 0 else bytes([0x10, number])
         if number:

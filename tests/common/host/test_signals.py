@@ -1,4 +1,4 @@
-"""Signals while a motor moves, sent to real processes: it decelerates, the exit status is 128 + n."""
+"""Signals sent to real processes while a motor moves: it decelerates, the exit status is 128 + n."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ print("not reached")
 def started(
     command: list[str], ready: str, before: Callable[[], object] | None = None
 ) -> subprocess.Popen[str]:
-    """A process that has printed a line."""
+    """Start a process and wait until it has printed the line `ready`."""
 
     def prepare() -> None:
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -157,7 +157,7 @@ def moving(self, now):
 Guard.progress = moving
 sys.exit(main(sys.argv[1:]))
 """
-"""The command line, but it prints a line when it would show progress first."""
+"""The command line, which also prints a line with the first progress message."""
 COMMANDS = {
     "ppmc104": ["--part", "ppmc104", "jog", "cw", "--ramped"],
     "ppmc2104": ["--part", "ppmc2104", "move", "400000", "-300000"],
@@ -173,7 +173,7 @@ COMMANDS = {
 FREE = dict.fromkeys(COMMANDS, ",ccw=-900000,slow_ccw=-800000,cw=900000,slow_cw=800000") | {
     "pmc006": ",start=0"
 }
-"""Switches that no motor comes to."""
+"""Switches that no motor reaches."""
 for _name, _axes in (("ppmc2104", [2]), ("bank", [2])):
     for _axis in _axes:
         FREE[_name] += f",ccw{_axis}=-900000,slow_ccw{_axis}=-800000,cw{_axis}=900000,slow_cw{_axis}=800000"
@@ -198,7 +198,7 @@ def test_a_signal_in_a_command(name: str, number: signal.Signals, tmp_path: Path
 
 @pytest.mark.parametrize("delay", [0.1, 0.2, 0.4, 0.7])
 def test_an_interrupt_during_the_start_is_one_line(delay: float) -> None:
-    """Before the first statement of the package only Python itself could print less."""
+    """An interrupt during the start produces one line; earlier, only Python itself could print less."""
     code = (
         "import openppmc.cli as c, sys; print('on', flush=True); "
         "sys.exit(c.main(['--port', 'model:speed=1', 'jog', 'cw']))"
@@ -211,7 +211,7 @@ def test_an_interrupt_during_the_start_is_one_line(delay: float) -> None:
 
 
 def test_a_closed_terminal() -> None:
-    """SIGHUP comes, and nothing can be printed any more."""
+    """SIGHUP ends the command with its status, although no output is possible any more."""
     child, master = pty.fork()
     if child == 0:
         signal.signal(signal.SIGHUP, signal.SIG_DFL)

@@ -1,4 +1,4 @@
-"""Ports: what can go wrong when one is opened, and when it goes away."""
+"""Ports: errors when one is opened, and when it disappears."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_a_port_that_is_taken() -> None:
 
 
 def test_no_permission(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Root may open everything, so the refusal comes from a stand-in."""
+    """Root may open any port, so a replacement raises the error."""
 
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
@@ -83,7 +83,7 @@ def test_nothing_answers() -> None:
 
 
 class Fake:
-    """A port with a script of answers: gets every request, gives bytes back. Its clock runs by itself."""
+    """A port that answers requests with a function. Each read advances its clock."""
 
     name = "fake"
 
@@ -168,7 +168,7 @@ def test_a_rate_that_the_board_has_not() -> None:
 
 
 def test_a_rate_that_does_not_get_through(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The cable garbles everything above 115 200 baud: the link works at 115 200."""
+    """If the cable corrupts everything above 115 200 baud, the link works at 115 200."""
     port = open_port("model:speed=max")
     rates = [115_200]
     write, set_baud = port.write, port.set_baud
@@ -204,7 +204,7 @@ def test_an_adapter_that_refuses_the_rate(monkeypatch: pytest.MonkeyPatch) -> No
 
 
 def test_the_first_bytes_wake_the_bridge() -> None:
-    """UB-LIN-06: a break at any higher rate, then the flag that ends what there was."""
+    """UB-LIN-06: the host first sends a break at any higher rate, then a flag that ends any open frame."""
     port = Fake(
         lambda request: encode(request[:1] + b"\x00" + (identity() if request[1:] == b"\x01" else b""))
     )

@@ -1,5 +1,8 @@
-"""An end of a motion is reported only if the part confirms it: its status names this motion, and the count of
-pulses agrees. Everything else raises EndUnknown (P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01)."""
+"""The end of a motion is reported only if the device confirms it.
+
+Its status must name this motion, and the count of pulses must agree. Otherwise EndUnknown is raised
+(P104-RD-03, P104-END-05, P2104-END-05, STMC-FIN-01).
+"""
 
 from __future__ import annotations
 
@@ -35,7 +38,7 @@ from openppmc.host.script import Script
 from tests.common.host.line_ports import Spoiled
 
 SLOW = 115_200
-"""The rate of a bridge that was reset: with a higher one a replaced board does not answer at all."""
+"""The rate of a bridge after a reset: at a higher rate a replaced board would not respond."""
 ENDLESS = 1 << 24
 KINDS: dict[str, tuple[Any, str, Callable[[Any], Any]]] = {
     "ppmc104": (Ppmc104, "part=ppmc104", lambda part: part),
@@ -50,7 +53,7 @@ KINDS: dict[str, tuple[Any, str, Callable[[Any], Any]]] = {
 
 @contextmanager
 def opened(kind: str, words: str = "") -> Iterator[Any]:
-    """An initialised axis at 1000 to 5000 pulses/s."""
+    """Open an initialised axis with 1000 to 5000 pulses/s."""
     driver, text, chosen = KINDS[kind]
     with driver.open(f"model:speed=max,{text},{words}", SLOW) as part:
         axis = chosen(part)
@@ -65,19 +68,19 @@ def axis(request: pytest.FixtureRequest) -> Iterator[Any]:
 
 
 def port_of(axis: Any) -> ModelPort:
-    """The modelled board's port."""
+    """Return the modelled board's port."""
     link = getattr(axis.link, "_link", axis.link)
     assert isinstance(link.port, ModelPort)
     return link.port
 
 
 def reset_part(axis: Any) -> None:
-    """The part is reset; the bridge and its pulse counter are not."""
+    """Reset the device, but not the bridge and its pulse counter."""
     port_of(axis).board.reset()
 
 
 def replace_board(axis: Any) -> None:
-    """A fresh board of the same kind is at the port."""
+    """Connect a fresh board of the same kind to the port."""
     port = port_of(axis)
     fresh = ModelPort(port.name.removeprefix("model:"))
     fresh.board.t = port.board.t
@@ -86,7 +89,7 @@ def replace_board(axis: Any) -> None:
 
 
 def jump(axis: Any) -> None:
-    """The pulse counter loses 40 pulses, as by a glitch; that of a bank is the part's own."""
+    """Decrease the pulse counter by 40 pulses, as a glitch would; a bank has its own counter."""
     if hasattr(axis, "held"):
         axis.motion.begin += 40
     else:
@@ -94,7 +97,7 @@ def jump(axis: Any) -> None:
 
 
 def another_program(axis: Any) -> None:
-    """Another program resets the part and makes a shorter move of the same kind."""
+    """Reset the device and make a shorter move of the same kind, as another program could."""
     reset_part(axis)
     axis.apply(axis.setup)
     order = axis.move_order(30)
@@ -123,7 +126,7 @@ def test_a_reset_during_a_move_is_no_end(axis: Any, fault: Callable[[Any], None]
 
 @pytest.mark.parametrize("fault", FAULTS[:2])
 def test_a_reset_during_a_waited_call(axis: Any, fault: Callable[[Any], None]) -> None:
-    """The calls that wait raise the error, whichever motion it is."""
+    """Calls that wait raise the error for any motion."""
     calls: list[Callable[[Callable[[Any], None]], Any]] = [
         lambda look: axis.move(-3000, progress=look),
         lambda look: axis.move_to(axis.position + 3000, progress=look),
@@ -206,7 +209,10 @@ def test_a_stop_with_a_wrong_count_is_not_confirmed_either(axis: Any) -> None:
 
 
 def test_the_counter_is_not_cleared_during_a_motion(axis: Any) -> None:
-    """Its value at the end is compared; a bank keeps the offset in the program, so there it is allowed."""
+    """`zero` is rejected during a motion, because the counter is compared at its end.
+
+    A bank stores the offset in the program, so `zero` is allowed there.
+    """
     motion = axis.start_move(1000)
     axis.link.pause(0.1)
     if hasattr(axis, "held"):
@@ -223,7 +229,10 @@ def test_the_counter_is_not_cleared_during_a_motion(axis: Any) -> None:
 def test_a_floating_bus_is_no_motion_without_end(
     axis: Any, value: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Bits that always read as 0 are 1: no part drives the bus (P104-STA-05, P2104-STA-07)."""
+    """A status in which bits that always read as 0 are 1 means that no device drives the bus.
+
+    The driver reports it as an error, not as the end of a motion (P104-STA-05, P2104-STA-07).
+    """
     motion = axis.start_move(1000)
     monkeypatch.setattr(port_of(axis).board, "read", lambda a: value)
     with pytest.raises(ProtocolError, match=f"status 0x{value:02X} does not exist"):
@@ -342,7 +351,7 @@ def controller() -> Iterator[Any]:
 
 
 def reset_other(axis: Any) -> None:
-    """The part at the end of a bridge or of a line is reset by its pin."""
+    """Reset the device at the end of a bridge or of a line by its pin."""
     port = getattr(axis.link, "port", None) or axis.link._port
     board = port.board if hasattr(port, "board") else port.line.stations[-1]
     board.reset()
@@ -363,7 +372,7 @@ def other(request: pytest.FixtureRequest) -> Iterator[Any]:
 @pytest.mark.parametrize("begin", [0, 500])
 @pytest.mark.parametrize("way", ["wait", "poll", "progress"])
 def test_a_reset_of_the_other_parts(other: Any, begin: int, way: str) -> None:
-    """Also in a move that should end at 0, where a reset puts the counter (P006-POS-01)."""
+    """A reset is detected also in a move to 0, the value of the counter after a reset (P006-POS-01)."""
     if begin:
         other.set_position(4000)
     motion = other.start_move(-4000)
@@ -393,7 +402,7 @@ def test_a_reset_of_other_motions_of_the_other_parts(other: Any, forward: bool) 
 
 
 def test_a_move_forward_to_0_that_a_reset_ended() -> None:
-    """The controller's counter is 0 as ordered: its speed is that of the factory again."""
+    """A reset in a move to 0 is detected although the counter is 0: the speed has its factory value again."""
     with controller() as motor:
         motor.set_position(-4000)
         motion = motor.start_move(4000)
@@ -431,7 +440,7 @@ def test_a_command_whose_motion_a_reset_ends(
 @pytest.mark.parametrize("operation", range(8))
 @pytest.mark.parametrize("finish", range(256))
 def test_each_finish_status(finish: int, operation: int) -> None:
-    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); with a cause, pulses are left."""
+    """Bit 7 and the operation confirm the end (P104-RD-03, STMC-FIN-01); with a cause, pulses remain."""
     good = finish & 0x80 and finish & 7 == operation >= 2
     for remaining, moved in ((0, 10), (0, 9), (3, 6), (9, 0), (10, -1), (3, 7), (0, 0), (0xFFFFFF, 10)):
         cause = finish & 0x78
@@ -452,7 +461,7 @@ def test_each_finish_status(finish: int, operation: int) -> None:
 
 @pytest.mark.parametrize("finish", [0x00, 0x03, 0x80, 0x81, 0xFF & ~0x80])
 def test_a_status_of_no_motion(finish: int) -> None:
-    """Also for a motion of another program, and without a pulse counter."""
+    """A status without a motion is no end, also for another program's motion and without a pulse counter."""
     with pytest.raises(EndUnknown, match="finish status 0x"):
         decode_end(finish, 0, None, CW, None)
     with pytest.raises(EndUnknown):
@@ -460,7 +469,10 @@ def test_a_status_of_no_motion(finish: int) -> None:
 
 
 def test_a_search_through_all_pulses_is_no_origin() -> None:
-    """Its status and remaining pulses read like those of an origin one pulse before the end."""
+    """A search that ends after all pulses is complete, not an origin.
+
+    Its status and remaining pulses are the same as those of an origin one pulse before the end.
+    """
     assert decode_end(0x87, 0, ENDLESS, CW, None, 7).cause is Cause.ORIGIN
     assert decode_end(0x87, 0, ENDLESS, CCW, -5, 7, 1 - ENDLESS).cause is Cause.ORIGIN
     assert decode_end(0x87, 0, ENDLESS, CCW, -5, 7, -ENDLESS).complete

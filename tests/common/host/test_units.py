@@ -35,7 +35,10 @@ XTAL = 16_000_000
     ],
 )
 def test_speeds_of_rates(csel: int, vsel: int, rate: int, pps: Fraction) -> None:
-    """1953 … 500 000 and 488 … 125 000 pps; 207.5 us instead of 200 us with vsel low (P104-EX-06)."""
+    """The speeds of the rates are 1953 … 500 000 and 488 … 125 000 pps.
+
+    With vsel low, an interval of 200 µs becomes 207.5 µs (P104-EX-06).
+    """
     assert units.BaseClock.internal(XTAL, csel, vsel).speed(rate) == pps
 
 
@@ -94,7 +97,7 @@ def test_external_clock() -> None:
 
 
 def test_setup_bytes() -> None:
-    """Example A of the manual."""
+    """The bytes are those of example A of the manual."""
     clock = units.BaseClock.internal(XTAL)
     setup = units.plan_setup(clock, 50_000, 100_000, 4, 0x0A)
     assert bytes([setup.code]) + setup.data == bytes.fromhex("0A 09 04 04 00")
@@ -133,7 +136,7 @@ def test_setup_bytes_of_the_ppmc2104() -> None:
 
 @given(st.floats(0, 200))
 def test_half_us_bytes(asked: float) -> None:
-    """P2104-AUX-04: 0.5 us a unit, 40h to FFh."""
+    """P2104-AUX-04: the unit is 0.5 µs, the range 40h to FFh."""
     if not 32 <= asked <= 127.5:
         with pytest.raises(OutOfRange, match="32 to 127.5 us"):
             half_us_byte(XTAL, asked, "on")
@@ -144,7 +147,7 @@ def test_half_us_bytes(asked: float) -> None:
 
 @given(st.floats(0, 40_000))
 def test_hold_bytes(asked: float) -> None:
-    """P2104-AUX-05: 128 us a unit, 1 to 256 units."""
+    """P2104-AUX-05: the unit is 128 µs, the range 1 to 256 units."""
     if not 128 <= asked <= 32_768:
         with pytest.raises(OutOfRange, match="128 to 32768 us"):
             hold_byte(XTAL, asked)
@@ -189,7 +192,7 @@ def test_chopper_times(vsel: int, phase: str, asked: float) -> None:
 
 @given(st.integers(1, 900), st.integers(4, 120), st.integers(0, 255), st.integers(0, 255), st.integers(0, 3))
 def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, straps: int) -> None:
-    """The closed form of `plan` against the predictor, pulse by pulse."""
+    """The closed form of `plan` matches the predictor, pulse by pulse."""
     clock = units.BaseClock.internal(XTAL, straps & 1, straps >> 1)
     low, high = sorted((clock.speed(a), clock.speed(b)))
     setup = units.plan_setup(clock, low, high, pa, 0x0A)
@@ -205,7 +208,7 @@ def test_key_figures_match_the_prediction(n: int, pa: int, a: int, b: int, strap
 
 @given(st.integers(1, 300), st.integers(0, 90), st.integers(5, 255), st.integers(5, 255))
 def test_key_figures_and_course_of_the_stmc(n: int, pa: int, a: int, b: int) -> None:
-    """Against the predictor, with its internal clock; without ramp steps there is one speed only."""
+    """Key figures and course of the STMC match the predictor; without ramp steps there is only one speed."""
     slow, fast = max(a, b), min(a, b)
     setup = STMC.plan(XTAL, Wanted(12_500 / Fraction(slow), 12_500 / Fraction(fast), pa, base_clock=12_500))
     assert setup.data == bytes([slow, fast, pa, 0])

@@ -1,4 +1,4 @@
-"""The positioner of ophyd, asked as a bluesky plan asks it, on the golden models."""
+"""The positioner of ophyd, used as in a bluesky plan, on the golden models."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ PATIENCE = 60.0
 
 @contextmanager
 def started(part: str = "ppmc104", words: str = "speed=max") -> Iterator[Device]:
-    """A part of which each axis is initialised: 2000 to 8000 pps, position 4000 of a machine."""
+    """Open a device with all axes initialised: 2000 to 8000 pps, position 4000 of a machine model."""
     with open_part(f"model:part={part},{words}") as device:
         for axis in device.axes:
             axis.initialise(start_pps=2000, high_pps=8000, ramp_pulses=1000 if part == "ppmc312" else 100)
@@ -39,14 +39,16 @@ def started(part: str = "ppmc104", words: str = "speed=max") -> Iterator[Device]
 
 
 def ends(motor: PpmcPositioner, position: float) -> BaseException | None:
-    """Why a move to there fails; None if it does not."""
+    """Return the exception of a move to a position; None if the move succeeds."""
     return motor.set(position).exception(PATIENCE)
 
 
 @pytest.mark.parametrize("part", PARTS)
 def test_scan(part):
-    """Given a bluesky scan over the last axis of a part, then each event has its position, pulses to the unit
-    counted; and a positioner that goes on into the slow-down limit fails with what the driver says."""
+    """Each event of a bluesky scan over the last axis of a device has its position in units.
+
+    A move into the slow-down limit fails with the error of the driver.
+    """
     with started(part) as device:
         motor = PpmcPositioner(device, len(device.axes), name="theta", pulses_per_unit=-10, egu="deg")
         seen = []
@@ -61,7 +63,7 @@ def test_scan(part):
 
 @pytest.mark.parametrize("part", PARTS)
 def test_a_reset_during_a_move(part):
-    """Given a part that is reset in a move, then its Status fails: the part does not confirm the end."""
+    """If a device is reset during a move, the Status fails, because the device does not confirm the end."""
     with started(part) as device:
         motor = PpmcPositioner(device, 1, name="theta", pulses_per_unit=100)
         with motor._lock:
@@ -72,7 +74,7 @@ def test_a_reset_during_a_move(part):
 
 
 def test_station_of_a_line():
-    """Given a line of PMC006B4, then the axis is the station, and both may move at once."""
+    """On a line of PMC006B4, the axis number is the station, and two stations can move at the same time."""
     with Pmc006Bus.open("model:part=pmc006,speed=max,address=1..2") as bus:
         motors = [PpmcPositioner(bus, station, name=f"m{station}") for station in (1, 2)]
         moves = [motor.set(300 * station) for station, motor in enumerate(motors, 1)]
@@ -82,7 +84,7 @@ def test_station_of_a_line():
 
 
 def test_two_axes_at_once():
-    """Given two positioners of one part, then their moves overlap, and readbacks come on the way."""
+    """Moves of two positioners of one device overlap, and readbacks are reported during the motion."""
     with started("ppmc2104", "speed=1") as device:
         motors = [PpmcPositioner(device, axis, name=f"a{axis}") for axis in (1, 2)]
         told = []
@@ -97,10 +99,10 @@ def test_two_axes_at_once():
 
 @pytest.mark.parametrize("success", (False, True))
 def test_stop_in_motion(success):
-    """Given a stop on the way, then the motor decelerates, and the Status fails unless that was a success."""
+    """A stop during a motion decelerates the motor; the Status fails unless success=True."""
     with started(words="speed=1") as device:
         motor = PpmcPositioner(device, name="x")
-        motor.stop()  # nothing to stop is fine
+        motor.stop()  # no error without a motion
         move = motor.set(30_000)
         with pytest.raises(NotWhileBusy, match="x is moving"):
             motor.set(5)
@@ -112,7 +114,7 @@ def test_stop_in_motion(success):
 
 
 def test_bad_positions():
-    """Given a position outside the soft limits, or none at all, then nothing moves."""
+    """A position outside the soft limits, or one that is not a number, causes no motion."""
     with started() as device:
         motor = PpmcPositioner(device, name="x", pulses_per_unit=100, limits=(-1, 2))
         for bad in (2.01, -5):
@@ -135,13 +137,13 @@ def test_bad_positions():
     ),
 )
 def test_bad_axis_and_scale(words, told):
-    """Given an axis that there is not, or a scale that is none, then there is no positioner."""
+    """An axis that does not exist, or an invalid scale, is rejected."""
     with started() as device, pytest.raises(OutOfRange, match=told):
         PpmcPositioner(device, name="x", **words)
 
 
 def test_not_initialised():
-    """Given a part that nobody has initialised, then the Status says so, and the next move may go."""
+    """For an uninitialised device, the Status fails with that error; after initialisation a move works."""
     with open_part("model:speed=max") as device:
         motor = PpmcPositioner(device, name="x")
         assert isinstance(ends(motor, 100), NotInitialised) and not motor.moving
@@ -150,7 +152,7 @@ def test_not_initialised():
 
 
 def test_unplugged_port():
-    """Given a port that goes away in motion, then the Status fails with that, and so does the next move."""
+    """If the port disappears during a motion, the Status and the next move fail with Disconnected."""
     with started(words="speed=max,unplug=2") as device:
         motor = PpmcPositioner(device, name="x")
         assert isinstance(ends(motor, 30_000), Disconnected) and not motor.moving

@@ -1,7 +1,8 @@
 """Writes a LiteX SoC with motors: `python -m tests.common.litex.soc FOLDER SOURCES [PROGRAM]`.
 
-It has a PPMC-104 and, with SystemVerilog below SOURCES, a bank. Verilog and what a program includes go into
-FOLDER; PROGRAM is what its ROM holds. A process of its own, for LiteX keeps the last SoC in global variables.
+The SoC has a PPMC-104 and, with SystemVerilog below SOURCES, a bank. The Verilog and the headers for the
+program are written to FOLDER; PROGRAM is the content of its ROM. It runs as a separate process, because LiteX
+keeps the last SoC in global variables.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ CLK_HZ = 16_000_000
 AXES = 4
 ROM, RAM = 0x8000, 0x2000
 FILES, INCLUDE = "sources.txt", "+incdir+"
-"""What else there is to be compiled, a path a line; include folders begin with that word."""
+"""List of the other files to compile, one path per line; include folders begin with that word."""
 
 
 def pads(*names: tuple[str, int]) -> list[Subsignal]:
-    """Pads of a simulation, which has no pins."""
+    """Return pads of a simulation, which has no pins."""
     return [Subsignal(name, Pins(width)) for name, width in names]
 
 
@@ -50,7 +51,7 @@ class Bench(GenericPlatform):
         super().__init__("none", [*IO], name="bench")
 
     def build(self, fragment, build_dir, **_) -> object:
-        """Write soc.v, with contents of memories beside it, and the names of the other sources."""
+        """Write soc.v, the contents of memories in the same folder, and the names of the other sources."""
         os.chdir(build_dir)
         fragment = fragment.get_fragment()
         self.finalize(fragment)
@@ -79,14 +80,14 @@ class Soc(SoCCore):
         )
         self.crg = CRG(platform.request("sys_clk"))
         add_part(self, "stepper", sources, pads=platform.request("stepper"), XTAL_HZ=CLK_HZ)
-        # Plain Verilog has the bridge for one of the two.
+        # Plain Verilog has the bridge for only one of the two.
         if (Path(sources) / "packages").is_dir():
             platform.add_extension(BANK_IO)
             add_part(self, "bank", sources, part="bank", pads=platform.request("bank"), AXES=AXES)
 
 
 def main() -> int:
-    """Entry point."""
+    """Write the SoC; return the exit code."""
     folder, sources, *program = sys.argv[1:]
     sources = str(Path(sources).resolve())
     rom = get_mem_data(program[0], data_width=32, endianness="little") if program else [0]

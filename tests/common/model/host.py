@@ -9,7 +9,10 @@ from openppmc.model.single.codes import IBF, OBF
 
 
 class ModelHost:
-    """`t` is the next free edge; every method moves it on. Keyword arguments go to the part's MODEL."""
+    """A host on the byte bus of a model. `t` is the next free edge; every method advances it.
+
+    Keyword arguments are passed to the device's MODEL.
+    """
 
     MODEL: ClassVar[type]
 
@@ -22,20 +25,20 @@ class ModelHost:
     # ------------------------------------------------------------------ bus
 
     def write(self, reg: int, byte: int, gap: int = 2) -> int:
-        """One write cycle; returns its write event."""
+        """Perform one write access; return its write event."""
         edge0 = self.model.write(self.t, reg, byte)
         self.t = edge0 + gap
         self.written = edge0 + 2
         return edge0 + 2
 
     def read(self, reg: int) -> int:
-        """One read cycle."""
+        """Perform one read access."""
         value = self.model.read(self.t, reg)
         self.t += 6
         return value
 
     def poll(self, mask: int, value: int, limit: int = 20_000_000) -> int:
-        """Read status until the masked bits fit."""
+        """Read status until the masked bits equal `value`."""
         end, pause = self.t + limit, 0
         while (status := self.read(1)) & mask != value:
             assert self.t < end, f"status {status:#04x} never showed {mask:#04x} = {value:#04x}"
@@ -44,24 +47,24 @@ class ModelHost:
         return status
 
     def command(self, code: int) -> int:
-        """Command byte, then wait for IBF = 0; returns that status."""
+        """Write a command byte, then wait for IBF = 0; return that status."""
         self.write(1, code)
         return self.poll(IBF, 0)
 
     def data(self, byte: int) -> int:
-        """Data byte, then wait for IBF = 0; returns that status."""
+        """Write a data byte, then wait for IBF = 0; return that status."""
         self.write(0, byte)
         return self.poll(IBF, 0)
 
     def fetch(self) -> int:
-        """Data read after OBF = 1."""
+        """Read the data register after OBF = 1."""
         self.poll(OBF, OBF)
         return self.read(0)
 
     def run(self, script: str) -> list[int]:
-        """Script of the acceptance table: c XX, d XX, r, rrr; returns what the r read.
+        """Run a script of the acceptance table: c XX, d XX, r, rrr; return the bytes read by r.
 
-        `self.mark` is set so that pulses and edges of the last operation can be told from older ones.
+        `self.mark` is set so that pulses and edges of the last operation are distinguished from older ones.
         """
         words, got = script.split(), []
         while words:
@@ -76,7 +79,7 @@ class ModelHost:
         return got
 
     def statuses(self, script: str) -> list[int]:
-        """As `run` without r; returns the status after each byte."""
+        """Do the same as `run` without r; return the status after each byte."""
         words = script.split()
         pairs = zip(words[::2], words[1::2], strict=True)
         return [self.command(int(b, 16)) if kind == "c" else self.data(int(b, 16)) for kind, b in pairs]
@@ -84,38 +87,38 @@ class ModelHost:
     # ------------------------------------------------------------------ time
 
     def go(self, t: int) -> None:
-        """The next access or pin change is at edge t."""
+        """Set the edge of the next access or pin change to t."""
         assert t > self.model.now, (t, self.model.now)
         self.t = t
 
     def pause(self, clk: int) -> None:
-        """Let time pass."""
+        """Advance the time by `clk` cycles."""
         self.t += clk
 
     def pins(self, **levels: int) -> None:
-        """Pin levels from edge t on."""
+        """Set pin levels from edge t on."""
         self.model.pins(self.t, **levels)
         self.t += 1
 
     def idle(self) -> None:
-        """Wait for BUSY = 0 without touching the bus."""
+        """Wait for BUSY = 0 without an access on the bus."""
         self.sync()
         while self.model.busy:
             self.step()
 
     def sync(self) -> None:
-        """Run the model up to the present."""
+        """Run the model up to the present edge."""
         self.model.run_until(max(self.model.now, self.t - 1))
 
     def step(self) -> None:
         """Run to the next event of the model."""
         edge = self.model.next_event
-        assert edge is not None, "nothing happens any more"
+        assert edge is not None, "the model has no further event"
         self.model.run_until(edge)
         self.t = max(self.t, edge + 1)
 
     def fall(self, n: int, after: int = 0) -> int:
-        """Run to the n-th pulse since `mark`; the next access is `after` clk later. Returns its edge."""
+        """Run to the n-th pulse since `mark`; the next access is `after` cycles later. Return its edge."""
         while len(self.pulses()) < n:
             self.step()
         edge = self.pulses()[n - 1]
@@ -123,28 +126,28 @@ class ModelHost:
             self.go(edge + after)
         return edge
 
-    # ------------------------------------------------------------------ what was seen
+    # ------------------------------------------------------------------ outputs
 
     def pulses(self) -> list[int]:
-        """Pulses since `mark`."""
+        """Return the pulses since `mark`."""
         return self.model.log.falls("pout_n", self.mark)
 
     def intervals(self) -> list[int]:
-        """Their distances in clk."""
+        """Return the distances of these pulses in cycles."""
         pulses = self.pulses()
         return [b - a for a, b in zip(pulses, pulses[1:], strict=False)]
 
     def lows(self) -> list[int]:
-        """Low times of the pulses since `mark`."""
+        """Return the low times of the pulses since `mark`."""
         return low_times(self.model.log.of("pout_n", self.mark))
 
     def out(self, signal: str) -> int:
-        """Present output level."""
+        """Return the present level of an output."""
         self.sync()
         return self.model.outputs[signal]
 
     def finish(self) -> tuple[int, int]:
-        """Wait for the end; finish status and remaining value as the host reads them."""
+        """Wait for the end; return finish status and remaining value as the host reads them."""
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")

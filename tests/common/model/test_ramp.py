@@ -34,13 +34,13 @@ CORNERS = [
 
 @st.composite
 def legal(draw: st.DrawFn) -> tuple[int, int, int]:
-    """RL, RH, PA as an initialisation accepts them."""
+    """Draw RL, RH, PA that an initialisation accepts."""
     rl = draw(st.integers(0, 255))
     return rl, draw(st.integers(0, rl)), draw(st.one_of(st.integers(4, 60), st.integers(4, 11220)))
 
 
 def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
-    """Table form of P104-RMP-02."""
+    """Return the table form of P104-RMP-02."""
     a, b = (rl + 1) ** 2, (rh + 1) ** 2
     return {
         r: pa * b * (4 * a - (2 * r + 1) ** 2) // ((a - b) * (2 * r + 1) ** 2) + 1
@@ -49,7 +49,7 @@ def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
 
 
 def checked_indices(pa: int) -> list[int]:
-    """All indices of a short ramp, a spread of a long one."""
+    """Return all indices of a short ramp, or a selection of a long one."""
     return (
         list(range(pa + 1)) if pa <= 200 else [*range(40), *range(40, pa - 40, 97), *range(pa - 40, pa + 1)]
     )

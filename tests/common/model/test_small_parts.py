@@ -33,7 +33,7 @@ def test_step_lists(motor):
     assert steps == tuple(int(word, 2) for word in TABLES[motor].split())
     if half:
         assert steps[::2] == step_list(phases, False)
-    # Neighbours differ by one phase in half step, by one swapped pair in full step.
+    # Neighbours differ by one phase in half step, by one exchanged pair in full step.
     changes = {bin(a ^ b).count("1") for a, b in zip(steps, steps[1:] + steps[:1], strict=True)}
     assert changes == ({1} if half else {2})
     with pytest.raises(ValueError, match="2 phases"):

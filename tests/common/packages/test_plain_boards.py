@@ -1,4 +1,4 @@
-"""Boards in plain Verilog for FuseSoC: what edalize is told, and what takes the place of its tools."""
+"""Boards in plain Verilog for FuseSoC: the settings for edalize, and the replacements of its tools."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ TYPES = {".pcf": "PCF", ".lpf": "LPF", ".cst": "CST", ".sdc": "SDC"}
 
 
 def launched(*words: str, folder: Path = ROOT) -> subprocess.CompletedProcess[str]:
-    """The launcher as edalize's makefile starts it."""
+    """Run the launcher as edalize's makefile does."""
     command = [sys.executable, str(LAUNCHER), *words]
     return subprocess.run(command, cwd=folder, text=True, capture_output=True, check=False, timeout=300)
 
 
 def test_core_has_the_board_tables_options():
-    """Given all boards with a PPMC-104, then each has a target with its top, pins, flow and device."""
+    """Each board with a PPMC-104 has a target with its top, pins, flow and device."""
     core = yaml.safe_load(plain_boards.core(BOARDS))
     assert list(core["targets"]) == list(BOARDS) and "icebreaker" in BOARDS
     flows = {"ice40": "icestorm", "ecp5": "trellis", "gowin": "apicula"}
@@ -44,14 +44,14 @@ def test_core_has_the_board_tables_options():
 
 
 def test_unknown_board():
-    """Given a board without a PPMC-104, then one line has those with one, and nothing is written."""
+    """For a board without a PPMC-104, one line lists those with one, and no file is written."""
     with pytest.raises(ProjectError, match="^BOARD=tangnano20k: no FuseSoC target .there are icebreaker, "):
         plain_boards.write_library(["tangnano20k"], BUILD / "test" / "nowhere")
     assert not (BUILD / "test" / "nowhere").exists()
 
 
 def test_verdict(tmp_path, monkeypatch):
-    """Given what FuseSoC leaves, then a missed or a wrong clock is no success, nor is an empty file."""
+    """A missed or wrong clock in the output of FuseSoC is a failure, and so is an empty file."""
     monkeypatch.setattr(plain_boards, "relative", str)
     line = "Info: Max frequency for clock 'clk': {} MHz ({} at {} MHz)\n"
     log, bitstream = tmp_path / "next.log", tmp_path / "x.bin"
@@ -74,7 +74,7 @@ def test_verdict(tmp_path, monkeypatch):
 
 
 def test_attributes_of_vendors_cells():
-    """Given attributes in capitals, then they stand before their instances, as texts; others do not."""
+    """Attributes in capitals are written before their instances, as texts; others are omitted."""
     own = {"ICP_CURRENT": "12", "MFG_ENABLE_FILTEROPAMP": "1 ", "src": "a.sv:1.2"}
     cells = {"u_pll": {"type": "PLL", "attributes": own}, "u_x": {"type": "x", "attributes": {"src": "b"}}}
     found = vendor_attributes({"top": {"cells": cells}})
@@ -95,14 +95,14 @@ def test_attributes_of_vendors_cells():
     ),
 )
 def test_unknown_tool(words, told):
-    """Given a tool or a command that there is not, then one line says so."""
+    """An unknown tool or command is reported in one line."""
     done = launched(*words)
     assert done.returncode == 1 and done.stderr.startswith(f"error: {told}")
     assert len(done.stderr.splitlines()) == 1
 
 
 def test_missing_tool(tmp_path):
-    """Given an environment without a package, then one line names it."""
+    """In an environment without a package, one line names it."""
     python = tmp_path / "python"
     python.symlink_to(Path(sys.executable).resolve())
     done = subprocess.run([python, LAUNCHER, "icepack"], text=True, capture_output=True, check=False)

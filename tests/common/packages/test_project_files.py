@@ -1,4 +1,4 @@
-"""What stands around the project on GitHub: workflows, forms, citation, told targets and files exist."""
+"""Files for GitHub: workflows, forms, citation; the targets and files that they name exist."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ by_name = pytest.mark.parametrize("path", TOLD, ids=lambda path: path.name)
 
 
 def commands(path) -> str:
-    """What a file tells to type: of a workflow the steps, of others code: between ` or indented."""
+    """Return the commands in a file: the steps of a workflow, else code between ` or indented."""
     text = path.read_text(encoding="utf-8")
     if path in WORKFLOWS:
         jobs = yaml.safe_load(text)["jobs"].values()
@@ -31,33 +31,33 @@ def commands(path) -> str:
 
 @by_name
 def test_targets_exist(path):
-    """Given `make X` in it, then the table of targets has X."""
+    """Each `make X` in a file names a target of the table."""
     assert set(re.findall(r"\bmake ([a-z][\w-]*)", commands(path))) <= set(TARGETS)
 
 
 @by_name
 def test_files_exist(path):
-    """Given the name of a file or folder of the tree, then git has it or what it stands for."""
+    """Each file or folder of the tree that a file names exists."""
     names = {word for word in re.findall(r"[\w./-]+", commands(path)) if word.startswith(ROOMS)}
     assert not [name for name in names if not (ROOT / name).exists()]
 
 
 def test_something_is_looked_at():
-    """Given all files, then the two tests above have targets and files to look at."""
+    """The two tests above find targets and files."""
     text = "\n".join(map(commands, TOLD))
     assert {"nightly", "site", "test", "lint"} <= set(re.findall(r"\bmake ([a-z-]+)", text))
     assert ".ci/run" in text and "tests/common/host" in text
 
 
 def test_every_test_of_a_driver_runs_elsewhere():
-    """Given the folders with tests of drivers, then the workflow of other systems names all of them."""
+    """The workflow for other systems names all folders with tests of drivers."""
     text = commands(GITHUB / "workflows" / "host.yml")
     folders = {f"tests/{path.parent.name}/host" for path in (ROOT / "tests").glob("*/host")}
     assert folders == set(re.findall(r"(?<![=/])\btests/\w+/host\b(?!/)", text))
 
 
 def test_release_workflow():
-    """Given the workflow of releases, then a job may write one thing at most, and knows no secret."""
+    """Each job of the release workflow has at most one write permission, and no job uses a secret."""
     text = (GITHUB / "workflows" / "release.yml").read_text(encoding="utf-8")
     flow = yaml.safe_load(text)
     assert flow["permissions"] == {"contents": "read"} and "secrets." not in text
@@ -68,7 +68,7 @@ def test_release_workflow():
 
 @pytest.mark.parametrize("path", FORMS, ids=lambda path: path.stem)
 def test_form(path):
-    """Given a form, then it has name, description and questions of distinct ids; one must be answered."""
+    """A form has name, description and questions with distinct ids; at least one answer is required."""
     form = yaml.safe_load(path.read_text(encoding="utf-8"))
     assert form["name"] and form["description"]
     asked = [one for one in form["body"] if one["type"] != "markdown"]
@@ -78,14 +78,14 @@ def test_form(path):
 
 
 def test_citation_is_of_this_version():
-    """Given CITATION.cff, then version and licence are those of the package."""
+    """Version and licence in CITATION.cff are those of the package."""
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert cited["cff-version"] == "1.2.0" and cited["authors"] and cited["title"]
     assert (cited["version"], cited["license"]) == (__version__, "Apache-2.0")
 
 
 def test_files_are_known_to_git():
-    """Given workflows and forms, then no rule for ignored files keeps them back."""
+    """No rule for ignored files excludes workflows and forms."""
     names = [str(path.relative_to(ROOT)) for path in TOLD]
     done = subprocess.run(
         ["git", "check-ignore", *names], cwd=ROOT, capture_output=True, text=True, check=False

@@ -1,4 +1,4 @@
-"""`make release`: what it refuses, archives that depend on their contents alone, a dist/ that is whole."""
+"""`make release`: its errors, archives that depend only on their contents, a dist/ that is complete."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ TEXT = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-01-02\n\n- this\n\n#
 
 
 def release(**changes) -> state.Release:
-    """One of version 1.2.0."""
+    """Return a release of version 1.2.0."""
     return state.Release(
         **{"version": "1.2.0", "commit": "c" * 40, "epoch": 1_700_000_000, "notes": "- this", **changes}
     )
 
 
 def test_notes_are_the_newest_section():
-    """Given a changelog, then the text below its newest heading is taken, an empty [Unreleased] skipped."""
+    """The notes are the text below the newest heading; an empty [Unreleased] is skipped."""
     assert state.section(TEXT, "1.2.0") == "- this"
 
 
@@ -41,7 +41,7 @@ def test_notes_are_the_newest_section():
     ],
 )
 def test_version_and_changelog_that_do_not_fit(text, version, message):
-    """Given another version than the newest heading, or nothing to say, then one line tells so."""
+    """If the version is not that of the newest heading, or its text is empty, one line reports it."""
     with pytest.raises(ProjectError, match=message):
         state.section(text, version)
 
@@ -50,7 +50,7 @@ UNRELEASED = TEXT.replace("Unreleased]\n", "Unreleased]\n\n- new\n")
 
 
 def test_a_trial_takes_what_is_unreleased():
-    """Given text below [Unreleased], then those are a trial's notes, with any version in the next heading."""
+    """A trial uses the text below [Unreleased], with any version in the next heading."""
     assert state.section(UNRELEASED, "1.2.0", trial=True) == "- new"
     assert state.section(UNRELEASED, "1.3.0", trial=True) == "- new"
     assert state.section("# Changelog\n\n## [Unreleased]\n\n- new\n", "0.1.0", trial=True) == "- new"
@@ -59,13 +59,13 @@ def test_a_trial_takes_what_is_unreleased():
 
 @pytest.mark.parametrize("trial", [False, True])
 def test_a_heading_that_does_not_fit_is_no_trial(trial):
-    """Given nothing below [Unreleased], then the newest heading must be the version's, in a trial as well."""
+    """Without text below [Unreleased], the newest heading must be that of the version, also in a trial."""
     with pytest.raises(ProjectError, match=r"version 1.3.0, but the newest heading"):
         state.section(TEXT, "1.3.0", trial=trial)
 
 
 def git_of(tagged: str, changed: str = ""):
-    """Git of a checkout at commit c…c whose version has its tag on `tagged`."""
+    """Return a replacement of git for commit c…c; the tag of the version is on commit `tagged`."""
 
     def git(*words: str) -> str:
         if words[0] == "status":
@@ -80,7 +80,7 @@ def git_of(tagged: str, changed: str = ""):
 
 
 def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
-    """Given commits after the newest release, then a trial of them has a version that ends in +trial."""
+    """A trial of commits after the newest release has a version that ends in +trial."""
     changelog = tmp_path / "CHANGELOG.md"
     changelog.write_text(UNRELEASED.replace("1.2.0", state.__version__))
     monkeypatch.setattr(state, "CHANGELOG", changelog)
@@ -110,7 +110,7 @@ def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
     ],
 )
 def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
-    """Given SKIP or ONLY, then a trial is made and the last line says so; without them a release."""
+    """SKIP or ONLY selects a trial, and the last line says so; otherwise it is a release."""
     asked = []
 
     def present(only, trial):
@@ -128,14 +128,14 @@ def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
 
 
 def test_notes_of_a_trial_say_so():
-    """Given a trial, then its notes say in the first lines that it is not to be published; else not."""
+    """The notes of a trial state in the first lines that it is not to be published; others do not."""
     text = notes.notes(release(version="1.2.0+trial", trial=True), [])
     assert text.startswith("# OpenPPMC 1.2.0+trial\n\n**Trial, not a release.**")
     assert "rial" not in notes.notes(release(), [])
 
 
 def test_the_python_package_of_a_trial(tmp_path):
-    """Given a copy of the package, then its version becomes that of the trial; that of a release stays."""
+    """The version in a copy of the package becomes that of the trial; that of a release is unchanged."""
     file = tmp_path / "openppmc" / "__init__.py"
     file.parent.mkdir()
     text = f'__version__ = "{python.__version__}"\n'
@@ -146,7 +146,7 @@ def test_the_python_package_of_a_trial(tmp_path):
 
 
 def test_the_site_reports_its_stages(tmp_path, monkeypatch):
-    """Given lines of `make site`, then a release passes them on while it waits; a failure is one line."""
+    """A release prints the lines of `make site` during the build; a failure is one line."""
     told = []
     program = (
         "import sys; print('site: pages', flush=True); print('first\\nlast', file=sys.stderr); sys.exit({})"
@@ -160,7 +160,7 @@ def test_the_site_reports_its_stages(tmp_path, monkeypatch):
 
 
 def test_a_tag_elsewhere_is_another_release():
-    """Given the version's tag on another commit, then one line; on this commit, or none, it is good."""
+    """A tag of the version on another commit is rejected; on this commit, or no tag, is accepted."""
     state.check_tag("1.2.0", "a" * 40, "")
     state.check_tag("1.2.0", "a" * 40, "a" * 40)
     with pytest.raises(ProjectError, match="v1.2.0 exists already, on bbbbbbbbbb"):
@@ -168,7 +168,7 @@ def test_a_tag_elsewhere_is_another_release():
 
 
 def test_a_changed_tree_is_refused(monkeypatch):
-    """Given a file that is not committed, then one line names it."""
+    """A file that is not committed is named in one line."""
     monkeypatch.setattr(state, "git", lambda *words: " M README.md" if words[0] == "status" else "")
     with pytest.raises(ProjectError, match="^README.md is not committed"):
         state.present()
@@ -176,7 +176,7 @@ def test_a_changed_tree_is_refused(monkeypatch):
 
 @pytest.mark.parametrize("pack, suffix", [(archive.tar_gz, ".tar.gz"), (archive.zipped, ".zip")])
 def test_archives_depend_on_their_contents_alone(tmp_path, pack, suffix):
-    """Given the same files with other times, modes and order, then the archives are the same bytes."""
+    """The same files with other times, modes and order result in the same bytes of the archive."""
     made = []
     for number, names in enumerate((("a", "b/c"), ("b/c", "a"))):
         folder = tmp_path / str(number)
@@ -200,13 +200,13 @@ def test_archives_depend_on_their_contents_alone(tmp_path, pack, suffix):
 
 
 def test_a_pdf_gets_the_time_of_the_commit():
-    """Given a PDF, then its dates are replaced and nothing moves."""
+    """In a PDF the dates are replaced, and the positions of all bytes are unchanged."""
     text = b"x /CreationDate (D:20260102030405+00'00') /ModDate (D:20260102030405+00'00') y"
     assert site.dated(text, 0) == text.replace(b"20260102030405", b"19700101000000")
 
 
 def test_unknown_bitstreams_are_named():
-    """Given a name that is no bitstream, then one line lists those there are; without names all are made."""
+    """For an unknown bitstream, one line lists the existing ones; without names all are built."""
     with pytest.raises(
         ProjectError, match="ONLY=nosuch: no such bitstream .there are icebreaker, icebreaker-bus"
     ):
@@ -216,7 +216,7 @@ def test_unknown_bitstreams_are_named():
 
 
 def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
-    """Given no npm, then one line says what to install, at once; without the site nobody asks for it."""
+    """A missing npm is reported in one line before the build; without the site npm is not required."""
     made = []
     monkeypatch.setattr(site.shutil, "which", lambda name: None)
     monkeypatch.setattr(command, "present", lambda only, trial: release())
@@ -232,7 +232,7 @@ def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
 
 
 def test_dist_is_whole_or_as_it_was(tmp_path):
-    """Given a job that fails, then dist/ is as before; given none, then it has files, sums and notes."""
+    """If a job fails, dist/ is unchanged; otherwise it has files, checksums and notes."""
     dist, scratch = tmp_path / "dist", tmp_path / "scratch"
 
     def good(of, out, folder):

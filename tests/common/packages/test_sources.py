@@ -1,4 +1,4 @@
-"""rtl/files.yml: read in its one form, and walls between its groups."""
+"""rtl/files.yml: its format, and the dependency checks between its groups."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LISTED = groups(ROOT)
 
 
 def checkout(folder: Path, text: str, **modules: str) -> Path:
-    """A folder with this list and these modules: name -> text."""
+    """Create a folder with this list and these modules: name -> text."""
     (folder / "rtl").mkdir()
     (folder / "rtl" / "files.yml").write_text(text)
     for name, body in modules.items():
@@ -26,7 +26,7 @@ TWO = "low:\n  needs: []\n  files:\n    - a.sv\nhigh:\n  needs: [{}]\n  files:\n
 
 
 def test_read_as_yaml():
-    """Given the list, then a YAML package reads the same in it."""
+    """A YAML package reads the same content in the list."""
     wanted = yaml.safe_load((ROOT / "rtl" / "files.yml").read_text(encoding="utf-8"))
     assert list(LISTED) == list(wanted)
     for name, group in LISTED.items():
@@ -35,25 +35,25 @@ def test_read_as_yaml():
 
 
 def test_walls_hold():
-    """Given this project's RTL, then no file names what its group does not need."""
+    """No file of the RTL uses a group that its own group does not need."""
     assert walls(LISTED) == []
 
 
 def test_a_wall_stops_an_instance(tmp_path):
-    """Given an instance of a module of another group, when that is not needed, then a line says so."""
+    """An instance of a module of a group that is not needed is reported in one line."""
     root = checkout(tmp_path, TWO.format(""), a="", b="  a u_a ();")
     assert walls(groups(root)) == ["rtl/b.sv: a is in low, which high does not need"]
 
 
 @pytest.mark.parametrize("body", ["", "// a u_a ();", '  initial $display("a");', "/* a\n a */"])
 def test_a_need_for_nothing(tmp_path, body):
-    """Given a need of which only comments and texts speak, then a line says so."""
+    """A need that is used only in comments and texts is reported in one line."""
     root = checkout(tmp_path, TWO.format("low"), a="", b=body)
     assert walls(groups(root)) == ["rtl/files.yml: high names nothing of low, which it needs"]
 
 
 def test_needed_in_compile_order(tmp_path):
-    """Given needs of needs, then all of them come before the group, each once."""
+    """All direct and indirect needs of a group precede it, each once."""
     chain = {"a": "", "b": "a", "c": "b, a"}
     text = "".join(f"{name}:\n  needs: [{of}]\n  files:\n    - {name}.sv\n" for name, of in chain.items())
     listed = groups(checkout(tmp_path, text, a="", b=""))
@@ -73,12 +73,12 @@ def test_needed_in_compile_order(tmp_path):
     ],
 )
 def test_refused(tmp_path, text, said):
-    """Given a list in another form, or with a need that is no group, then one line says where."""
+    """A list in another format, or with a need that is not a group, is reported in one line."""
     with pytest.raises(SourcesError, match=said):
         groups(checkout(tmp_path, text))
 
 
 def test_missing(tmp_path):
-    """Given no list, then one line says so."""
+    """A missing list is reported in one line."""
     with pytest.raises(SourcesError, match="is missing"):
         groups(tmp_path)

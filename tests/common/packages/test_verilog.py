@@ -1,4 +1,4 @@
-"""Plain Verilog: how yosys' text gets readable; what `make verilog` refuses."""
+"""Plain Verilog: making the text of yosys readable; errors of `make verilog`."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ SOURCES = {"sub": "// SPDX\n// sub: says it.\nmodule sub (\n    input wire logic
 
 
 def test_readable_text():
-    """Given yosys' text, then equal modules stand once, with comments; one-bit wires give way, not sums."""
+    """Equal modules of yosys' text occur once, with comments; one-bit wires are removed, sums are not."""
     text = readable(YOSYS, "top", SOURCES)
     assert text.startswith("module top (")
     assert text.count("// sub: says it.\nmodule top_sub (") == 1 == text.count("endmodule\n\n")
@@ -75,7 +75,7 @@ def test_readable_text():
 
 
 def test_header():
-    """Given a top, then its header tells version, licence and the parameters as they are built in."""
+    """The header of a top states version, licence and the built-in parameters."""
     sources = verilog.project.files("ppmc104")
     text = plain.header("ppmc104", "a part", sources, {"CLK_HZ": 50_000_000})
     assert "SPDX-License-Identifier: Apache-2.0" in text and f"OpenPPMC {__version__}" in text
@@ -84,7 +84,7 @@ def test_header():
 
 
 def test_bad_input():
-    """Given a top or parameter that there is not, or a value of another kind, then one line says so."""
+    """An unknown top or parameter, or a value of a wrong kind, is reported in one line."""
     with pytest.raises(ProjectError, match="TOP=nosuch: no such part, bridge or board .known: ppmc104, "):
         verilog.write("nosuch", verilog.FOLDER)
     with pytest.raises(ProjectError, match="NOSUCH: ppmc104 has no such parameter"):
@@ -97,7 +97,7 @@ def test_bad_input():
 
 
 class Bits:
-    """A level as Icarus gives it to cocotb."""
+    """A level as Icarus returns it to cocotb."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -106,7 +106,7 @@ class Bits:
         return int(self.text, 2)
 
     def resolve(self, how: str) -> Bits:
-        """X as 0."""
+        """Return the value with X as 0."""
         return Bits(self.text.replace("X", "0"))
 
     def __str__(self) -> str:
@@ -114,7 +114,7 @@ class Bits:
 
 
 def test_an_output_without_level_is_an_error(monkeypatch):
-    """Given X at an output, then reading it fails with its name, but for data that are not driven."""
+    """Reading an output with X fails with its name, except for data that are not driven."""
     driven, resting = SimpleNamespace(value=Bits("1")), SimpleNamespace(value=Bits("0"))
     d_o = SimpleNamespace(value=Bits("1X0"), _name="d_o")
     irq = SimpleNamespace(value=Bits("X"), _name="irq")

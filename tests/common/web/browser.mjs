@@ -1,6 +1,6 @@
 // node browser.mjs SITE SHOTS PACKAGES TRIPPED [CHECK]: the page in a real Chromium. TRIPPED: a PPMC-104 that l1_n = 0 stops.
-// A line of JSON for each check: {name, error?, told?}.
-// Exit code 3 and one line if no browser can be had.
+// Prints one line of JSON per check: {name, error?, told?}.
+// Exit code 3 and one line if no browser is available.
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
@@ -32,9 +32,9 @@ const view = await launch();
 const base = `http://127.0.0.1:${server.address().port}/`;
 fs.mkdirSync(shots, { recursive: true });
 const RUN = ".pg-run";
-const PATIENCE = 120_000; // ms; machines that do much else are slow
-const SLOWEST = 2; // million clk a second of processor time; a third of what it was when this was written
-const MOST = 3; // sessions of each part but the first, short ones; test_engine.py plays more
+const PATIENCE = 120_000; // ms; busy machines are slow
+const SLOWEST = 2; // million cycles per second of CPU time; a third of the speed measured when this was written
+const MOST = 3; // short sessions of each device except the first device; test_engine.py plays more
 const equal = (got, wanted, what) => {
   if (got !== wanted) throw new Error(`${what}: ${JSON.stringify(got)} instead of ${JSON.stringify(wanted)}`);
 };
@@ -164,7 +164,7 @@ const checks = {
       /ended by the limit/.test(document.querySelector(".pg-registers")?.textContent),
     );
     equal(await position(page), stopped, "position");
-    // A link with all of it, and the same waves from it.
+    // A link contains the whole session, and the page opened by it has the same waves.
     const first = await saved(page, "pressed.vcd");
     await page.click("text=Link");
     await page.waitForFunction(() => location.hash.includes("text="));
@@ -210,7 +210,7 @@ const checks = {
         before + n,
       );
     }
-    // Zoom, cursors and their time by keys.
+    // Zoom, cursors and their times by keys.
     await page.focus(".pg-waves canvas");
     for (const key of ["+", "+", "a", "ArrowRight", "ArrowRight", "b"]) await page.keyboard.press(key);
     await page.waitForFunction(() =>
@@ -224,7 +224,7 @@ const checks = {
     await type(page, "c 0A d 09 d 04 d 04 d 00\nc 45 d 00");
     await page.waitForTimeout(500);
     const browser = await view.newBrowserCDPSession();
-    // Processor time of the page's process, worker included, in s: Linux counts hundredths.
+    // CPU time of the page's process, worker included, in s: Linux counts hundredths.
     const spent = async () => {
       const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
       const stats = processInfo
@@ -234,7 +234,7 @@ const checks = {
     };
     const passed = async () => {
       const [, number, unit] = /^([\d.]+) (m?s)/.exec(await page.textContent(".pg-clock"));
-      return Number(number) * (unit === "s" ? 16 : 0.016); // million clk
+      return Number(number) * (unit === "s" ? 16 : 0.016); // million cycles
     };
     const [clk, cpu] = [await passed(), await spent()];
     const gaps = await page.evaluate(
@@ -314,13 +314,13 @@ const checks = {
       await type(page, text);
       const told = await message(page);
       truth(/the part has stopped: .*l1_n is low.*power it up anew/s.test(told), `it says: ${told}`);
-      // What it has done so far is there, and a session runs on another one.
+      // After the stop, a new session runs on a new core, and the message is gone.
       await type(page, "c 0A d C7 d 31 d 64 d 00\nc 43 d 03 d 00 d 00");
       await rest(page);
       equal(await position(page), 4, "position afterwards");
       truth(!(await page.$(".pg-trouble")), "the message stays");
     }
-    // Pressed instead of typed; then nothing of it can be paused or stepped.
+    // A click on the pin instead of a typed command; after the stop, the core can be neither paused nor stepped.
     await page.click(".pg-pins >> text=l1_n");
     await page.click("text=Next pulse");
     truth(/power it up anew/.test(await message(page)), "no message for a pin");

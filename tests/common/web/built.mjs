@@ -1,4 +1,4 @@
-// node built.mjs HTML SHOTS PACKAGES [CHECK]: the MkDocs site in a real Chromium. A line of JSON for each check.
+// node built.mjs HTML SHOTS PACKAGES [CHECK]: the MkDocs site in a real Chromium. One line of JSON per check.
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";
@@ -27,9 +27,9 @@ const base = `http://127.0.0.1:${server.address().port}/`;
 const fromFile = pathToFileURL(`${html}/`).href;
 fs.mkdirSync(shots, { recursive: true });
 const PATIENCE = 30_000;
-const MOST_FRAME = 33; // ms of processor time of the page; so other work on the machine does not count
-const MOST_PAUSE = 200; // ms, the same
-const MOST_WAITING = 2; // frames on their way to the page: the one that it draws, and the one of Pause
+const MOST_FRAME = 33; // ms of CPU time of the page, so that other processes do not count
+const MOST_PAUSE = 200; // ms of CPU time of the page
+const MOST_WAITING = 2; // frames in transit to the page: the one that it draws, and the one of Pause
 const equal = (got, wanted, what) => {
   if (got !== wanted) throw new Error(`${what}: ${JSON.stringify(got)} instead of ${JSON.stringify(wanted)}`);
 };
@@ -151,7 +151,7 @@ const checks = {
     await page.waitForTimeout(4000);
     const browser = await view.newBrowserCDPSession();
     const { processInfo } = await browser.send("SystemInfo.getProcessInfo");
-    // Linux counts the ns of each thread; the first thread of a renderer is that of the page, the worker has another.
+    // Linux counts the ns of each thread; the first thread of a renderer belongs to the page, the worker has another.
     const spent = () =>
       processInfo
         .filter(({ type, id }) => type === "renderer" && fs.existsSync(`/proc/${id}/task/${id}/schedstat`))
@@ -233,7 +233,7 @@ const checks = {
         const canvas = document.querySelector(".pg-plot canvas");
         const { width, height } = canvas;
         const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-        // Lines of motors have a colour, all else is grey.
+        // Lines of motors have a colour, all others are grey.
         const coloured = (x, y) => {
           const rgb = data.slice(4 * (x + width * y), 4 * (x + width * y) + 4);
           return rgb[3] > 100 && Math.max(rgb[0], rgb[1], rgb[2]) - Math.min(rgb[0], rgb[1], rgb[2]) > 60;

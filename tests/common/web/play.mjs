@@ -1,4 +1,4 @@
-// node play.mjs ENGINE.js PLAYGROUND < [{part, text}]: plays sessions on the page's own engine, prints what came of each.
+// node play.mjs ENGINE.js PLAYGROUND < [{part, text}]: plays sessions on the page's own engine, prints each result.
 import fs from "node:fs";
 import path from "node:path";
 import { pathToFileURL } from "node:url";

@@ -1,4 +1,4 @@
-"""Figures of a run, kept for its last lines: build/site/figures.txt, printed by `make test-web`."""
+"""Figures of a run, stored in build/site/figures.txt; `make test-web` prints them at its end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ FILE = ROOT / "build/site/figures.txt"
 
 
 def left_out(part: str, ends: Sequence[int], most: int, why: str) -> str:
-    """Which of the sessions of a part, by their ends in clk, are longer than `most`; "" if none is."""
+    """Return text about the sessions whose ends in cycles are `most` or more; "" without such sessions."""
     titles = [session.name for session in sessions(part)]
     every = zip(titles, ends, strict=True)
     long = [f"{name} ({end // 10**6} million clk)" for name, end in every if end >= most]
@@ -19,7 +19,7 @@ def left_out(part: str, ends: Sequence[int], most: int, why: str) -> str:
 
 
 def told(line: str) -> None:
-    """Keep a line."""
+    """Store a line."""
     FILE.parent.mkdir(parents=True, exist_ok=True)
     with FILE.open("a", encoding="utf-8") as out:
         out.write(f"{line}\n")

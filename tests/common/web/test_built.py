@@ -1,4 +1,4 @@
-"""The site as readers get it: titles, hosts, and its pages in Chromium, over http and from a file."""
+"""The built site: titles, hosts, and its pages in Chromium, over http and from a file."""
 
 from __future__ import annotations
 
@@ -82,5 +82,5 @@ def test_no_other_host():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_built(name):
-    """The page does this in a browser, without an error in the console."""
+    """The page passes the check in a browser, without an error in the console."""
     assert checked()[name].get("error") is None, checked()[name]["error"]

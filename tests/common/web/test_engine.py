@@ -24,12 +24,12 @@ from tests.common.web.tally import left_out, told
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 LONG = 22_000_000
-"""clk; longer sessions take half a minute each and more, on a machine that does nothing else."""
+"""In cycles; a longer session takes at least half a minute on an otherwise idle machine."""
 HERE = ROOT / "tests/common/web"
 
 
 def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
-    """What comes of (part, text) pairs."""
+    """Return the results of (part, text) pairs."""
     folder = playground()
     done = subprocess.run(
         ["node", str(HERE / "play.mjs"), str(folder.parent / "engine/engine.js"), str(folder)],
@@ -42,7 +42,7 @@ def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
 
 
 def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
-    """Words of outputs put together."""
+    """Return output edges, combined from the words of the outputs."""
     outputs, levels = words(part.part, part.part.watched), part.part.reset_levels(part.params)
     found = []
     for t, word, value in rows:
@@ -54,7 +54,7 @@ def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
 
 @pytest.mark.parametrize("name", WEB_PARTS)
 def test_sessions(name):
-    """Given a session of the manual, when the page plays it, then every byte and edge is the right one."""
+    """When the page plays a session of the manual, every byte and edge is correct."""
     part, count = WEB_PARTS[name], 0
     plays = [(session.text, player(part).play(session.text)) for session in sessions(name)]
     left = left_out(name, [recording.end for _, recording in plays], LONG, "they take too long")
@@ -84,7 +84,7 @@ MOVES = {
 
 
 def step_times(play: Player, motor: Motor) -> list[int]:
-    """Return the cycles of a motor's steps on the golden model; the phases of a motor at rest are no step."""
+    """Return the cycles of a motor's steps on the golden model; phases at standstill are not steps."""
     edges = play.side.edges(play.output(motor))
     if not motor.phases:
         return [t for t, level in edges if level == motor.edge]
@@ -135,13 +135,13 @@ WRONG = (
 
 
 def test_bad_input():
-    """Given a text that is none, then one line says where and why."""
+    """For an invalid text, one line states where and why."""
     for (text, wrong), got in zip(WRONG, played(*(("ppmc104", text) for text, _ in WRONG)), strict=True):
         assert wrong in got.get("error", ""), (text[:40], got)
 
 
 def test_the_machine_stops_the_motor():
-    """Given the machine with its switches, when the motor runs into one, then it stops there."""
+    """When the motor of the machine model reaches a switch, it stops there."""
     text = "machine on 0 -300 -150 0 1850 50\nc 0A d 09 d 04 d 04 d 00\nc 45 d 63\nuntil int_n 0\n"
     text += "c 80 r 95\nwait 100"
     (got,) = played(("ppmc104", text))

@@ -21,20 +21,23 @@ from tests.common.web.tally import left_out, told
 
 HOSTS = 50
 LONG = 10_000_000
-"""clk; longer sessions are left to test_engine.py, but for those that would take minutes there, too."""
+"""In cycles; test_engine.py plays longer sessions, except those that would take minutes there, too."""
 SLOWEST = 0.3
-"""Share of the native speed that a module has at least."""
+"""Minimum speed of a module, relative to the native speed."""
 every = pytest.mark.parametrize("name", WEB_PARTS)
 
 
 @cache
 def module(name: str) -> Module:
-    """The module of a part."""
+    """Return the module of a device."""
     return Module(WEB_PARTS[name], wasm.build(name))
 
 
 def compared(part: WebPart, recording: Recording) -> int:
-    """Play a recording of the golden model; how many edges were the same. AssertionError at a difference."""
+    """Compare a module with a recording of the golden model; return the number of equal edges.
+
+    Raises AssertionError at a difference.
+    """
     levels = part.part.reset_levels(recording.params)
     initial = {pin: levels[pin] for pin in part.part.watched}
     resets = [change.t for change in recording.stimulus if change.pin == "rst_n" and not change.value]
@@ -46,7 +49,7 @@ def compared(part: WebPart, recording: Recording) -> int:
 
 @every
 def test_sessions_of_the_manual(name):
-    """Given a session of the manual, then every byte is the printed one and every edge the golden model's."""
+    """In a session of the manual, every byte is the printed one and every edge that of the golden model."""
     part, counts, ends = WEB_PARTS[name], [], []
     for session in sessions(name):
         recording = player(part).play(session.text)
@@ -60,7 +63,7 @@ def test_sessions_of_the_manual(name):
 
 @every
 def test_random_hosts(name):
-    """Given 50 random hosts, then every edge of every output is the golden model's."""
+    """With 50 random hosts, every edge of every output is that of the golden model."""
     part = WEB_PARTS[name]
     counts = [compared(part, hosts.recorded(part, seed)) for seed in islice(hosts.seeds(part), HOSTS)]
     told(f"{name}: {HOSTS} random hosts, {sum(counts)} edges as in the golden model")
@@ -69,7 +72,7 @@ def test_random_hosts(name):
 
 @every
 def test_size(name):
-    """Given a module, then a web server sends less than 200 KB of it."""
+    """A web server sends less than 200 KB for a module."""
     size = wasm.packed(wasm.build(name))
     told(f"{name}: {size / 1024:.0f} KB packed")
     assert size < wasm.MOST
@@ -77,12 +80,12 @@ def test_size(name):
 
 @every
 def test_no_path_of_this_machine(name):
-    """Given a module, then it does not tell where it was made: another checkout makes the same bytes."""
+    """A module contains no path of this machine: another checkout produces the same bytes."""
     assert str(ROOT).encode() not in wasm.build(name).read_bytes()
 
 
 def test_a_wrong_edge_is_found():
-    """Given a recording with one edge one clk late, then the comparison names it."""
+    """In a recording with one edge one cycle late, the comparison names this edge."""
     part = WEB_PARTS["ppmc104"]
     recording = player(part).play("c 0A d 09 d 04 d 04 d 00 c 43 d 0D d 00 d 00 pulse 14 1")
     place = next(n for n, edge in enumerate(recording.edges) if edge.signal == "pout_n")
@@ -92,7 +95,7 @@ def test_a_wrong_edge_is_found():
 
 
 def test_a_wrong_byte_is_found():
-    """Given a session that expects another byte, or is none, then the line is named."""
+    """A session with a wrong byte, or with an invalid line, is rejected with the number of the line."""
     part = WEB_PARTS["ppmc104"]
     for text, wrong in (
         ("c 82\nr FD", "line 2: r FD: data is FC"),
@@ -103,7 +106,7 @@ def test_a_wrong_byte_is_found():
 
 
 def speed(part: WebPart, native: bool) -> float:
-    """Million clk a second, with pulses running."""
+    """Return the speed in million cycles per second, with pulses running."""
     made = Module(part, wasm.build(part.name, native))
     made.play(player(part).play("c 0A d 09 d 04 d 04 d 00 c 43 d FF d FF d 7F wait 2000"))
     clk, begin = 4_000_000, time.process_time()
@@ -114,7 +117,7 @@ def speed(part: WebPart, native: bool) -> float:
 
 
 def test_speed():
-    """Given pulses that run, then WebAssembly is not much slower than code for this machine."""
+    """With pulses running, WebAssembly has at least 0.3 of the speed of native code."""
     part = WEB_PARTS["ppmc104"]
     native, module_speed = speed(part, native=True), speed(part, native=False)
     told(

@@ -1,4 +1,4 @@
-"""The packages of npm: installed once, also when two processes want them at once."""
+"""The npm packages: installed once, also if two processes need them at the same time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ test -d node_modules && echo made >> installed
 
 
 def test_two_at_once(tmp_path, monkeypatch):
-    """Given two that ask at once, then one installs and the other waits for it."""
+    """If two processes request the packages at the same time, one installs them and the other waits."""
     folder = tmp_path / f"page{os.getpid()}"
     folder.mkdir()
     (folder / "package-lock.json").write_text("{}", encoding="utf-8")

@@ -30,7 +30,7 @@ NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "browser.mjs").read_text(e
 
 @cache
 def checked() -> dict[str, dict[str, str]]:
-    """What the browser says of each check; skips with one line if there is none."""
+    """Return the result of each check in the browser; skip with one line if there is no browser."""
     if shutil.which("node") is None:
         pytest.skip("node is not installed: no browser")
     folder = playground()
@@ -60,12 +60,12 @@ def checked() -> dict[str, dict[str, str]]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_page(name):
-    """Given the page, then this is so, and the console has no error."""
+    """The page passes the check, and the console has no error."""
     assert checked()[name].get("error") is None, checked()[name]["error"]
 
 
 def vcd_edges(path: Path, outputs: dict[str, int], ps: int) -> tuple[list[Edge], int]:
-    """(edges of these outputs in clk, the last clk) of a file that the page has saved."""
+    """Return (edges of these outputs in cycles, the last cycle) of a file that the page has saved."""
     names: dict[str, str] = {}
     edges, t = [], -1
     for line in path.read_text(encoding="utf-8").splitlines():
@@ -81,7 +81,7 @@ def vcd_edges(path: Path, outputs: dict[str, int], ps: int) -> tuple[list[Edge],
 
 
 def test_vcd():
-    """Given the VCD of a session, then its edges are the golden model's."""
+    """The edges in the VCD of a session are those of the golden model."""
     checked()
     part = WEB_PARTS["ppmc104"]
     text = next(session.text for session in sessions("ppmc104") if session.name == "2")
@@ -96,8 +96,8 @@ def test_vcd():
 
 
 def test_data_sheet(tmp_path):
-    """Given a page as PDF, then links into the world and within it stay, those to files here do not."""
-    checked()  # or there is no browser
+    """In a PDF of a page, links to the web and within the page stay; links to local files are removed."""
+    checked()  # skips if there is no browser
     (tmp_path / "page.html").write_text(
         '<h1 id="top">T</h1><a href="#top">a</a> <a href="other.html">b</a> <a href="https://example.org/">c</a>',
         encoding="utf-8",

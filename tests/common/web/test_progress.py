@@ -1,4 +1,4 @@
-"""`make site` prints a line for each stage and for each WebAssembly module, as soon as it begins."""
+"""`make site` prints a line for each stage and each WebAssembly module as soon as it begins."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scripts.site.webparts import WEB_PARTS
 
 @pytest.fixture
 def quick(monkeypatch, tmp_path):
-    """Replace all that takes long; PDFs can be made."""
+    """Replace all slow steps; PDFs are possible."""
     monkeypatch.setattr(pages, "node", lambda *words, folder=None: None)
     monkeypatch.setattr(pages, "packages", lambda folder: None)
     monkeypatch.setattr(pages.shutil, "copy", lambda source, to: None)
@@ -33,7 +33,7 @@ def quick(monkeypatch, tmp_path):
 
 
 def test_each_stage_has_a_line(quick, capsys):
-    """Given a build of the site, then each stage and each module is announced, in order."""
+    """A build of the site announces each stage and each module, in order."""
     site.build(out=quick / "html")
     lines = capsys.readouterr().out.splitlines()
     modules = [f"site: WebAssembly of {name}, {n} of {len(WEB_PARTS)}" for n, name in enumerate(WEB_PARTS, 1)]
@@ -46,14 +46,14 @@ def test_each_stage_has_a_line(quick, capsys):
 
 
 def test_without_a_browser_there_is_no_line_for_pdfs(quick, capsys, monkeypatch):
-    """Given no browser, then no line announces data sheets."""
+    """Without a browser, no line announces data sheets."""
     monkeypatch.setattr(site, "browser", lambda: False)
     site.build(out=quick / "html")
     assert "site: data sheets" not in capsys.readouterr().out
 
 
 def test_lines_arrive_through_a_pipe(tmp_path):
-    """Given a pipe, then a line is there before the program ends: it is not held in a buffer."""
+    """In a pipe, a line arrives before the program ends: it is not held in a buffer."""
     ended = tmp_path / "ended"
     program = "import pathlib, sys, time; from scripts.site.progress import say; say('one'); time.sleep(5); "
     program += "pathlib.Path(sys.argv[1]).touch()"

@@ -1,4 +1,4 @@
-"""The links of the pages to the playground, and what the tables say of bytes."""
+"""The links of the pages to the playground, and the texts of the tables for bytes."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ WITHOUT = {("stmc", "9")}
 
 
 def test_every_part_is_there():
-    """Given the parts of the playground, then the pages link to those."""
+    """The pages link to all devices of the playground."""
     assert set(PARTS) == set(WEB_PARTS)
 
 
 @pytest.mark.parametrize("part", PAGES)
 def test_every_example_can_be_run(part):
-    """Given a page of examples, then each chapter with a session has a link, and the session is there."""
+    """Each chapter of examples with a session has a link, and the session exists."""
     text = (ROOT / "docs" / part / "examples.md").read_text(encoding="utf-8")
     chapters = [chapter for chapter in re.split(r"^## (?=\d)", text, flags=re.M)[1:] if "```" in chapter]
     numbers = {chapter.split()[0] for chapter in chapters}
@@ -39,7 +39,7 @@ def test_every_example_can_be_run(part):
 
 
 def test_other_pages_stay_as_they_are():
-    """Given a page without sessions, then nothing of it changes; a manual gets one link."""
+    """A page without sessions is unchanged; a manual gets one link."""
     assert run_links("docs/host.md", "# A\n\ntext") == "# A\n\ntext"
     manual = run_links("docs/bank/README.md", "# A\n\ntext")
     assert manual.startswith("# A\n") and manual.count("playground.html#v=1&part=bank") == 1
@@ -48,7 +48,7 @@ def test_other_pages_stay_as_they_are():
 
 
 def test_words():
-    """Given the tables of a part, then codes, data and answers are in words, and no unknown codes."""
+    """The tables of a device contain texts for codes, data and responses, and no unknown codes."""
     found = tables("ppmc104", Words104())
     assert found["codes"]["43"]["text"] == "accelerate/decelerate, CW"
     assert found["codes"]["43"]["fields"] == [{"name": "pulses", "bytes": 3, "plus": 1}]

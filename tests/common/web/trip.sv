@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mistake inside the PPMC-104, for the page's message: it stops as soon as l1_n is low.
+// A fault inside the PPMC-104, for the message of the page: the simulation stops when l1_n is low.
 module trip (
     input wire logic clk,
     input wire logic l1_n

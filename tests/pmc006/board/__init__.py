@@ -1,1 +1,1 @@
-"""The PMC006B4's virtual board."""
+"""Virtual board of the PMC006B4."""

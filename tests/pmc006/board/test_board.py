@@ -1,4 +1,4 @@
-"""A virtual line of PMC006B4 behind one pseudo-terminal: several controllers, pyserial, the command line."""
+"""A virtual line of PMC006B4 on one pseudo-terminal: several controllers, pyserial, the command line."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ...common.board.foreground import foreground
 
 PART = ("--part", "pmc006")
 PATIENCE = 1.0
-"""s; RTL on a busy machine is far from real time."""
+"""s; RTL on a busy machine is much slower than real time."""
 SHUTTLE = """\
 ; to EXT1, off it, then to and fro between two places, without a host
         EXTEN    on
@@ -48,13 +48,13 @@ shuttle:
 
 @pytest.fixture
 def line() -> Iterator[SimLine]:
-    """Three controllers, as fast as it goes, at 115 200 bit/s."""
+    """Provide three controllers at full speed, at 115 200 bit/s."""
     with start_line("part=pmc006,address=1..3,speed=max,baud=115200,low=3900,high=4300") as made:
         yield made
 
 
 def test_three_controllers(line: SimLine) -> None:
-    """All found and moved at once; the motors are where they were sent."""
+    """All controllers are found and moved together; the motors reach their positions."""
     with Pmc006Bus.open(line.port, 115_200, patience=PATIENCE) as bus:
         assert [one.address for one in bus.scan(range(1, 6))] == [1, 2, 3]
         for axis in bus.axes:
@@ -81,13 +81,13 @@ def test_three_controllers(line: SimLine) -> None:
 
 @pytest.fixture
 def slow_line() -> Iterator[SimLine]:
-    """Two controllers in real time."""
+    """Provide two controllers in real time."""
     with start_line("part=pmc006,address=1..2,baud=115200,low=3900") as made:
         yield made
 
 
 def test_one_program_after_the_other(slow_line: SimLine, openppmc: CommandLine) -> None:
-    """What one command leaves the next one finds: settings, a running motor, a locked one."""
+    """A command finds the state that the previous one left: settings, a running motor, a locked one."""
     run = (*PART, "--baud", "115200")
 
     def said(*words: str) -> str:
@@ -109,7 +109,7 @@ def test_one_program_after_the_other(slow_line: SimLine, openppmc: CommandLine) 
 
 
 def test_a_program_without_a_host(tmp_path: Path, until: Wait) -> None:
-    """It starts at power-up, finds its switch, goes to and fro when GPI3 says so."""
+    """The program starts at power-up, homes to its switch, and moves to and fro as GPI3 requests."""
     text = tmp_path / "shuttle.asm"
     text.write_text(SHUTTLE)
     with start_line(f"part=pmc006,address=7,low=3900,speed=max,program={text}") as line:
@@ -126,7 +126,7 @@ def test_a_program_without_a_host(tmp_path: Path, until: Wait) -> None:
 
 
 def test_what_is_saved_lasts(tmp_path: Path) -> None:
-    """The EEPROM is a file: address, settings and program are there after the next power-up."""
+    """The EEPROM is a file: address, settings and program are restored at the next power-up."""
     spec = f"part=pmc006,speed=max,baud=115200,eeprom={tmp_path / 'ee.bin'}"
     program = assemble("OUT gpo3, 1")
     with start_line(spec) as line, Pmc006.open(line.port, baud=115_200, patience=PATIENCE) as motor:
@@ -141,7 +141,7 @@ def test_what_is_saved_lasts(tmp_path: Path) -> None:
 
 
 def test_a_foreign_program_with_plain_pyserial(line: SimLine) -> None:
-    """Bytes as the manual has them; half frames and noise do not disturb the next one."""
+    """Frames of plain pyserial, as in the manual, are answered; partial frames and noise have no effect."""
     with serial.Serial(line.port, 115_200, timeout=10) as port:
         port.write(b"\x00\x5a\xff" + command(2, ord("j")))
         assert port.read(8) == reply(2, 8)
@@ -154,7 +154,7 @@ def test_a_foreign_program_with_plain_pyserial(line: SimLine) -> None:
 
 
 def test_real_time_and_pace() -> None:
-    """A line with speed=1 does not run ahead of the clock."""
+    """A line with speed=1 does not run faster than the clock."""
     with start_line("part=pmc006,address=1") as line, Pmc006.open(line.port, 1, patience=PATIENCE) as motor:
         begin = time.monotonic()
         motor.move(60)
@@ -164,7 +164,8 @@ def test_real_time_and_pace() -> None:
 
 def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
     """`--port sim` starts a line for one command."""
-    start_line("part=pmc006,address=4+5,speed=max").close()  # the first one says that it is being built
+    # the first command prints that the line is being built
+    start_line("part=pmc006,address=4+5,speed=max").close()
     code, out, err = openppmc.run("sim:address=4+5,speed=max", *PART, "move", "20", "-a", "4,5")
     assert (code, err) == (0, "") and out == (
         "controller 4: position 20, 20 steps forward: complete\n"
@@ -175,7 +176,7 @@ def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
 
 
 def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
-    """`make board PART=pmc006`: a name for the port, an end with Ctrl-C."""
+    """`make board PART=pmc006` provides a name for the port and ends with Ctrl-C."""
     link = tmp_path / "line"
     command_line = [sys.executable, "-m", "openppmc.sim", "part=pmc006", f"address=1..2,link={link}"]
     with foreground(command_line, cwd=ROOT) as process:
@@ -191,7 +192,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_wrong_rate_and_echo(line: SimLine) -> None:
-    """The line hears nonsense at another rate; an echo needs no option."""
+    """At another rate the line receives invalid frames; an echo needs no option."""
     with Pmc006.open(line.port, 1, baud=9600) as motor, pytest.raises(StationSilent, match="baud rate"):
         motor.version()
     with start_line("part=pmc006,address=1,echo=on") as echoing:

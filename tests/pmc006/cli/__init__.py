@@ -1,1 +1,1 @@
-"""The PMC006B4's commands."""
+"""Commands of the PMC006B4."""

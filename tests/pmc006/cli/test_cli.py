@@ -49,7 +49,7 @@ def test_scan(run: Run) -> None:
     found = json.loads(run(*PART, "scan", "--json").out)
     assert [one["address"] for one in found] == [1, 2] and found[0]["line"]["silent"] == 0
     out = run(*PART, "--port", "model:speed=max,address=3,twin=3", "scan").out
-    assert "at rest" in out  # equal replies lie over each other
+    assert "at rest" in out  # equal replies overlap
     assert "no controller replies: are they powered" in run(
         *PART, "--port", "model:speed=max,baud=19200", "scan"
     ).only_line.replace("\n", "")
@@ -93,7 +93,7 @@ def test_motions(run: Run) -> None:
 
 
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All commands talk to the same line, as with a real one."""
+    """A running motor accepts other speeds and directions; as with a real line, all commands share it."""
     from openppmc.host import Pmc006Bus, line_port
     from openppmc.host.pmc006.talk import Line
 
@@ -120,7 +120,7 @@ def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.Monkey
 def test_stops_and_flags(run: Run, tmp_path: Path) -> None:
     settings = ("set", "stops=3", *QUICK, *ONE)
     assert run(*PART, *settings).code == 0
-    # Each command has a board of its own here: a program enables the stops at power-up.
+    # Each command has its own board here: a program enables the stops at power-up.
     text = tmp_path / "stops.asm"
     text.write_text("EXTEN on\n")
     port = ("--port", f"{PORT},program={text}")
@@ -147,7 +147,7 @@ def test_settings_address_save(run: Run, tmp_path: Path) -> None:
     assert run(*PART, *port, "save").out == "saved\n"
     none = ("--port", "model:speed=max,eeprom=none")
     assert "the EEPROM did not answer" in run(*PART, *none, "save").only_line
-    assert run(*PART, *port, "scan").out.splitlines()[1].split()[0] == "255"  # it was not saved then
+    assert run(*PART, *port, "scan").out.splitlines()[1].split()[0] == "255"  # the address was not saved
     assert "address 2 is taken" in run(*PART, "address", "2", *ONE).only_line
 
 
@@ -258,7 +258,7 @@ def test_commands_of_a_line_belong_to_it(run: Run) -> None:
 
 @pytest.mark.parametrize("words", [("jog", "forward"), ("move", "-3000")])
 def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]) -> None:
-    """The first Ctrl-C decelerates them."""
+    """The first Ctrl-C decelerates all motors."""
     look, looks = Motion.look, iter(range(1000))
 
     def interrupt(motion: Motion) -> None:
@@ -287,7 +287,7 @@ goto 0 address=2
 
 
 def test_script_and_monitor(run: Run, tmp_path: Path) -> None:
-    """Given a script for two controllers, then it is carried out; `monitor` looks at both."""
+    """A script for two controllers is executed, and `monitor` shows both."""
     file = tmp_path / "run.txt"
     file.write_text(SCRIPT)
     port = ("--port", "model:speed=max,address=1..2")

@@ -1,1 +1,1 @@
-"""The PMC006B4's driver, its bus and its programs, on modelled lines with and without faults."""
+"""Driver of the PMC006B4, its bus and its programs, on modelled lines with and without faults."""

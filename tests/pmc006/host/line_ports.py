@@ -1,4 +1,4 @@
-"""Ports for tests of PMC006B4: a modelled line that spoils frames and replies, and one that plays a text."""
+"""Ports for tests of PMC006B4: a modelled line that spoils frames and replies, and one that plays texts."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from tests.common.host.line_ports import BREAK_FRAME, BREAK_REPLY, LOSE_FRAME, L
 CUT_FRAME, CUT_REPLY, DOUBLE_REPLY = "cut frame", "cut reply", "double reply"
 MERGED_REPLY, CHANGED_REPLY, LATE_REPLY = "merged reply", "changed reply", "late reply"
 HARMLESS = (DOUBLE_REPLY, MERGED_REPLY)
-"""Faults that need no repeat."""
+"""Faults that require no repeat."""
 UNHEARD = (LOSE_FRAME, BREAK_FRAME, CUT_FRAME)
-"""Faults after which the controller has done nothing."""
+"""Faults after which the controller has executed nothing."""
 HEARD = (LOSE_REPLY, BREAK_REPLY, CUT_REPLY, CHANGED_REPLY, LATE_REPLY)
-"""Faults after which it has done what it was told."""
+"""Faults after which the controller has executed the instruction."""
 FATES = (*UNHEARD, *HEARD, *HARMLESS)
 
 
 class SpoiledLine(Spoiled):
-    """A modelled line of PMC006B4."""
+    """Modelled line of PMC006B4 that spoils frames and replies."""
 
     def __init__(self, text: str, baud: int = 9600) -> None:
         super().__init__(f"speed=max,{text}", baud, "pmc006")
@@ -59,13 +59,13 @@ class SpoiledLine(Spoiled):
         return whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1 :]
 
     def node(self, number: int = 255) -> Node:
-        """The model of a controller."""
+        """Return the model of a controller."""
         node: Node = self.line.station(number)
         return node
 
 
 def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[bytes], str | None]:
-    """A plan: after `skip` of them, `times` frames with this instruction meet that fate."""
+    """Return a plan in which, after the first `skip`, `times` frames with this instruction have that fate."""
     left, passed = times, skip
 
     def plan(frame: bytes) -> str | None:
@@ -82,12 +82,12 @@ def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[byt
 
 
 def one(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
-    """Such a port, and the controller on it."""
+    """Return such a port, and the controller on it."""
     port = SpoiledLine(text)
     return port, Pmc006.open(port, address)
 
 
 def several(text: str = "address=1..2") -> tuple[SpoiledLine, Pmc006Bus]:
-    """Such a port, and a bus on it."""
+    """Return such a port, and a bus on it."""
     port = SpoiledLine(text)
     return port, Pmc006Bus.open(port)

@@ -1,4 +1,4 @@
-"""The driver of the PMC006B4 on the golden model, without faults on the line."""
+"""Driver of the PMC006B4 on the golden model, without faults on the line."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ QUICK = {"start_speed": 2000, "stop_speed": 2000, "max_speed": 2000}
 
 @pytest.fixture
 def motor() -> Iterator[tuple[SpoiledLine, Pmc006]]:
-    """A controller at position 4000 of a carriage, EXT1 at 3800, EXT2 at 4400; steps are quick."""
+    """Provide a controller at position 4000 of a carriage, EXT1 at 3800, EXT2 at 4400; steps are fast."""
     port, part = one("low=3800,high=4400,eeprom=none")
     with part:
         for name, value in QUICK.items():
@@ -138,7 +138,7 @@ def test_settings_explain_themselves() -> None:
 
 
 def test_a_value_that_the_part_refuses_is_told(motor: tuple[SpoiledLine, Pmc006]) -> None:
-    """Other builds may have other ranges: the reply decides."""
+    """A setting that the part rejects raises an error: the reply decides, as builds may have other ranges."""
     _, part = motor
     node = settings.SETTINGS["current"]
     odd = settings.Setting(node.write, node.read, range(10_000), "0 to 9999", "")
@@ -219,7 +219,7 @@ def test_free_runs(motor: tuple[SpoiledLine, Pmc006]) -> None:
 
 
 def test_a_move_is_stopped_with_its_ramp(motor: tuple[SpoiledLine, Pmc006]) -> None:
-    """The maximum speed is lowered, the move ended when it has come down, and the speed restored."""
+    """A stop of a move lowers the maximum speed, ends the move at the stop speed, restores the setting."""
     port, part = motor
     part.acceleration = part.deceleration = 5
     part.start_speed = part.stop_speed = 300
@@ -293,10 +293,10 @@ def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.free = 0
     with pytest.raises(SpeedRefused, match=r"maximum speed of 100 steps/s is below the start speed \(2000\)"):
         part.move(5, speed=100)
-    motion = part.jog(FORWARD, speed=100)  # that is no hindrance for a free run
+    motion = part.jog(FORWARD, speed=100)  # a free run is not affected by it
     part.halt()
     assert motion.end is not None
-    port.node().part.desk.settings.vmax = 0  # a program can do that
+    port.node().part.desk.settings.vmax = 0  # a program can set this
     with pytest.raises(SpeedRefused, match="the maximum speed is 0"):
         part.jog(FORWARD)
 
@@ -323,7 +323,7 @@ def test_stalls(motor: tuple[SpoiledLine, Pmc006]) -> None:
 @pytest.mark.parametrize("start", [4000, 3790])
 @pytest.mark.parametrize("microsteps", [16, 32])
 def test_homing_on_ext1(start: int, microsteps: int) -> None:
-    """Always the same place, from the switch too."""
+    """Homing on EXT1 ends at the same place, also if the motor starts on the switch."""
     port, part = one(f"low=3800,high=4400,start={start},eeprom=none")
     with part:
         part.microsteps = microsteps
@@ -369,7 +369,7 @@ def test_what_is_saved_comes_back(tmp_path: Path) -> None:
 
 
 def test_a_save_that_fails_is_an_error() -> None:
-    """V tells it; an EEPROM that is there again is not held against it."""
+    """A failed save raises an error after a read of V; a later save with a working EEPROM succeeds."""
     port, part = one("eeprom=none")
     with part:
         for call in (part.save, part.burn_program):
@@ -381,7 +381,7 @@ def test_a_save_that_fails_is_an_error() -> None:
 
 
 def test_the_example_program_of_the_rules() -> None:
-    """P1 (P006 12.8): three times 200 steps, then GPO1, as in P006-AC-39 and -40."""
+    """P1 (P006 12.8) makes three times 200 steps, then sets GPO1, as in P006-AC-39 and -40."""
     port, part = one()
     with part:
         words = [(3, 1), (8, 3200), (12, 0), (1, 200), (0x810, 0), (11, 0), (0x812, 3), (14, 3), (0x111, 1)]
@@ -399,7 +399,7 @@ def test_the_example_program_of_the_rules() -> None:
 
 
 def test_ranges_are_those_of_the_part() -> None:
-    """All that the driver lets through the model takes, and nothing else."""
+    """The driver accepts exactly the values that the model accepts."""
     names = {
         "microsteps": "mstep",
         "current": "cur",
@@ -467,7 +467,7 @@ def test_a_line_with_several() -> None:
             nine.jog(FORWARD)
             nine.jog(FORWARD)
         nine.halt()
-        with pytest.raises(OutOfRange, match="started by nobody"):
+        with pytest.raises(OutOfRange, match="no motion to wait for"):
             bus.wait([bus.axis(255)])
 
 
@@ -479,7 +479,7 @@ def test_the_first_that_answers() -> None:
 
 
 def test_other_builds_and_adapters() -> None:
-    """A reply of `s` that repeats the steps, another rate, an adapter that hears itself."""
+    """Moves work with the echo reply of `s`, another rate, and an adapter that receives its own bytes."""
     for text, baud in (("ack=echo", 9600), ("echo=on", 9600), ("ack=echo,echo=on,clk=25000000", 115_200)):
         with Pmc006.open(f"model:speed=max,eeprom=none,{text}", 255, baud) as part:
             part.max_speed = part.start_speed = part.stop_speed = 3000

@@ -1,4 +1,7 @@
-"""Frames and replies of PMC006B4 that are lost, cut, damaged, doubled, merged, late, or of somebody else."""
+"""Frames and replies of PMC006B4 that are lost, cut, damaged, doubled, merged or late.
+
+Also replies of another station.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +45,7 @@ from tests.pmc006.host.line_ports import (
 
 
 def quick(text: str = "eeprom=none", address: int = 255) -> tuple[SpoiledLine, Pmc006]:
-    """A controller with quick steps."""
+    """Return a controller with fast steps."""
     port, part = one(text, address)
     for name in ("max_speed", "start_speed", "stop_speed"):
         setattr(part, name, 2000)
@@ -60,7 +63,7 @@ def count(port: SpoiledLine, letter: str) -> int:
 @pytest.mark.parametrize("fate", FATES)
 @pytest.mark.parametrize("steps", [40, -3, 300])
 def test_a_start_with_a_fault_moves_once(steps: int, fate: str) -> None:
-    """Whatever happens to the frame or its reply: the motor goes exactly as far as it was told."""
+    """With any fault of the frame or its reply, the motor moves exactly the commanded distance."""
     port, part = quick()
     with part:
         port.plan = once("s", fate)
@@ -83,7 +86,7 @@ def test_a_free_run_with_a_fault_runs_once(fate: str) -> None:
 
 @pytest.mark.parametrize("letter", ["j", "c"])
 def test_a_start_is_settled_in_spite_of_more_faults(letter: str) -> None:
-    """The reply to the start is lost, and so are the next looks."""
+    """If the reply to a start and those of the next reads are lost, the driver still confirms the start."""
     port, part = quick()
     with part:
         plans = [once("s", LOSE_REPLY), once(letter, LOSE_REPLY, 3, skip=1)]
@@ -102,7 +105,7 @@ def test_a_controller_that_falls_silent_after_a_start() -> None:
 
 
 def test_a_locked_start_is_no_start() -> None:
-    """EXT came before the start; its reply, the refusal, is lost."""
+    """A start that EXT has locked is rejected, even if the rejection is lost."""
     port, part = quick("eeprom=none,low=3995")
     with part:
         part.stops = 1
@@ -162,7 +165,7 @@ def test_what_may_be_repeated_is(fate: str) -> None:
 
 @pytest.mark.parametrize("fate", [LOSE_FRAME, LOSE_REPLY, CHANGED_REPLY, LATE_REPLY, DOUBLE_REPLY])
 def test_a_program_arrives_whole(fate: str) -> None:
-    """The pointer moves on with each word, also with one whose reply is lost."""
+    """A program is loaded completely: the pointer also advances with a word whose reply is lost."""
     program = assemble("again: CNTI\nCMP counter, 7\nJNE again\nOUT gpo2, 1")
     port, part = quick()
     with part:
@@ -186,7 +189,7 @@ def test_a_program_is_read_in_spite_of_faults(fate: str) -> None:
 
 
 def test_a_program_that_does_not_stay() -> None:
-    """A bad memory is noticed."""
+    """A defective memory of the part is detected."""
     port, part = quick()
 
     def plan(frame: bytes) -> None:
@@ -200,7 +203,10 @@ def test_a_program_that_does_not_stay() -> None:
 
 
 def test_half_a_frame_is_forgotten_before_the_next() -> None:
-    """At 1200 bit/s a controller waits longer for the rest of a frame than the master for a reply."""
+    """After a cut frame, the next frame is not sent before the controller has discarded the rest.
+
+    At 1200 bit/s a controller waits longer for the rest of a frame than the master for a reply.
+    """
     port = SpoiledLine("eeprom=none", 1200)
     with Pmc006(Line(port, 1200, patience=0.03)) as part:
         port.plan = once("n", CUT_FRAME)
@@ -208,7 +214,10 @@ def test_half_a_frame_is_forgotten_before_the_next() -> None:
 
 
 def test_a_program_starts_once() -> None:
-    """A lost reply to `z`: whether a program runs can be seen, whether a short one has run cannot."""
+    """If the reply to `z` is lost, a running program is detected and is not started twice.
+
+    If no program runs, a short one may have run, and LostReply is raised.
+    """
     port, part = quick()
     with part:
         part.load_program(assemble("WAIT gpi1, 0"))
@@ -256,7 +265,7 @@ def test_the_eeprom_takes_its_time() -> None:
             part.save()
 
 
-# ---------------------------------------------------------------------- who is to blame
+# ---------------------------------------------------------------------- causes of errors
 
 
 @pytest.mark.parametrize(
@@ -283,7 +292,7 @@ def test_what_is_told(replies: list[str], error: type[Exception], text: str) -> 
 
 
 def test_replies_are_found_among_others() -> None:
-    """Noise, a reply to somebody else's question, the own echo, a cut one: the reply comes behind."""
+    """The reply is found after noise, a reply of another station, the master's own echo, or a cut reply."""
     mine, other = reply(5, -2), reply(6, 77)
     sent = command(5, ord("c"))
     for before in (
@@ -305,7 +314,7 @@ def test_replies_are_found_among_others() -> None:
 
 
 def test_two_with_one_address() -> None:
-    """Equal replies lie over each other; as soon as they differ there is garbage."""
+    """Equal replies of two controllers with one address overlap; different ones are garbled."""
     with Pmc006Bus.open("model:speed=max,address=3,twin=3") as bus:
         assert bus.scan([3])[0].trouble == ""
         for number, board in enumerate(bus.line.port.line.stations):  # type: ignore[attr-defined]
@@ -315,7 +324,10 @@ def test_two_with_one_address() -> None:
 
 
 def test_late_replies_do_not_answer_the_next_question() -> None:
-    """All come one question too late: nobody is there. From some time on they come in time: in step again."""
+    """A late reply is not accepted as the reply to the next frame.
+
+    If all replies are late, the controller counts as silent; once they are in time, they are matched again.
+    """
     port, part = quick()
     with part:
         port.plan = lambda frame: LATE_REPLY
@@ -339,9 +351,9 @@ def test_the_port_goes_away() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_noise(seed: int) -> None:
-    """One character in 60 is damaged, either way: no step too many.
+    """With one character in 60 damaged in both directions, the motor makes the right number of steps.
 
-    What nobody can know is told, and then the position says where the motor is.
+    If the result cannot be determined, an error is raised, and the position is correct afterwards.
     """
     part = Pmc006.open(f"model:speed=max,eeprom=none,noise=60,seed={seed}", 255)
     generator = random.Random(seed)

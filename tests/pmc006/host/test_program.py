@@ -51,7 +51,7 @@ P1_WORDS = (
     (0x00000111, 0x00000001),
     (0, 0),
 )
-"""The program and its words as the rules print them (P006 12.8)."""
+"""The program and its words as printed in the rules (P006 12.8)."""
 
 P1_AGAIN = """\
         DIR      forward
@@ -92,7 +92,7 @@ def test_the_example_of_the_rules() -> None:
 @example(Program.of([Instruction(0x0D, 0, 57)]))
 @example(Program.of([Instruction(0x0D, 3, 0), Instruction(0x12, 8, MASK), Instruction(0x13, 1, 5)]))
 def test_there_and_back(made: Program) -> None:
-    """Whatever the 200 words are: text, words and image become each other without loss."""
+    """For any 200 words, the conversions between text, words and image are lossless."""
     assert assemble(disassemble(made)) == made
     assert assemble(disassemble(made, numbers=True)) == made
     assert Program.from_image(made.image()) == made
@@ -189,7 +189,7 @@ def test_images() -> None:
 
 
 def test_what_a_try_does_not_change() -> None:
-    """P006-PRG-20."""
+    """An instruction by E is harmless only if it changes no state (P006-PRG-20)."""
     does = {name for name, kind in KINDS.items() if not harmless(kind.opcode)}
     assert does == {
         "ROT",

@@ -1,1 +1,1 @@
-"""The PMC006B4's golden model: acceptance checks, blocks, tables."""
+"""Golden model of the PMC006B4: acceptance checks, blocks, tables."""

@@ -1,4 +1,4 @@
-"""Motion and drive of the PMC006B4 without the rest of the part, for tests: time, records, plain runs."""
+"""Test bench for motion and drive of the PMC006B4 without the rest of the part: time, records, motions."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}
 
 
 class Bench:
-    """The two blocks at clk_hz with registers at factory values but those given; BOOT is over at edge 0.
+    """Motion and drive at clk_hz; registers have factory values except those given. BOOT ends at edge 0.
 
-    steps: edges of mon_step. ends: edges at which BUSY has fallen by itself. position: steps, signed.
+    steps: edges of mon_step. ends: edges at which a motion has ended without a stop. position: steps, signed.
     """
 
     def __init__(self, clk_hz: int = 16_000_000, t_off_ns: int = 20_000, **registers: int) -> None:
@@ -42,7 +42,7 @@ class Bench:
 
     @property
     def t(self) -> int:
-        """The coming edge."""
+        """The next edge."""
         return self.queue.now + 1
 
     def run(self, t: int) -> None:
@@ -53,25 +53,25 @@ class Bench:
         self.queue.now = t
 
     def wait(self, us: float) -> None:
-        """Run for so many us."""
+        """Run for `us` microseconds."""
         self.run(self.queue.now + round(us * self.per_us))
 
     def rest(self) -> None:
-        """Run until a motion has ended by itself."""
+        """Run until a motion has ended without a stop."""
         while self.motion.busy:
             edge = self.queue.next_edge()
             assert edge is not None
             self.run(edge)
 
     def do(self, action: Callable[[int], None], phase: Phase = Phase.STORE) -> int:
-        """Call action(t) in the coming edge t, and run it."""
+        """Call action(t) at the next edge t, and run this edge."""
         t = self.t
         self.queue.at(t, phase, action)
         self.run(t)
         return t
 
     def change(self, **registers: int) -> int:
-        """Registers have these values after the coming edge."""
+        """Set registers at the next edge; return this edge."""
 
         def write(t: int) -> None:
             self.settings.load(registers)
@@ -80,17 +80,17 @@ class Bench:
         return self.do(write)
 
     def start(self, count: int | None) -> int:
-        """A displacement, or speed mode for None; returns the edge of t = 0."""
+        """Start a displacement, or the speed mode for None; return the edge of t = 0."""
         motion = self.motion
         t = self.do(motion.run if count is None else lambda t: motion.start(t, count))
         return self.us.edge_of(self.us.first(t + self.shared.pace.plan))
 
     def halt(self) -> int:
-        """Stop at once in the coming edge."""
+        """Stop immediately at the next edge."""
         return self.do(self.motion.halt, Phase.GUARD)
 
     def references(self) -> tuple[int, int, int, int]:
-        """phase_a_ref, its sign, phase_b_ref, its sign."""
+        """Return phase_a_ref, its sign, phase_b_ref, its sign."""
         levels = self.log.levels
         a, b = (levels[f"phase_{x}_ref"] for x in "ab")
         return a, levels["phase_a_sign"], b, levels["phase_b_sign"]
@@ -98,9 +98,9 @@ class Bench:
 
 @dataclass
 class Made:
-    """An undisturbed or disturbed motion in us: steps as (us, speed, stage), updates as (us, speed), its end.
+    """A motion in us: steps as (us, speed, stage), updates as (us, speed), and its end.
 
-    goal: of the first ramp. braked_at: us of the update that began the final deceleration.
+    goal: target of the first ramp. braked_at: us of the update that began the final deceleration.
     """
 
     engine: Engine
@@ -112,18 +112,21 @@ class Made:
 
     @property
     def intervals(self) -> list[int]:
-        """us between steps, the first from t = 0."""
+        """Times between steps in us, the first from t = 0."""
         times = [0, *(t for t, *_ in self.steps)]
         return [b - a for a, b in zip(times, times[1:], strict=False)]
 
 
 def undisturbed(target: int) -> Callable[[int], Live]:
-    """The registers as they stay."""
+    """Return registers that do not change."""
     return lambda t: Live(target)
 
 
 def make(order: Order, live: Callable[[int], Live] | None = None, updates: int = 1 << 40) -> Made:
-    """The steps of a motion; live(t): registers at t us. Ends after so many updates in any case."""
+    """Return the steps of a motion; live(t): registers at t us.
+
+    The motion ends after `updates` updates in any case.
+    """
     live = live or undisturbed(order.target)
     engine = Engine(order)
     made = Made(engine, engine.goal, updates=[(0, engine.speed)])

@@ -1,7 +1,7 @@
-"""Motion engine of the PMC006B4 microsecond by microsecond, to compare the golden model with (P006 14.3).
+"""Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model (P006 14.3).
 
-Written after the rules of chapter 5, with rational arithmetic and one state per register, and slow. It
-shares nothing with the golden model.
+It is written according to the rules of chapter 5, with rational arithmetic and one state for each register,
+and it is slow. It shares no code with the golden model.
 """
 
 from __future__ import annotations
@@ -16,13 +16,16 @@ def slope(n: int) -> int:
 
 
 def full(progress: Fraction, up: bool) -> int:
-    """A share of a ramp in units of 2^-32, at most 1."""
+    """Return the share of a ramp in units of 2^-32, at most 1."""
     scaled = progress * 2**32
     return min(2**32, ceil(scaled) if up else floor(scaled))
 
 
 class Reference:
-    """steps: (us, speed); ends when `done`. target(t), off(t): live target, speed mode switched off."""
+    """Reference motion; it ends when `done`.
+
+    steps: (us, speed). target(t): live target. off(t): whether the speed mode is switched off.
+    """
 
     def __init__(
         self,
@@ -81,7 +84,7 @@ class Reference:
         self.u = 0
 
     def look(self) -> None:
-        """advance()."""
+        """Evaluate the state after an update, as advance() of the rules."""
         off = self.n is None and self.off(self.t)
         if self.phase in ("STOP", "END") and not off:
             self.phase, self.seen = "CRUISE", self.v
@@ -119,7 +122,7 @@ class Reference:
         return self.origin + (way if self.to > self.origin else -way)
 
     def tick(self) -> None:
-        """One microsecond."""
+        """Run one microsecond."""
         self.t += 1
         update = self.since == 99
         self.since = 0 if update else self.since + 1
@@ -142,7 +145,7 @@ class Reference:
             self.look()
 
     def run(self, last: int) -> Reference:
-        """Until the end, or `last` us at most."""
+        """Run to the end, but at most `last` us."""
         while not self.done and self.t < last:
             self.tick()
         return self

@@ -1,5 +1,7 @@
-"""Acceptance checks AC-01 to AC-67 on the golden model: those of the RTL, which stand once, but literally,
-with 9600 baud at 16 MHz; and some that last too long for the RTL.
+"""Acceptance checks AC-01 to AC-67 on the golden model.
+
+They are the tests of the RTL with the literal values of the manual, 9600 baud at 16 MHz, and some checks that
+last too long for the RTL.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ OTHERS = (
 @pytest.mark.parametrize("build", OTHERS, ids=[build.name for build in OTHERS])
 @verifies("P006-AC-48", "P006-AC-53")
 def test_ac_48(build: Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The checks without an EEPROM under other parameters, in the short form that the RTL has."""
+    """The checks without an EEPROM pass with other parameters, in the short form of the RTL."""
     monkeypatch.setattr(Host, "literal", False)
     run = 0
     for name in SHORT:
@@ -42,7 +44,7 @@ def test_ac_48(build: Config, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @verifies("P006-AC-29", "P006-EXC-40")
 def test_ac_29() -> None:
-    """The bit streams, which are on no record: as many ones in 256 clk as the reference says."""
+    """In 256 cycles, the unrecorded bit streams have the number of ones that the reference states."""
 
     async def check() -> None:
         host = await ready(OnModel(F16))

@@ -111,7 +111,7 @@ def test_peak_code() -> None:
 
 @verifies("P006-EXC-13", "P006-EXC-24", "P006-EXC-22")
 def test_references_within_64_clk() -> None:
-    """All four change at once after each step, update, and change of a register."""
+    """All four references change together after each step, update, and change of a register."""
     bench = Bench(cur=1000, vmax=3000, vstart=3000, vstop=3000, mstep=0)
     bench.wait(10)
     bench.start(40)
@@ -124,14 +124,14 @@ def test_references_within_64_clk() -> None:
     changes = sorted({edge.t for edge in bench.log.edges if edge.signal in names})
     for cause in causes:
         assert any(cause < t <= cause + 64 for t in changes)
-    # In cruise at angle 64 + 4 * 128: 13 more, advanced by 57 units.
+    # At constant speed at angle 64 + 4 * 128: 13 more, advanced by 57 units.
     levels = [bench.log.of(f"phase_{x}_ref", bench.steps[7]) for x in "ab"]
     assert (levels[0][0][1], levels[1][0][1]) == (7, 77)
 
 
 @verifies("P006-EXC-23", "P006-EXC-12")
 def test_the_advance_has_the_sense_of_the_motion() -> None:
-    """At angle 64, 57 units: 121 forward, 7 backward."""
+    """The advance has the direction of the motion: 57 units from angle 64 are 121 forward, 7 backward."""
     for direction, b, a in ((1, 77, 7), (0, 7, 77)):
         bench = Bench(cur=1000, vmax=3000, vstart=3000, vstop=3000, mstep=0, dir=direction)
         bench.start(None)
@@ -199,6 +199,6 @@ def test_free() -> None:
     a, b = references(angle, 64)
     assert bench.references() == (*a, *b)
     assert bench.log.levels["bridge_a_en"] == bench.log.levels["bridge_b_en"] == 1
-    # The idle time has not begun again.
+    # The idle time has not been restarted.
     bench.run(t + 100_010 * 16)
     assert bench.drive.decayed

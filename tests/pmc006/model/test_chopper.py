@@ -26,12 +26,12 @@ class Phases:
         self.chopper = Chopper(self.queue, times, lambda *change: self.changes.append(change))
 
     def at(self, t: int, what: str, *levels: int) -> None:
-        """A cause at edge t: `compare`, `reference` or `enable`."""
+        """Schedule a cause at edge t: `compare`, `reference` or `enable`."""
         phase = Phase.LEVELS if what == "compare" else Phase.PIN
         self.queue.at(t, phase, lambda now: getattr(self.chopper, what)(now, *levels))
 
     def run(self, t: int) -> list[tuple[int, int, int]]:
-        """All edges up to t; the changes of the commands since the last call, without repetitions."""
+        """Run all edges up to t; return the changes of the commands since the last call, each once."""
         while (edge := self.queue.next_edge()) is not None and edge <= t:
             self.queue.now = edge - 1
             self.queue.run_edge(edge)
@@ -81,7 +81,7 @@ def test_comparator_ends_the_pulse_after_blanking() -> None:
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(0, "reference", 100, 1)
-    # The new sign costs a clk. Early: the end of blanking counts; late: at once.
+    # The new sign takes one cycle. Early: the end of blanking is used; late: immediately.
     phases.at(325, "compare", 1)
     phases.at(338, "compare", 0)
     assert phases.run(656) == [(321, 0, 1), (337, 0, 0)]
@@ -101,7 +101,7 @@ def test_changes_of_the_reference() -> None:
     phases.at(0, "enable", True)
     phases.at(10, "reference", 100, 0)
     assert phases.run(400) == [(320, 1, 0)]
-    # Another height does not disturb, another sign turns off and counts anew.
+    # Another height has no effect; another sign switches off and restarts the time.
     phases.at(401, "reference", 101, 0)
     phases.at(500, "reference", 101, 1)
     assert phases.run(900) == [(501, 0, 0), (821, 0, 1)]
@@ -115,7 +115,7 @@ def test_changes_of_the_reference() -> None:
 
 @verifies("P006-CHP-04", "P006-CHP-03")
 def test_a_reference_of_0_lets_the_current_fall() -> None:
-    """It ends nothing; the comparator goes on deciding, but OFF follows OFF instead of ON."""
+    """A reference of 0 ends no pulse: the comparator is still used, but OFF follows OFF instead of ON."""
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(10, "reference", 100, 0)
@@ -124,12 +124,12 @@ def test_a_reference_of_0_lets_the_current_fall() -> None:
     assert phases.run(819) == [(320, 1, 0), (500, 0, 0)]
     phases.at(900, "compare", 0)
     assert phases.run(900) == [(820, 0, 1), (900, 0, 0)]
-    # 1220, 1540, 1860: nothing to do; then a current once more.
+    # 1220, 1540, 1860: no change; then a current again.
     phases.at(2000, "compare", 1)
     assert phases.run(2179) == []
     assert phases.run(2340) == [(2180, 0, 1), (2340, 0, 0)]
     phases.at(2341, "compare", 0)
-    # A reference that comes back on the edge of a decision is late for it by one clk.
+    # A reference that returns at the edge of a decision is one cycle too late for it.
     phases.at(2660, "reference", 7, 0)
     assert phases.run(2979) == []
     assert phases.run(2980) == [(2980, 1, 0)]
@@ -228,7 +228,7 @@ def test_stream_has_as_many_ones_as_the_reference_says() -> None:
 @pytest.mark.parametrize("tau", [64, 128, 256])
 @verifies("P006-EXC-40")
 def test_ripple_behind_a_low_pass(tau: int) -> None:
-    """Peak to peak at most 256 / tau codes, tau in clk: what the manual says about the filter."""
+    """The ripple after a low-pass filter is at most 256 / tau codes (tau in cycles), as the manual states."""
     keep = exp(-1 / tau)
     for ref in (1, 31, 85, 127, 128, 255):
         stream, level, seen = Stream(0), float(ref), []
@@ -241,7 +241,7 @@ def test_ripple_behind_a_low_pass(tau: int) -> None:
 
 @verifies("P006-CHP-05", "P006-EXC-40", "P006-CHP-01")
 def test_pins() -> None:
-    """Comparator pin to both outputs low: 2 clk; each phase has its own."""
+    """Both outputs are low 2 cycles after the comparator pin; each phase has its own comparator."""
     bench = Bench(**SETUP)
     bench.wait(100)
     assert [bench.log.levels[pin] for pin in ("m10", "m11", "m20", "m21")] == [1, 0, 1, 0]

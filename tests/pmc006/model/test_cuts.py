@@ -1,4 +1,4 @@
-"""A save of the PMC006B4 cut off at any edge of the EEPROM's lines: old or new settings, never neither."""
+"""A save of the PMC006B4 cut off at any edge of the EEPROM's lines leaves old or new settings."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from openppmc.model.pmc006.settings import LEGAL, PLACES, Settings, page_of, val
 
 CLK_HZ, BAUD, COPY = 8_000_000, 115_200, 0x360
 RELEASES = {"together": ((1, 1),), "scl first": ((1, 0), (1, 1)), "sda first": ((0, 1), (1, 1))}
-"""Levels of SCL and SDA as a reset lets both go; the pull-ups may be unequal."""
+"""Levels of SCL and SDA as a reset releases both; the pull-ups may be unequal."""
 
 
 @cache
 def lines(page: bytes) -> tuple[tuple[int, int], ...]:
-    """What the part makes of both lines while it saves the settings of `page`, change by change."""
+    """Return the levels that the part drives on both lines while it saves the settings of `page`."""
     part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
     part.run_until(CLK_HZ // 500)
     values = values_of(page)
@@ -43,8 +43,7 @@ def lines(page: bytes) -> tuple[tuple[int, int], ...]:
 
 
 def cuts(content: bytes, changes: tuple[tuple[int, int], ...], release: str) -> Iterator[bytes]:
-    """Content of the EEPROM when none, one, two .. of these changes have been made, and then both lines are
-    let go."""
+    """Yield the content of the EEPROM after 0, 1, 2 .. of these changes and the release of both lines."""
     chip = Eeprom24C32(CLK_HZ, content, write_us=0)
     for t, levels in enumerate(((1, 1), *changes)):
         _look(chip, t, *levels)
@@ -60,17 +59,20 @@ def _look(chip: Eeprom24C32, t: int, scl: int, sda: int) -> None:
 
 
 def judged(memory: bytes) -> dict[str, int] | None:
-    """What a boot makes of it (13.2, step 5): the block, else its copy."""
+    """Return the settings that a boot loads (13.2, step 5): from the block, else from its copy."""
     return values_of(memory[:32]) or values_of(memory[COPY : COPY + 32])
 
 
 def some(rng: random.Random) -> bytes:
-    """A page of any legal settings."""
+    """Return a page of any legal settings."""
     return page_of(Settings(**{name: rng.choice(list(LEGAL[name])) for name in PLACES}))  # type: ignore[call-overload]
 
 
 def mixes(old: bytes, new: bytes) -> bool:
-    """Whether a page of bytes from both has a right sum by chance: nobody could tell (one change in 256)."""
+    """Return whether a page with bytes of both pages has a correct sum by chance.
+
+    This case, one change in 256, cannot be detected.
+    """
     torn = [new[:place] + old[place:] for place in range(1, 32)]
     return any(values_of(page) is not None for page in torn if page not in (old, new))
 
@@ -79,7 +81,10 @@ def mixes(old: bytes, new: bytes) -> bool:
 @pytest.mark.parametrize("seed", range(2))
 @verifies("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
 def test_a_cut_at_any_edge_of_the_lines(seed: int, release: str) -> None:
-    """Over EEPROMs that have a copy, that have none yet, and one whose copy is torn already."""
+    """A cut at any edge of the lines leaves old or new settings.
+
+    The EEPROM has a copy, no copy yet, or a copy that is already torn.
+    """
     rng = random.Random(seed)
     old = new = some(rng)
     while old == new or mixes(old, new):
@@ -102,7 +107,7 @@ def test_a_cut_at_any_edge_of_the_lines(seed: int, release: str) -> None:
 
 @verifies("P006-EEP-10")
 def test_the_copy_goes_first() -> None:
-    """The order is what keeps one of the two whole."""
+    """The copy is written first, so that one of the two is always complete."""
     new = page_of(Settings(addr=9, mstep=64))
     changes = lines(new)
     halves = list(cuts(b"", changes, "together"))

@@ -1,4 +1,4 @@
-"""Motions of the PMC006B4 against a model that works microsecond by microsecond; properties of every move."""
+"""Motions of the PMC006B4 compared with a model in steps of one microsecond; properties of every move."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ COEFFICIENT = st.integers(0, 5)
 
 
 def compare(order: Order, changes: dict[int, tuple[int, bool]], straight: bool, last_us: int) -> None:
-    """changes: us -> target and speed mode off from then on."""
+    """Compare engine and reference; changes: us -> (target, speed mode off) from then on."""
 
     def at(t: int) -> tuple[int, bool]:
         return next((what for since, what in reversed(changes.items()) if since <= t), (order.target, False))
@@ -60,7 +60,7 @@ def test_same_as_the_reference(seed: int) -> None:
 
 @verifies("P006-MOT-42")
 def test_back_to_speed_between_the_ramp_and_the_end() -> None:
-    """W10, but N=1 comes when the STOP ramp is complete: in the last 100 us before its end."""
+    """In W10, N=1 after the STOP ramp, in the last 100 us before its end, returns to the target speed."""
     changes = {100_000: (3200, True), 202_150: (3200, False)}
     compare(Order(None, 600, 600, 3200, 3, 3), changes, False, 500_000)
     made = make(Order(None, 600, 600, 3200, 3, 3), lambda t: Live(3200, stop=100_000 <= t < 202_150), 5000)
@@ -79,7 +79,7 @@ def test_target_zero_and_back() -> None:
 
 @verifies("P006-MOT-21", "P006-MOT-52")
 def test_target_below_the_start_speed() -> None:
-    """Only the analog target can be: no plan, and no deceleration behind it."""
+    """Only the analog target can be below the start speed: there is no plan and no deceleration then."""
     assert plan(1000, 600, 400, 500, 2, 3) == Plan(500, 2, 3)
     made = make(Order(1000, 600, 400, 350, 2, 3))
     assert {speed for _, speed in made.updates} == {350} and made.engine.braked is None
@@ -95,7 +95,7 @@ def test_short_moves_know_no_maximum_speed(target: int) -> None:
 
 
 def check_move(made: Made, order: Order) -> None:
-    """5.5, for constant parameters."""
+    """Check the properties of 5.5 for constant parameters."""
     n, steps = order.n, made.steps
     assert n is not None and len(steps) == n
     speeds = [speed for _, speed in made.updates]
@@ -113,7 +113,7 @@ def check_move(made: Made, order: Order) -> None:
         assert 2 <= sum(stage is Stage.CREEP for *_, stage in steps) <= 4
     engine = made.engine
     for first, later in zip(speeds, speeds[10:], strict=False):
-        # Two ramps may meet in the ten updates.
+        # Two ramps may be in the ten updates.
         n_of = engine.acc if later >= first else engine.dec
         assert abs(later - first) <= 1.5 * acceleration(n_of) * 1.02 / 1000 + 2 or engine.braked
 
@@ -151,7 +151,7 @@ def test_speed_mode(vs: int, ve: int, target: int, acc: int, dec: int) -> None:
     assert speeds[0] == min(vs, target) and max(speeds) <= target
     top = speeds.index(max(speeds))
     assert speeds[:top] == sorted(speeds[:top])
-    # Straight or curved: the ramp down lasts as long as its mean acceleration says, and one update to see it.
+    # The deceleration lasts as long as its mean acceleration requires, plus one update to detect the stop.
     there = dict(made.updates)[400_000]
     down = max(0, there - ve) / acceleration(dec) * 1e6
     assert -1 <= made.end - 400_000 - down <= 201

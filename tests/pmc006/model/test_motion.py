@@ -1,4 +1,4 @@
-"""Motions of the PMC006B4 on clk edges: t = 0, steps, ends, stops, live registers (P006 4.3, 5.1..5.7)."""
+"""Motions of the PMC006B4 at clock edges: t = 0, steps, ends, stops, live registers (P006 4.3, 5.1..5.7)."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_backwards_in_speed_mode() -> None:
 @verifies("P006-MOT-42", "P006-STA-14")
 @pytest.mark.parametrize(("early", "ends"), [(0, False), (1, False), (-1, True)])
 def test_withdrawn_on_the_last_edge(early: int, ends: bool) -> None:
-    """N=1 on the edge that would end the motion is in time, one clk later it is not."""
+    """N=1 at the edge that would end the motion is in time; one cycle later it is not."""
     probe = Bench(**SETUP)
     bench = Bench(**SETUP)
     for one in (probe, bench):
@@ -108,7 +108,7 @@ def test_latched_and_live_registers() -> None:
 @pytest.mark.parametrize("seed", range(6))
 @verifies("P006-MOT-30", "P006-MOT-50", "P006-MOT-51", "P006-MOT-52")
 def test_live_targets(seed: int) -> None:
-    """Registers and strobes at random edges; a change counts from the first update behind it."""
+    """Registers and strobes at random edges take effect at the first update after the change."""
     rng = random.Random(seed)
     analog = seed % 2
     bench = Bench(8_000_000, **SETUP, analog=analog)
@@ -162,14 +162,14 @@ def test_analog_full_scale() -> None:
 @pytest.mark.parametrize("late", [0, 1])
 @verifies("P006-MOT-51")
 def test_a_strobe_on_the_edge_of_the_copy_is_too_late(late: int) -> None:
-    """The copy of update 100 has the value of the edge before."""
+    """The copy of update 100 has the value of the previous edge."""
     bench = Bench(vmax=8000, analog=1, vstart=100)
     bench.do(partial(_strobe, bench, 1023), Phase.PINS)
     origin = bench.start(None)
     bench.run(origin + 10_000 * 16 - 2 + late)
     bench.do(partial(_strobe, bench, 1), Phase.PINS)
     bench.wait(250)
-    # It has begun to fall, or goes on to rise.
+    # The speed has begun to fall, or continues to rise.
     engine = bench.motion.engine
     assert engine and engine.goal == (8000 if late else 7)
 
@@ -229,7 +229,7 @@ def test_compensation_in_a_ramp_is_one_update_old() -> None:
 
 @verifies("P006-STL-01")
 def test_steady_speed() -> None:
-    """The answer is one update old, so that it does not depend on the length of an advance."""
+    """The answer is delayed by one update, so that it does not depend on the duration of an advance."""
     bench = Bench(**SETUP)
     origin = bench.start(2000)
     made = make(Order(2000, 600, 600, 3200, 3, 3))

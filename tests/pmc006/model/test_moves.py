@@ -17,7 +17,7 @@ from openppmc.model.pmc006.motion.engine import (
 )
 from tests.pmc006.model.bench import Made, make
 
-# N, VSTART, VSTOP, VMAX, coefficients set and in force, goal, highest speed, us and steps left at the final
+# N, VSTART, VSTOP, VMAX, coefficients set and used, goal, highest speed, us and steps left at the final
 # deceleration, steps in creep, end, last speed, first and last intervals.
 MOVES = """
 M01 1 600 600 3200 3/3 3/3 600 600 - - - 1667 600 1667 1667
@@ -72,7 +72,7 @@ ROWS = [line.split() for line in MOVES.strip().splitlines()]
 
 
 def row_of(cells: list[str]) -> list[str]:
-    """The row of the table as the model makes the move."""
+    """Return the row of the table for the move that the model makes."""
     n, vs, ve, vmax = map(int, cells[1:5])
     acc, dec = map(int, cells[5].split("/"))
     made = make(Order(n, vs, ve, vmax, acc, dec))
@@ -101,7 +101,7 @@ def test_move(cells: list[str]) -> None:
 
 
 def fits(gaps: list[int], pattern: str) -> bool:
-    """Whether intervals begin and end as a pattern with `..` says."""
+    """Return whether intervals begin and end like a pattern with `..`."""
     head, _, tail = pattern.partition("..")
     first, last = ([int(word) for word in part.split(",")] for part in (head, tail or head))
     return gaps[: len(first)] == first and gaps[-len(last) :] == last
@@ -135,7 +135,7 @@ def test_w5_the_peak_falls() -> None:
     made = make(Order(256, 600, 600, 16_000, 3, 3))
     assert fits(made.intervals, "1661,1621,1551,1467,1375,1287..1605,1652,1667,1667,1666")
     assert made.engine.braked and made.engine.braked[0] == 127
-    # The deceleration begins as soon as the stopping distance has come into reach.
+    # The deceleration begins as soon as the stopping distance is reached.
     assert made.engine.braked[0] <= reach(made.engine.braked[1], 600, 5)
 
 
@@ -151,7 +151,7 @@ def test_w6_a_ramp_lasts_as_long_as_a_straight_one() -> None:
 
 
 def off_from(t: int, target: int) -> Made:
-    """Speed mode 600..target, switched off at t us."""
+    """Run speed mode from 600 to `target`, switched off at t us."""
     return make(Order(None, 600, 600, target, 3, 3), lambda now: Live(target, stop=now >= t))
 
 

@@ -36,13 +36,16 @@ def test_worked_frames(text: str) -> None:
 
 
 def take(assembler: Assembler, line: bytes) -> list[Command]:
-    """Commands in a stream of bytes."""
+    """Return the commands in a stream of bytes."""
     return [found for byte in line if (found := assembler.take(byte))]
 
 
 @verifies("P006-FRM-01", "P006-FRM-02", "P006-FRM-06", "P006-FRM-08", "P006-BAD-01", "P006-BAD-02")
 def test_assembler_on_random_streams() -> None:
-    """Whole frames, junk without 0xA5, broken frames: exactly the good ones come out, with their data."""
+    """The assembler returns exactly the valid frames of a stream, with their data.
+
+    The stream has whole frames, random bytes without 0xA5, and damaged frames.
+    """
     for seed in range(40):
         rng, line, wanted = random.Random(f"frames {seed}"), b"", []
         for _ in range(60):
@@ -63,7 +66,7 @@ def test_assembler_on_random_streams() -> None:
 
 @verifies("P006-UART-05", "P006-FRM-03")
 def test_pins_of_a_reply() -> None:
-    """80 contiguous bits, start bit at 2 Tb, de from 1 Tb to 82 Tb."""
+    """A reply has 80 contiguous bits with the start bit at 2 Tb, and de is high from 1 Tb to 82 Tb."""
     changes = changes_of(reply(0xFF, 0x08))
     assert changes[0] == (1, "de", 1) and changes[-1] == (82, "de", 0)
     levels, level = [], 1
@@ -79,7 +82,7 @@ def test_pins_of_a_reply() -> None:
 
 @verifies("P006-CMD-48", "P006-BAD-07")
 def test_code_table() -> None:
-    """49 codes are known, V among them, which is ours; the 207 others are one and the same nothing."""
+    """49 codes are known, including V, an addition of this project; the other 207 have the same entry."""
     known = "ABEFGIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
     assert sorted(LETTERS) == sorted(known) and len(TABLE) == 256
     assert {chr(code) for code in range(256) if TABLE[code] is not UNKNOWN} == set(known)
@@ -122,7 +125,7 @@ def test_pages() -> None:
 
 
 def patched(*changes: tuple[int, int], repair: bool = True) -> bytes:
-    """The factory page with other bytes, and the sum that goes with them."""
+    """Return the factory page with other bytes, and with a matching sum if `repair` is true."""
     page = bytearray(FACTORY_PAGE)
     for place, value in changes:
         page[place] = value
@@ -137,7 +140,7 @@ PAIRS = {12: (65, 3000), 14: (65, 3000), 16: (100, 1200), 18: (300, 2000), 20: (
 
 @verifies("P006-BAD-14", "P006-EEP-01")
 def test_validity_of_every_byte_and_field() -> None:
-    """All 256 values of each byte, all ends of each pair; only the fields that are looked at count."""
+    """A page is valid for the legal values of each byte and pair; only the fields in use are checked."""
     for place in range(31):
         for value in range(256):
             if place < 3:
@@ -180,7 +183,7 @@ def test_validity_of_programs() -> None:
 
 @verifies("P006-BAD-16", "P006-PRG-20")
 def test_opcodes() -> None:
-    """Fields of the words; 0x15 and all above are END."""
+    """The words decode to their fields; opcode 0x15 and all above are END."""
     assert sorted(OPERATIONS) == list(range(0x15))
     for opcode in range(256):
         operation, option, operand = decode(0xABCD_5A00 | opcode, 0xFFFF_FFFE)

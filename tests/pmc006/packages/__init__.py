@@ -1,1 +1,1 @@
-"""The C driver of the PMC006B4, compiled and run."""
+"""Tests of the PMC006B4 C driver, compiled and run."""

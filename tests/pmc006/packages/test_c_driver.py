@@ -20,7 +20,7 @@ TOP = "pmc006_line"
 
 @pytest.fixture(scope="module")
 def lines() -> Lines:
-    """Lines that tb/cdriver/frame_test.c printed: first words -> its lines, each as name -> value."""
+    """Return the lines of tb/cdriver/frame_test.c: first words -> its lines, each as name -> value."""
     design = part_design("pmc006", F8)
     models = [ROOT / "tb" / "pmc006" / "eeprom_24c32.sv", BENCH / f"{TOP}.sv"]
     design = replace(design, sources=[*design.sources, *models])
@@ -29,13 +29,13 @@ def lines() -> Lines:
 
 
 def end(lines: Lines, name: str) -> dict[str, int]:
-    """Decoded end of a motion."""
+    """Return the decoded end of a motion."""
     line = next(line for line in lines[name] if "wait" in line)
     return {key: int(value) for key, value in line.items() if key not in ("at", "text")}
 
 
 def position(lines: Lines, name: str) -> tuple[int, int]:
-    """(result, position) of a line."""
+    """Return (result, position) of a line."""
     return int(lines[name][0]["result"]), int(lines[name][0]["position"])
 
 
@@ -43,7 +43,7 @@ def position(lines: Lines, name: str) -> tuple[int, int]:
     ("name", "steps", "at"), [("move", 400, 500), ("back", -50, 450), ("F lost", 60, 137)]
 )
 def test_move(lines, name, steps, at):
-    """A move makes the ordered steps, and its end is confirmed; even if the reply to the start was lost."""
+    """A move makes the commanded steps, and its end is confirmed, also if the reply to the start was lost."""
     got = end(lines, name)
     assert (got["wait"], got["complete"], got["steps"], got["position"]) == (OK, 1, steps, at)
     assert pulses(lines, name)[:2] == (max(steps, 0), max(-steps, 0))
@@ -58,7 +58,7 @@ def test_positions(lines):
 
 
 def test_speed_mode_and_stops(lines):
-    """A run ends with its ramp or at once; a move has no decelerating stop (P006-CMD-06, P006-CMD-11)."""
+    """A run ends with its ramp or immediately; a move has no deceleration stop (P006-CMD-06, P006-CMD-11)."""
     for name in ("open", "speed", "zero", "run", "faster", "slowly", "stop"):
         assert result(lines, name)[0] == OK, name
     slowly, stop = end(lines, "slowly"), end(lines, "stop")
@@ -70,7 +70,7 @@ def test_speed_mode_and_stops(lines):
 
 
 def test_switch_and_home(lines):
-    """EXT2 ends a move and refuses the next; homing finds EXT1, moves off and sets 0 (P006-EXT-01)."""
+    """EXT2 ends a move and rejects the next; homing finds EXT1, moves off it and sets 0 (P006-EXT-01)."""
     got = end(lines, "ext")
     assert (got["wait"], got["complete"], got["ext1"], got["ext2"]) == (OK, 0, 0, 1)
     assert result(lines, "ext refused")[0] == REFUSED
@@ -81,7 +81,7 @@ def test_switch_and_home(lines):
 
 
 def test_settings(lines):
-    """Each setting accepts its whole range, reads it back, and nothing beyond is sent."""
+    """Each setting accepts its whole range and reads it back; no value beyond it is sent."""
     assert len(lines["setting"]) == 14
     for line in lines["setting"]:
         assert (line["set"], line["get"], line["ok"]) == ("00", "00", "1"), line
@@ -96,7 +96,7 @@ def test_bad_arguments(lines):
 
 
 def test_outputs_version_release(lines):
-    """Outputs follow, the version is read, and a released motor refuses a move."""
+    """Outputs follow, the version is read, and a released motor rejects a move."""
     assert lines["version"][0]["value"] == str(0x123)
     assert lines["pins"][0]["gpo"] == "15"
     assert [line["result"] for line in lines["release"]] == ["0", "0"]
@@ -104,7 +104,7 @@ def test_outputs_version_release(lines):
 
 
 def test_memory(lines):
-    """Address and current outlast a reset after a save; a missing EEPROM is an error (P006-CMD-41)."""
+    """Address and current are kept over a reset after a save; a missing EEPROM is an error (P006-CMD-41)."""
     for name in ("address", "current", "save", "save again", "open", "program", "burn", "run", "halt"):
         assert result(lines, f"M {name}")[0] == OK, name
     assert lines["M kept"][0]["value"] == "1200"
@@ -112,7 +112,7 @@ def test_memory(lines):
 
 
 def test_program(lines):
-    """A loaded program runs; loading while it runs is refused; a halt keeps the motion (P006-CMD-47)."""
+    """A loaded program runs; loading while it runs is rejected; a halt keeps the motion (P006-CMD-47)."""
     assert result(lines, "M while")[0] == REFUSED
     assert sum(pulses(lines, "M run")[:2]) == 200
     assert lines["M pins"][0]["gpo"] == "02"
@@ -120,7 +120,7 @@ def test_program(lines):
 
 @pytest.mark.parametrize("name", ["sum", "head", "address"])
 def test_damaged_replies(lines, name):
-    """A damaged reply to a reading instruction is asked for again (P006-FRM-01)."""
+    """A damaged reply to a read instruction is requested again (P006-FRM-01)."""
     assert position(lines, f"F {name}") == (OK, 77)
 
 
@@ -132,7 +132,7 @@ def test_lost_reply_to_a_start(lines):
 
 
 def test_reset(lines):
-    """A reset in a motion is an unconfirmed end; after any reset the position is unknown."""
+    """After a reset during a motion its end is unconfirmed; after any reset the position is unknown."""
     assert end(lines, "U move")["wait"] == UNCONFIRMED
     assert position(lines, "U where")[0] == UNKNOWN_POSITION
     assert position(lines, "U set") == (OK, 500)

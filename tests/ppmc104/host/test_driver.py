@@ -197,7 +197,7 @@ def test_leaving_the_block_by_an_exception_brakes() -> None:
 def test_wait_with_a_limit(axis: Ppmc104) -> None:
     motion = axis.start_move(5000)
     before = axis.link.clock()
-    with pytest.raises(Timeout, match="not over after 0.3 s"):
+    with pytest.raises(Timeout, match="motion still in progress after 0.3 s"):
         motion.wait(timeout=0.3)
     assert 0.3 <= axis.link.clock() - before < 0.5
     assert motion.wait().complete

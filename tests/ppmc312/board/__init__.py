@@ -1,1 +1,1 @@
-"""The PPMC-312's virtual boards, behind the bridge and on a line."""
+"""Virtual boards of the PPMC-312, with the bridge and on a line."""

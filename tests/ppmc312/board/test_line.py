@@ -1,4 +1,4 @@
-"""A virtual line of PPMC-312 behind one pseudo-terminal: sixteen stations, pyserial, the command line."""
+"""A virtual line of PPMC-312 on one pseudo-terminal: sixteen stations, pyserial, the command line."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from ...common.board.foreground import foreground
 QUICK = (4000, 8000, 600)
 PART = ("--part", "ppmc312-serial")
 PATIENCE = 5.0
-"""s; RTL of many stations is far from real time."""
+"""s; RTL of many stations is much slower than real time."""
 
 
 @pytest.fixture
 def line() -> Iterator[SimLine]:
-    """A line of all sixteen stations, as fast as it goes: 0.02 of real time while all move."""
+    """Provide a line of all sixteen stations at full speed: 0.02 of real time while all move."""
     with start_line("speed=max,baud=83333,start=100,cw=600,slow_cw=500") as made:
         yield made
 
 
 def test_sixteen_stations(line: SimLine) -> None:
-    """All found, initialised and moved at once; the motors are where they were sent."""
+    """All stations are found, initialised and moved together; the motors reach their positions."""
     with Ppmc312Bus.open(line.port, 83_333, patience=PATIENCE) as bus:
         assert [(one.station, one.version, one.trouble) for one in bus.scan()] == [
             (number, 0x12, "") for number in range(16)
@@ -53,7 +53,7 @@ def test_sixteen_stations(line: SimLine) -> None:
 
 
 def test_one_program_after_the_other(line: SimLine, openppmc: CommandLine) -> None:
-    """What one command does the next one finds; the set-up is remembered for each station."""
+    """A command keeps the state that the previous one left; the set-up of each station is stored."""
     run = (*PART, "--baud", "83333")
     setup = ("--start", "4000", "--high", "8000", "--ramp", "600")
     assert openppmc.run(line.port, *run, "init", "--axis", "2,5", *setup)[0] == 0
@@ -71,7 +71,7 @@ def test_one_program_after_the_other(line: SimLine, openppmc: CommandLine) -> No
 
 
 def test_real_time_and_pace() -> None:
-    """A line with speed=1 does not run ahead of the clock."""
+    """A line with speed=1 does not run faster than the clock."""
     with start_line("stations=1") as line, Ppmc312Bus.open(line.port, patience=PATIENCE) as bus:
         axis = bus.axis(0)
         axis.initialise(*QUICK)
@@ -83,7 +83,7 @@ def test_real_time_and_pace() -> None:
 
 def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
     """`--port sim` starts a line for one command."""
-    start_line("stations=2").close()  # the first one says that it is being built
+    start_line("stations=2").close()  # the first command prints that the line is being built
     code, out, err = openppmc.run("sim:stations=2,speed=max", *PART, "poll", "--axis", "0,1", "--count", "1")
     assert (code, out, err) == (0, "station 0: ready\nstation 1: ready\n", "")
     code, out, err = openppmc.run("sim:stations=20", *PART, "scan")
@@ -91,7 +91,7 @@ def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
 
 
 def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
-    """`make board PART=ppmc312-serial`: a name for the port, an end with Ctrl-C."""
+    """`make board PART=ppmc312-serial` provides a name for the port and ends with Ctrl-C."""
     link = tmp_path / "line"
     command = [sys.executable, "-m", "openppmc.sim", "part=ppmc312-serial", f"stations=3,link={link}"]
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -108,7 +108,7 @@ def test_line_in_the_foreground(tmp_path: Path, until: Wait) -> None:
 
 
 def test_wrong_speed_and_echo(line: SimLine) -> None:
-    """The line hears nonsense at another speed; an echo is told from a reply."""
+    """At another speed the line receives invalid frames; an echo is distinguished from a reply."""
     with Ppmc312Bus.open(line.port, 19_200) as bus, pytest.raises(StationSilent, match="speed"):
         bus.axis(0).version()
     with start_line("stations=1,echo=on") as echoing:
@@ -119,7 +119,10 @@ def test_wrong_speed_and_echo(line: SimLine) -> None:
 
 
 def test_taken_unplugged_and_strange_ports(line: SimLine, until: Wait) -> None:
-    """One master at a time; a port that goes away; a terminal with nobody behind it."""
+    """One master can open a port at a time.
+
+    A port that disappears raises Disconnected; a terminal without stations has an empty scan result.
+    """
     with Ppmc312Bus.open(line.port, 83_333, patience=PATIENCE) as bus:
         with pytest.raises(PortError, match="close it first"):
             Ppmc312Bus.open(line.port, 83_333)

@@ -1,1 +1,1 @@
-"""The PPMC-312's commands behind the bridge."""
+"""Commands of the PPMC-312 with the bridge."""

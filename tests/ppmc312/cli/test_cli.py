@@ -19,7 +19,7 @@ SHORT = "2500,3\n5000,4\n10000,5\n"
 
 @pytest.fixture
 def curve(tmp_path: Path) -> str:
-    """A file with a short free curve."""
+    """Provide a file with a short free curve."""
     path = tmp_path / "curve.csv"
     path.write_text(SHORT)
     return str(path)
@@ -219,7 +219,7 @@ def test_refusals_are_one_line(run: Run, words: tuple[str, ...], message: str, c
 
 
 def test_ctrl_c_decelerates(run: Run, tmp_path: Path) -> None:
-    curve = tmp_path / "slow.csv"  # a loaded machine keeps up with it in real time
+    curve = tmp_path / "slow.csv"  # slow enough for a busy machine to run in real time
     curve.write_text("250,3\n500,4\n1000,5\n")
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()

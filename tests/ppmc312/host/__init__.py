@@ -1,1 +1,1 @@
-"""The PPMC-312's driver behind the bridge, and its blocks of bytes."""
+"""Driver of the PPMC-312 with the bridge, and its blocks of bytes."""

@@ -1,4 +1,4 @@
-"""Bytes of the PPMC-312: instruction blocks, responses, tables, by the worked examples of its rules."""
+"""Bytes of the PPMC-312: instruction blocks, responses and tables of the worked examples of its rules."""
 
 from __future__ import annotations
 
@@ -92,7 +92,10 @@ def test_transactions_of_the_rules(row: int, block: bytes, start: int, wanted: s
 
 
 def test_free_curve_of_the_rules() -> None:
-    """Rows 34 to 36; with a deceleration of its own the number of its stages comes behind."""
+    """The blocks of a free curve equal rows 34 to 36.
+
+    With a separate deceleration, the number of its stages follows.
+    """
     blocks = blocks312.free_curve(1, [100, 200, 400], [5, 4, 3])
     assert [blocks312.bus_order(block).hex(" ") for block in blocks] == [
         "03 01 01 03 02",
@@ -162,7 +165,7 @@ NUMBERS = [
     *(0x10, 0x11, 0x15, 0x16, 0x17, 0x18, 0x19, 0x1A),
     *(0x20, 0x21, 0x23, 0x24, 0x25, 0x26, 0x27),
 ]
-"""Of the parameter abnormality (section 10.2 of the rules)."""
+"""Numbers of the parameter abnormality (section 10.2 of the rules)."""
 
 
 @pytest.mark.parametrize(("response", "kind", "text"), REFUSALS, ids=[r[0] for r in REFUSALS])
@@ -224,7 +227,7 @@ def test_responses_whose_length_is_wrong() -> None:
 
 
 def test_status_and_inputs() -> None:
-    """Each bit where the rules have it (P312-CMD-4D, -27)."""
+    """Each bit of status and inputs has the place that the rules state (P312-CMD-4D, -27)."""
     rest = Status.parse(bytes([0x00, 0x02, 0x00]))
     assert (rest.state, rest.busy, rest.run_monitored, rest.overrides) == (State.NOR, False, True, 0)
     names = ("interlock", None, "encoder_watched", "position_watched", "end_monitored")
@@ -249,7 +252,7 @@ def test_status_and_inputs() -> None:
 
 
 def test_base_clock_by_the_slowest_speed() -> None:
-    """The fastest one whose 65 535 ticks are long enough."""
+    """The planned base clock is the fastest with which 65 535 ticks are long enough for the slowest speed."""
     for slowest, clk in ((5000, 0), (123, 0), (122, 1), (15.3, 1), (7.7, 2), (4, 3), (1, 4), (0.3, 5)):
         setup = PPMC312.plan(XTAL, Wanted(start_pps=slowest, high_pps=7000, ramp_pulses=9_000_000))
         assert setup.clock.clk == clk, slowest
@@ -261,7 +264,7 @@ def test_base_clock_by_the_slowest_speed() -> None:
 
 
 def test_initial_settings() -> None:
-    """Bytes of the tables T1 to T5 of the rules."""
+    """Initial settings have the bytes of the tables T1 to T5 of the rules."""
     examples: list[tuple[dict[str, object], str]] = [
         ({}, "09 00 01 03 E8 00 C8 00 07 D0"),
         ({"sigmoid": True}, "09 00 09 03 E8 00 C8 00 07 D0"),
@@ -335,7 +338,7 @@ def test_bad_setups_are_told_before_they_are_sent(arguments: dict[str, object], 
 
 
 def test_prediction_of_a_move() -> None:
-    """Examples E13 and E17 of the rules, and a constant speed; what the part would refuse is refused."""
+    """Predictions equal examples E13 and E17 of the rules; input that the part would reject is rejected."""
     one, two = "01 03e8 00c8 0007d0", "11 03e8 01f4 00c8 0007d0 0005dc"
     move = predict_move(bytes.fromhex(one), 5000, part="ppmc312")
     assert isinstance(move, TableMove) and (move.kind, len(move.clk)) == (0, 5000)
@@ -362,7 +365,7 @@ def test_prediction_of_a_move() -> None:
 
 
 def test_free_curve_with_a_deceleration_of_its_own() -> None:
-    """Table TG of the rules: three stages up, two down."""
+    """A curve with three stages up and two down has the blocks of table TG of the rules."""
     setup = plan_curve(MEGAHERTZ, [(2500, 3), (5000, 4, 4), (10_000, 5, 6)])
     assert [block.hex(" ") for block in setup.blocks] == [
         "02 04 01 11 03 02",
@@ -417,6 +420,6 @@ def test_a_curve_that_is_no_text(tmp_path: Path) -> None:
 
 
 def test_seconds_of_a_ramp() -> None:
-    """Three, four and five intervals of 400, 200 and 100 us."""
+    """The duration of a ramp is that of three, four and five intervals of 400, 200 and 100 us."""
     setup = plan_curve(MEGAHERTZ, [(2500, 3), (5000, 4), (10_000, 5)])
     assert setup.seconds(setup.table.pa) == pytest.approx(float(Fraction(2500, 1_000_000)))

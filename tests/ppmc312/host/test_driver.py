@@ -69,7 +69,7 @@ TF = ((2500, 3), (5000, 4), (10_000, 5))
 
 @contextmanager
 def board(plant: str = "", curve: bool = True) -> Iterator[Ppmc312]:
-    """A part with the short table TF, or with none."""
+    """Provide a part with the short table TF, or without a table."""
     with Ppmc312.open(f"model:speed=max,part=ppmc312,{plant}") as part:
         if curve:
             part.load_curve(TF, base_clock=1_000_000)
@@ -83,20 +83,20 @@ def part() -> Iterator[Ppmc312]:
 
 
 def model(part: Ppmc312) -> Carrier:
-    """The modelled board."""
+    """Return the modelled board."""
     assert isinstance(part.link.port, ModelPort)
     assert isinstance(part.link.port.board, Carrier)
     return part.link.port.board
 
 
 def messages(part: Ppmc312) -> int:
-    """Scripts that the bridge has carried out."""
+    """Return the number of scripts that the bridge has executed."""
     assert isinstance(part.link.port, ModelPort)
     return part.link.port.bridge.scripts
 
 
 def gaps(part: Ppmc312, act: Callable[[], object]) -> list[int]:
-    """Ticks of 1 us between the pulses while `act` runs, by looking over the board's shoulder."""
+    """Return the intervals between the pulses of `act` in ticks of 1 us, recorded in the modelled board."""
     seen: list[int] = []
     machine = model(part)
     real = machine._follow
@@ -124,7 +124,10 @@ def test_what_answers_is_checked() -> None:
 
 
 def test_opening_clears_what_others_left() -> None:
-    """A read answer, half of it read, and a report; without that the next instruction would be an alarm."""
+    """Opening the driver reads all that another program has left: a half-read answer and a report.
+
+    Otherwise the next instruction would cause an alarm.
+    """
     port = ModelPort("speed=max,part=ppmc312")
     link = Link(port)
     block = blocks.bus_order(blocks.block(Code.STATUS))
@@ -140,7 +143,7 @@ def test_opening_clears_what_others_left() -> None:
 
 
 def test_an_instruction_is_one_message(part: Ppmc312) -> None:
-    """There and back, whatever its answer's size."""
+    """An instruction and its answer are one message, regardless of the size of the answer."""
     for ask in (part.version, part.status, lambda: part.position, part.inputs, part.excitation_on):
         before = messages(part)
         ask()
@@ -148,7 +151,7 @@ def test_an_instruction_is_one_message(part: Ppmc312) -> None:
 
 
 def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
-    """The end of a motion waits in the window when the next instruction is sent."""
+    """A stop report that the read window holds when the next instruction is sent is not lost."""
     part.start_constant(2, 10_000)
     part.link.pause(0.01)
     assert model(part).part.core.responses.any_waiting
@@ -158,7 +161,7 @@ def test_reports_that_come_first_are_not_lost(part: Ppmc312) -> None:
 
 
 def test_words_of_the_machine() -> None:
-    """A cam for every part; encoder words only here."""
+    """Every part has a cam in the machine options; encoder options exist only for this part."""
     (plant,) = parse_machine("part=ppmc312").plants
     assert [plant.levels(at)["origin"] for at in (-51, -50, 0, 1)] == [1, 0, 0, 1]
     assert [at for at in range(-450, 450) if not plant.index_level(at)] == [-420, -20, 380]
@@ -212,7 +215,7 @@ def test_without_a_table() -> None:
 
 
 def test_what_the_part_itself_refuses(part: Ppmc312) -> None:
-    """Blocks that the driver's own checks would never let out."""
+    """Blocks that the driver itself never sends are rejected by the part with the right exception."""
     for block, kind, text in (
         (blocks.initial_setting(1, 1000, 1, 2000), RateRefused, "high rate 2 to 65519"),
         (blocks.initial_setting(1, 1000, 200, 761), TableRefused, "2 pulses"),
@@ -239,7 +242,7 @@ def test_a_speed_outside_the_table(part: Ppmc312) -> None:
 
 
 def test_pulses_of_a_move(part: Ppmc312) -> None:
-    """Examples E1 and E3 of the rules, and a constant speed."""
+    """Moves equal examples E1 and E3 of the rules, and a constant speed has constant intervals."""
     assert gaps(part, lambda: part.move(30)) == [400] * 3 + [200] * 4 + [100] * 16 + [200] * 4 + [400] * 2
     assert part.motion is not None and part.motion.shape == "trapezoid"
     assert gaps(part, lambda: part.move(-23)) == [400] * 3 + [200] * 4 + [100] * 9 + [200] * 4 + [400] * 2
@@ -262,7 +265,7 @@ def test_ends(part: Ppmc312) -> None:
 
 def test_progress_and_timeout(part: Ppmc312) -> None:
     motion = part.start_move(5000)
-    with pytest.raises(Timeout, match="not over after 0.2 s"):
+    with pytest.raises(Timeout, match="motion still in progress after 0.2 s"):
         motion.wait(0.2)
     now = motion.poll()
     assert now is not None and 0 < now.made == now.position < now.asked == 5000
@@ -285,7 +288,7 @@ def test_only_what_the_state_allows(part: Ppmc312) -> None:
 
 
 def test_stops_and_changes_of_speed(part: Ppmc312) -> None:
-    """A ramp of twelve pulses after the stop; at the stop speed there is none (LOW)."""
+    """After stop a ramp of twelve pulses follows; at the stop speed there is no ramp (LOW)."""
     motion = part.jog(CW, high=True)
     part.attend(0.05)
     end = part.stop()
@@ -352,7 +355,7 @@ def test_limits_and_alarm() -> None:
 
 
 def test_speed_limit(part: Ppmc312) -> None:
-    """A motion slower than the limit goes on at an active slow-down limit."""
+    """A motion slower than the limit continues at an active slow-down limit."""
     part.limit_speed(6000)
     model(part).set_pins(fhl_n=0)
     assert part.move_constant(10, 5000).complete
@@ -366,8 +369,10 @@ def test_speed_limit(part: Ppmc312) -> None:
 @pytest.mark.parametrize("start", [4000, 5, 0, -20, -60, -500])
 @pytest.mark.parametrize("way", [{}, {"fast": True}, {"to_limit": True}, {"index": True}])
 def test_home_finds_one_place(start: int, way: dict[str, bool]) -> None:
-    """The CW edge of the cam (-50..0), or the index on it (-20), wherever it begins; beyond the cam only a
-    search from a limit does."""
+    """Homing from any position ends at the CW edge of the cam (-50..0), or at the index on it (-20).
+
+    If the motor starts beyond the cam, only a search from a limit finds it.
+    """
     with board(f"start={start},cw=4200,slow_cw=4100,ccw=-900,slow_ccw=-600") as part:
         if start < -50 and "to_limit" not in way:
             with pytest.raises(OriginNotFound, match="limit switch came before the origin"):
@@ -385,7 +390,7 @@ def test_zero_return_and_search(part: Ppmc312) -> None:
     assert model(part).position == 0
     part.move(300)
     end = part.zero_return(CCW).wait()
-    # Phase 1 walks on for twelve pulses, phase 2 comes back to the cam that it has not left.
+    # Phase 1 decelerates for twelve pulses, phase 2 returns to the cam, which it has not left.
     assert end.finish == Bit.ORIGIN and model(part).position == -12
 
 
@@ -410,7 +415,7 @@ def test_overrides(part: Ppmc312) -> None:
 
 
 def test_overrides_that_fail(part: Ppmc312) -> None:
-    """A change of speed with a ramp on a ramp; the stop behind it is dropped with it."""
+    """A change of speed with a ramp fails on a ramp, and the following stop is discarded with it."""
     part.override_speed(5000, at=5)
     part.override_stop(at=100)
     assert part.move(500).complete
@@ -425,7 +430,7 @@ def test_overrides_that_fail(part: Ppmc312) -> None:
 
 
 def test_overrides_too_close_together(part: Ppmc312) -> None:
-    """The answer of the first is unread when the second comes: the part goes into alarm (P312-RSP-20)."""
+    """An override while the answer of the previous one is unread causes an alarm (P312-RSP-20)."""
     part.override_speed(5000, at=200)
     part.override_speed(10_000, at=201)
     with pytest.raises(AlarmStop):
@@ -486,7 +491,10 @@ def test_event_buffers(part: Ppmc312) -> None:
 
 
 def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An event's step begins and ends just before the start; its answer and its stop report come first."""
+    """The stop report of another motion does not end a motion that starts after it.
+
+    The step of an event begins and ends just before the start; its answer and its stop report arrive first.
+    """
     part.event_add(1, blocks.single_step(CW))
     monkeypatch.setattr(part.link, "forget_events", lambda: part.pulse_event(1))
     motion = part.start_constant(200, 2500)
@@ -494,7 +502,7 @@ def test_the_end_of_another_motion_is_no_end_of_ours(part: Ppmc312, monkeypatch:
     assert part.next_report() == Executed(Source.EVENT, Code.STEP)
     assert part.next_report() == Stopped(Bit.NORMAL, 1)
     with pytest.raises(ProtocolError, match="201 of 200 pulses counted, position 201"):
-        motion.wait()  # something else moved the motor after the order
+        motion.wait()  # the event moved the motor after the start
 
 
 def test_an_event_that_fails(part: Ppmc312) -> None:
@@ -511,7 +519,7 @@ def test_an_event_that_fails(part: Ppmc312) -> None:
 
 
 def test_encoder_that_stands() -> None:
-    """The axle meets an obstacle 50 pulses on; the pulses go on."""
+    """If an obstacle stops the axle after 50 pulses, the pulses continue and both monitors report it."""
     with board("block=4050") as part:
         part.watch_encoder(20)
         part.watch_position(20)
@@ -592,7 +600,7 @@ def test_terminals(part: Ppmc312) -> None:
 
 
 def test_reset(part: Ppmc312) -> None:
-    """Both kinds, and in the middle of a motion."""
+    """Both kinds of reset end a motion and clear all state."""
     for reset in (part.reset, part.software_reset):
         part.load_curve(TF, base_clock=1_000_000)
         part.jog(CW)
@@ -616,7 +624,7 @@ def test_a_part_in_reset_is_told(part: Ppmc312) -> None:
 
 
 def test_datasheet_timing() -> None:
-    """Building takes its 115 ms, a reset 1.6 ms; the driver has the patience."""
+    """With DATASHEET timing, building takes 115 ms and a reset 1.6 ms; the driver waits for this time."""
     with board("timing=DATASHEET", curve=False) as part:
         begin = part.link.clock()
         part.initialise()
@@ -631,7 +639,7 @@ def test_datasheet_timing() -> None:
 
 
 def test_crystal_and_clock() -> None:
-    """Speeds are those that were asked for, whatever the crystal."""
+    """Speeds are those that were requested, regardless of the crystal."""
     with board("xtal=8000000,clk=27000000", curve=False) as part:
         part.initialise(1000, 5000, 2000)
         motion = part.start_constant(500, 2500)

@@ -1,1 +1,1 @@
-"""The PPMC-312 in serial mode: driver, command line, frames, faults of the line."""
+"""Tests of the PPMC-312 in serial mode: driver, command line, frames, faults of the line."""

@@ -1,4 +1,4 @@
-"""Ports for tests of the PPMC-312's line: which frames are spoiled, and a bus on such a port."""
+"""Ports for tests of the PPMC-312's line: plans of spoiled frames, and a bus on such a port."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ BAUD = 38_400
 
 
 def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
-    """A plan: the first `times` frames with this serial code meet that fate."""
+    """Return a plan in which the first `times` frames with this serial code have that fate."""
     left = times
 
     def plan(frame: bytes) -> str | None:
@@ -25,6 +25,6 @@ def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
 
 
 def spoiled(text: str = "stations=2") -> tuple[Spoiled, Ppmc312Bus]:
-    """Such a port, and a bus on it."""
+    """Return such a port, and a bus on it."""
     port = Spoiled("speed=max," + text, BAUD, "ppmc312-serial")
     return port, Ppmc312Bus.open(port, BAUD)

@@ -142,7 +142,7 @@ def test_commands_of_a_line_belong_to_it(run: Run) -> None:
 
 
 def test_ctrl_c_stops_all_motors(run: Run) -> None:
-    """The first Ctrl-C decelerates them."""
+    """The first Ctrl-C decelerates all motors."""
     timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     outcome = run(*PART, "--port", "model:stations=2", "jog", "cw", "--axis", "0,1", "--start", "1000")
@@ -173,7 +173,7 @@ stop
 
 
 def test_script_monitor_and_info(run: Run, tmp_path: Path) -> None:
-    """Given a line, then scripts, `monitor` and `info` work as with a single part."""
+    """On a line, scripts, `monitor` and `info` work as with a single part."""
     file = tmp_path / "run.txt"
     file.write_text(SCRIPT)
     out = run(*PART, "script", str(file)).out

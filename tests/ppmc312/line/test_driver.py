@@ -1,4 +1,4 @@
-"""The driver of PPMC-312 on a line, with the modelled stations and in virtual time."""
+"""Driver of the PPMC-312 on a line, with the modelled stations and in virtual time."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ from openppmc.model.ppmc312.codes import Source, State
 from tests.common.host.line_ports import Played
 
 FAST = (4000, 8000, 600)
-"""Start speed, high speed, ramp: a table whose motions cost the model little."""
+"""Start speed, high speed, ramp: a table whose motions need little simulation time."""
 SPEED = 83_333
 
 
 @contextmanager
 def line(text: str = "stations=2", initialised: int | None = 1) -> Iterator[Ppmc312Bus]:
-    """A line with one station initialised."""
+    """Provide a line with one station initialised."""
     with Ppmc312Bus.open(f"model:speed=max,{text}", SPEED) as bus:
         if initialised is not None:
             bus.axis(initialised).initialise(*FAST)
@@ -66,7 +66,7 @@ def line(text: str = "stations=2", initialised: int | None = 1) -> Iterator[Ppmc
 
 
 def pins(bus: Ppmc312Bus, station: int, **levels: int) -> None:
-    """Pins of a station's part; the others are those of the plant."""
+    """Set pins of a station's part; the other pins are those of the plant."""
     bus.line.port.line.station(station).set_pins(**levels)  # type: ignore[attr-defined]
 
 
@@ -98,11 +98,11 @@ def test_several_stations_at_once() -> None:
         assert seen and seen[-1].asked == 2100 and 0 < seen[-1].made <= 2100
         assert bus.axis(3).status().state is State.NOR and not bus.wait([])
         motions = [bus.axis(3).jog(CW), bus.axis(6).jog(CCW, high=True)]
-        with pytest.raises(Timeout, match=r"station 3, 6: not over after 0.05 s"):
+        with pytest.raises(Timeout, match=r"station 3, 6: motion still in progress after 0.05 s"):
             bus.wait(timeout=0.05)
         ends = bus.stop()
         assert [end.cause for end in ends] == [Cause.STOP, Cause.STOP] and not bus.stop()
-        with pytest.raises(OutOfRange, match="started by nobody"):
+        with pytest.raises(OutOfRange, match="no motion to wait for"):
             bus.wait([bus.axis(4)])
 
 
@@ -225,7 +225,7 @@ def test_overrides() -> None:
         motion = axis.jog(CW)
         pins(bus, 1, evt0_n=0)
         end = motion.wait()
-        assert end.finish == Bit.LOW and end.cause is Cause.STOP  # the override's work, not a limit's
+        assert end.finish == Bit.LOW and end.cause is Cause.STOP  # caused by the override, not by a limit
         for _ in range(8):
             axis.override_stop(at=100_000)
         with pytest.raises(RegistrationRefused, match="station 1: all places are taken"):
@@ -323,7 +323,7 @@ def test_checksums_of_characters_and_echo() -> None:
 
 
 def test_a_slower_crystal() -> None:
-    """All speeds go with it, that of the line, too."""
+    """All speeds scale with the crystal, also that of the line."""
     with Ppmc312Bus.open("model:speed=max,stations=1,xtal=8000000", xtal_hz=8_000_000) as bus:
         axis = bus.axis(0)
         assert bus.line.baud == 9600
@@ -337,7 +337,7 @@ def test_a_slower_crystal() -> None:
 def test_datasheet_timing_is_waited_for() -> None:
     with Ppmc312Bus.open("model:speed=max,stations=1,timing=DATASHEET") as bus:
         axis = bus.axis(0)
-        bus.line.pause(0.002)  # it hears nothing so soon after its reset
+        bus.line.pause(0.002)  # the station ignores frames so soon after its reset
         axis.initialise(*FAST)
         assert axis.move(5).complete and axis.counters.repeated == 0
 

@@ -28,7 +28,7 @@ STARTS: dict[int, tuple[Callable[[Station312], object], int]] = {
 @pytest.mark.parametrize("fate", ANY_FATE)
 @pytest.mark.parametrize("code", STARTS)
 def test_a_start_with_a_fault_moves_once(code: int, fate: str) -> None:
-    """Whatever happens to the frame or to its reply: the motor goes exactly as far as it was told."""
+    """With any fault of the frame or of its reply, the motor moves exactly the commanded distance."""
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -56,7 +56,7 @@ def test_an_endless_start_with_a_lost_reply() -> None:
 
 
 def test_a_stop_whose_reply_is_lost_may_come_too_late() -> None:
-    """The repeat is refused, as the motor rests already; that is no error."""
+    """A repeated stop that is rejected because the motor has already stopped is not an error."""
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -70,7 +70,7 @@ def test_a_stop_whose_reply_is_lost_may_come_too_late() -> None:
 
 
 def test_a_start_is_known_by_the_position_alone() -> None:
-    """The reply to the start is lost, and the poll that would have told its end: the motor has moved."""
+    """If the replies to a start and to the poll with its end are lost, the position proves the motion."""
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -171,7 +171,7 @@ def test_what_nobody_can_know_is_told() -> None:
 
 @pytest.mark.parametrize("fate", [LOSE_REPLY, BREAK_REPLY])
 def test_a_lost_poll_does_not_lose_the_end(fate: str) -> None:
-    """The reply that carried the END code is gone: it is read again, as is an alarm."""
+    """If the reply with the END code is lost, the code is read again, and so is an alarm."""
     port, bus = spoiled("stations=2,alarm=3850..3900")
     with bus:
         axis = bus.axis(1)
@@ -202,7 +202,10 @@ def test_a_reset_station_has_no_motion_any_more() -> None:
 
 
 def test_a_damaged_order_that_looks_good_is_noticed() -> None:
-    """Bit 7 of a data byte is not in the checksum."""
+    """A damaged instruction with a valid checksum is detected by the position at its end.
+
+    Bit 7 of a data byte is not part of the checksum.
+    """
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -218,7 +221,7 @@ def test_a_damaged_order_that_looks_good_is_noticed() -> None:
 
 
 HERE, BLIND = "A1 30 30 30 30 30 30 32 34 3A", "A1 30 30 30 30 30 30 61 34 3A"
-"""Position 24h, and the same frame with bit 7 of the byte turned over: the checksum fits as well."""
+"""Position 24h, and the same frame with bit 7 of the byte inverted: its checksum is valid, too."""
 REST, MOVES = "A1 30 30 30 32 30 30 5C", "A1 30 30 30 34 30 30 5A"
 
 
@@ -230,7 +233,10 @@ def test_a_damaged_position_that_looks_good_is_read_again() -> None:
 
 
 def test_a_motion_explains_two_positions() -> None:
-    """Without a table of its own the master knows no speed, but that there is one at all."""
+    """Two different positions are valid during a motion, not at standstill.
+
+    Without a table of its own the master knows no speed, only that the motor moves.
+    """
     further = "A1 30 30 30 30 30 30 32 35 39"
     port, axis = station(HERE, further, MOVES, MOVES)
     assert axis.position == 0x25 and axis.counters.garbled == 0
@@ -239,7 +245,7 @@ def test_a_motion_explains_two_positions() -> None:
 
 
 class Blind:
-    """Turns bit 7 of the last byte of the next `left` replies with a position."""
+    """Inverts bit 7 of the last byte of the next `left` replies with a position."""
 
     def __init__(self, left: int) -> None:
         self._left, self._place = left, 0
@@ -256,7 +262,7 @@ class Blind:
 
 
 def test_a_jump_is_no_motion() -> None:
-    """At 8000 pulses/s nobody goes 128 pulses in the time of a frame."""
+    """A position that differs by 128 pulses is read again: 8000 pulses/s are too slow for this difference."""
     port, bus = spoiled()
     with bus:
         axis = bus.axis(1)
@@ -277,14 +283,14 @@ def test_positions_that_never_agree() -> None:
 
 
 def test_a_damaged_status_is_read_again() -> None:
-    """Bit 7 of the first byte: RUN monitored or not."""
+    """A status with bit 7 of the first byte inverted (RUN monitored or not) is read again."""
     port, axis = station("A1 38 30 30 32 30 30 5C", REST, REST)
     assert axis.status().run_monitored and axis.counters.garbled == 1
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_noisy_line(seed: int) -> None:
-    """One character in 150 damaged: repeats, but every move is the right one."""
+    """With one character in 150 damaged, frames are repeated, but every move has the right distance."""
     with Ppmc312Bus.open(f"model:speed=max,stations=2,noise=150,seed={seed}", 38_400, patience=0.03) as bus:
         axis = bus.axis(1)
         line = bus.line.port.line  # type: ignore[attr-defined]
@@ -296,7 +302,7 @@ def test_a_noisy_line(seed: int) -> None:
                 wanted += pulses
                 assert line.station(1).position == wanted, seed
         except (PpmcError, ValueError) as error:
-            # A flipped bit 7 gets through the checksum, now and then; then it is said.
+            # A flipped bit 7 is not detected by the checksum in a few cases; then an error is raised.
             assert isinstance(error, LinkError) or "station 1" in str(error), seed
 
 
@@ -357,7 +363,7 @@ def test_an_unplugged_port() -> None:
 
 
 def station(*replies: str, echo: bool = False, option: bool = False) -> tuple[Played, Station312]:
-    """Station 1 on a port that plays replies."""
+    """Return station 1 on a port that plays replies."""
     port = Played(*replies, echo=echo)
     return port, Ppmc312Bus.open(port, 38_400, echo=option).axis(1)
 
@@ -390,9 +396,9 @@ def test_only_noise() -> None:
 @pytest.mark.parametrize(
     "reply",
     [
-        "91 6E",  # ready, but data was asked for
+        "91 6E",  # ready, but data was requested
         "81 7E",  # busy
-        "A1 62 32 1B",  # no version, broken checksum
+        "A1 62 32 1B",  # not a version, invalid checksum
         "B1 30 30 4E",  # an error code that does not exist
         "A1 30 30 38 32 30 30 5C",  # a state with bit 7 flipped
     ],

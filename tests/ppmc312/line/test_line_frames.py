@@ -1,4 +1,4 @@
-"""Frames of the PPMC-312's serial mode: chapter 12 of the rules byte for byte, checksums, broken replies."""
+"""Frames of the PPMC-312's serial mode: chapter 12 of the rules byte for byte, checksums, damaged replies."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from openppmc.host.ppmc312.line.wire import (
 )
 from openppmc.model.ppmc312.codes import Code
 
-# Station 1; the numbers are those of chapter 12, where the first block has its flags from the sheet's T1.
+# Station 1; the numbers are those of chapter 12. The first block has the flags of T1 in the data sheet.
 INSTRUCTIONS = {
     "1 initial T1": (
         blocks.initial_setting(1, 1000, 200, 2000),
@@ -137,7 +137,7 @@ def test_replies_of_chapter_12(wire: str) -> None:
 
 
 def test_the_checksum_of_the_sheet_both_ways() -> None:
-    """The sheet's second example (chapter 11, check 57): 09 by the text, 4D as it is printed."""
+    """The second example of the data sheet (chapter 11, check 57) has 09 by its text and 4D as printed."""
     data = bytes.fromhex("001011225566abcdef")
     assert checksum(0x91, data) == 0x09 and checksum(0x91, data, SumMode.CHARS) == 0x4D
     assert frame(POLL | 1, mode=SumMode.CHARS) == b"\x81\x7f"
@@ -215,7 +215,7 @@ def test_stations_have_numbers() -> None:
 
 
 def test_replies_read_as_the_bus_answers() -> None:
-    """What the parallel driver expects, chapter 12 again: 24, 28, 29, 30."""
+    """Replies are converted to the answers that the parallel driver expects (chapter 12: 24, 28, 29, 30)."""
     position = response(blocks.read_position(True), Reply(1, DATA, bytes.fromhex("12345678")))
     assert position.raw.hex(" ") == "03 06 42 01 12 34 56 78"
     assert response(blocks.block(Code.VERSION), Reply(1, DATA, b"\x12")).raw.hex(" ") == "03 02 40 12"

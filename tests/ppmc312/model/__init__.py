@@ -1,1 +1,1 @@
-"""The PPMC-312's golden model: acceptance checks (played on the RTL, too), tables, plans, properties."""
+"""Golden model of the PPMC-312: acceptance checks (also run on the RTL), tables, plans, properties."""

@@ -1,4 +1,4 @@
-"""The clock that the 65 ns write strobes of the PPMC-312's data sheet need (R-07)."""
+"""The clock frequency that the 65 ns write strobes of the PPMC-312's data sheet require (R-07)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CSR, ENABLES = 0, 0x70
 
 
 def written(clk_hz: int, phase: Fraction) -> int:
-    """Write ENABLES to CSR with the shortest strobe of the data sheet; return what CSR has then.
+    """Write ENABLES to CSR with the shortest strobe of the data sheet; return the content of CSR afterwards.
 
     phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late, as a
     synchroniser may do.
@@ -45,14 +45,14 @@ def written(clk_hz: int, phase: Fraction) -> int:
 
 
 def phases(clk_hz: int) -> list[Fraction]:
-    """Places of the data's change between two edges; the second one is the worst."""
+    """Return times of the data change between two edges; the second one is the worst case."""
     period = Fraction(10**9, clk_hz)
     return [Fraction(0), Fraction(1, 10**9), *(period * n / 8 for n in range(1, 8))]
 
 
 @pytest.mark.parametrize(("offset", "taken"), [(-1, False), (0, True), (1, True)])
 def test_least_clock(offset: int, taken: bool) -> None:
-    """At 57.2 MHz the written byte is right at each phase of the clock, one Hz below the bound it is not."""
+    """At 57.2 MHz the written byte is correct at each phase of the clock, 1 Hz below the bound it is not."""
     clk_hz = LEAST + offset
     found = [written(clk_hz, phase) for phase in phases(clk_hz)]
     assert (set(found) == {ENABLES}) == taken, found

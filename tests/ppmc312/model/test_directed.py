@@ -1,4 +1,4 @@
-"""The directed tests of the PPMC-312 on the golden model: those of the RTL, which stand once."""
+"""The directed tests of the PPMC-312 RTL, run on the golden model."""
 
 from __future__ import annotations
 

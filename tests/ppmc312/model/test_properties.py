@@ -1,4 +1,4 @@
-"""Any move of the PPMC-312 on its pins: exact pulse times, widths and counts against the closed formulas."""
+"""Any move of the PPMC-312 at its pins has the pulse times, widths and counts of the closed formulas."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from openppmc.model.ppmc312.stages import DIVIDERS, constant, curve, ramped
 
 
 def free_curve(clk: int, rates: list[int], pa: list[int], pd: list[int]) -> list[str]:
-    """Blocks of a free curve with its own deceleration list."""
+    """Return the blocks of a free curve with a separate deceleration list."""
     blocks = [f"02 04 01 {0x10 | clk:02X} {len(pa):02X} {len(pd):02X}"]
     for width, values in ((2, rates), (3, pa), (3, pd)):
         for k in range(0, len(values), 10):
@@ -25,7 +25,7 @@ def free_curve(clk: int, rates: list[int], pa: list[int], pd: list[int]) -> list
 
 @st.composite
 def settings(draw: st.DrawFn) -> tuple[int, list[int], list[int], list[int]]:
-    """Base clock, rates and pulses of a small curve, fastest stage first."""
+    """Draw base clock, rates and pulses of a small curve, fastest stage first."""
     clk = draw(st.integers(0, 2))
     least = 16 if clk == 0 else 4
     rates = sorted(draw(st.lists(st.integers(least, 600), min_size=2, max_size=14)))

@@ -31,12 +31,12 @@ ROM = [
 
 
 def weighted(values: tuple[int, ...]) -> int:
-    """Sum of (i + 1) x value."""
+    """Return the sum of (i + 1) x value."""
     return sum((i + 1) * value for i, value in enumerate(values))
 
 
 def error(*arguments: object, **options: object) -> int | None:
-    """Error number of a refused setting."""
+    """Return the error number of a rejected setting, or None."""
     try:
         build(*arguments, **options)  # type: ignore[arg-type]
     except SettingError as refused:
@@ -80,7 +80,7 @@ def test_sides_start_at_their_own_rates() -> None:
 
 @verifies("P312-TBL-02", "P312-TBL-03")
 def test_equal_first_rates_belong_to_the_slower_side() -> None:
-    """Rounding makes R[1] = R[0]: the slower side starts at stage 0 all the same, the other at its last."""
+    """If rounding makes R[1] = R[0], the slower ramp starts at stage 0, the other at its last stage."""
     table = build(300, 300, 100, 3000, 0, sigmoid=True, separate=False)
     assert table.rates[:8] == (300, 300, 300, 299, 299, 298, 297, 296)
     assert (table.sa, table.sd, table.slowest, table.na) == (0, 0, 300, 3000) and min(table.pa) > 2
@@ -118,8 +118,10 @@ def test_error_boundaries() -> None:
 )
 @verifies("P312-TBL-02", "P312-TBL-04", "P312-TBL-06")
 def test_any_table(start: int, stop: int, high: int, total: int, sigmoid: bool) -> None:
-    """Every setting gives an error number or a table that keeps the promises of 5.1, by the engine's
-    formulas."""
+    """Every setting results in an error number or in a table with the properties of 5.1.
+
+    The expected values follow from the formulas of the engine.
+    """
     try:
         table = build(start, stop, high, total, total, sigmoid=sigmoid)
     except SettingError as refused:
@@ -183,7 +185,7 @@ def test_stages_of_the_small_tables() -> None:
 
 
 def fails(blocks: list[tuple[int, str]]) -> int:
-    """Error number of a transfer, the first pair being its code block."""
+    """Return the error number of a transfer; the first pair is its code block."""
     with pytest.raises(SettingError) as refused:
         transfer = FreeCurve(blocks[0][0], bytes.fromhex(blocks[0][1]))
         for header, data in blocks[1:]:

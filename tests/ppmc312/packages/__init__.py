@@ -1,1 +1,1 @@
-"""The C driver of the PPMC-312, compiled and run."""
+"""Tests of the PPMC-312 C driver, compiled and run."""

@@ -19,7 +19,7 @@ TICK = 1
 
 @pytest.fixture(scope="module", params=TIMINGS)
 def lines(request) -> Lines:
-    """Lines that tb/cdriver/block_test.c printed: first words -> its lines, each as name -> value."""
+    """Return the lines of tb/cdriver/block_test.c: first words -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "ppmc312.c", BENCH / "block_test.c", BENCH / "block_bus.cpp"]
     design = part_design("ppmc312", F8)
     params = ("-GCLK_HZ=8000000", timed(request.param))
@@ -30,18 +30,18 @@ both = pytest.mark.parametrize("way", ["bus", "line"])
 
 
 def end(lines: Lines, name: str) -> tuple[int, int, int, int]:
-    """(result, cause, complete, position) of a wait."""
+    """Return (result, cause, complete, position) of a wait."""
     line = next(line for line in lines[name] if "wait" in line)
     return int(line["wait"]), int(line["cause"], 16), int(line["complete"]), int(line["position"])
 
 
 def position(lines: Lines, name: str) -> tuple[int, int]:
-    """(result, position) of a line."""
+    """Return (result, position) of a line."""
     return int(lines[name][0]["result"]), int(lines[name][0]["position"])
 
 
 def reports(lines: Lines, name: str) -> list[tuple[int, int, int]]:
-    """(source, code, first data byte) of the reports of a line."""
+    """Return (source, code, first data byte) of the reports of a line."""
     return [
         (int(line["source"], 16), int(line["code"], 16), int(line["data"], 16))
         for line in lines.get(name, [])
@@ -51,7 +51,7 @@ def reports(lines: Lines, name: str) -> list[tuple[int, int, int]]:
 
 @both
 def test_open(lines, way):
-    """An answering part returns its version (P312-CMD-40)."""
+    """A part that answers returns its version (P312-CMD-40)."""
     assert result(lines, f"{way} open") == (OK, "ok")
     assert lines[f"{way} version"][0]["byte"] == "12"
 
@@ -62,7 +62,7 @@ def test_open(lines, way):
     [("move", 3000, 0, 3100), ("constant", 0, 40, 3060), ("to", 0, 2060, 1000), ("step", 1, 0, 1001)],
 )
 def test_motion(lines, way, name, cw, ccw, at):
-    """A motion makes the ordered pulses in the ordered direction, and its end is confirmed (P312-CMD-82)."""
+    """A motion makes the commanded pulses in the commanded direction and ends confirmed (P312-CMD-82)."""
     assert result(lines, f"{way} {name}")[0] == OK
     assert pulses(lines, f"{way} {name}")[:2] == (cw, ccw)
     assert end(lines, f"{way} {name}") == (OK, NORMAL, 1, at)
@@ -109,7 +109,7 @@ def test_changes_and_stops(lines, way):
 
 @both
 def test_events(lines, way):
-    """An edge of an event pin executes the registered instruction, and a report says so (P312-EVT-01)."""
+    """An edge of an event pin executes the registered instruction, and a report confirms it (P312-EVT-01)."""
     assert result(lines, f"{way} event")[0] == result(lines, f"{way} event move")[0] == OK
     assert [row[:2] for row in reports(lines, f"{way} event 0")] == [(0x0B, 0x26 if way == "bus" else 0xE8)]
     assert lines[f"{way} outputs"][0]["pins"] == "3e"
@@ -130,7 +130,7 @@ def test_switches(lines, way, name, cause):
 
 @both
 def test_limit_alarm_and_run(lines, way):
-    """A limit refuses a start, the alarm state needs its clearing, RUN holds a motion.
+    """A limit rejects a start, the alarm state must be cleared, and RUN holds a motion.
 
     P312-INP-11, P312-INP-20, P312-INP-33.
     """
@@ -175,7 +175,7 @@ def test_only_on_the_bus(lines):
 
 @both
 def test_reset_in_a_motion(lines, way):
-    """A reset in a motion is an unconfirmed end, and the position is unknown (P312-CMD-42)."""
+    """After a reset during a motion its end is unconfirmed, and the position is unknown (P312-CMD-42)."""
     assert end(lines, f"{way} U move")[0] == UNCONFIRMED
     assert position(lines, f"{way} U where")[0] == UNKNOWN_POSITION
     assert position(lines, f"{way} U rest")[0] == UNKNOWN_POSITION
@@ -185,13 +185,13 @@ def test_reset_in_a_motion(lines, way):
 
 
 def test_no_part(lines):
-    """Without a part each wait ends: no part, or a time-out."""
+    """Without a part each wait ends with "no part" or a time-out."""
     assert result(lines, "bus dead")[0] == result(lines, "bus ones")[0] == 17
     assert result(lines, "bus zeros")[0] == BAD_REPLY
 
 
 def test_damaged_replies(lines):
-    """A damaged reply is never taken for a value, even if its checksum is right (P312-SER-13)."""
+    """A damaged reply is never accepted as a value, even if its checksum is valid (P312-SER-13)."""
     for name in ("digit", "blind"):
         assert result(lines, f"line L {name}")[0] == OK
         assert lines[f"line L {name}"][1]["position"] == "1234"

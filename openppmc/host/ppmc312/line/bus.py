@@ -30,11 +30,14 @@ SCAN_ATTEMPTS = 2
 
 @dataclass(frozen=True)
 class Found:
-    """A station that `scan` has found.
+    """Station found by `scan`.
 
-    version, status, position: None if its replies are garbled. errors: its own error counters, which this
-    has cleared; None if it could not be asked (motion, alarm). counters: of the master. trouble: what is
-    wrong, empty if nothing is.
+    Attributes:
+        version, status, position: `None` if the replies are corrupt.
+        errors: error counters of the station, which the scan has cleared; `None` if they could not be read
+            (motion, alarm).
+        counters: counters of the master.
+        trouble: the problem, empty if there is no problem.
     """
 
     station: int
@@ -47,7 +50,7 @@ class Found:
 
 
 class Ppmc312Bus(LineBus[Line, Station312]):
-    """A line (`line.Line`) with stations 0 to 15; see `host.line.bus.LineBus`."""
+    """Line (`line.Line`) with stations 0 to 15; see `host.line.LineBus`."""
 
     kind = KIND
 
@@ -62,7 +65,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         patience: float = PATIENCE,
         xtal_hz: int = XTAL_HZ,
     ) -> Ppmc312Bus:
-        """Open a port; arguments as those of `line.Line`. Says nothing on the line."""
+        """Open a port; the arguments are those of `line.Line`. It sends nothing."""
         return cls(Line(spec, speed, sum_mode, echo, rs485, patience, xtal_hz))
 
     def make(self, station: int) -> Station312:
@@ -71,13 +74,18 @@ class Ppmc312Bus(LineBus[Line, Station312]):
     def look_at(self, axis: Station312) -> None:
         axis.window.collect()
 
-    # ------------------------------------------------------------------ who is there
+    # ------------------------------------------------------------------ search for stations
 
     def scan(
         self, stations: Iterable[int] = range(STATIONS), progress: Callable[[int], None] | None = None
     ) -> list[Found]:
-        """Ask who is there; progress: called with each number before it is asked. Reads and clears the error
-        counters of stations at rest. Takes twice the patience for each address without a station."""
+        """Return the stations of the line.
+
+        An address without a station takes twice the time `patience`.
+
+        It reads and clears the error counters of stopped stations. progress: called with each number before
+        it is polled.
+        """
         found = []
         for number in stations:
             if progress is not None:
@@ -89,7 +97,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         return found
 
     def look(self, axis: Station312) -> Found | None:
-        """One station, None if there is none."""
+        """Return the state of one station, `None` if there is no station."""
         counters, heard = axis.counters, axis.counters.garbled
         try:
             version = axis.window.request(bytes([VERSION]), attempts=SCAN_ATTEMPTS).data[0]
@@ -110,7 +118,10 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         return Found(axis.number, version, status, position, errors, counters, trouble)
 
     def check(self, stations: Iterable[int]) -> None:
-        """All of these answer. Raises StationSilent, or DuplicateAddress where only garbled replies come."""
+        """Check that all these stations reply.
+
+        Raises StationSilent, or DuplicateAddress after corrupt replies only.
+        """
         for number in stations:
             one = self.look(self.axis(number))
             if one is None:
@@ -120,10 +131,10 @@ class Ppmc312Bus(LineBus[Line, Station312]):
             if one.trouble == _GARBLED:
                 raise DuplicateAddress(f"{self.line.name}: station {number}: {_GARBLED}")
 
-    # ------------------------------------------------------------------ several at once
+    # ------------------------------------------------------------------ several stations
 
     def poll(self, stations: Iterable[int] | None = None) -> dict[int, list[Report]]:
-        """Poll stations (default: those in use) once; what they report, for those that report something."""
+        """Poll stations (default: those in use) once; return their reports by station."""
         polled = {axis.number: axis.poll() for axis in self._chosen(stations)}
         return {number: reports for number, reports in polled.items() if reports}
 

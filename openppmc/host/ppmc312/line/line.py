@@ -1,4 +1,7 @@
-"""A line with PPMC-312 in serial mode: a frame and its reply at a time, faults counted, nothing repeated."""
+"""Line with PPMC-312 in serial mode.
+
+It transfers one frame and its reply, counts faults, repeats nothing.
+"""
 
 # ruff: noqa: N818
 
@@ -43,11 +46,11 @@ from .wire import (
 if TYPE_CHECKING:
     from serial.rs485 import RS485Settings
 
-# What stations of a line allow: PPMC-312 in serial mode. Pure.
+# Capabilities of the stations of a line: PPMC-312 in serial mode.
 
 
 class LineKind(profile.TableKind):
-    """Stations are axes, and their numbers begin with 0."""
+    """Capabilities of a line. Stations are axes, and their numbers begin with 0."""
 
     def check_axis(self, axis: int) -> int:
         return station_number(axis)
@@ -64,7 +67,7 @@ KIND = LineKind(
 )
 
 
-# What a line of PPMC-312 and its stations can refuse or get wrong, as exceptions.
+# Errors of a line of PPMC-312 and its stations, as exceptions.
 
 
 class Error(IntEnum):
@@ -101,8 +104,12 @@ _STOPPING = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
 
 
 def refused_serial(who: str, code: int, error: int, state: int | None = None) -> CommandRefused:
-    """The exception for error code `error` of a reply. code: of the instruction on the parallel bus. state:
-    condition of the part as read afterwards, for 43.
+    """Return the exception for error code `error` of a reply.
+
+    Args:
+        who: prefix of the message.
+        code: code of the instruction on the parallel bus.
+        state: condition of the part, read after error 43.
 
     >>> str(refused_serial("station 3: ", 0x82, 0x43, 0x10))
     'station 3: the part is in alarm: remove the cause, then clear the alarm (or reset)'
@@ -134,7 +141,7 @@ def refused_serial(who: str, code: int, error: int, state: int | None = None) ->
 
 
 def failed_serial(who: str, by: Source) -> CommandRefused:
-    """What an override or event interruption (4B, 4A) means."""
+    """Return the exception for an override interruption (4B) or event interruption (4A)."""
     if by is Source.OVERRIDE:
         return OverrideFailed(0, f"{who}an override was not carried out; the others are dropped")
     return EventFailed(0, f"{who}an event's instruction was not carried out; its buffer is empty now")
@@ -144,13 +151,20 @@ XTAL_HZ = 16_000_000
 
 
 class Line(Master[Reply]):
-    """The master's end of a line.
+    """Master of a line.
 
-    spec: any port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, `rfc2217://…`), `sim:…`
-    or `model:…`. speed: 19200, 38400 or 83333 bit/s as the stations' MOD pins say. sum_mode: as the stations
-    are built. echo: the master hears its own bytes (two-wire adapters that never switch their receiver off).
-    rs485: settings of pyserial for adapters whose driver is switched by RTS. patience: s beyond line time
-    until a station is silent. xtal_hz: crystal of the stations; speeds go with it. Raises PortError.
+    Args:
+        spec: any port that pyserial knows (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, `rfc2217://…`),
+            `sim:…` or `model:…`.
+        speed: 19200, 38400 or 83333 bit/s as set by the MOD pins of the stations.
+        sum_mode: checksum rule of the stations.
+        echo: the master receives its own bytes (two-wire adapters that never switch their receiver off).
+        rs485: settings of pyserial for adapters whose driver is switched by RTS.
+        patience: seconds beyond line time until a station counts as silent.
+        xtal_hz: crystal of the stations; the line rates are proportional to it.
+
+    Raises:
+        PortError: the port cannot be opened.
     """
 
     def __init__(
@@ -175,15 +189,24 @@ class Line(Master[Reply]):
         port = open_line(spec, baud, "ppmc312-serial", rs485) if isinstance(spec, str) else spec
         super().__init__(port, baud, echo, patience)
         self.sum_mode = known
-        # Nobody says on the line what timing the stations have: time limits are those of the slower one.
+        # The line does not report the timing of the stations, so the time limits are those of the slower
+        # timing.
         self.identity = Identity(1, 312, True, True, 0, xtal_hz, xtal_hz, STATIONS)
         self.counters = {number: Counters() for number in range(STATIONS)}
 
     # ------------------------------------------------------------------ frames
 
     def exchange(self, station: int, data: bytes | None, gives: int = 1, extra: float = 0.0) -> Reply | Miss:
-        """Send a frame and await the reply. data: code and data of an instruction, None: a poll. gives: bytes
-        of a data reply. extra: s that the station may take longer. Raises LineEcho, Disconnected."""
+        """Send a frame and return its reply.
+
+        Args:
+            data: code and data of an instruction, `None` for a poll.
+            gives: number of data bytes of a data reply.
+            extra: additional time in s that the station may need.
+
+        Raises:
+            LineEcho, Disconnected: the line or the port failed.
+        """
         sent = self._frame(station, data)
         got = self.ask(station, sent, Receiver(station, gives, self.sum_mode), extra)
         if isinstance(got, Miss) and got.heard.startswith(sent) and not self.echo:
@@ -191,7 +214,10 @@ class Line(Master[Reply]):
         return got
 
     def tell(self, station: int, data: bytes | None) -> bytes:
-        """Send a frame, and drop its echo if there is one; returns it. What came before is dropped."""
+        """Send a frame, discard its echo, if any, and return the frame.
+
+        Bytes received earlier are discarded.
+        """
         sent = self._frame(station, data)
         self.send(station, sent)
         return sent

@@ -18,13 +18,13 @@ from .talk import ATTEMPTS, Talk
 from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 
 _MOST_PPS = 4_000_000
-"""Pulses/s that no table exceeds: rate 2 of 8 MHz."""
+"""Speed in pulses/s that no table exceeds: rate 2 at 8 MHz."""
 _ENCODER_SLACK = 64
-"""Counts between two readings that say nothing: half of what the lowest bit 7 is worth."""
+"""Difference in counts of two reads that is accepted: half the value of the lowest bit 7."""
 
 
 class ErrorCounts(NamedTuple):
-    """What a station has counted since they were read last, each up to 255."""
+    """Errors that a station has counted since the last read, up to 255 each."""
 
     framing: int
     overrun: int
@@ -32,40 +32,42 @@ class ErrorCounts(NamedTuple):
 
 
 class SerialMotion(Motion):
-    """A motion whose end shows when its station is polled."""
+    """Motion whose end is detected by polling its station."""
 
     _part: Station312
 
     @property
     def line(self) -> Line:
-        """Where its station is."""
+        """Line of the station."""
         return self._part.link
 
     @property
     def station(self) -> int:
-        """Its number."""
+        """Number of the station."""
         return self._part.number
 
     def now(self) -> Progress:
-        """Where the motor is, or where the motion has ended."""
+        """Return the progress now, or at the end of the motion."""
         position = self._part.position if self.end is None else self.end.position or 0
         made = 0 if self.begin is None else abs(signed((position - self.begin) % (1 << 32)))
         return Progress(position, made, self.asked, self._link.clock() - self._started)
 
     def stopped(self, report: Stopped) -> None:
-        """The end, compared with what was ordered: a damaged order may look good, or a position, which is
-        read again."""
+        """Process the report of the end, and compare it with the order.
+
+        A damaged order or position may look valid. Therefore the position is read again if they do not agree.
+        """
         super().stopped(report)
         if self.unknown is not None:
             self.unknown = None
             super().stopped(Stopped(report.cause, self._part.position))
 
     def look(self) -> None:
-        """Poll the station; sets `end`, or `unknown`, when the motion is over."""
+        """Poll the station; set `end` or `unknown` if the motion is over."""
         window = self._part.window
         window.collect()
         if not self.over and not window.busy:
-            # At rest, but the report was lost on the line.
+            # The motor is stopped, but the report was lost on the line.
             cause = window.end_status()
             if cause is None:
                 self._not_confirmed("the station is at standstill and knows of no motion")
@@ -77,11 +79,12 @@ class SerialMotion(Motion):
 
 
 class Station312(Axis[SerialMotion]):
-    """See `ppmc312.Ppmc312`, whose methods it has; free curves, tables and event buffers cannot be read or
-    written on the line (OutOfRange), and reports come when the station is polled. number: 0 to 15.
+    """One station, with the methods of `ppmc312.Ppmc312`.
 
-    Instructions whose reply is lost are repeated only where that does no harm (`doubt`); LostReply where
-    nobody can know.
+    Free curves, tables and event buffers cannot be accessed on the line (OutOfRange). Reports are read by
+    polling the station. After a lost reply, an instruction is repeated only if that has no side effect
+    (`Doubt`). LostReply is raised where the driver cannot know whether the instruction was executed. number:
+    0 to 15.
     """
 
     kind = KIND
@@ -102,21 +105,25 @@ class Station312(Axis[SerialMotion]):
 
     @property
     def counters(self) -> Counters:
-        """What went wrong between the master and this station."""
+        """Counters of the faults between the master and this station."""
         return self.link.counters[self.number]
 
     # ------------------------------------------------------------------ reports
 
     def hear(self, report: Report) -> None:
-        """A report came with a poll."""
+        """Process a report that a poll returned."""
         if isinstance(report, Executed) and report.by is Source.OVERRIDE and self._slow_override:
             if self._motion is not None:
                 self._motion.stop_ordered = True
         self._heard(report)
 
     def poll(self) -> list[Report]:
-        """Poll it until nothing waits; all reports that nobody took yet, oldest first. Ends of motions that
-        this object started are in their `end`."""
+        """Poll the station until no report is pending; return all reports, oldest first.
+
+        Reports that were fetched before are not included.
+
+        Ends of motions that this object started are in their `end` instead.
+        """
         self.window.collect()
         taken = list(self.reports)
         self.reports.clear()
@@ -140,32 +147,42 @@ class Station312(Axis[SerialMotion]):
             self.link.pause(min(left, POLL_EVERY))
 
     def busy_now(self) -> bool:
-        """A motion is under way, or held; polls the station."""
+        """Return True if a motion is running or held; polls the station."""
         self.window.collect()
         return self.window.busy
 
     def status(self) -> Status:
-        """As on the bus, but read until two readings in a row are the same."""
+        """Return the status; it is read until two successive reads are equal."""
         return self.window.twice(super().status)
 
-    # ------------------------------------------------------------------ what only the line has
+    # ------------------------------------------------------------------ instructions of the line only
 
     def error_code(self) -> int:
-        """The last error code that the station has replied (42 to 49), 0 for none; reading clears it. Only at
-        rest (NotWhileBusy)."""
+        """Return the last error code that the station replied (42 to 49), 0 for no error.
+
+        Reading clears it. Only while the motor is stopped (NotWhileBusy).
+        """
         return self.window.read(ERROR_CODE)[0]
 
     def error_counts(self) -> ErrorCounts:
-        """Framing errors, overruns and checksum errors that the station has seen; reading clears them. Only
-        at rest (NotWhileBusy)."""
+        """Return the counters of framing errors, overruns and checksum errors of the station.
+
+        Reading clears them. Only while the motor is stopped (NotWhileBusy).
+        """
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
     def end_status(self) -> Cause | None:
-        """Why the last motion ended, None if there was none since the reset; allowed at any time."""
+        """Return the cause of the last end of a motion; allowed at any time.
+
+        Before the first end since the reset, it returns None.
+        """
         return self.window.end_status()
 
     def reset(self) -> None:
-        """Reset of the station by its instruction, in any state: pulses end at once, no table, position 0."""
+        """Reset the station by instruction, in any state.
+
+        Pulses end immediately, there is no table, and the position is 0.
+        """
         for _ in range(ATTEMPTS):
             sent = self.link.tell(self.number, bytes([Code.RESET]))
             self.link.pause(self.link.seconds(len(sent)) + self.link.patience / 4)
@@ -175,7 +192,7 @@ class Station312(Axis[SerialMotion]):
         raise StationSilent(f"{self.who}no reset in {ATTEMPTS} attempts: check the cable")
 
     def software_reset(self) -> None:
-        """The same as `reset`: there is no other way on a line."""
+        """Reset the station as `reset` does, because a line has no other reset."""
         self.reset()
 
     def forget(self) -> None:
@@ -185,7 +202,10 @@ class Station312(Axis[SerialMotion]):
     # ------------------------------------------------------------------ inside
 
     def _position(self, encoder: bool) -> int:
-        """Read until two readings in a row are the same, or as far apart as the motor can have come."""
+        """Read the position until two successive reads agree.
+
+        They agree if they are equal, or differ by no more than the motor can move.
+        """
         times: list[float] = []
 
         def read() -> int:
@@ -203,11 +223,11 @@ class Station312(Axis[SerialMotion]):
         return self.window.twice(read, agree)
 
     def _register(self, block: bytes) -> None:
-        """The line says only that an override was taken."""
+        """Register an override; the reply only confirms that the station has accepted it."""
         self.instruct(block)
         self._slow_override |= block[2] == Code.SLOW_STOP
 
     def _start(self, block: bytes, direction: int, asked: int | None = None) -> SerialMotion:
-        # What waits is older than this motion.
+        # Pending reports are older than this motion.
         self.window.collect()
         return super()._start(block, direction, asked)

@@ -1,5 +1,9 @@
-"""Instructions to one station of a line: replies to responses, refusals to exceptions, repeats where they do
-no harm. `ppmc312.window.Window` is the same for the parallel bus."""
+"""Instructions to one station of a line, with their responses and errors.
+
+An instruction whose reply is lost is repeated only if that has no side effect.
+
+`ppmc312.window.Window` does the same for the parallel bus.
+"""
 
 from __future__ import annotations
 
@@ -41,11 +45,10 @@ from .wire import (
     response,
 )
 
-# A reply was lost: was the instruction carried out? Found out by looking, so that nothing moves twice.
-#
-# Repeating is harmless for what reads, sets a value or stops. A start is judged by state and position, a
-# toggle and a registration by what the station shows before and after. What cannot be seen is told:
-# LostReply.
+# Check whether an instruction was executed whose reply was lost, so that nothing moves twice. A repetition
+# has no side effect if the instruction reads, sets a value or stops the motor. A start is checked by state
+# and position. A toggle and a registration are checked by the status before and after. In all other cases
+# LostReply is raised.
 
 _TOGGLES = {Code.INTERLOCK: "interlock", Code.RUN_MONITOR: "run_monitored"}
 _REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
@@ -53,8 +56,10 @@ _DELETE = 2
 
 
 class Asking(Protocol):
-    """The way to a station, which is a `talk.Talk`. answers: of the station so far. busy: a motion, says the
-    last poll."""
+    """Members of a `Talk` that `Doubt` needs.
+
+    answers: number of responses of the station so far. busy: True if the last poll reported a motion.
+    """
 
     answers: int
     busy: bool
@@ -64,7 +69,7 @@ class Asking(Protocol):
 
 
 class Reporting(Protocol):
-    """What is known of a station, which is a `station.Station312`."""
+    """Members of a station (`station.Station312`) that `Doubt` needs."""
 
     @property
     def who(self) -> str: ...
@@ -77,7 +82,7 @@ class Reporting(Protocol):
 
 
 class Doubt:
-    """One instruction block to a station. repeated: a reply to it was lost."""
+    """Check of one instruction block whose reply may get lost. repeated: a reply to it was lost."""
 
     def __init__(self, station: Reporting, block: bytes) -> None:
         self._station = station
@@ -95,7 +100,7 @@ class Doubt:
         return self._block[2] in _REGISTERED and bool(self._block[3] & OV)
 
     def settle(self) -> bool:
-        """Whether it was carried out. Raises LostReply if nobody can know."""
+        """Return whether the instruction was executed. Raises LostReply if that is unknown."""
         self.repeated = True
         code = self._block[2]
         try:
@@ -114,19 +119,22 @@ class Doubt:
             raise self._lost("the station has been silent since") from error
 
     def explain(self, refusal: CommandRefused) -> Exception:
-        """What to raise for a refusal: of a repeated change of speed it says nothing about the first one."""
+        """Return the exception to raise for a rejection.
+
+        A rejection of a repeated change of speed does not show whether the first one was executed.
+        """
         if self.repeated and self._block[2] == Code.RAMP_CHANGE:
             return self._lost(f"sent again, it was refused ({refusal})")
         return refusal
 
     def _started(self) -> bool:
-        """Motions are known by the state, by the report of their end, or by the position."""
+        """Detect a started motion by the state, by the report of its end, or by the position."""
         station, motion = self._station, self._motion
         if motion is None or self._was_busy:
             raise self._lost("it is not known what the motor did before")
         if station.window.status().busy:
             return True
-        station.window.answers += 1  # the end of this motion may be reported now
+        station.window.answers += 1  # from now on the end of this motion may be reported
         station.window.collect()
         return motion.over or station.position != motion.begin
 
@@ -136,7 +144,7 @@ class Doubt:
         if added == 1:
             return True
         if added == 0 and not now.busy and not now.override_events:
-            return False  # nothing can have happened meanwhile
+            return False  # no override can have been executed in the meantime
         raise self._lost("overrides may have happened meanwhile")
 
     def _buffered(self, now: Status) -> bool:
@@ -154,7 +162,7 @@ class Doubt:
     def _lost(self, why: str) -> LostReply:
         return LostReply(
             f"{self._station.who}the reply to an instruction was lost, it may have been carried out; {why}: "
-            "look at the station (status) before you repeat it"
+            "check the status of the station before you repeat the instruction"
         )
 
 
@@ -172,14 +180,14 @@ END_CODES = {
     0x39: Cause.LOW,
 }
 DAMAGED = (Error.CHECKSUM, Error.COMMAND)
-"""What a station says of a frame that was damaged on its way: the driver sends no unknown codes."""
+"""Replies to a frame that was damaged in transit; the driver sends no unknown codes."""
 _STOPPING = (Code.STOP, Code.SLOW_STOP)
 _CHECK = "is it there and powered, are speed (MOD), address and the two wires right?"
 _OTHERS = "noise, another speed or checksum rule, or two stations with this address"
 
 
 class Station(Reporting, Protocol):
-    """What the talk with a station needs of it, which is a `station.Station312`."""
+    """Members of a station (`station.Station312`) that `Talk` needs."""
 
     @property
     def number(self) -> int: ...
@@ -188,7 +196,10 @@ class Station(Reporting, Protocol):
 
 
 class Talk:
-    """See `ppmc312.core.Instructions`. answers: of the station so far. busy: a motion, says the last poll."""
+    """Transport of instructions to a station; see `ppmc312.core.Instructions`.
+
+    answers: number of responses of the station so far. busy: True if the last poll reported a motion.
+    """
 
     def __init__(self, line: Line, station: Station) -> None:
         self._line = line
@@ -202,20 +213,25 @@ class Talk:
         return self._station.number
 
     def open(self) -> None:
-        """Nothing to prepare: a station that was reset answers as any other."""
+        """Prepare for a station that was reset; it responds as before."""
         self._alarmed = False
 
     def more(self) -> Response:
-        """No answer has a second block here."""
+        """Raise OutOfRange, because no response has a second block on a line."""
         raise OutOfRange("answers of several blocks: only on the parallel bus")
 
     # ------------------------------------------------------------------ instructions
 
     def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
-        """Carry out an instruction; returns the answer as the bus would have given it.
+        """Execute an instruction; return its response in the form of the parallel bus.
 
-        milliseconds: how long the part may take on the bus. Raises its refusal, LostReply, StationSilent,
-        GarbledReply and the errors of the line.
+        Args:
+            milliseconds: longest execution time on the parallel bus.
+
+        Raises:
+            CommandRefused: the station rejected the instruction.
+            LostReply: it is unknown whether the instruction was executed.
+            StationSilent, GarbledReply, LinkError: the line failed.
         """
         data = line_data(block)
         unsure = Doubt(self._station, block)
@@ -232,7 +248,7 @@ class Talk:
         raise unsure.explain(refused_serial(self._station.who, block[2], error, state))
 
     def read(self, code: int) -> bytes:
-        """An instruction that only the line has, and that reads. Raises its refusal."""
+        """Execute a read instruction that only the line has. Raises the error of the station."""
         reply = self.request(bytes([code]))
         if reply.error is None:
             return reply.data
@@ -240,7 +256,7 @@ class Talk:
         raise refused_serial(self._station.who, code, reply.error, state)
 
     def _ended(self) -> bool:
-        """Whether the motion of this object is over."""
+        """Return True if the motion of this object is over."""
         self.collect()
         motion = self._station.motion
         return motion is not None and motion.over
@@ -252,10 +268,15 @@ class Talk:
         settle: Callable[[], bool] = lambda: False,
         attempts: int = ATTEMPTS,
     ) -> Reply:
-        """A frame and its reply, repeated as often as it takes.
+        """Send a frame and return its reply; repeat the frame until its attempts are used up.
 
-        data: None for a poll. settle: called when a reply was lost; True: it was carried out, so it is not
-        repeated; it may raise. Raises StationSilent, GarbledReply.
+        Args:
+            data: code and data, `None` for a poll.
+            settle: called after a lost reply. If it returns True, the instruction was executed and is not
+                repeated. It may raise an exception.
+
+        Raises:
+            StationSilent, GarbledReply: no valid reply was received.
         """
         counters = self._line.counters[self._number]
         misses: list[Miss] = []
@@ -265,7 +286,7 @@ class Talk:
             counters.repeated += attempt > 0
             got = self._line.exchange(self._number, data, gives, extra)
             if not isinstance(got, Miss) and not plausible(data, got):
-                # The checksum does not see the highest bit of a byte.
+                # The checksum does not cover the highest bit of a byte.
                 counters.garbled += 1
                 got = Miss(Fault.BROKEN, got.data or b"?")
             if isinstance(got, Miss):
@@ -273,7 +294,7 @@ class Talk:
                 if settle():
                     return Reply(self._number, READY, b"")
             elif got.error in DAMAGED:
-                counters.refused += 1  # nothing was carried out
+                counters.refused += 1  # no instruction was executed
                 refusal = got
             else:
                 return got
@@ -282,8 +303,14 @@ class Talk:
         raise unanswered(f"{self._line.name}: station {self._number}", misses, attempts, _CHECK, _OTHERS)
 
     def twice(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
-        """What two readings in a row agree on, since a damaged reply may look good: the checksum has seven
-        bits, and none of them sees the highest bit of a byte. Raises GarbledReply."""
+        """Return a value on which two successive reads agree.
+
+        A damaged reply may look valid: the checksum has seven bits, which do not cover the highest bit of a
+        byte.
+
+        Raises:
+            GarbledReply: the reads do not agree.
+        """
         last = read()
         for _ in range(ATTEMPTS):
             now = read()
@@ -297,7 +324,7 @@ class Talk:
     # ------------------------------------------------------------------ polls
 
     def collect(self) -> None:
-        """Poll until nothing waits; reports go to the station."""
+        """Poll until no report is pending; pass the reports to the station."""
         counters = self._line.counters[self._number]
         before = counters.faults
         for _ in range(MOST_REPORTS):
@@ -313,22 +340,22 @@ class Talk:
             self._look_for_alarm()
 
     def _look_for_alarm(self) -> None:
-        """The report of an alarm may have been in a reply that was lost."""
+        """Read the state, because the report of an alarm may have been in a lost reply."""
         alarmed = self._station.status().state is State.ABN
         if alarmed and not self._alarmed:
             self._station.hear(Alarm(0))
         self._alarmed = alarmed
 
     def end_status(self) -> Cause | None:
-        """Why the last motion ended, None if there was none since the reset."""
+        """Return the cause of the last end of a motion, `None` before the first since the reset."""
         return END_CODES.get(self.request(bytes([END_STATUS])).data[0])
 
     def stopped(self, cause: Cause) -> Stopped:
-        """The end of a motion, with the position that the line does not tell."""
+        """Return the end of a motion with the position, which the report on the line does not contain."""
         return Stopped(cause, self._station.position)
 
     def _report(self, reply: Reply) -> Report:
-        """What a reply to a poll says."""
+        """Return the report in a reply to a poll."""
         code = reply.data[0]
         if reply.kind == DATA:
             return self.stopped(END_CODES[code])
@@ -342,7 +369,7 @@ class Talk:
         return report
 
     def status(self) -> Status:
-        """Without the counting of `ask`: for looks in between."""
+        """Return the status without counting a response as `ask` does."""
         return self.twice(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
 
 
@@ -362,7 +389,7 @@ _SPECIFIC = {*_REPORTS, *_FAILED, INPUTS_CHANGED, Error.CHECKSUM}
 
 
 def plausible(data: bytes | None, reply: Reply) -> bool:
-    """Whether a station can reply this to a poll (None) or an instruction.
+    """Return True if a station can send this reply to a poll (`None`) or an instruction.
 
     >>> plausible(bytes([Code.STATUS]), Reply(1, DATA, bytes([0, 0x82, 0])))
     False

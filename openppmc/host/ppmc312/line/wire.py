@@ -1,7 +1,7 @@
-"""The PPMC-312's serial mode: frames (control code, hex characters, checksum), and instructions as bus
-blocks to code and data, and back. Pure.
+"""Serial mode of the PPMC-312: frames, and conversion of bus blocks and back. Pure.
 
-Most instructions differ from the blocks in their code only; the flag byte moves into the code.
+A frame consists of control code, hexadecimal characters and checksum. Most instructions differ from the
+blocks in their code only; the flag byte becomes part of the code.
 
 >>> line_data(blocks.acceleration(blocks.CW, 5000)).hex(" ")
 '83 00 00 00 00 13 88'
@@ -43,21 +43,21 @@ SPEEDS = (19_200, 38_400, 83_333)
 
 
 class SumMode(Enum):
-    """What a checksum adds: control code and data bytes, or the characters between."""
+    """Content of the checksum: control code and data bytes, or the characters between."""
 
     BINARY = "binary"
     CHARS = "chars"
 
 
 def sum_mode_of(mode: SumMode) -> SumMode:
-    """The mode itself. OutOfRange for what is none: its name as a text, say."""
+    """Return the mode. Raises OutOfRange if it is no SumMode, for example its name as text."""
     if not isinstance(mode, SumMode):
         raise OutOfRange(f"sum_mode {mode!r}: there are {' and '.join(map(str, SumMode))}")
     return mode
 
 
 def station_number(station: int) -> int:
-    """The number itself if there can be such a station. OutOfRange."""
+    """Return the number if it is a valid station number. Raises OutOfRange otherwise."""
     number = whole(station, "station")
     if number not in range(STATIONS):
         raise OutOfRange(f"station {number}: a line has stations 0 to {STATIONS - 1}")
@@ -65,7 +65,7 @@ def station_number(station: int) -> int:
 
 
 def checksum(control: int, data: bytes, mode: SumMode = SumMode.BINARY) -> int:
-    """The last byte of a frame.
+    """Return the last byte of a frame.
 
     >>> f"{checksum(1, bytes([2, 3, 4, 5, 6])):02X}"
     '6A'
@@ -77,12 +77,12 @@ def checksum(control: int, data: bytes, mode: SumMode = SumMode.BINARY) -> int:
 
 
 def frame(control: int, data: bytes = b"", mode: SumMode = SumMode.BINARY) -> bytes:
-    """A whole frame as it goes over the line."""
+    """Return a complete frame as it is sent on the line."""
     return bytes([control]) + data.hex().encode() + bytes([checksum(control, data, mode)])
 
 
 class Reply(NamedTuple):
-    """A frame of a station. kind: BUSY, READY, DATA or SPECIFIC."""
+    """Frame of a station. kind: BUSY, READY, DATA or SPECIFIC."""
 
     station: int
     kind: int
@@ -90,14 +90,14 @@ class Reply(NamedTuple):
 
     @property
     def error(self) -> int | None:
-        """The code of a specific report, None for other replies."""
+        """Code of a specific report, `None` for other replies."""
         return self.data[0] if self.kind == SPECIFIC else None
 
 
 class Receiver:
-    """Takes the bytes of one reply of a station.
+    """Receiver for the bytes of one reply of a station.
 
-    gives: data bytes of a data reply, which the instruction decides: a reply does not say how long it is.
+    gives: data bytes of a data reply. The instruction defines them; a reply does not contain its length.
     """
 
     def __init__(self, station: int, gives: int = 1, mode: SumMode = SumMode.BINARY) -> None:
@@ -106,9 +106,9 @@ class Receiver:
         self._digits = bytearray()
 
     def take(self, byte: int) -> Reply | Fault | None:
-        """See `master.Listener`."""
+        """Process a byte; see `host.line.Listener`."""
         if byte & 0x80:
-            # A control code always begins anew, as at the station.
+            # A control code always starts a new frame, as in the station.
             broken = self._control is not None
             self._control, self._digits = byte, bytearray()
             if byte & 0x40 or byte & 0x0F != self._station:
@@ -125,7 +125,7 @@ class Receiver:
         return Reply(self._station, self._control & 0xF0, data)
 
     def _length(self, kind: int) -> int:
-        """Data bytes of the reply, as far as it is known."""
+        """Return the number of data bytes of the reply, as far as it is known."""
         if kind == DATA:
             return self._gives
         if kind == SPECIFIC:
@@ -146,7 +146,7 @@ DATA_BYTES = {
     ERROR_CODE: 1,
     ERROR_COUNTS: 3,
 }
-"""Reading codes, and how many bytes they give."""
+"""Codes that read, and the number of bytes that they return."""
 LONGEST_EVENT = 10
 _MOTIONS = {
     Code.RAMP: 0x83,
@@ -166,11 +166,14 @@ _ONLY_PARALLEL = {
     Code.EVENT_READ: "reading an event buffer",
 }
 _RESULT = {(Code.EVENT_SET, 0): b"\x00", (Code.EVENT_SET, 2): b"\x03"}
-"""What the bus would have answered: registered, deleted."""
+"""Response on the parallel bus: registered, deleted."""
 
 
 def line_data(block: bytes) -> bytes:
-    """Code and data for an instruction block in logical order. OutOfRange for what serial mode cannot do."""
+    """Return code and data for a block in logical order.
+
+    Raises OutOfRange if serial mode has no such instruction.
+    """
     code, data = block[2], block[3:]
     if code in _ONLY_PARALLEL:
         raise OutOfRange(f"{_ONLY_PARALLEL[Code(code)]}: only on the parallel bus")
@@ -201,7 +204,7 @@ def line_data(block: bytes) -> bytes:
 
 
 def _motion(code: Code, data: bytes) -> bytes:
-    """Starts have no triggers on the line."""
+    """Return a start, which has no triggers on the line."""
     flags, rest = data[0], data[1:]
     if flags & OV and code not in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN, Code.STEP):
         raise OutOfRange("a start cannot wait for an event in serial mode: put it into an event buffer")
@@ -212,7 +215,7 @@ def _motion(code: Code, data: bytes) -> bytes:
 
 
 def _event(flags: int, embedded: bytes) -> bytes:
-    """Registering takes ten bytes, whatever the instruction has."""
+    """Return a registration, which has ten bytes for any length of the instruction."""
     code = 0x49 | (flags & 1) << 4 | (flags & 2) << 4
     if flags & 2:
         return bytes([code])
@@ -222,7 +225,7 @@ def _event(flags: int, embedded: bytes) -> bytes:
 
 
 def response(block: bytes, reply: Reply) -> Response:
-    """A good reply as the bus would have answered."""
+    """Return a valid reply in the form of a response on the parallel bus."""
     code, data = block[2], reply.data if reply.kind == DATA else b""
     if code == Code.POSITION_READ:
         data = block[3:4] + data

@@ -1,1 +1,1 @@
-"""Around a PMC006B4: a motor with its comparators, measured currents."""
+"""Surroundings of a PMC006B4: a motor with its comparators, and measured currents."""

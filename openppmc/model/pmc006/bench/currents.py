@@ -1,4 +1,7 @@
-"""Phase currents that a PMC006B4 regulates: set-ups on the golden model, ripple, error, distortion (R-22)."""
+"""Phase currents that a PMC006B4 regulates (R-22).
+
+Set-ups on the golden model, ripple, error and distortion of the currents.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +23,15 @@ MS = CLK_HZ // 1000
 
 @dataclass(frozen=True)
 class Case:
-    """cur: mA asked for. mstep (0: full steps) and full steps/s, whose product is at most 16000. emf: V, 90
-    degrees ahead of the reference. scomp: P. periods: of the electrical cycle that are measured."""
+    """Set-up of a measurement.
+
+    Attributes:
+        cur: requested current in mA.
+        mstep, full: microsteps (0: full steps), and full steps/s; their product is at most 16000.
+        emf: back EMF in V, 90 degrees ahead of the reference.
+        scomp: P.
+        periods: electrical cycles that are measured.
+    """
 
     cur: int = 1000
     mstep: int = 16
@@ -34,12 +44,12 @@ class Case:
 
     @property
     def hz(self) -> float:
-        """Electrical frequency."""
+        """Electrical frequency in Hz."""
         return self.full / 4
 
 
 class Waves(NamedTuple):
-    """Samples of one phase: s from the first one, ampere."""
+    """Samples of one phase: time since the first one in s, currents in A."""
 
     time: list[float]
     current: list[float]
@@ -47,9 +57,15 @@ class Waves(NamedTuple):
 
 
 class Figures(NamedTuple):
-    """amplitude: fundamental of the reference, A. error: rms of current less that fundamental, by its rms.
-    follows: rms of current less reference, by the reference's rms. thd: harmonics 2..40 of the current by its
-    fundamental. all: everything in the current but its fundamental, likewise."""
+    """Results of a measurement.
+
+    Attributes:
+        amplitude: fundamental of the reference, A.
+        error: rms of current minus this fundamental, relative to its rms.
+        follows: rms of current minus reference, relative to the rms of the reference.
+        thd: harmonics 2..40 of the current, relative to its fundamental.
+        all: everything in the current except its fundamental, relative to its fundamental.
+    """
 
     amplitude: float
     error: float
@@ -59,7 +75,7 @@ class Figures(NamedTuple):
 
 
 class Rig:
-    """A part that has booted, and its motor."""
+    """Part after its boot, with its motor."""
 
     def __init__(self, case: Case) -> None:
         self.case = case
@@ -72,7 +88,7 @@ class Rig:
         self.part.run_until(self.part.now + clk)
 
     def tell(self, code: str, data: int) -> None:
-        """A frame and its reply."""
+        """Send a frame and wait for its reply."""
         bit = CLK_HZ / BAUD
         begin = self.part.now + 1
         for number, byte in enumerate(command(ADDRESS, code, data)):
@@ -80,7 +96,10 @@ class Rig:
         self._go(round(165 * bit))
 
     def hold(self, angle_steps: int = 0) -> Plant:
-        """At rest with full current, so many steps from the angle after reset; settled."""
+        """Return the plant at standstill with full current, settled.
+
+        angle_steps: steps from the angle after a reset.
+        """
         if angle_steps:
             self.tell("s", angle_steps)
             self._go(MS * angle_steps * 2)
@@ -89,7 +108,7 @@ class Rig:
         return plant
 
     def cruise(self) -> Plant:
-        """At constant speed, settled."""
+        """Return the plant at constant speed, settled."""
         speed = self.case.full * max(1, self.case.mstep)
         slow = min(3000, speed)
         for code, data in (("u", 5), ("v", speed), ("L", slow), ("S", slow), ("N", 1)):
@@ -108,7 +127,7 @@ class Rig:
 
 
 def waves(plant: Plant, phase: str, first: int, last: int, step: float = SAMPLE_S) -> Waves:
-    """Samples of phase "a" or "b" from edge `first` up to before edge `last`, every `step` s."""
+    """Return samples of phase "a" or "b" from edge `first` to before edge `last`, every `step` s."""
     winding: Winding = plant.windings[phase]
     begin = plant.seconds(first)
     times = [number * step for number in range(round((plant.seconds(last) - begin) / step))]
@@ -117,7 +136,7 @@ def waves(plant: Plant, phase: str, first: int, last: int, step: float = SAMPLE_
 
 
 def cruising(case: Case) -> tuple[Waves, Waves]:
-    """Both phases over whole electrical cycles at constant speed."""
+    """Return both phases over whole electrical cycles at constant speed."""
     rig = Rig(case)
     plant = rig.cruise()
     first = rig.part.now
@@ -127,7 +146,7 @@ def cruising(case: Case) -> tuple[Waves, Waves]:
 
 
 def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Waves]:
-    """Both phases at rest."""
+    """Return both phases at standstill."""
     rig = Rig(case)
     plant = rig.hold(angle_steps)
     first = rig.part.now
@@ -137,11 +156,11 @@ def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Wav
     return waves(plant, "a", first, last, step), waves(plant, "b", first, last, step)
 
 
-# ---------------------------------------------------------------------- figures
+# ---------------------------------------------------------------------- results
 
 
 def _component(samples: Sequence[float], cycles: int) -> tuple[float, float]:
-    """Amplitude and angle of the sine with so many cycles in all samples."""
+    """Return amplitude and angle of the sine that has this number of cycles in all samples."""
     turn = 2 * pi * cycles / len(samples)
     along = sum(value * sin(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
     across = sum(value * cos(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
@@ -153,12 +172,12 @@ def _rms(samples: Sequence[float]) -> float:
 
 
 def spectrum(samples: Sequence[float], periods: int, harmonics: int = HARMONICS) -> list[float]:
-    """Amplitudes of harmonics 1, 2, .. of samples over whole cycles."""
+    """Return the amplitudes of harmonics 1, 2, .. of samples over whole cycles."""
     return [_component(samples, periods * number)[0] for number in range(1, harmonics + 1)]
 
 
 def figures(found: Waves, periods: int) -> Figures:
-    """Figures of one phase over whole cycles."""
+    """Return the results of one phase over whole cycles."""
     size, angle = _component(found.reference, periods)
     turn = 2 * pi * periods / len(found.reference)
     wanted = [size * sin(turn * n + angle) for n in range(len(found.reference))]
@@ -176,8 +195,10 @@ def figures(found: Waves, periods: int) -> Figures:
 
 
 def left_at_zero(found: Waves) -> tuple[float, float]:
-    """Largest and smallest mean current of a step whose reference is 0, over its second half, A; 0 if there
-    is none."""
+    """Return the largest and smallest mean current of steps whose reference is 0, in A.
+
+    The mean is that of the second half of a step. Without such a step the result is 0.
+    """
     means = [0.0]
     for zero, span in groupby(zip(found.reference, found.current, strict=True), lambda one: not one[0]):
         currents = [current for _, current in span]
@@ -188,5 +209,5 @@ def left_at_zero(found: Waves) -> tuple[float, float]:
 
 
 def ripple(found: Waves) -> tuple[float, float]:
-    """Mean and peak-to-peak of a current at rest, A."""
+    """Return mean and peak-to-peak value of a current at standstill, A."""
     return sum(found.current) / len(found.current), max(found.current) - min(found.current)

@@ -1,7 +1,7 @@
-"""A motor and its comparators on a PMC006B4: two windings between the half bridges (R-22 of P006).
+"""Motor and comparators on a PMC006B4: two windings between the half bridges (R-22 of P006).
 
 Currents are exact between two changes of the bridges: resistance, inductance, supply and a sinusoidal back
-EMF. Switches and diodes are ideal. Times are edges of clk outside and seconds inside.
+EMF. Switches and diodes are ideal. Times are edges of `clk` in the interface and seconds inside.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import NamedTuple, Protocol, TypeVar
 
 FULL_SCALE_A, FULL_CODE = 4.0, 255
 WINDOW_S = 20e-6
-"""A comparator with back EMF changes at most once in so long."""
+"""Least time between two changes of a comparator with back EMF, in s."""
 BRIDGES = {
     "a": ("bridge_a_en", "m10", "m11", "phase_a_ref", "phase_a_sign", "cmp_a"),
     "b": ("bridge_b_en", "m20", "m21", "phase_b_ref", "phase_b_sign", "cmp_b"),
@@ -24,15 +24,15 @@ QUARTER = {"a": pi / 2, "b": 0.0}
 
 
 class Part(Protocol):
-    """What is asked of the golden model."""
+    """Members of the golden model that are used."""
 
     @property
     def now(self) -> int:
-        """The last edge that was run."""
+        """Last edge that was run."""
 
     @property
     def next_event(self) -> int | None:
-        """The next edge on which anything happens by itself."""
+        """Next edge with an event that needs no input change."""
 
     @property
     def outputs(self) -> Mapping[str, int]:
@@ -42,7 +42,7 @@ class Part(Protocol):
         """Run all edges up to and including t."""
 
     def pins(self, t: int, **levels: int) -> None:
-        """Input levels from edge t on."""
+        """Set input levels from edge t on."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Motor:
 
 
 class Emf(NamedTuple):
-    """volt * sin(rad_s * t + angle)."""
+    """Back EMF: volt * sin(rad_s * t + angle)."""
 
     volt: float = 0.0
     rad_s: float = 0.0
@@ -79,7 +79,7 @@ class Arc:
         self._free = ampere - self.at(begin)
 
     def at(self, t: float) -> float:
-        """Ampere at t >= begin."""
+        """Return the current in A at t >= begin."""
         if t >= self.rests_at:
             return 0.0
         current = self._level + self._free * exp(self._decay * (self.begin - t))
@@ -88,7 +88,7 @@ class Arc:
         return current
 
     def rest_at_zero(self, positive: bool) -> None:
-        """The diodes let nothing flow the other way: from the first zero on there is no current."""
+        """Set the current to 0 from its first zero on, because the diodes block the other direction."""
         low, high = self.begin, self.begin + WINDOW_S
         while (self.at(high) > 0) == positive:
             low, high = high, high + WINDOW_S
@@ -99,7 +99,7 @@ class Arc:
 
 
 class Level:
-    """Reference in ampere from `begin` on, behind a first-order low-pass filter; tau 0: none."""
+    """Reference in A from `begin` on, after a first-order low-pass filter; tau 0: no filter."""
 
     __slots__ = ("_from", "_tau", "begin", "sign", "to")
 
@@ -107,7 +107,7 @@ class Level:
         self.begin, self._from, self.to, self.sign, self._tau = begin, before, to, sign, tau
 
     def at(self, t: float) -> float:
-        """Ampere at t >= begin, without sign."""
+        """Return the reference in A at t >= begin, without sign."""
         if not self._tau:
             return self.to
         return self.to + (self._from - self.to) * exp((self.begin - t) / self._tau)
@@ -117,7 +117,7 @@ Piece = TypeVar("Piece", Arc, Level)
 
 
 class Winding:
-    """One phase: present arc and level, and all of the past."""
+    """One phase: current segment and level now, and all earlier ones."""
 
     def __init__(self, motor: Motor, name: str, begin: float, tau: float) -> None:
         self._motor, self._tau = motor, tau
@@ -131,7 +131,7 @@ class Winding:
         self.levels = [Level(begin, 0.0, 0.0, 0, tau)]
 
     def look(self, t: float, outputs: Mapping[str, int], anew: bool = False) -> None:
-        """The part's outputs at t; anew: the back EMF has changed."""
+        """Process the outputs of the part at t. `anew`: the back EMF has changed."""
         seen = tuple(outputs[pin] for pin in self._pins[:-1])
         if seen[:3] != self._seen[:3] or anew:
             self._switch(t, *seen[:3])
@@ -154,29 +154,35 @@ class Winding:
         self.arcs.append(arc)
 
     def above(self, t: float) -> int:
-        """Level of the comparator: the current in the direction of the sign has reached the reference."""
+        """Return the level of the comparator.
+
+        It is 1 if the current in the direction of the sign has reached the reference.
+        """
         level, current = self.levels[-1], self.arcs[-1].at(t)
         return int((-current if level.sign else current) >= level.at(t))
 
     def current(self, t: float) -> float:
-        """Ampere at any time."""
+        """Return the current in A at any time."""
         return _of(self.arcs, t).at(t)
 
     def reference(self, t: float) -> float:
-        """Reference with its sign, ampere, at any time."""
+        """Return the reference with its sign in A at any time."""
         level = _of(self.levels, t)
         return -level.at(t) if level.sign else level.at(t)
 
 
 def _of(pieces: list[Piece], t: float) -> Piece:
-    """The piece that is valid at t."""
+    """Return the segment that is valid at t."""
     return pieces[max(0, bisect_right(pieces, t, key=lambda piece: piece.begin) - 1)]
 
 
 class Plant:
-    """Takes the place of `model.run_until`; comparator pins go through `model.pins`.
+    """Motor that replaces `model.run_until`; it sets comparator pins through `model.pins`.
 
-    clk_hz: of the model. tau: of the reference's low-pass filter, s; 0: an ideal one. windings: "a", "b".
+    Attributes:
+        clk_hz: frequency of the model.
+        tau: time constant of the reference's low-pass filter in s; 0: an ideal reference.
+        windings: "a", "b".
     """
 
     def __init__(self, model: Part, clk_hz: int, motor: Motor | None = None, tau: float = 0.0) -> None:
@@ -185,17 +191,23 @@ class Plant:
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
         self._look()
-        # Whoever runs the model, a host among them, shall run the currents, too.
+        # Any caller that runs the model, for example a host, also runs the currents.
         model.run_until = self.run_until  # type: ignore[method-assign]
 
     def seconds(self, t: int) -> float:
-        """Time of an edge."""
+        """Return the time of an edge in s."""
         return t / self._hz
 
     def spin(self, volt: float, hz: float, angle: float = 0.0) -> None:
-        """Back EMF from now on: amplitude, electrical frequency, angle at edge 0 in rad (B: its sine).
+        """Set the back EMF from now on.
 
-        Raises ValueError if the amplitude reaches the supply.
+        Args:
+            volt: amplitude.
+            hz: electrical frequency.
+            angle: angle at edge 0 in rad (B: its sine).
+
+        Raises:
+            ValueError: the amplitude reaches the supply.
         """
         if abs(volt) >= self.motor.volt:
             raise ValueError(f"{volt} V of back EMF with a supply of {self.motor.volt} V")
@@ -204,21 +216,25 @@ class Plant:
         self._look(anew=True)
 
     def detach(self) -> None:
-        """The model runs alone again."""
-        self._model.run_until = self._run  # type: ignore[method-assign] # as it was before
+        """Remove the motor; the model runs alone again."""
+        self._model.run_until = self._run  # type: ignore[method-assign] # restored
 
     # ------------------------------------------------------------------ time
 
     def run_until(self, t: int) -> None:
-        """As that of the model; currents and comparators follow."""
+        """Run the model to edge t; currents and comparators follow."""
         for edge, levels in self.legs(t):
             self._run(edge)
             if levels:
                 self._model.pins(edge + 1, **levels)
 
     def legs(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
-        """Time up to edge t in pieces: the last edge of each, and levels of comparators behind it. Whoever
-        runs the part runs it up to there and sets them before going on."""
+        """Yield the time up to edge t in pieces.
+
+        A piece is its last edge and the comparator levels after it.
+
+        The caller runs the part to this edge and sets the levels before the next piece.
+        """
         model = self._model
         while model.now < t:
             event = model.next_event
@@ -240,7 +256,10 @@ class Plant:
             winding.look(self.seconds(self._model.now), self._model.outputs, anew)
 
     def _flip(self, winding: Winding, last: int) -> int | None:
-        """First edge up to `last` that samples another level of the comparator."""
+        """Return the first edge up to `last` that samples another level of the comparator.
+
+        Without such an edge it returns None.
+        """
         begin = self._model.now
         window = int(WINDOW_S * self._hz)
         before, hz = winding.cmp, self._hz

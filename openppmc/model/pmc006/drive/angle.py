@@ -9,7 +9,7 @@ from typing import NamedTuple
 CYCLE, QUARTER = 512, 128
 """Units of an electrical cycle, and of a full step."""
 HOME = 64
-"""The angle after a reset."""
+"""Angle after a reset."""
 SCALE = 256
 
 
@@ -21,7 +21,7 @@ class Phase(NamedTuple):
 
 
 class References(NamedTuple):
-    """Both phases."""
+    """References of both phases."""
 
     a: Phase
     b: Phase
@@ -33,7 +33,10 @@ WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(Q
 
 
 def wave(unit: int) -> int:
-    """Signed sine of an angle in units, -256..256; odd and symmetric like the sine itself."""
+    """Return the signed sine of an angle in units, -256..256.
+
+    It is odd and symmetric like the sine itself.
+    """
     unit %= CYCLE
     if unit >= CYCLE // 2:
         return -wave(unit - CYCLE // 2)
@@ -41,19 +44,30 @@ def wave(unit: int) -> int:
 
 
 def reference(unit: int, peak: int) -> Phase:
-    """A phase at an angle with peak code 0..255 (P006-EXC-12)."""
+    """Return the reference of a phase at an angle with peak code 0..255 (P006-EXC-12)."""
     height = wave(unit)
     return Phase((2 * abs(height) * peak + SCALE) // (2 * SCALE), int(height < 0))
 
 
 @lru_cache(maxsize=1 << 14)
 def references(angle: int, peak: int) -> References:
-    """Both phases at an angle that has the advance in it (P006-EXC-12, -14)."""
+    """Return the references of both phases at an angle (P006-EXC-12, -14).
+
+    The angle includes the advance.
+    """
     return References(reference(angle + QUARTER, peak), reference(angle, peak))
 
 
 def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int:
-    """RI (P006-EXC-30): base code, compensation, and whether the current has decayed by 2^att."""
+    """Return RI (P006-EXC-30).
+
+    Args:
+        base: base code.
+        added: compensation.
+        busy: BUSY.
+        decayed: the current has decayed by 2^att.
+        att: exponent of the decay.
+    """
     if busy:
         return min(255, base + added)
     return base // (1 << att) if decayed else base

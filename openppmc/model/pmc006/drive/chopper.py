@@ -1,7 +1,9 @@
-"""Chopper of one phase of the PMC006B4: fixed off time, then on or fast decay (P006-CHP-02..06).
+"""Chopper of one phase of the PMC006B4 (P006-CHP-02..06).
 
-Event driven: timers, changes of the comparator, of the reference and of the enable. An edge named here is
-the one on which the half-bridge commands change.
+A fixed off time is followed by on or fast decay.
+
+It is driven by events: timers, changes of the comparator, of the reference and of the enable. An edge in this
+module is the one at which the half-bridge commands change.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from ...clock import Event, Scheduler
 
 
 class State(Enum):
-    """OFF: both low sides. ON: supply in the direction of the sign. FAST: supply against it."""
+    """OFF: both low sides on. ON: supply in the direction of the sign. FAST: supply against it."""
 
     OFF = "off"
     ON = "on"
@@ -24,7 +26,7 @@ class State(Enum):
 
 @dataclass(frozen=True)
 class Times:
-    """clk: off time, blanking, longest fast decay, change of a sign to OFF."""
+    """Cycles: off time, blanking, longest fast decay, change of a sign to OFF."""
 
     off: int
     blank: int
@@ -33,13 +35,16 @@ class Times:
 
     @classmethod
     def of(cls, clk_hz: int, t_off_ns: int, t_blank_ns: int, force: int = 1) -> Times:
-        """TOFF, BL, TF of P006 6.6."""
+        """Return TOFF, BL, TF of P006 6.6."""
         off, blank = (-(-ns * clk_hz // 1_000_000_000) for ns in (t_off_ns, t_blank_ns))
         return cls(off, blank, max(blank, off // 2), force)
 
 
 class Chopper:
-    """show(t, m_plus, m_minus): half-bridge commands (m10, m11 or m20, m21) from edge t on."""
+    """Chopper of one phase.
+
+    show(t, m_plus, m_minus): sets the half-bridge commands (m10, m11 or m20, m21) at edge t.
+    """
 
     def __init__(self, queue: Scheduler, times: Times, show: Callable[[int, int, int], None]) -> None:
         self._queue, self._times, self._show = queue, times, show
@@ -52,7 +57,10 @@ class Chopper:
     # ------------------------------------------------------------------ causes
 
     def enable(self, t: int, on: bool) -> None:
-        """The bridge's enable changes at edge t; without it the commands are low from that edge on."""
+        """Process a change of the bridge's enable at edge t.
+
+        While disabled, the commands are low, from that edge on.
+        """
         self._on = on
         if not on:
             self._enter(t, State.OFF)
@@ -60,7 +68,7 @@ class Chopper:
             self._rest(t)
 
     def reference(self, t: int, ref: int, sign: int) -> None:
-        """The reference outputs change at edge t."""
+        """Process a change of the reference outputs at edge t."""
         turned = sign != self._sign
         self._ref, self._sign = ref, sign
         if turned and self._on:
@@ -68,7 +76,7 @@ class Chopper:
             self._at(t + self._times.force, self._forced)
 
     def compare(self, t: int, level: int) -> None:
-        """Level of the synchronised comparator as decisions from edge t on see it."""
+        """Process a level of the synchronised comparator, which decisions use from edge t on."""
         self._cmp = level
         if self._armed and level == (self.state is State.ON):
             self._at(t, self._over)
@@ -92,20 +100,20 @@ class Chopper:
             self._at(t + self._times.fast, self._over)
 
     def _rest(self, t: int) -> None:
-        """The off time counts from edge t on, if it may count."""
+        """Start the off time at edge t if the bridge is enabled."""
         self._forget()
         if self._on:
             self._at(t + self._times.off, self._decide)
 
     def _decide(self, t: int) -> None:
-        """No current is wanted with a reference of 0: what is there may only fall."""
+        """Decide after the off time; with a reference of 0 a current may only fall."""
         if self._cmp:
             self._enter(t, State.FAST)
         else:
             self._enter(t, State.ON if self._ref else State.OFF)
 
     def _arm(self, t: int) -> None:
-        """Blanking is over."""
+        """Process the end of the blanking."""
         self._armed = True
         if self._cmp == (self.state is State.ON):
             self._over(t)

@@ -1,6 +1,8 @@
-"""Drive of the PMC006B4: angle, references, idle current, bridges, reference bit streams (P006 chapter 6).
+"""Drive of the PMC006B4 (P006 chapter 6).
 
-Event driven. An edge named here is the one on which the register in question changes.
+Angle, references, idle current, bridges and bit streams of the references.
+
+It is event driven. An edge in this module is the one at which the register in question changes.
 """
 
 from __future__ import annotations
@@ -21,32 +23,38 @@ MODULUS = 256
 
 
 class Stream:
-    """Carry of an accumulator that adds the reference every clk (P006-EXC-40), on demand."""
+    """Carry of an accumulator that adds the reference every cycle (P006-EXC-40).
+
+    It is calculated on demand.
+    """
 
     def __init__(self, t: int) -> None:
         self._since, self._sum, self._before, self._ref = t, 0, 0, 0
 
     def change(self, t: int, ref: int) -> None:
-        """The reference register changes at edge t, which still adds the old value."""
+        """Change the reference register at edge t, which still adds the old value."""
         self._before, self._sum = self._total(t - 1), self._total(t)
         self._since, self._ref = t, ref
 
     def _total(self, t: int) -> int:
-        """Sum of all that has been added up to edge t."""
+        """Return the sum of everything added up to edge t."""
         return self._sum + (t - self._since) * self._ref if t >= self._since else self._before
 
     def level(self, t: int) -> int:
-        """Level after edge t. Raises ValueError before the last change of the reference."""
+        """Return the level after edge t. Raises ValueError before the last change of the reference."""
         if t < self._since:
             raise ValueError(f"level({t}): the reference has changed at edge {self._since}")
         return self._total(t) // MODULUS - self._total(t - 1) // MODULUS
 
 
 class Drive:
-    """The outputs phase_*, bridge_*, m10 .. m21 go to the log; pwm_*: `level`.
+    """Drive; the log holds the outputs phase_*, bridge_*, m10 .. m21, and `level` returns pwm_*.
 
-    angle: TH, 0..511. decayed: the idle timer has run out. t_off_ns, t_blank_ns: chopper. origin: first edge
-    inside after the reset.
+    Args:
+        t_off_ns, t_blank_ns: times of the chopper.
+        origin: first internal edge after the reset.
+
+    angle: TH, 0..511. decayed: the idle timer has expired.
     """
 
     def __init__(
@@ -76,14 +84,14 @@ class Drive:
     # ------------------------------------------------------------------ causes
 
     def booted(self, t: int) -> None:
-        """BOOT ends at edge t."""
+        """Process the end of BOOT at edge t."""
         if not self._booted:
             self._booted = True
             self._start_idle(t)
         self.settings_changed(t)
 
     def settings_changed(self, t: int) -> None:
-        """cur, autodec, att or free have new values after edge t."""
+        """Process new values of cur, autodec, att or free after edge t."""
         on = self._booted and not self._shared.settings.free
         if on != self.enabled:
             self.enabled = on
@@ -91,7 +99,7 @@ class Drive:
         self._look(t)
 
     def compare(self, t: int, a: int, b: int) -> None:
-        """Edge t samples these levels of cmp_a and cmp_b first."""
+        """Process levels of cmp_a and cmp_b that edge t samples first."""
         for name, level in zip(PINS, (a, b), strict=True):
             if level == self._compared[name]:
                 continue
@@ -100,12 +108,12 @@ class Drive:
             self._shared.queue.at(t + self._shared.pace.cmp, Phase.LEVELS, see)
 
     def moved(self, t: int, forward: bool, increment: int) -> None:
-        """A step at edge t (P006-EXC-02)."""
+        """Process a step at edge t (P006-EXC-02)."""
         self.angle = (self.angle + (increment if forward else -increment)) % CYCLE
         self._look(t)
 
     def changed(self, t: int) -> None:
-        """busy, b or w of the motion at edge t."""
+        """Process a change of busy, b or w of the motion at edge t."""
         if self._motion.busy:
             self._stop_idle()
         elif self._booted and self._timer is None and not self.decayed:
@@ -115,7 +123,7 @@ class Drive:
     # ------------------------------------------------------------------ idle timer
 
     def _start_idle(self, t: int) -> None:
-        """P006-EXC-31; `t`: BUSY or BOOT falls."""
+        """Start the idle timer (P006-EXC-31); BUSY or BOOT falls at edge t."""
         us = self._shared.us
         over = us.edge_of(us.first(t + 1) + IDLE_US - 1) + self._shared.pace.idle
         self._timer = self._shared.queue.at(over, Phase.STORE, self._decay)
@@ -133,7 +141,10 @@ class Drive:
     # ------------------------------------------------------------------ references
 
     def _look(self, t: int) -> None:
-        """Something that the references depend on changes at edge t: the next look of the grid sees it."""
+        """Schedule the next evaluation of the references on the grid.
+
+        A value that they use changes at edge t.
+        """
         grid = self._shared.pace.grid
         at = t + grid - (t - self._origin) % grid
         if self._looks != at:
@@ -141,7 +152,7 @@ class Drive:
             self._shared.queue.at(at, Phase.PINS, self._judge)
 
     def _judge(self, t: int) -> None:
-        """References as they follow from all levels before edge t (P006-EXC-12, -30, P006-STA-12)."""
+        """Evaluate the references from all levels before edge t (P006-EXC-12, -30, P006-STA-12)."""
         motion, now = self._motion, self._shared.settings
         wanted = OFF
         if self.enabled:
@@ -178,5 +189,8 @@ class Drive:
             self._shared.log.set(t, pin, level)
 
     def level(self, t: int, name: str) -> int:
-        """pwm_a_ref ("a") or pwm_b_ref ("b") after edge t, not before the last change of the reference."""
+        """Return pwm_a_ref ("a") or pwm_b_ref ("b") after edge t.
+
+        t must not be before the last change of the reference.
+        """
         return self.streams[name].level(t)

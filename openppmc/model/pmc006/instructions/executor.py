@@ -1,6 +1,6 @@
-"""The executor of the PMC006B4: one instruction at a time, of a frame or of the program.
+"""Executor of the PMC006B4: one instruction at a time, from a frame or from the program.
 
-P006-FRM-02, -03, P006-CMD-52, -53, P006-PRG-15, -16.
+Rules: P006-FRM-02, -03, P006-CMD-52, -53, P006-PRG-15, -16.
 """
 
 from __future__ import annotations
@@ -18,14 +18,22 @@ from ..pins import SYNCHRONISED, Shared
 from .operations import Outcome
 from .processor import Processor
 
-# The desk of the PMC006B4's executor: everything that instructions look at and change.
+# Desk of the executor: everything that instructions read and change.
 
 
 class Desk:
-    """echo: STEP_ACK is "ECHO". version: FW_VERSION. changed(t): registers are new after edge t.
+    """Execution context of instructions. The part sets motion, program and eeprom.
 
-    motion, program and eeprom are set by the part. judging: edge of the instruction that is being judged;
-    stepped_at: of the last step. speed_on: SPEED_MODE; running: the motion is one of the speed mode.
+    Args:
+        echo: STEP_ACK is "ECHO".
+        version: FW_VERSION.
+        changed: changed(t) is called when registers have new values after edge t.
+
+    Attributes:
+        judging: edge of the current instruction.
+        stepped_at: edge of the last step.
+        speed_on: SPEED_MODE.
+        running: the motion belongs to the speed mode.
     """
 
     motion: Motion
@@ -41,7 +49,7 @@ class Desk:
         self.stepped_at = self.judging = self._stopped_at = -1
         self.speed_on = self.running = False
 
-    # ------------------------------------------------------------------ what there is to see
+    # ------------------------------------------------------------------ observable state
 
     @property
     def position(self) -> int:
@@ -50,7 +58,7 @@ class Desk:
 
     @property
     def locked(self) -> bool:
-        """Whatever blocks a start but BUSY."""
+        """True if a start is blocked by a cause other than BUSY."""
         return bool(self.settings.free) or self.guard.locked or self._stopped_at == self.judging
 
     @property
@@ -60,7 +68,7 @@ class Desk:
 
     @property
     def port_word(self) -> int:
-        """x (P006-IO-01)."""
+        """Answer to x (P006-IO-01)."""
         seen = self.levels
         gpi = seen["gpi"]
         return (
@@ -71,10 +79,10 @@ class Desk:
             | seen["ext2"] << 11
         )
 
-    # ------------------------------------------------------------------ what happens
+    # ------------------------------------------------------------------ effects and events
 
     def carry_out(self, t: int, effect: Effect) -> None:
-        """The first half of an effect, before the motion has worked on edge t."""
+        """Apply the first half of an effect, before the motion is processed at edge t."""
         if effect.halt:
             self.shared.queue.at(t, Phase.GUARD, self._halt)
         if effect.early:
@@ -82,7 +90,7 @@ class Desk:
             self.shared.queue.at(t, Phase.GUARD, lambda now: early(self, now))
 
     def commit(self, t: int, effect: Effect) -> None:
-        """The second half, behind it."""
+        """Apply the second half of an effect, after the first one."""
         self.settings.load(effect.put or {})
         if effect.do:
             effect.do(self, t)
@@ -90,7 +98,10 @@ class Desk:
             self._changed(t)
 
     def stop(self, t: int) -> None:
-        """A cause that stops a motion at edge t, and refuses a start there (P006-STA-10)."""
+        """Process a cause that stops a motion at edge t (P006-STA-10).
+
+        A start at this edge is rejected.
+        """
         self._stopped_at = t
         self.shared.queue.at(t, Phase.GUARD, self._halt)
 
@@ -100,40 +111,41 @@ class Desk:
             self.ended(t)
 
     def ended(self, t: int) -> None:
-        """BUSY is 0 after edge t."""
+        """Process the end of a motion: BUSY is 0 after edge t."""
         self.speed_on = self.running = False
 
     def stepped(self, t: int, forward: bool) -> None:
-        """A step at edge t (P006-MOT-05)."""
+        """Process a step at edge t (P006-MOT-05)."""
         self.stepped_at = t
         self._position = (self._position + (1 if forward else -1)) % (1 << 32)
 
     def load_position(self, position: int) -> None:
-        """i."""
+        """Execute i."""
         self._position = position % (1 << 32)
 
     def start(self, t: int, count: int) -> None:
-        """s, ROT."""
+        """Execute s or ROT."""
         self.guard.started()
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
-        """N=1 from IDLE."""
+        """Execute N=1 in IDLE."""
         self.guard.started()
         self.speed_on = self.running = True
         self.motion.run(t)
 
     def speed(self, t: int, on: bool) -> None:
-        """N while the speed mode runs or ends."""
+        """Execute N while the speed mode is running or ending."""
         if self.running:
             self.speed_on = on
             self.motion.speed_mode(t, on)
 
 
 class Executor:
-    """answered(t, data): data of the reply, sampled at edge t.
+    """Executor of instructions.
 
-    Begins are at edges whose clk before shows whoever begins: a frame or a program that runs.
+    answered(t, data): called with the data of the reply, sampled at edge t. An instruction begins at an edge
+    whose previous cycle shows its source: a frame, or a running program.
     """
 
     def __init__(self, desk: Desk, answered: Callable[[int, int], None]) -> None:
@@ -148,22 +160,22 @@ class Executor:
         self._cancelled = -1
         self._leaving: Event | None = None
 
-    # ------------------------------------------------------------------ whose turn it is
+    # ------------------------------------------------------------------ choice of the next instruction
 
     def frame(self, t: int, command: Command) -> None:
-        """A command whose last byte was complete at edge t."""
+        """Process a command whose last byte was complete at edge t."""
         self._frame = (t + self._pace.frame, command)
         self._look(t)
 
     def wake(self, t: int, afresh: bool = False) -> None:
-        """The program runs after edge t. afresh: it has been started."""
+        """Continue the program after edge t. afresh: it has been started."""
         if afresh:
             self._next_slot = 0
         self._run = t + 1
         self._look(t)
 
     def cancel(self, t: int) -> None:
-        """RESET at edge t: an instruction of the program that is being worked on has no effect."""
+        """Process RESET at edge t: an instruction of the program that is in progress has no effect."""
         self._cancelled = t
         if self._slot:
             self._slot.cancel()
@@ -171,7 +183,7 @@ class Executor:
         self._look(t)
 
     def _look(self, t: int) -> None:
-        """Plan the next begin."""
+        """Schedule the next begin."""
         if self._begin:
             self._begin.cancel()
             self._begin = None
@@ -227,7 +239,7 @@ class Executor:
         self._answered(t, data if isinstance(data, int) else data(self._desk))
 
     def _of_single(self, t: int, place: int) -> None:
-        """The instruction that E executes."""
+        """Execute the instruction that E selects."""
         self._desk.judging = t
         effect = self._desk.program.once(place)
         self._desk.carry_out(t, effect)
@@ -248,7 +260,7 @@ class Executor:
     # ------------------------------------------------------------------ WAIT
 
     def look_at_wait(self, t: int) -> None:
-        """What edge t finds may be what WAIT waits for."""
+        """Check at edge t whether the condition of WAIT is fulfilled."""
         if not self._leaving and self._desk.program.passes():
             self._leaving = self._queue.at(t, Phase.QUEUE, self._leave)
 

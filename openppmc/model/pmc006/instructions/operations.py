@@ -18,10 +18,13 @@ from ..settings import BOTH
 
 
 class KeyFilter:
-    """An input, active low, that counts only when it has kept its level for a number of µs ticks.
+    """Filter of an active-low input: a level counts when it was stable for a number of µs ticks.
 
-    pressed(t): it has been low that long and was armed. released(t): it has been high that long; a key is
-    armed by that. high_ticks 0: by any high level, at once. armed: from the beginning on.
+    Args:
+        low_ticks, high_ticks: these numbers of ticks. With high_ticks 0, any high level counts immediately.
+        pressed: pressed(t) is called when the input was low for this time and the filter was armed.
+        released: released(t) is called when the input was high for this time, which also arms the filter.
+        armed: the filter is armed at the beginning.
     """
 
     def __init__(
@@ -40,7 +43,7 @@ class KeyFilter:
         self._pending: Event | None = None
 
     def see(self, t: int, level: int) -> None:
-        """Synchronised level from edge t on."""
+        """Process the synchronised level from edge t on."""
         if level == self._level:
             return
         self._level = level
@@ -71,7 +74,7 @@ TARGETS = range(COUNT)
 
 
 class Then(Enum):
-    """What the processor does after an instruction."""
+    """Next action of the processor after an instruction."""
 
     NEXT = auto()
     JUMP = auto()
@@ -80,7 +83,7 @@ class Then(Enum):
 
 
 class Outcome(NamedTuple):
-    """Effect on the part, and the way on; target: of a jump."""
+    """Effect on the part, and the next action; target: target of a jump."""
 
     effect: Effect = Effect()
     then: Then = Then.NEXT
@@ -91,30 +94,33 @@ NOTHING = Outcome()
 
 
 class Operation:
-    """An instruction of the program. `single`: E executes it, too."""
+    """Instruction of the program. single: E can also execute it."""
 
     single = True
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """What these fields ask for; operand is signed."""
+        """Return the outcome of these fields; operand is signed."""
         return Outcome(then=Then.HALT)
 
 
 class End(Operation):
-    """END and every opcode that there is not."""
+    """END and every undefined opcode."""
 
     single = False
 
 
 @dataclass
 class AsHost(Operation):
-    """The host instruction of that letter, its data being the operand, or what `data` makes of it."""
+    """Host instruction of this letter.
+
+    Its data is the operand, or the entry of `data` for the operand.
+    """
 
     letter: str
     data: dict[int, int] | None = None
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """Refused like the host's."""
+        """Return the outcome; the instruction is rejected as if the host had sent it."""
         if self.data is None:
             return Outcome(LETTERS[self.letter](desk, operand))
         if operand not in self.data:
@@ -126,7 +132,7 @@ class Speed(Operation):
     """VSET."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """0 is legal here, unlike v."""
+        """Return the outcome; unlike in v, 0 is legal."""
         if option not in BOTH or operand not in range(16001):
             return NOTHING
         return Outcome(Effect(put={"vmax": operand, "analog": option}))
@@ -139,20 +145,20 @@ class Counter(Operation):
     up: bool
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """32 bits."""
+        """Return the outcome; the counter has 32 bits."""
         fresh = (desk.program.counter + 1) % (1 << 32) if self.up else 0
         return Outcome(Effect(do=lambda desk, t: setattr(desk.program, "counter", fresh)))
 
 
 @dataclass
 class Jump(Operation):
-    """JMP, JNE, JEQ; on: values of FLAG that let it jump."""
+    """JMP, JNE, JEQ. on: values of FLAG for which it jumps."""
 
     on: Container[int]
     single = False
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """A bad target halts, if it would be taken."""
+        """Return the outcome; an illegal target halts the program if the jump is executed."""
         if desk.program.flag not in self.on:
             return NOTHING
         if operand not in TARGETS:
@@ -166,7 +172,7 @@ class Wait(Operation):
     single = False
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """Passes at once if it may."""
+        """Return the outcome; the program continues immediately if the condition is fulfilled."""
         source = waited(desk, option)
         return NOTHING if source in (None, operand & 1) else Outcome(then=Then.WAIT)
 
@@ -175,7 +181,7 @@ class Out(Operation):
     """OUT."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """One bit of GPO."""
+        """Return the outcome, one bit of GPO."""
         if option not in range(1, 6):
             return NOTHING
         mask = 1 << option - 1
@@ -187,41 +193,41 @@ class Compare(Operation):
     """CMP."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """A bad option clears FLAG."""
+        """Return the outcome; an illegal option clears FLAG."""
         flag = int(compared(desk, option) == operand & 0xFFFF_FFFF)
         return Outcome(Effect(do=lambda desk, t: setattr(desk.program, "flag", flag)))
 
 
 @dataclass
 class Key(Operation):
-    """RESET_EN, PAUSE_EN; name: which of the two."""
+    """RESET_EN, PAUSE_EN. name: which of the two."""
 
     name: str
     single = False
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
-        """A target that there is not makes RESET_EN illegal, also when it is to switch off."""
+        """Return the outcome; with an illegal target RESET_EN is illegal, even if it is to switch off."""
         if option not in BOTH or (self.name == "rsten" and operand not in TARGETS):
             return NOTHING
         return Outcome(Effect(do=lambda desk, t: desk.program.enable(self.name, option, operand)))
 
 
 def pin(desk: Desk, option: int) -> int | None:
-    """Sources 1..7 of WAIT and CMP: inputs and EXT flags."""
+    """Return source 1..7 of WAIT and CMP: inputs and EXT flags."""
     if option in range(1, 6):
         return desk.levels["gpi"] >> option - 1 & 1
     return int(desk.guard.latched(f"ext{option - 5}")) if option in (6, 7) else None
 
 
 def waited(desk: Desk, option: int) -> int | None:
-    """Source of WAIT; None for an option that there is not."""
+    """Return the source of WAIT, `None` for an illegal option."""
     if option == 8:
         return int(desk.motion.busy)
     return int(desk.guard.stall) if option == 9 else pin(desk, option)
 
 
 def compared(desk: Desk, option: int) -> int | None:
-    """Source of CMP."""
+    """Return the source of CMP, `None` for an illegal option."""
     if option == 8:
         return int(desk.program.counter)
     return desk.levels["gpi"] if option == 9 else pin(desk, option)
@@ -255,6 +261,6 @@ TABLE: dict[int, Operation] = {
 
 
 def decode(word0: int, word1: int) -> tuple[Operation, int, int]:
-    """Operation, option and signed operand of an instruction."""
+    """Return operation, option and signed operand of an instruction."""
     operand = word1 - (word1 >> 31 << 32)
     return TABLE.get(word0 & 0xFF, END), word0 >> 8 & 0xFF, operand

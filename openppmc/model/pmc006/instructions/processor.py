@@ -1,4 +1,4 @@
-"""The processor of the PMC006B4's user program: states, keys (P006 chapter 12)."""
+"""Processor of the PMC006B4's user program: states, keys (P006 chapter 12)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WORDS = 2 * COUNT
 
 
 class State(Enum):
-    """States of the processor (P006-PRG-10); PAUSED is a flag beside RUN and WAIT."""
+    """States of the processor (P006-PRG-10); PAUSED is an additional flag in RUN and WAIT."""
 
     HALT = auto()
     RUN = auto()
@@ -22,17 +22,20 @@ class State(Enum):
 
 
 class Executes(Protocol):
-    """Who executes the instructions."""
+    """Members of the executor, which executes the instructions."""
 
     def wake(self, t: int, afresh: bool = False) -> None:
-        """The program runs after edge t."""
+        """Continue the program after edge t."""
 
     def cancel(self, t: int) -> None:
-        """What is being worked on has no effect."""
+        """Cancel the instruction that is in progress."""
 
 
 class Processor:
-    """words: the program. The executor asks for `next` while it `runs`."""
+    """Processor of the user program.
+
+    The executor calls `next` while `runs` is true. words: the program.
+    """
 
     def __init__(self, desk: Desk, executor: Executes) -> None:
         self._desk, self._executor = desk, executor
@@ -44,47 +47,47 @@ class Processor:
 
     @property
     def halted(self) -> bool:
-        """No program runs."""
+        """True if no program runs."""
         return self.state is State.HALT
 
     @property
     def runs(self) -> bool:
-        """There are instructions to execute."""
+        """True if there are instructions to execute."""
         return self.state is State.RUN and not self.paused
 
     def write(self, place: int, word: int) -> None:
-        """W."""
+        """Execute W."""
         self.words[place] = word & 0xFFFF_FFFF
 
     def start(self, t: int, pc: int) -> None:
-        """z or autostart."""
+        """Execute z or autostart."""
         self.pc, self.state, self.paused = pc, State.RUN, False
         self.counter = self.flag = self.rsten = self.pauen = 0
         self._executor.wake(t, afresh=True)
 
     def quit(self, t: int) -> None:
-        """F 0."""
+        """Execute F 0."""
         self.state, self.paused = State.HALT, False
         self.rsten = self.pauen = 0
 
     # ------------------------------------------------------------------ instructions
 
     def fetch(self, place: int) -> tuple[Operation, int, int]:
-        """Operation, option, operand of instruction `place`."""
+        """Return operation, option and operand of instruction `place`."""
         return decode(self.words[2 * place], self.words[2 * place + 1])
 
     def next(self) -> Outcome:
-        """What the instruction at PC does now."""
+        """Return the outcome of the instruction at PC."""
         operation, option, operand = self.fetch(self.pc)
         return operation(self._desk, option, operand)
 
     def once(self, place: int) -> Effect:
-        """What E does with an instruction."""
+        """Return the effect of an instruction that E executes."""
         operation, option, operand = self.fetch(place)
         return operation(self._desk, option, operand).effect if operation.single else Effect()
 
     def advance(self, outcome: Outcome) -> None:
-        """The instruction at PC has been executed."""
+        """Continue after the instruction at PC was executed."""
         if outcome.then is Then.HALT:
             self.state = State.HALT
         elif outcome.then is Then.WAIT:
@@ -95,21 +98,21 @@ class Processor:
             self._step()
 
     def _step(self) -> None:
-        """The next instruction, if there is one."""
+        """Advance to the next instruction; halt after the last one."""
         if self.pc + 1 == COUNT:
             self.state = State.HALT
         else:
             self.pc += 1
 
     def passes(self) -> bool:
-        """WAIT sees what it waits for."""
+        """Return True if the condition of WAIT is fulfilled."""
         if self.state is not State.WAIT or self.paused:
             return False
         _, option, operand = self.fetch(self.pc)
         return waited(self._desk, option) == operand & 1
 
     def pass_on(self, t: int) -> None:
-        """The end of WAIT, unless something has come between."""
+        """End WAIT, unless another event has changed the state."""
         if self.state is State.WAIT:
             self.state = State.RUN
             self._step()
@@ -118,13 +121,13 @@ class Processor:
     # ------------------------------------------------------------------ keys
 
     def enable(self, name: str, on: int, target: int) -> None:
-        """RESET_EN, PAUSE_EN."""
+        """Execute RESET_EN or PAUSE_EN."""
         setattr(self, name, on)
         if name == "rsten":
             self.target = target
 
     def reset_key(self, t: int) -> None:
-        """GPI1 has been pressed (P006-PRG-31)."""
+        """Process a press of GPI1 (P006-PRG-31)."""
         if not self.rsten or self.state is State.HELD:
             return
         self._desk.stop(t)
@@ -133,23 +136,23 @@ class Processor:
             self._desk.shared.queue.at(t, Phase.END, self._hold)
 
     def _hold(self, t: int) -> None:
-        """Behind whatever else this edge has done."""
+        """Change to HELD after all other events of this edge."""
         if self.state is not State.HALT:
             self.pc, self.state, self.paused = self.target, State.HELD, False
 
     def release_key(self, t: int) -> None:
-        """GPI1 has been released."""
+        """Process the release of GPI1."""
         if self.state is State.HELD:
             self.state = State.RUN
             self._executor.wake(t)
 
     def pause_key(self, t: int) -> None:
-        """GPI2 has been pressed (P006-PRG-32)."""
+        """Process a press of GPI2 (P006-PRG-32)."""
         if self.pauen and self.state in (State.RUN, State.WAIT):
             self._desk.shared.queue.at(t, Phase.END, self._pause)
 
     def _pause(self, t: int) -> None:
-        """Behind whatever else this edge has done."""
+        """Change PAUSED after all other events of this edge."""
         if self.state in (State.RUN, State.WAIT):
             self.paused = not self.paused
             self._executor.wake(t)

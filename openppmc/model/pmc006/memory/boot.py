@@ -11,7 +11,10 @@ from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, Course, Engine
 
 
 def program_of(block: bytes) -> list[int] | None:
-    """Words of a program with its sum and mark as read from the EEPROM; None if it is not valid."""
+    """Return the words of a program with its sum and mark from the EEPROM.
+
+    None: the program is invalid.
+    """
     body, total, mark = block[:SIZE], int.from_bytes(block[SIZE : SIZE + 2], "little"), block[SIZE + 2]
     if mark != COMPLETE or sum(body) % 65536 != total:
         return None
@@ -19,7 +22,12 @@ def program_of(block: bytes) -> list[int] | None:
 
 
 class Boot:
-    """ended(t, valid): the end of BOOT; whether there is a program. stored(t): registers are new."""
+    """Sequence after a reset.
+
+    Args:
+        ended: ended(t, valid) is called at the end of BOOT. valid: a program exists.
+        stored: stored(t) is called when registers have new values.
+    """
 
     def __init__(
         self,
@@ -36,11 +44,11 @@ class Boot:
         self._page, self._rest = bytearray(PAGE), bytearray(MARK + 1 - PROGRAM)
 
     def begin(self, t: int) -> None:
-        """Edge t is the first one of the inside."""
+        """Begin at edge t, the first internal edge."""
         self._engine.run(t, "boot", self._course(), self._read)
 
     def restore(self, t: int) -> None:
-        """FSET was low for long enough (P006-EEP-21)."""
+        """Process FSET, which was low for the required time (P006-EEP-21)."""
         self._restoring = self._owed = True
         self._take(t, vars(Settings()))
 
@@ -56,14 +64,14 @@ class Boot:
         self._whole = True
 
     def _course_of_copy(self) -> Course[None]:
-        """Over what was read from page 0, which is no good."""
+        """Read the copy into the buffer of page 0, which is invalid."""
         yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
         self._whole = True
 
-    # ------------------------------------------------------------------ what has been read
+    # ------------------------------------------------------------------ processing of the data
 
     def _read(self, t: int) -> None:
-        """The bus is at rest since one clk."""
+        """Process the program; the bus has been idle for one cycle."""
         words = program_of(bytes(self._rest)) if self._whole else None
         self._valid = words is not None
         self._desk.program.words[:] = words or [0] * (SIZE // 4)
@@ -71,14 +79,14 @@ class Boot:
         self._at(t + (pace.kept if self._valid else pace.wiped), self._judge)
 
     def _judge(self, t: int) -> None:
-        """The program is in its place; is there a block of parameters?"""
+        """Check the parameter block; the program is stored."""
         if self._whole and framed(bytes(self._page)) and not self._restoring:
             self._at(t + self._desk.shared.pace.fields, self._load)
         else:
             self._settle(t)
 
     def _load(self, t: int) -> None:
-        """Its fields have been looked at."""
+        """Load the parameters; their fields have been checked."""
         values = values_of(bytes(self._page))
         if values is None or self._restoring:
             self._settle(t)
@@ -100,7 +108,7 @@ class Boot:
         self._at(t + 1, self._finish)
 
     def _finish(self, t: int) -> None:
-        """The end, or a restore before it, or the copy's turn."""
+        """End the sequence, start a restore that was requested before the end, or read the copy."""
         if self._owed:
             self._owed = False
             self._engine.run(t + 1, "fact", self._engine.fact(), self._settle)

@@ -1,4 +1,4 @@
-"""EEPROM engine of the PMC006B4: what is read at power-up, saved, burned and restored (P006 chapter 13)."""
+"""EEPROM engine of the PMC006B4: power-up read, save, burn and restore (P006 chapter 13)."""
 
 from __future__ import annotations
 
@@ -12,25 +12,28 @@ from ..desk import Desk
 from ..pins import Shared, Ticks
 from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 
-# I2C master of the PMC006B4 on the level of quarter bits (P006 chapter 13.1).
-#
-# What a master does is told by generators: each `yield` waits for the next quarter tick, and what follows it
-# happens on that tick's edge.
+# I2C master of the PMC006B4 with a resolution of quarter bits (P006 chapter 13.1). The actions of a master
+# are generators: each `yield` waits for the next quarter tick, and the code after it runs at the edge of this
+# tick.
 
 R = TypeVar("R")
 Course = Generator[None, None, R]
 LOW = Fraction(55, 100)
-"""Part of a period for which SCL is low: two quarters and a little."""
+"""Part of a period for which SCL is low: slightly more than two quarters."""
 
 
 class BusError(Exception):
-    """SCL was held low for too long, or nobody answered."""
+    """SCL was held low for too long, or no device responded."""
 
 
 class Bus:
-    """The two lines. levels: their synchronised levels. hz: of SCL. tick: number of the present quarter tick.
+    """The two lines.
 
-    per_ms: quarter ticks of a millisecond.
+    Attributes:
+        levels: synchronised levels of the lines.
+        hz: frequency of SCL.
+        tick: number of the current quarter tick.
+        per_ms: quarter ticks of a millisecond.
     """
 
     def __init__(self, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
@@ -48,7 +51,7 @@ class Bus:
     # ------------------------------------------------------------------ time
 
     def begin(self, t: int, course: Course[None], ended: Callable[[int], None]) -> None:
-        """A course whose first tick is the first one at or after edge t. ended(t): on its last tick."""
+        """Run a course from the first tick at or after edge t. ended(t): called at its last tick."""
         next(course)
         self._wait(self._ticks.first(t), course, ended)
 
@@ -68,11 +71,11 @@ class Bus:
     # ------------------------------------------------------------------ lines
 
     def level(self, pin: str) -> int:
-        """What a pin is like."""
+        """Return the level of a pin."""
         return self._levels[pin]
 
     def let_go(self) -> None:
-        """Both lines are high as far as this side is concerned."""
+        """Release both lines."""
         self._drive("scl", 1)
         self._drive("sda", 1)
 
@@ -80,22 +83,22 @@ class Bus:
         self._shared.log.set(self._now, f"{line}_oe", int(not level))
 
     def _release(self) -> None:
-        """SCL may go high, once it was low for long enough."""
+        """Release SCL when it was low for the required time."""
         at = self._now + self._late
         self._shared.queue.at(at, Phase.PIN, lambda now: self._shared.log.set(now, "scl_oe", 0))
 
     def _rise(self) -> Course[None]:
-        """Wait until SCL is high; it may be held low for a millisecond."""
+        """Wait until SCL is high; a device may hold it low for a millisecond."""
         for _ in range(self.per_ms + 1):
             yield
             if self._levels["scl_i"]:
                 return
         raise BusError
 
-    # ------------------------------------------------------------------ what a master can do
+    # ------------------------------------------------------------------ actions of a master
 
     def start(self) -> Course[None]:
-        """START, also a repeated one."""
+        """Send a START, also a repeated one."""
         yield
         self._drive("sda", 1)
         yield
@@ -108,7 +111,7 @@ class Bus:
         self._drive("scl", 0)
 
     def stop(self) -> Course[None]:
-        """STOP."""
+        """Send a STOP."""
         yield
         self._drive("scl", 0)
         self._drive("sda", 0)
@@ -129,7 +132,7 @@ class Bus:
         return got
 
     def _bit_now(self, level: int) -> Course[int]:
-        """The same from its first tick to the one that samples."""
+        """Send or receive a bit, from its first tick to the one that samples."""
         self._drive("scl", 0)
         self._drive("sda", level)
         yield
@@ -138,7 +141,10 @@ class Bus:
         return self._levels["sda_i"]
 
     def write(self, byte: int | Callable[[], int]) -> Course[bool]:
-        """Send a byte; whether it was acknowledged. A function is asked for it on its first tick."""
+        """Send a byte; return True if it was acknowledged.
+
+        byte: a function is called at the first tick of the byte.
+        """
         yield
         value = byte if isinstance(byte, int) else byte()
         for place in reversed(range(8)):
@@ -158,7 +164,7 @@ class Bus:
         return byte
 
     def clear(self) -> Course[None]:
-        """Up to 9 pulses of SCL for a device that holds SDA, then STOP (13.2, step 2)."""
+        """Send up to 9 pulses of SCL for a device that holds SDA, then STOP (13.2, step 2)."""
         for _ in range(8):
             if (yield from self.bit(1)):
                 break
@@ -174,15 +180,20 @@ class Bus:
 
 PROGRAM, SUM, MARK = 0x0020, 0x0340, 0x0342
 COPY = 0x0360
-"""Of the parameter page; written first, so that a cut leaves one of the two whole."""
+"""Address of the copy of the parameter page.
+
+It is written first, so that one of the two survives a power cut.
+"""
 SIZE = SUM - PROGRAM
 COMPLETE = 0x5A
 POLL_MS = 10
 
 
 class Engine:
-    """One job at a time; a FACT that meets another job waits for its end. device: its address. failed: the
-    last job but BOOT ended without an answer of the device."""
+    """Engine for one job at a time; a FACT during another job waits for its end.
+
+    device: address of the device. failed: the last job except BOOT ended without a response of the device.
+    """
 
     def __init__(self, desk: Desk, bus: Bus, device: int) -> None:
         self._desk, self._bus, self._device = desk, bus, device
@@ -192,36 +203,36 @@ class Engine:
 
     @property
     def state(self) -> int:
-        """What V answers: 1 a job is under way, else 2 the last one has failed."""
+        """Answer to V: 1 = a job is in progress, 2 = the last one has failed, otherwise 0."""
         return 1 if self.busy else 2 * self.failed
 
     @property
     def busy(self) -> bool:
-        """A job runs or waits."""
+        """True if a job is running or waiting."""
         return self._kind is not None or self._restore
 
     @property
     def burning(self) -> bool:
-        """The program buffer is being written to the device."""
+        """True while the program buffer is being written to the device."""
         return self._kind == "burn"
 
     # ------------------------------------------------------------------ jobs
 
     def idle(self) -> None:
-        """The end of BOOT."""
+        """Process the end of BOOT."""
         self._kind = None
 
     def begin(self, t: int, kind: str) -> None:
-        """t, B, or the restore of the parameters, from edge t on; the engine is idle."""
+        """Start t, B, or the restore of the parameters at edge t; the engine is idle."""
         course = {"save": self._save, "burn": self._burn, "fact": self.fact}[kind]
         self.run(t, kind, course())
 
     def run(
         self, t: int, kind: str, course: Course[None], ended: Callable[[int], None] | None = None
     ) -> None:
-        """Any course as a job from edge t on; nothing goes wrong that would not end it.
+        """Run a course as a job from edge t on. Any error ends the job.
 
-        ended(t): the bus is at rest since one clk; the engine stays busy.
+        ended(t): called when the bus has been idle for one cycle; the engine stays busy.
         """
         self._kind = kind
         self.failed = False
@@ -246,24 +257,27 @@ class Engine:
             self.begin(t + 1, "fact")
 
     def restore(self, t: int) -> None:
-        """FSET; said behind everything else of edge t (P006-EEP-22)."""
+        """Process FSET after all other events of edge t (P006-EEP-22)."""
         if self._kind is None:
             self.begin(t + self._desk.shared.pace.fact, "fact")
         else:
             self._restore = True
 
     def _save(self) -> Course[None]:
-        """Each of the two as the registers are when it is sent (P006-EEP-10)."""
+        """Save both pages (P006-EEP-10).
+
+        Each register is saved with its value at the time when it is sent.
+        """
         for place in (COPY, 0):
             yield from self._page(place, PAGE, sent(self._desk.settings).__next__)
 
     def fact(self) -> Course[None]:
-        """The factory page (P006-EEP-22)."""
+        """Write the factory page (P006-EEP-22)."""
         for place in (COPY, 0):
             yield from self._page(place, PAGE, iter(FACTORY_PAGE).__next__)
 
     def _burn(self) -> Course[None]:
-        """A program counts only from its last byte on (P006-EEP-11)."""
+        """Write the program, which is valid only after its last byte (P006-EEP-11)."""
         yield from self._page(MARK, 1, lambda: 0)
         code = b"".join(word.to_bytes(4, "little") for word in self._desk.program.words)
         content = iter(code)
@@ -275,14 +289,14 @@ class Engine:
     # ------------------------------------------------------------------ device
 
     def _send(self, *data: int | Callable[[], int]) -> Course[None]:
-        """Bytes that all have to be acknowledged."""
+        """Send bytes that must all be acknowledged."""
         for byte in data:
             if not (yield from self._bus.write(byte)):
                 yield from self._bus.stop()
                 raise BusError
 
     def poll(self) -> Course[None]:
-        """Address the device until it answers, for at most 10 ms."""
+        """Address the device until it responds, for at most 10 ms."""
         first: int | None = None
         while first is None or self._bus.tick + 1 - first < POLL_MS * self._bus.per_ms:
             first = self._bus.tick + 1 if first is None else first
@@ -294,7 +308,7 @@ class Engine:
         raise BusError
 
     def _page(self, address: int, count: int, data: Callable[[], int]) -> Course[None]:
-        """Write within a page, then poll until the device answers again. data: the next byte."""
+        """Write within a page, then poll until the device responds again. data: returns the next byte."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
         yield from self._send(*(data for _ in range(count)))
@@ -302,7 +316,7 @@ class Engine:
         yield from self.poll()
 
     def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> Course[None]:
-        """Random read. store(place, byte)."""
+        """Read bytes from any address; store(place, byte) is called for each."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
         yield from self._bus.start()
@@ -313,7 +327,10 @@ class Engine:
 
 
 def sent(settings: Settings) -> Iterator[int]:
-    """Bytes of the parameter page, each register as it is when its first byte is asked for (P006-EEP-10)."""
+    """Yield the bytes of the parameter page.
+
+    Each register has its value at the time when its first byte is requested (P006-EEP-10).
+    """
     starts = {place: (name, size) for name, (place, size) in PLACES.items()}
     page = bytearray()
     while len(page) < PAGE - 1:

@@ -1,1 +1,1 @@
-"""Motions of the PMC006B4: plans, speed update by update, position, guard."""
+"""Motions of the PMC006B4: plans, speed per update, position, guard."""

@@ -1,7 +1,7 @@
-"""Speed and steps of one motion of the PMC006B4, update by update (P006-MOT-03, -22, -23, -30..-42).
+"""Speed and steps of one motion of the PMC006B4, per update (P006-MOT-03, -22, -23, -30..-42).
 
-Pure arithmetic in us from t = 0; edges and events are `motion`'s. Between two updates the speed is
-constant, so the steps of each 100 us are known in closed form.
+This module is pure arithmetic in us from t = 0; `motion` has edges and events. Between two updates the speed
+is constant, so the steps of each 100 us are known in closed form.
 """
 
 from __future__ import annotations
@@ -12,61 +12,67 @@ from functools import lru_cache
 from math import isqrt
 from typing import NamedTuple
 
-# Arithmetic of the PMC006B4's motions: accelerations, ramps, ways, plans (P006-MOT-02, -10..-21).
-#
-# Speeds are whole steps/s 0..16000, ways whole steps, all times multiples of 1 us. Everything is exact.
+# Arithmetic of the PMC006B4's motions: accelerations, ramps, distances, plans (P006-MOT-02, -10..-21).
+# Speeds are whole steps/s 0..16000, distances whole steps, all times multiples of 1 us. All results are
+# exact.
 
 WHOLE = 1 << 32
 """Progress of a complete ramp."""
 UPDATES_HZ = 10_000
 STEEPEST = 5
-"""The largest coefficient."""
+"""Largest coefficient."""
 SHORT = 256
 """Displacements below this one have no S-curve (P006-MOT-23)."""
 SPARE = 3
-"""Steps that a fitted ramp leaves to creep (P006-MOT-11)."""
+"""Steps that a fitted ramp leaves for CREEP (P006-MOT-11)."""
 
 
 def acceleration(n: int) -> int:
-    """Mean acceleration of coefficient n = 0..5, steps/s^2 (P006-MOT-02)."""
+    """Return the mean acceleration of coefficient n = 0..5 in steps/s^2 (P006-MOT-02)."""
     return 1700 << n
 
 
 def up(a: int, b: int) -> int:
-    """a / b, rounded up."""
+    """Return a / b, rounded up."""
     whole, rest = divmod(a, b)
     return whole + (rest > 0)
 
 
 def by_coefficient(change: int, n: int) -> int:
-    """Progress per update of a ramp over `change` >= 1 steps/s (P006-MOT-10)."""
+    """Return the progress per update of a ramp over `change` >= 1 steps/s (P006-MOT-10)."""
     return min(WHOLE, WHOLE * acceleration(n) // (UPDATES_HZ * change))
 
 
 def by_distance(v: int, ve: int, left: int) -> int:
-    """Progress per update of a ramp from v to ve that ends `SPARE` steps before `left` (P006-MOT-11)."""
+    """Return the progress per update of a ramp from v to ve (P006-MOT-11).
+
+    The ramp ends `SPARE` steps before `left`.
+    """
     way = max(1, left - SPARE)
     return min(WHOLE, up(WHOLE * (v + ve), 2 * UPDATES_HZ * way))
 
 
 def margin(v: int) -> int:
-    """Steps that planning adds to a way at speed v (P006-MOT-12)."""
+    """Return the steps that planning adds to a distance at speed v (P006-MOT-12)."""
     return 4 + v // 4096
 
 
 def way(fast: int, slow: int, n: int) -> int:
-    """Steps between two speeds at coefficient n, rounded up; fast >= slow."""
+    """Return the steps between two speeds at coefficient n, rounded up; fast >= slow."""
     return up((fast + slow) * (fast - slow), 2 * acceleration(n))
 
 
 @lru_cache(maxsize=1 << 14)
 def reach(v: int, ve: int, n: int) -> int:
-    """Stopping distance from v > ve (P006-MOT-15)."""
+    """Return the stopping distance from v > ve (P006-MOT-15)."""
     return way(v, ve, n) + margin(v)
 
 
 class Ramp(NamedTuple):
-    """From `begin` to `goal` steps/s, `rate` of WHOLE per update, smooth (S) or straight."""
+    """Ramp from `begin` to `goal` steps/s, `rate` of WHOLE per update.
+
+    smooth: S-curve, otherwise straight.
+    """
 
     begin: int
     goal: int
@@ -74,7 +80,7 @@ class Ramp(NamedTuple):
     smooth: bool
 
     def at(self, progress: int) -> int:
-        """Speed at a progress of 0..WHOLE-1 (P006-MOT-13, -14)."""
+        """Return the speed at a progress of 0..WHOLE-1 (P006-MOT-13, -14)."""
         x = progress >> 16
         part = ((3 * x**2 << 16) - 2 * x**3) >> 16 if self.smooth else progress & -65536
         change = self.goal - self.begin
@@ -83,7 +89,7 @@ class Ramp(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Goal of the first ramp, and the coefficients in force."""
+    """Goal of the first ramp, and the active coefficients."""
 
     goal: int
     acc: int
@@ -91,7 +97,7 @@ class Plan(NamedTuple):
 
 
 def plan(n: int, vs: int, ve: int, target: int, acc: int, dec: int) -> Plan:
-    """Plan of a displacement of n >= 256 steps (P006-MOT-16, -17, -20, -21)."""
+    """Return the plan of a displacement of n >= 256 steps (P006-MOT-16, -17, -20, -21)."""
     if target < max(vs, ve):
         return Plan(target, acc, dec)
     rest = n - margin(target) - 4
@@ -105,11 +111,11 @@ def plan(n: int, vs: int, ve: int, target: int, acc: int, dec: int) -> Plan:
 
 SECOND = 1_000_000
 UPDATE = 100
-"""us between two updates."""
+"""Time between two updates in us."""
 
 
 class Stage(Enum):
-    """What the speed does."""
+    """States of the speed."""
 
     CRUISE = "cruise"
     RAMP = "ramp"
@@ -120,12 +126,20 @@ class Stage(Enum):
 
 
 FREE = (Stage.RAMP, Stage.CRUISE)
-"""Stages that take a new target or begin to decelerate."""
+"""Stages that accept a new target or begin to decelerate."""
 NEXT = {Stage.RAMP: Stage.CRUISE, Stage.DEC: Stage.CREEP, Stage.STOP: Stage.END}
 
 
 class Order(NamedTuple):
-    """What a motion keeps from its start: steps (None: speed mode), VSTART, VSTOP, coefficients, target."""
+    """Values that a motion latches at its start.
+
+    Attributes:
+        n: steps (`None`: speed mode).
+        vs: VSTART.
+        ve: VSTOP.
+        target: target speed.
+        acc, dec: coefficients.
+    """
 
     n: int | None
     vs: int
@@ -136,7 +150,13 @@ class Order(NamedTuple):
 
 
 class Live(NamedTuple):
-    """What an advance reads of the registers: target, shape of ramps to it, speed mode switched off."""
+    """Registers that `advance` reads.
+
+    Attributes:
+        target: target speed.
+        straight: ramps to it are straight.
+        stop: speed mode was switched off.
+    """
 
     target: int
     straight: bool = False
@@ -144,10 +164,16 @@ class Live(NamedTuple):
 
 
 class Engine:
-    """One motion. speed: V in force. following: that of the next update. left: steps to go, None without end.
+    """One motion.
 
-    Per update: `load`, `segment`, then `advance` unless `over`; at t = 0 `advance`, then `segment(99)`.
-    braked: (left, speed) at which the last deceleration began, None before it.
+    Per update, call `load`, `segment`, then `advance` unless `over`. At t = 0, call `advance`, then
+    `segment(99)`.
+
+    Attributes:
+        speed: current V.
+        following: V of the next update.
+        left: remaining steps, `None` without an end.
+        braked: (left, speed) at which the last deceleration began, `None` before it.
     """
 
     def __init__(self, order: Order) -> None:
@@ -177,7 +203,7 @@ class Engine:
             self._ramp(Stage.RAMP, goal, by_coefficient(abs(goal - self.speed), self.acc))
 
     def _begin_short(self, vs: int, ve: int, n: int) -> None:
-        """P006-MOT-23."""
+        """Begin a displacement without S-curve (P006-MOT-23)."""
         if vs != ve:
             rate = by_coefficient(abs(ve - vs), self.dec if ve < vs else self.acc)
             self._ramp(Stage.RAMP, ve, max(rate, by_distance(vs, ve, n)), smooth=False)
@@ -189,11 +215,14 @@ class Engine:
     # ------------------------------------------------------------------ steps
 
     def load(self) -> None:
-        """An update: the new speed is in force."""
+        """Begin an update: the new speed becomes active."""
         self.speed = self.following
 
     def segment(self, ticks: int = UPDATE) -> Sequence[int]:
-        """Steps of the coming `ticks` us at the present speed, as 1 .. ticks; `over` with the last of all."""
+        """Return the steps of the next `ticks` us at the current speed, as 1 .. ticks.
+
+        The last step of the motion sets `over`.
+        """
         count, rest = divmod(self._phase + ticks * self.speed, SECOND)
         self._before = self.left
         if not count:
@@ -211,7 +240,10 @@ class Engine:
     # ------------------------------------------------------------------ speed
 
     def advance(self, live: Live) -> None:
-        """Work out `following` (P006 5.5). In an update with its first us worked on, but no more of it."""
+        """Calculate `following` (P006 5.5).
+
+        In an update, call it after the first us was processed, and before the second one.
+        """
         if self.stage in (Stage.STOP, Stage.END) and not live.stop:
             self.stage, self._target = Stage.CRUISE, self.speed
         if self.stage in FREE and not self.short:
@@ -226,7 +258,7 @@ class Engine:
             self.following = self.speed
 
     def _brake_to_end(self) -> None:
-        """Speed mode has been switched off (P006-MOT-41)."""
+        """Decelerate after the speed mode was switched off (P006-MOT-41)."""
         slow = self.order.ve
         if self.speed <= slow:
             self.stage = Stage.END
@@ -234,7 +266,7 @@ class Engine:
             self._ramp(Stage.STOP, slow, by_coefficient(self.speed - slow, self.dec))
 
     def _aim(self, live: Live) -> None:
-        """A new target (P006-MOT-30)."""
+        """Begin a ramp to a new target (P006-MOT-30)."""
         if live.target == self._target:
             return
         self._target = live.target
@@ -246,7 +278,7 @@ class Engine:
             self.stage = Stage.CRUISE
 
     def _brake(self) -> None:
-        """The final deceleration of a displacement, if it is time for it."""
+        """Begin the final deceleration of a displacement if it is required."""
         slow, left = self.order.ve, self._before
         if left is not None and self.speed > slow and left <= reach(self.speed, slow, self.dec):
             self.braked = (left, self.speed)

@@ -1,7 +1,9 @@
-"""Motions of the PMC006B4 on clk edges: start, steps, updates, ends (P006-MOT-04, -05, -50..-52).
+"""Motions of the PMC006B4 at edges of `clk`: start, steps, updates, ends.
 
-The arithmetic is `engine`'s. An edge named here is the one on which the register in question changes;
-registers of others are read as they are before the edge. Work is done per update and per step.
+Rules: P006-MOT-04, -05, -50..-52.
+
+`engine` has the arithmetic. An edge in this module is the one at which the register in question changes;
+registers of other blocks are read with their values before the edge. Work is done per update and per step.
 """
 
 from __future__ import annotations
@@ -16,13 +18,13 @@ from ..desk import Desk
 from ..pins import Shared
 from .engine import UPDATE, Engine, Live, Order, Stage
 
-# What stops the PMC006B4: emergency inputs and the stall detector (P006 chapters 4.3, 7.1, 7.2).
+# Guard of the PMC006B4: emergency inputs and the stall detector (P006 chapters 4.3, 7.1, 7.2).
 
 EXTS = ("ext1", "ext2")
 
 
 class Guard:
-    """stall, stpos: STALL and the position where it was set."""
+    """Emergency inputs and stall detector. stall, stpos: STALL and the position where it was set."""
 
     def __init__(self, desk: Desk) -> None:
         self._desk, self._queue, self._regs = desk, desk.shared.queue, desk.settings
@@ -35,18 +37,18 @@ class Guard:
         self.stpos = 0
 
     def latched(self, ext: str) -> bool:
-        """Stop flag of "ext1" or "ext2"."""
+        """Return the stop flag of "ext1" or "ext2"."""
         return self._flags[ext]
 
     @property
     def locked(self) -> bool:
-        """Any of the two."""
+        """True if one of the two flags is set."""
         return any(self._flags.values())
 
     # ------------------------------------------------------------------ emergency inputs
 
     def see(self, t: int, levels: Mapping[str, int]) -> None:
-        """Synchronised levels that edge t compares with those of one clk before (P006-EXT-04)."""
+        """Compare synchronised levels at edge t with those of the previous cycle (P006-EXT-04)."""
         for place, ext in enumerate(EXTS):
             before, self._level[ext] = self._level[ext], levels[ext]
             wanted = self._regs.trigm >> place & 1
@@ -64,18 +66,18 @@ class Guard:
 
     @property
     def _watches(self) -> bool:
-        """A sample is evaluated (P006-STL-01)."""
+        """True if a sample is evaluated (P006-STL-01)."""
         motion = self._desk.motion
         return bool(self._regs.stcfg & 1) and not self.stall and motion.busy and motion.steady
 
     def strobe(self, t: int, valid: int, level: int) -> None:
-        """Levels of the pins that edge t samples."""
+        """Process the levels of the pins that edge t samples."""
         self._valid, self._bemf = bool(valid), level
         if valid:
             self._sample(t)
 
     def _sample(self, t: int) -> None:
-        """The level is compared at edge t, the outcome evaluated one clk later."""
+        """Compare the level at edge t; the result is evaluated one cycle later."""
         if self._sampled != t:
             self._sampled = t
             below = self._bemf < self._regs.stlvl
@@ -90,14 +92,14 @@ class Guard:
             if self._regs.stcfg & 2:
                 self._desk.stop(t)
         elif watches and self._valid:
-            # A strobe that lasts is a sample in every clk.
+            # A strobe that stays high is a sample in every cycle.
             self._sample(t)
 
     def _stalled(self, t: int, position: int) -> None:
         self.stall, self.stpos, self._set_at["stall"] = True, position, t
 
     def look(self, t: int) -> None:
-        """Everything as it is after edge t."""
+        """Process the state after edge t."""
         if self._valid and self._sampled < t and self._watches:
             self._sample(t)
         if self.stall and self._regs.stcfg & 2 and self._desk.motion.busy:
@@ -105,13 +107,13 @@ class Guard:
 
     @property
     def pull(self) -> bool:
-        """STALL pulls GPO5."""
+        """True if STALL pulls GPO5."""
         return self.stall and bool(self._regs.stcfg & 4)
 
     # ------------------------------------------------------------------ executor
 
     def clear(self, t: int, latch: str) -> None:
-        """b, l, p; a latch that is set in the same clk stays (P006-STA-14)."""
+        """Execute b, l or p; a latch that is set in the same cycle stays set (P006-STA-14)."""
         if self._set_at.get(latch) == t:
             return
         if latch == "stall":
@@ -120,7 +122,7 @@ class Guard:
             self._flags[latch] = False
 
     def started(self) -> None:
-        """A motion has been accepted (P006-STA-03, P006-STL-04)."""
+        """Process the start of an accepted motion (P006-STA-03, P006-STL-04)."""
         self.stall, self._count = False, 0
 
 
@@ -129,38 +131,48 @@ ANALOG_UPDATES = 100
 
 
 def drive_index(cur: int) -> int:
-    """k of a request of 400..4000 mA (P006-EXC-20)."""
+    """Return k of a request of 400..4000 mA (P006-EXC-20)."""
     return (cur - 325) // 150
 
 
 @lru_cache
 def base_code(cur: int) -> int:
-    """RB of a request of 400..4000 mA (P006-EXC-20)."""
+    """Return RB of a request of 400..4000 mA (P006-EXC-20)."""
     return (RB_FULL * (400 + 150 * drive_index(cur)) + MA_FULL // 2) // MA_FULL
 
 
 @lru_cache(maxsize=1 << 14)
 def compensation(speed: int, mstep: int, cur: int, ccomp: int, scomp: int) -> tuple[int, int]:
-    """B, addition to the peak code, and W, advance of the angle, at a speed (P006-EXC-21..23)."""
+    """Return B and W at a speed (P006-EXC-21..23).
+
+    B is the addition to the peak code, W the advance of the angle.
+    """
     full = speed // max(1, mstep)
     return base_code(cur) * ccomp * full // (1 << 22), min(64, scomp * full // (1 << 16))
 
 
 class Listener(Protocol):
-    """What is told of a motion."""
+    """Receiver of the events of a motion."""
 
     def moved(self, t: int, forward: bool, increment: int) -> None:
-        """A step at edge t."""
+        """Process a step at edge t."""
 
     def changed(self, t: int) -> None:
-        """busy, b or w at edge t."""
+        """Process a change of busy, b or w at edge t."""
 
 
 class Motion:
-    """stepped(t, forward): mon_step rises at edge t. ended(t): BUSY has fallen at edge t, by itself.
+    """Motion of the motor.
 
-    busy, forward, increment (angle units a step), b, w, steady (P006-STL-01): levels after the last edge that
-    was worked on. tick: number of the us tick that is t = 0, None before planning is done.
+    Args:
+        stepped: stepped(t, forward) is called when mon_step rises at edge t.
+        ended: ended(t) is called when BUSY has fallen at edge t without a stop.
+
+    Attributes:
+        busy, forward, b, w: levels after the last edge that was run.
+        increment: angle units per step.
+        steady: constant speed (P006-STL-01).
+        tick: number of the us tick that is t = 0, `None` before the end of planning.
     """
 
     def __init__(
@@ -182,29 +194,31 @@ class Motion:
     # ------------------------------------------------------------------ requests
 
     def start(self, t: int, count: int) -> None:
-        """An accepted displacement of `count` >= 1 steps; BUSY rises at edge t."""
+        """Start an accepted displacement of `count` >= 1 steps; BUSY rises at edge t."""
         self._start(t, count)
 
     def run(self, t: int) -> None:
-        """Speed mode from IDLE; BUSY rises at edge t."""
+        """Start the speed mode from IDLE; BUSY rises at edge t."""
         self._speed_mode = True
         self._start(t, None)
 
     def speed_mode(self, t: int, on: int) -> None:
-        """The register changes at edge t; 0 in speed mode asks for its end. 1 counts for an update of edge t
-        if it is told before Phase.RUN, 0 must be told after it."""
+        """Change the register at edge t; 0 in speed mode requests its end.
+
+        A 1 counts for an update at edge t if this is called before Phase.RUN. A 0 must be set after it.
+        """
         self._speed_mode = bool(on)
 
     def adc(self, t: int, data: int) -> None:
-        """Edge t samples a strobe with this value, 0..1023."""
+        """Process a strobe with this value, 0..1023, that edge t samples."""
         self._adc_before, self._adc, self._adc_at = self._adc_read(t), data, t
 
     def halt(self, t: int) -> None:
-        """Stop at once: BUSY falls at edge t, whose step is suppressed (P006-STA-10)."""
+        """Stop immediately: BUSY falls at edge t, and a step at this edge is suppressed (P006-STA-10)."""
         if self.busy:
             self._rest(t)
 
-    # ------------------------------------------------------------------ begin
+    # ------------------------------------------------------------------ start
 
     def _start(self, t: int, count: int | None) -> None:
         shared, now = self._shared, self._shared.settings
@@ -230,7 +244,7 @@ class Motion:
         return self._adc if t > self._adc_at else self._adc_before
 
     def _target(self) -> int:
-        """The live target (P006-MOT-50, -51)."""
+        """Return the current target (P006-MOT-50, -51)."""
         now = self._shared.settings
         if not now.analog:
             return now.vmax
@@ -239,7 +253,7 @@ class Motion:
     # ------------------------------------------------------------------ updates
 
     def _update(self, t: int) -> None:
-        """The us tick of an update, at edge t."""
+        """Process the us tick of an update at edge t."""
         engine = self.engine
         assert engine is not None
         if engine.stage is Stage.END and not self._speed_mode:
@@ -256,7 +270,10 @@ class Motion:
             self._advance(t)
 
     def _plan_steps(self, before: int, ticks: int) -> bool:
-        """Steps in the us after t = `before`, and the next update; False if the first us has the last one."""
+        """Schedule the steps in the us after t = `before`, and the next update.
+
+        It returns False if the first us contains the last step.
+        """
         engine, us, lag = self.engine, self._shared.us, self._shared.pace.step
         assert engine is not None and self.tick is not None
         first = self.tick + before
@@ -271,7 +288,7 @@ class Motion:
         return True
 
     def _advance(self, t: int) -> None:
-        """What the next update loads, from the registers as they are before edge t."""
+        """Calculate the values that the next update loads, from the registers before edge t."""
         engine, now = self.engine, self._shared.settings
         assert engine is not None
         self._steady = engine.stage is Stage.CRUISE and engine.speed > 0
@@ -308,7 +325,7 @@ class Motion:
             self.listener.changed(t)
 
     def _at(self, t: int, phase: Phase, action: Callable[[int], None]) -> None:
-        """An event that the end of the motion cancels."""
+        """Schedule an event that the end of the motion cancels."""
         self._serial += 1
         serial = self._serial
 

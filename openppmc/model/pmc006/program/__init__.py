@@ -1,10 +1,10 @@
-"""User programs of the PMC006B4: text with labels, instructions, 200 words, bytes in the EEPROM. Pure.
+"""User programs of the PMC006B4: text, instructions, words, bytes in the EEPROM. Pure.
 
     program = assemble(Path("shuttle.asm").read_text(), "shuttle.asm")
     print(disassemble(program))
     Path("shuttle.bin").write_bytes(program.image())
 
-`instructions` has the table of instructions, `assembler` and `disassembler` the text.
+`instructions` has the table of instructions, `assembler` both directions of the text.
 """
 
 from .assembler import AssemblyError, assemble, disassemble

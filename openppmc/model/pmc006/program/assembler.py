@@ -23,7 +23,7 @@ _CONSTANT = re.compile(rf"({_NAME})\s*=\s*(.*)$")
 
 
 class AssemblyError(PpmcError, ValueError):  # noqa: N818 - what it is
-    """`line` of the text is wrong; the message says what may stand there."""
+    """Line `line` of the text is wrong; the message states the valid forms."""
 
     def __init__(self, where: str, line: int, text: str) -> None:
         super().__init__(f"{where}:{line}: {text}")
@@ -37,11 +37,17 @@ class _Line(NamedTuple):
 
 
 def assemble(text: str, where: str = "program") -> Program:
-    """The program of a text. where: its file, for messages. AssemblyError for the first mistake.
+    """Return the program of a text.
 
-    One instruction a line, in any case; `;` and `#` begin comments. `name:` names the next instruction,
-    `name = value` a number. Jumps take labels or numbers of instructions. `.word W0, W1` is an instruction by
-    its two words.
+    The text has one instruction per line, in upper or lower case; `;` and `#` begin comments. `name:` names
+    the next instruction, `name = value` a number. The target of a jump is a label or the number of an
+    instruction. `.word W0, W1` is an instruction by its two words.
+
+    Args:
+        where: file of the text, for messages.
+
+    Raises:
+        AssemblyError: the first error in the text.
     """
     return _Assembler(where).run(text)
 
@@ -54,7 +60,7 @@ class _Assembler:
         self._lines: list[_Line] = []
 
     def run(self, text: str) -> Program:
-        """Names first, then instructions."""
+        """Process names first, then instructions."""
         number = 0
         for number, line in enumerate(text.splitlines(), 1):
             self._read(number, re.split("[;#]", line, maxsplit=1)[0].strip())
@@ -109,7 +115,7 @@ class _Assembler:
         return Instruction(kind.opcode, values[Place.OPTION], values[Place.OPERAND] & MASK)
 
     def _texts(self, line: _Line, kind: Kind) -> list[str | None]:
-        """The texts of all operands, None for one that was left out."""
+        """Return the texts of all operands, `None` for an omitted one."""
         most = len(kind.operands)
         least = sum(one.default is None for one in kind.operands)
         if not least <= len(line.operands) <= most or "" in line.operands:
@@ -141,15 +147,17 @@ class _Assembler:
         return Instruction.of(first, second)
 
 
-# Program to text, which assembles to the same words again.
+# Program to text, which assembles to the same words.
 
 _WIDTH = 8
 
 
 def disassemble(program: Program, numbers: bool = False) -> str:
-    """The text. numbers: with the number of each instruction as a comment.
+    """Return the text of a program.
 
-    What has illegal operands, or bits that the part ignores, is written as its two words.
+    An instruction with illegal operands, or with bits that the part ignores, is written as its two words.
+
+    numbers: add the number of each instruction as a comment.
     """
     used = program.used
     targets = {target for one in used for target in _targets(one) if target < len(used)}
@@ -162,7 +170,7 @@ def disassemble(program: Program, numbers: bool = False) -> str:
 
 
 def _targets(one: Instruction) -> list[int]:
-    """Numbers of instructions that it names."""
+    """Return the numbers of the instructions that it refers to."""
     if not one.plain or one.kind is None:
         return []
     return [one.value(operand) for operand in one.kind.operands if operand.target]

@@ -1,4 +1,4 @@
-"""Instructions of user programs: names, codes, operands with what they may be.
+"""Instructions of user programs: names, codes, operands and their ranges.
 
 >>> Instruction(0x12, 8, 3).words, Instruction.of(0x0812, 3)
 ((2066, 3), Instruction(opcode=18, option=8, operand=3, spare=0))
@@ -21,7 +21,7 @@ _INPUTS = {**{f"gpi{number}": number for number in range(1, 6)}, "ext1": 6, "ext
 
 
 class Place(Enum):
-    """Where an operand goes."""
+    """Field of an operand."""
 
     OPTION = "option"
     OPERAND = "operand"
@@ -29,9 +29,15 @@ class Place(Enum):
 
 @dataclass(frozen=True)
 class Operand:
-    """One operand. accepts: its values; span: the same in words. names: words for values, the first of a
-    value is the one that is printed. target: a label may stand here. default: if it is left out, None: it may
-    not be."""
+    """One operand.
+
+    Attributes:
+        accepts: valid values.
+        span: valid values as text.
+        names: words for values; the first word of a value is the one that is printed.
+        target: a label is valid.
+        default: value of an omitted operand; `None`: it must not be omitted.
+    """
 
     place: Place
     what: str
@@ -43,7 +49,7 @@ class Operand:
 
     @property
     def allowed(self) -> str:
-        """What may stand here, for messages.
+        """Valid values, for messages.
 
         >>> KINDS["DIR"].operands[0].allowed
         'direction: backward, forward, 0 or 1'
@@ -52,7 +58,7 @@ class Operand:
         return f"{self.what}: {', '.join([*words, self.span])}"
 
     def text(self, value: int) -> str:
-        """A value as it is printed."""
+        """Return a value as text."""
         return next((word for word, number in self.names.items() if number == value), str(value))
 
 
@@ -64,7 +70,7 @@ _FAR = _operand("target", range(LAST + 1), f"a label or 0 to {LAST}", target=Tru
 
 @dataclass(frozen=True)
 class Kind:
-    """An instruction: its name, its opcode, what stands behind it."""
+    """Instruction: name, opcode, operands."""
 
     name: str
     opcode: int
@@ -72,7 +78,7 @@ class Kind:
 
     @property
     def usage(self) -> str:
-        """As it is written.
+        """Form of the instruction as text.
 
         >>> KINDS["WAIT"].usage
         'WAIT source, level'
@@ -154,7 +160,7 @@ _DO_NOTHING = frozenset(
 
 @dataclass(frozen=True)
 class Instruction:
-    """One instruction as the part stores it. spare: the two bytes that it does not look at."""
+    """One instruction as stored in the part. spare: the two bytes that the part ignores."""
 
     opcode: int
     option: int = 0
@@ -163,26 +169,26 @@ class Instruction:
 
     @classmethod
     def of(cls, first: int, second: int) -> Instruction:
-        """From its two words."""
+        """Create an instruction from its two words."""
         return cls(first & 0xFF, first >> 8 & 0xFF, second & MASK, first >> 16 & 0xFFFF)
 
     @property
     def words(self) -> tuple[int, int]:
-        """Its two words."""
+        """Both words of the instruction."""
         return self.opcode | self.option << 8 | self.spare << 16, self.operand & MASK
 
     @property
     def kind(self) -> Kind | None:
-        """Its row of the table, None for a code that halts the program."""
+        """Row of the table, `None` for a code that halts the program."""
         return BY_OPCODE.get(self.opcode)
 
     def value(self, operand: Operand) -> int:
-        """What it has for an operand."""
+        """Return the value of an operand."""
         return self.option if operand.place is Place.OPTION else self.operand
 
     @property
     def plain(self) -> bool:
-        """Whether it can be written with its name: all operands legal, nothing in fields that it has not."""
+        """True if it can be written with its name: all operands legal, unused fields 0."""
         if self.kind is None or self.spare:
             return False
         used = {one.place for one in self.kind.operands}
@@ -192,6 +198,6 @@ class Instruction:
 
 
 def harmless(first: int) -> bool:
-    """Whether trying an instruction with this first word (`E`) does nothing."""
+    """Return True if the trial of an instruction with this first word (`E`) has no effect."""
     opcode = first & 0xFF
     return opcode in _DO_NOTHING or opcode not in BY_OPCODE

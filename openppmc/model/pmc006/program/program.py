@@ -1,4 +1,4 @@
-"""A user program as the part keeps it: 100 instructions, 200 words, 803 bytes of the EEPROM.
+"""User program as stored in the part: 100 instructions, 200 words, 803 bytes of the EEPROM.
 
 >>> program = Program.of([Instruction(3, 0, 1), Instruction(0)])
 >>> program.words[:4], len(program.image()), Program.from_image(program.image()) == program
@@ -20,12 +20,12 @@ _BYTES, _COMPLETE = 4 * WORDS, 0x5A
 
 
 class BadImage(PpmcError, ValueError):  # noqa: N818 - what it is
-    """Bytes that are no program."""
+    """The bytes are no program."""
 
 
 @dataclass(frozen=True)
 class Program:
-    """words: 200 of 32 bits, two an instruction. ValueError for others."""
+    """User program. words: 200 of 32 bits, two per instruction; others raise ValueError."""
 
     words: tuple[int, ...] = (0,) * WORDS
 
@@ -35,30 +35,36 @@ class Program:
 
     @classmethod
     def of(cls, instructions: Iterable[Instruction]) -> Program:
-        """With END behind the last one. ValueError for more than 100."""
+        """Create a program, with END after the last instruction. Raises ValueError for more than 100."""
         words = [word for one in instructions for word in one.words]
         return cls((*words, *[0] * (WORDS - len(words))))
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
-        """All 100."""
+        """All 100 instructions."""
         pairs = zip(self.words[::2], self.words[1::2], strict=True)
         return tuple(Instruction.of(first, second) for first, second in pairs)
 
     @property
     def used(self) -> tuple[Instruction, ...]:
-        """Up to the END behind the last one that is not END, at least one."""
+        """Instructions up to the END after the last one that is not END; at least one."""
         last = max((place for place, word in enumerate(self.words) if word), default=-1) // 2
         return self.instructions[: last + 2]
 
     def image(self) -> bytes:
-        """As the EEPROM holds it from 0x0020 on: words, their sum, the mark of a complete program."""
+        """Return the bytes for the EEPROM from 0x0020 on.
+
+        They are the words, their sum, and the mark of a complete program.
+        """
         data = b"".join(word.to_bytes(4, "little") for word in self.words)
         return data + (sum(data) & 0xFFFF).to_bytes(2, "little") + bytes([_COMPLETE])
 
     @classmethod
     def from_image(cls, image: bytes) -> Program:
-        """From 803 such bytes, or from a whole EEPROM. BadImage if they are damaged."""
+        """Create a program from these 803 bytes, or from a whole EEPROM.
+
+        Raises BadImage if they are damaged.
+        """
         if len(image) > PLACE + _BYTES + 3:
             image = image[PLACE : PLACE + _BYTES + 3]
         if len(image) != _BYTES + 3:

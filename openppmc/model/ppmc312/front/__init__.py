@@ -1,1 +1,1 @@
-"""The PPMC-312's side towards its host: parallel registers, serial station, responses."""
+"""Host interfaces of the PPMC-312: parallel registers, serial station, responses."""

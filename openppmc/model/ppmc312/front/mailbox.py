@@ -1,6 +1,8 @@
-"""Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ (P312-PAR-01..08, -12).
+"""Parallel registers of the PPMC-312: CSR, windows, /IRQ, /WRQ, and their strobes.
 
-Their strobes: `bus`. Another host side has the same members: `offer`, `done`, `levels`, `ready`, `answer`.
+Rules: P312-PAR-01..08, -12.
+
+Any host side has the members `offer`, `done`, `levels`, `ready` and `answer`.
 """
 
 from __future__ import annotations
@@ -14,34 +16,32 @@ from ..codes import Source
 from ..pace import Pace
 from .responses import Responses
 
-# Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11).
-#
-# They belong to the pins, not to the registers behind them: a software reset replaces those, and a strobe
-# that it meets goes on.
+# Strobes on the parallel bus of the PPMC-312 (P312-PAR-09..11). They belong to the pins, not to the
+# registers: a software reset replaces the registers, but a strobe in progress continues.
 
 SYNC = 2
-"""Pin to decision."""
+"""Cycles from a pin to a decision."""
 IDLE = {"cs_n": 1, "we_n": 1, "oe_n": 1, "rs": 0, "d_i": 0}
 
 
 class Registers(Protocol):
-    """What is read and written."""
+    """Registers that are read and written."""
 
     def store(self, t: int, reg: int, byte: int) -> None:
-        """A write strobe has ended."""
+        """Process the end of a write strobe."""
 
     def show(self, t: int, reg: int) -> int:
-        """The value that a read strobe shows from edge t on."""
+        """Return the value that a read strobe outputs from edge t on."""
 
     def after_read(self, t: int, reg: int) -> None:
-        """A read strobe has ended."""
+        """Process the end of a read strobe."""
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """The strobe that is seen at edge t, of this register; None: no strobe."""
+        """Process the strobe of this register that is seen at edge t; `None`: no strobe."""
 
 
 class Strobes:
-    """registers: the present ones. They are in reset up to and including edge `closed`."""
+    """Strobes of the bus. registers: the current ones, in reset up to and including edge `closed`."""
 
     def __init__(self, queue: Scheduler, log: EdgeLog, registers: Registers) -> None:
         self._queue, self._log, self.registers = queue, log, registers
@@ -51,12 +51,12 @@ class Strobes:
         self._closed = -1
 
     def replaced(self, t: int, registers: Registers) -> None:
-        """Other registers from edge t on, which are in reset at the next edge."""
+        """Replace the registers at edge t; the new ones are in reset at the next edge."""
         self.registers, self._closed = registers, t + 1
         self._queue.at(t + 2, Phase.LEVELS, self._tell)
 
     def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples new levels of the bus pins (P312-PAR-10, -11)."""
+        """Sample new levels of the bus pins at edge t (P312-PAR-10, -11)."""
         levels = {pin: pins[pin] for pin in IDLE}
         self._queue.at(t + SYNC, Phase.BUS, lambda at: self._see(at, levels))
 
@@ -65,7 +65,7 @@ class Strobes:
         self.registers.access(t, reg, self._writing)
 
     def _see(self, t: int, pins: Mapping[str, int]) -> None:
-        """Decisions at edge t use these levels first."""
+        """Process these levels, which decisions use from edge t on."""
         chosen = not pins["cs_n"] and pins["we_n"] != pins["oe_n"]
         writing, reading = bool(chosen and not pins["we_n"]), bool(chosen and not pins["oe_n"])
         is_open, old, wrote, was_reading = t > self._closed, self._pins, self._writing, self._reading
@@ -83,7 +83,7 @@ class Strobes:
                 self._queue.at(t, Phase.QUEUE, lambda at: self.registers.after_read(at, reg))
 
     def _show(self, t: int) -> None:
-        """d_o takes the register once a strobe, on the second edge that has seen it."""
+        """Load d_o from the register, once per strobe, at the second edge that has seen the strobe."""
         if self._reading and self._showing is None:
             self._showing = self._pins["rs"]
             self._log.set(t, "d_oe", 1)
@@ -96,7 +96,11 @@ WINDOW = 0x20
 
 
 class Mailbox:
-    """take(t, block): a complete instruction block in logical order, at its header's write event."""
+    """Parallel registers.
+
+    take(t, block): called with a complete instruction block in logical order, at the write event of its
+    header.
+    """
 
     def __init__(
         self, context: Context, pace: Pace, responses: Responses, take: Callable[[int, bytes], None]
@@ -118,46 +122,46 @@ class Mailbox:
         self._access_end = -(1 << 40)
         self._wait_until: int | None = None
 
-    # ------------------------------------------------------------------ for the part
+    # ------------------------------------------------------------------ methods that the part calls
 
     def ready(self, t: int) -> None:
-        """The interface may be used from edge t on."""
+        """Enable the interface from edge t on."""
         self._is_ready = True
 
     def done(self, t: int) -> None:
-        """The instruction has been processed and its answer stored (P312-PAR-06)."""
+        """Process the end of an instruction, whose response is stored (P312-PAR-06)."""
         self._context.queue.at(t, Phase.STORE, self._open)
 
     def _open(self, t: int) -> None:
         self._busy = False
 
     def offer(self, t: int) -> None:
-        """A response may wait from edge t on: load it if the window is free (P312-PAR-08)."""
+        """Load a response that may wait from edge t on, if the window is free (P312-PAR-08)."""
         if self._window or self._picked or self._loading:
             return
         at = max(t + self._pace.load, self._free_from)
         self._loading = self._context.queue.at(at, Phase.PINS, self._load)
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Answers wait in the store."""
+        """Do nothing, because responses wait in the store."""
 
     def levels(self) -> dict[str, int]:
-        """Internal levels behind irq_n."""
+        """Return the internal level of irq_n."""
         wants = (self._enables & EWIRQ and not self.mwef) or (self._enables & ERIRQ and self._window)
         return {"irq_n": int(not wants)}
 
     @property
     def csr(self) -> int:
-        """The status register."""
+        """Status register."""
         return self._register(CSR)
 
     @property
     def mwef(self) -> bool:
-        """No instruction may be written."""
+        """True if no instruction may be written."""
         return self._busy or not self._is_ready
 
     def _load(self, t: int) -> None:
-        """The response is chosen; the host sees it when its bytes are there."""
+        """Choose the response; the host sees it when its bytes are loaded."""
         self._loading = None
         picked = self._responses.pick()
         if picked is not None:
@@ -171,12 +175,12 @@ class Mailbox:
     # ------------------------------------------------------------------ strobes
 
     def show(self, t: int, reg: int) -> int:
-        """The value that a read strobe shows from edge t on."""
+        """Return the value that a read strobe outputs from edge t on."""
         self._taken = bool(self._window)
         return self._register(reg)
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """A DWR or DRR strobe begins or ends (P312-PAR-12)."""
+        """Process the begin or end of a DWR or DRR strobe (P312-PAR-12)."""
         accessing = reg == (WRITE if write else READ)
         timebase = self._context.timebase
         if self._accessing and not accessing:
@@ -207,7 +211,10 @@ class Mailbox:
         return 0
 
     def after_read(self, t: int, reg: int) -> None:
-        """A read strobe has ended; one that began before there was a response has shown none of its bytes."""
+        """Process the end of a read strobe.
+
+        A strobe that began before there was a response has read none of its bytes.
+        """
         if not self._taken:
             return
         if reg == CONTROL:
@@ -222,7 +229,7 @@ class Mailbox:
     # ------------------------------------------------------------------ write window
 
     def store(self, t: int, reg: int, byte: int) -> None:
-        """A write strobe has ended."""
+        """Process the end of a write strobe."""
         if reg == CSR:
             self._enables = byte & (EWRQ | EWIRQ | ERIRQ)
         elif self.mwef:

@@ -1,6 +1,6 @@
-"""Response store of the PPMC-312: eight classes of answers and reports (P312-RSP-10..22).
+"""Response store of the PPMC-312: eight classes of responses and reports (P312-RSP-10..22).
 
-The host side takes one block at a time with `pick`, and says with `read` that the host has had it.
+The host side fetches one block at a time with `pick`, and calls `read` when the host has read it.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ _REPLACED = (INTERLOCK, HOLD, STOPPED)
 
 
 def block(header: int, *content: int | bytes) -> bytes:
-    """A response block in logical order; content without header and length."""
+    """Return a response block in logical order. content: without header and length."""
     body = b"".join(bytes([part]) if isinstance(part, int) else part for part in content)
     return bytes([header, len(body)]) + body
 
 
 @dataclass
 class Report:
-    """Blocks that the host has not read yet, in logical order. source: of an answer to an instruction."""
+    """Blocks that the host has not read yet, in logical order. source: source of the instruction."""
 
     kind: int
     blocks: list[bytes]
@@ -32,10 +32,17 @@ class Report:
 
 
 class Responses:
-    """All stores. offered(t) is called when there may be something new to load, read(t, report, block) when
-    the host has read a block, which report.blocks no longer has. holding(): an answer is about to be stored.
-    fresh: classes whose content is what is true when they are loaded. serial: a newer report of classes 3 to
-    5 replaces the older, and nothing waits for answers (P312-SER-21)."""
+    """Stores of all classes.
+
+    Args:
+        offered: offered(t) is called when a new block may be loaded.
+        was_read: was_read(t, report, block) is called when the host has read a block, which report.blocks no
+            longer contains.
+        holding: holding() returns True if a response is about to be stored.
+
+    fresh: classes whose content is the state at the time of loading. serial: a newer report of classes 3 to 5
+    replaces the older one, and no report waits for responses (P312-SER-21).
+    """
 
     def __init__(
         self,
@@ -50,20 +57,20 @@ class Responses:
         self.loaded: Report | None = None
 
     def waiting(self, kind: int) -> list[Report]:
-        """Reports of a class that are not loaded, oldest first."""
+        """Return the reports of a class that are not loaded, oldest first."""
         return [report for report in self._stores[kind] if report is not self.loaded]
 
     def occupied(self, kind: int) -> bool:
-        """Whether the store is full: a report in it has not been read completely."""
+        """Return True if the store is full: a report in it has not been read completely."""
         return len(self._stores[kind]) >= _DEPTH.get(kind, 1)
 
     @property
     def answer(self) -> Report | None:
-        """The unread answer to an instruction."""
+        """Unread response to an instruction."""
         return self._stores[ANSWER][0] if self._stores[ANSWER] else None
 
     def post(self, t: int, kind: int, blocks: Iterable[bytes], source: Source | None = None) -> bool:
-        """Store a report; False, and it is lost, if the store is occupied."""
+        """Store a report; return False, and discard it, if the store is full."""
         if self.occupied(kind):
             if not self.serial or kind not in _REPLACED:
                 return False
@@ -77,20 +84,22 @@ class Responses:
         return self.post(t, kind, [block(SPONTANEOUS, code, *content)])
 
     def input_change(self, t: int, data: int) -> None:
-        """E9: the newest data replace those of the second report that waits (P312-RSP-21)."""
+        """Store E9; new data replace those of a second report that waits (P312-RSP-21)."""
         if not self.report(t, INPUT, Answer.INPUT_CHANGE, 0, data):
             self._stores[INPUT][1].blocks = [block(SPONTANEOUS, Answer.INPUT_CHANGE, 1, data)]
 
     def withdraw(self, kind: int) -> None:
-        """Forget the reports of a class that are not loaded."""
+        """Discard the reports of a class that are not loaded."""
         self._stores[kind] = [report for report in self._stores[kind] if report is self.loaded]
 
-    # ------------------------------------------------------------------ for the host side
+    # ------------------------------------------------------------------ methods that the host side calls
 
     def pick(self) -> bytes | None:
-        """The next block for the host, of the waiting class with the lowest number (P312-RSP-11).
+        """Return the next block for the host (P312-RSP-11).
 
-        While an answer is about to be stored, reports of classes 3 to 8 wait for it.
+        It is that of the waiting class with the lowest number.
+
+        While a response is about to be stored, reports of classes 3 to 8 wait for it.
         """
         for kind in CLASSES:
             if self._stores[kind] and (kind <= ANSWER or self.serial or not self._holding()):
@@ -102,11 +111,11 @@ class Responses:
 
     @property
     def alarmed(self) -> bool:
-        """An alarm report waits."""
+        """True if an alarm report waits."""
         return bool(self._stores[ALARM])
 
     def take(self, t: int) -> tuple[int, bytes] | None:
-        """Serial mode: class and block of the first waiting report, which is read by that."""
+        """Return class and block of the first waiting report, and mark it as read (serial mode)."""
         block = self.pick()
         if block is None or self.loaded is None:
             return None
@@ -116,11 +125,11 @@ class Responses:
 
     @property
     def any_waiting(self) -> bool:
-        """Whether `pick` has something."""
+        """True if `pick` has a block."""
         return any(self._stores.values())
 
     def read(self, t: int) -> None:
-        """The host has read the block that was picked."""
+        """Process the read of the block that was picked."""
         report, self.loaded = self.loaded, None
         assert report is not None
         block = report.blocks.pop(0)

@@ -1,5 +1,6 @@
-"""Line rates of the PPMC-312's serial mode, its instruction codes and replies (chapter 3.6, P312-SER-01,
--20..47).
+"""Serial mode of the PPMC-312: line rates, frames, instruction codes and replies.
+
+Rules: chapter 3.6, P312-SER-01, -20..47.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ from typing import NamedTuple
 from ..codes import DIR, IDX, OV, Answer, Cause, Code
 from . import responses
 
-# Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17).
-#
-# No time here: `Parser.take` gets character after character, `silence` is said after 20 ms without one.
+# Frames of the PPMC-312's serial mode: control code, hex-ASCII data, checksum (P312-SER-02..17). This part
+# contains no time: `Parser.take` receives one character after the other, and `silence` is called after 20 ms
+# without one.
 
 POLL, INSTRUCTION = 0x80, 0x90
 BUSY, READY, DATA, SPECIFIC = 0x80, 0x90, 0xA0, 0xB0
@@ -22,7 +23,7 @@ _DIGITS = b"0123456789abcdef"
 
 
 class Outcome(Enum):
-    """What a frame turned out to be."""
+    """Type of a frame."""
 
     POLL = auto()
     INSTRUCTION = auto()
@@ -31,7 +32,7 @@ class Outcome(Enum):
 
 
 class Frame(NamedTuple):
-    """A finished frame; code and data of an instruction."""
+    """Finished frame; code and data of an instruction."""
 
     outcome: Outcome
     code: int = 0
@@ -39,23 +40,23 @@ class Frame(NamedTuple):
 
 
 def checksum(control: int, data: bytes, mode: str) -> int:
-    """Checksum of a frame (P312-SER-13). mode: SUM_MODE."""
+    """Return the checksum of a frame (P312-SER-13). mode: SUM_MODE."""
     total = control + sum(data) if mode == "BINARY" else sum(data.hex().encode())
     return ~total & 0x7F
 
 
 def frame(control: int, data: bytes = b"", mode: str = "BINARY") -> bytes:
-    """A whole frame as it is on the line."""
+    """Return a complete frame as it is sent on the line."""
     return bytes([control]) + data.hex().encode() + bytes([checksum(control, data, mode)])
 
 
 def addressed(character: int, address: int) -> bool:
-    """Whether a character is a control code of the two kinds that a master sends to this station."""
+    """Return True for a control code (poll or instruction) of a master to this station."""
     return character & 0xF0 in (POLL, INSTRUCTION) and character & 0x0F == address
 
 
 class Parser:
-    """lengths: number of data bytes of each instruction code. mode: SUM_MODE."""
+    """Receiver of frames. lengths: number of data bytes of each instruction code. mode: SUM_MODE."""
 
     def __init__(self, address: int, lengths: Mapping[int, int], mode: str) -> None:
         self._address, self._lengths, self._mode = address, lengths, mode
@@ -63,15 +64,15 @@ class Parser:
 
     @property
     def unfinished(self) -> bool:
-        """A frame for this station has begun."""
+        """True if a frame for this station has begun."""
         return bool(self._open)
 
     def abandon(self) -> None:
-        """Ignore everything up to the next control code."""
+        """Ignore all characters up to the next control code."""
         self._open = b""
 
     def take(self, character: int) -> Frame | None:
-        """The next character; the frame that it completes."""
+        """Process a character; return the frame that it completes."""
         if character & 0x80:
             self._open = bytes([character]) if addressed(character, self._address) else b""
             return None
@@ -80,7 +81,7 @@ class Parser:
         self._open += bytes([character])
         size = self._size()
         if size is None:
-            # Only the code matters from here on.
+            # From here on, only the code is needed.
             self._open = self._open[:3]
         if len(self._open) != size:
             return None
@@ -88,7 +89,10 @@ class Parser:
         return self._judge(finished)
 
     def silence(self) -> Frame | None:
-        """20 ms without a character: the answer that a frame of unknown length gets (P312-SER-12, -17)."""
+        """Process 20 ms without a character (P312-SER-12, -17).
+
+        It returns the frame to respond to if a frame of unknown length has begun.
+        """
         given, self._open = self._open[1:3], b""
         if any(character not in _DIGITS for character in given):
             return Frame(Outcome.FAULT)
@@ -97,7 +101,10 @@ class Parser:
         return Frame(Outcome.UNKNOWN, code)
 
     def _size(self) -> int | None:
-        """Characters of the unfinished frame; 0 while its code is not complete, None if that says nothing."""
+        """Return the number of characters of the unfinished frame.
+
+        It is 0 while the code is not complete, `None` if the code does not define it.
+        """
         if self._open[0] & 0xF0 == POLL:
             return 2
         if len(self._open) < 3:
@@ -115,18 +122,21 @@ class Parser:
 
 
 def _bytes(characters: bytes) -> bytes | None:
-    """Data from an even number of characters; None if they are not all lower-case hex digits."""
+    """Return the data of an even number of characters, `None` if one is no lower-case hex digit."""
     if len(characters) % 2 or any(character not in _DIGITS for character in characters):
         return None
     return bytes.fromhex(characters.decode())
 
 
 _CYCLES = {5: Fraction(2500, 3), 6: Fraction(2500, 6), 7: Fraction(192)}
-"""XTAL cycles of a bit, by mod[2:0]."""
+"""Crystal cycles of a bit, by mod[2:0]."""
 
 
 def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
-    """clk of a bit; None where mod names no documented speed, and the station is silent."""
+    """Return the cycles of a bit.
+
+    `None`: mod selects no documented speed, and the station is silent.
+    """
     cycles = _CYCLES.get(mod)
     return None if cycles is None else cycles * clk_hz / xtal_hz
 
@@ -158,7 +168,7 @@ class Note(IntEnum):
 
 @unique
 class Local(IntEnum):
-    """Instructions that the station answers by itself."""
+    """Instructions that the station itself answers."""
 
     END_STATUS = 0x40
     ERROR_CODE = 0x4E
@@ -186,14 +196,14 @@ ERRORS = {
     Answer.REGISTRATION: Note.REGISTRATION,
 }
 _TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
-"""By bits 5:4 of 80, 81, 89, 8A: flag byte, further bytes (P312-SER-40)."""
+"""By bits 5:4 of 80, 81, 89, 8A: flag byte, number of further bytes (P312-SER-40)."""
 _AUTO = 0x02
 _REFUSED = (1, 2, 5)
 """Status bytes of 49: trigger in use, buffer full, nothing to delete (P312-SER-43)."""
 
 
 class Form(NamedTuple):
-    """One serial instruction: data bytes, parallel code, flag byte that goes before the data."""
+    """Serial instruction: number of data bytes, parallel code, flag byte before the data."""
 
     n: int
     code: int
@@ -233,11 +243,11 @@ def _forms() -> dict[int, Form]:
 
 FORMS = _forms()
 LENGTHS = {code: form.n for code, form in FORMS.items()} | dict.fromkeys(Local, 0)
-"""Data bytes of every serial instruction."""
+"""Number of data bytes of every serial instruction."""
 
 
 def block_of(code: int, data: bytes) -> bytes:
-    """The parallel block of a serial instruction, in logical order; not for `Local` ones."""
+    """Return the parallel block of a serial instruction in logical order; not for `Local` ones."""
     form, given = FORMS[code], data
     if code == 0x00:
         data = bytes([data[0] & 0x0F]) + data[1:]
@@ -246,14 +256,17 @@ def block_of(code: int, data: bytes) -> bytes:
     elif form.code == Code.EVENT_SET and data:
         data = data[: data[1] + 2]
         if len(data) != given[1] + 2:
-            # Longer than its frame: the length of the block is wrong, too.
+            # The embedded block is longer than its frame, so the length of the block is wrong, too.
             return bytes([0x03, 0, form.code]) + form.flags + data
     body = bytes([form.code]) + form.flags + data
     return bytes([0x03, len(body)]) + body
 
 
 def reply_of(answer: bytes) -> tuple[int, bytes]:
-    """Kind and data of the reply to an instruction; answer: the parallel one in logical order."""
+    """Return kind and data of the reply to an instruction.
+
+    answer: the parallel response in logical order.
+    """
     code, content = answer[2], answer[3:]
     if code in ERRORS:
         return SPECIFIC, bytes([ERRORS[Answer(code)]])
@@ -267,7 +280,10 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
 
 
 def news_of(kind: int, report: bytes) -> tuple[int, bytes]:
-    """Kind and data of the answer to a poll, from a report of a class in logical order (P312-SER-30)."""
+    """Return kind and data of the reply to a poll (P312-SER-30).
+
+    report: report of a class in logical order.
+    """
     content = report[3:]
     if kind == responses.STOPPED:
         return DATA, bytes([END_CODES[Cause(content[0])]])

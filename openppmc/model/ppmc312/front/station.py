@@ -1,6 +1,6 @@
-"""The PPMC-312 as one of sixteen stations on a line: the host side of its serial mode.
+"""PPMC-312 as one of sixteen stations on a line: the host side of its serial mode.
 
-P312-SER-10..22, -30, -45, -46; frames and codes: `serial`, bits: `uart`.
+Rules: P312-SER-10..22, -30, -45, -46. `serial` has frames and codes, `uart` the bits.
 """
 
 from __future__ import annotations
@@ -35,50 +35,50 @@ from .serial import (
     reply_of,
 )
 
-# What the part needs of the side that the host sees: parallel bus (`mailbox`) or line (`station`).
+# Members of the host side that the part needs: parallel bus (`mailbox`) or line (`station`).
 
 
 class HostSide(Protocol):
-    """One of the two."""
+    """Host side."""
 
     def levels(self) -> dict[str, int]:
-        """Internal levels behind the pins of this side."""
+        """Return the internal levels of the pins of this side."""
 
     def offer(self, t: int) -> None:
-        """A response may wait in the store."""
+        """Process a response that may wait in the store."""
 
     def done(self, t: int) -> None:
-        """The host's instruction has been processed and its answer stored."""
+        """Process the end of the host's instruction, whose response is stored."""
 
     def ready(self, t: int) -> None:
-        """The interface may be used."""
+        """Enable the interface."""
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """Serial mode only: the answer to an instruction, which no store keeps."""
+        """Send the response to an instruction; serial mode only, where no store holds it."""
 
 
 _MOST = 255
 _KEPT = (Note.PARAMETER, Note.STATUS, Note.LIMIT, Note.UNKNOWN, Note.SIZE, Note.REGISTRATION)
-"""What the error-code register takes (P312-SER-45)."""
+"""Values that the error-code register stores (P312-SER-45)."""
 
 
 class Unit(Protocol):
-    """Who works on instructions."""
+    """Unit that executes instructions."""
 
     def host_block(self, t: int, block: bytes) -> None:
-        """A complete block; its header's write event is at edge t."""
+        """Process a complete block; the write event of its header is at edge t."""
 
 
 class Operation(Protocol):
-    """What has moved the motor last."""
+    """Operation that moved the motor last."""
 
     @property
     def last_cause(self) -> Cause | None:
-        """Of the last stop report."""
+        """Cause of the last stop report."""
 
 
 class Core(Protocol):
-    """What a station needs of the part behind it."""
+    """Members of the part that a station needs."""
 
     context: Context
     pace: Pace
@@ -86,15 +86,15 @@ class Core(Protocol):
 
     @property
     def unit(self) -> Unit:
-        """Who works on instructions."""
+        """Unit that executes instructions."""
 
     @property
     def operation(self) -> Operation:
-        """What has moved the motor last."""
+        """Operation that moved the motor last."""
 
     @property
     def state(self) -> State:
-        """The operation state of chapter 4."""
+        """Operation state of chapter 4."""
 
 
 class Log(NamedTuple):
@@ -105,17 +105,24 @@ class Log(NamedTuple):
 
 
 class Driver(NamedTuple):
-    """SND_LEAD and SND_WAIT, in bits (P312-SER-18): from the rise of snd to the start bit, and the time that
-    snd waits beyond half a bit after the end of the last character."""
+    """SND_LEAD and SND_WAIT in bits (P312-SER-18).
+
+    lead: rise of snd to the start bit. wait: delay of snd in addition to half a bit after the last character.
+    """
 
     lead: int
     wait: int
 
 
 class Station:
-    """bit: clk of a bit, None for a silent station. address: 0..15. mode: SUM_MODE.
+    """Station on a line.
 
-    log: of everything sent. driver: SND_LEAD and SND_WAIT.
+    Args:
+        bit: cycles of a bit, `None` for a silent station.
+        address: 0..15.
+        mode: SUM_MODE.
+        log: log of all frames and characters sent.
+        driver: SND_LEAD and SND_WAIT.
     """
 
     def __init__(
@@ -143,10 +150,10 @@ class Station:
         self.framing = self.overruns = self.checksums = 0
         self._log, self._wait = log, driver.wait
 
-    # ------------------------------------------------------------------ for the part
+    # ------------------------------------------------------------------ methods that the part calls
 
     def sample(self, t: int, pins: Mapping[str, int]) -> None:
-        """Edge t samples a new level of the line."""
+        """Sample a new level of the line at edge t."""
         if self._receiver:
             level = pins["rxd"]
             at = t + self._core.context.latency.input_sync
@@ -157,28 +164,28 @@ class Station:
         self._receiver.see(t, level)
 
     def levels(self) -> dict[str, int]:
-        """Internal levels behind the pins of the other host side, which rest."""
+        """Return the internal levels of the pins of the other host side, which are inactive."""
         return {"irq_n": 1}
 
     def offer(self, t: int) -> None:
-        """A report waits: for a poll."""
+        """Do nothing, because a report waits for a poll."""
 
     def done(self, t: int) -> None:
-        """The instruction has been processed."""
+        """Do nothing after an instruction."""
 
     def ready(self, t: int) -> None:
-        """Frames count from edge t on."""
+        """Accept frames from edge t on."""
         self._is_ready = True
 
     @property
     def busy(self) -> bool:
-        """A reply is pending or being sent."""
+        """True if a reply is pending or being sent."""
         return self._busy
 
     # ------------------------------------------------------------------ characters
 
     def hear(self, t: int, byte: int | None) -> None:
-        """A character whose stop bit was sampled at edge t; None for one without a stop bit."""
+        """Process a character whose stop bit was sampled at edge t. `None`: without a stop bit."""
         self._heard = t
         self._queue.at(t + self._pace.heard, Phase.BUS, lambda now: self._character(now, byte))
 
@@ -204,7 +211,7 @@ class Station:
             self._silence = self._queue.at(at, Phase.LEVELS, self._silent)
 
     def _silent(self, t: int) -> None:
-        """20 ms without a character (P312-SER-12, -16, -17)."""
+        """Process 20 ms without a character (P312-SER-12, -16, -17)."""
         self._silence = None
         finished = self._parser.silence()
         if finished:
@@ -213,7 +220,7 @@ class Station:
     # ------------------------------------------------------------------ frames
 
     def _take(self, t: int, finished: Frame) -> None:
-        """Every frame for this station gets one reply (P312-SER-19)."""
+        """Process a frame for this station; each one gets one reply (P312-SER-19)."""
         self._busy = True
         code, data = finished.code, finished.data
         if finished.outcome is Outcome.INSTRUCTION and code not in list(Local):
@@ -228,7 +235,7 @@ class Station:
         self._core.unit.host_block(t, block_of(code, data))
 
     def answer(self, t: int, source: Source, block: bytes) -> None:
-        """The unit has an answer, in logical order (P312-SER-20, -22)."""
+        """Process a response of the unit in logical order (P312-SER-20, -22)."""
         if source is Source.EVENT:
             self._news = Note.EVENT_FAILED if block[2] == Answer.EVENT_FAILED else Note.EVENT_DONE
         elif source is Source.OVERRIDE:
@@ -238,7 +245,7 @@ class Station:
             self._reply(t, *reply_of(block))
 
     def _answer(self, t: int, finished: Frame) -> tuple[int, bytes]:
-        """Kind and data of what the station replies by itself."""
+        """Return kind and data of a reply of the station itself."""
         if finished.outcome is Outcome.POLL:
             return self._poll(t)
         if finished.outcome is Outcome.FAULT:
@@ -259,7 +266,10 @@ class Station:
         return DATA, counts
 
     def _poll(self, t: int) -> tuple[int, bytes]:
-        """P312-SER-30: the alarm, then what an event or an override has done, then the other classes."""
+        """Return the reply to a poll (P312-SER-30).
+
+        The order is: the alarm, then the result of an event or override, then the other classes.
+        """
         responses = self._core.responses
         if self._news is not None and not responses.alarmed:
             news, self._news = self._news, None
@@ -271,7 +281,10 @@ class Station:
         return (BUSY if moving else READY), b""
 
     def _reply(self, t: int, kind: int, data: bytes) -> None:
-        """At edge t it is known what to send; snd does not rise before the line is free (P312-SER-18)."""
+        """Schedule a reply, whose content is known at edge t.
+
+        snd does not rise before the line is free (P312-SER-18).
+        """
         if kind == SPECIFIC and data[0] in _KEPT:
             self._error = data[0]
         message = frame(kind | self._address, data, self._mode)

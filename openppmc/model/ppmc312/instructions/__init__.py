@@ -1,1 +1,1 @@
-"""Instructions of the PPMC-312: checks, execution, registered ones."""
+"""Instructions of the PPMC-312: checks, execution, registration."""

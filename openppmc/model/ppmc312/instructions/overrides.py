@@ -1,4 +1,7 @@
-"""Registered instructions of the PPMC-312: command FIFO, event buffers (P312-OVR-01..05, P312-EVT-01..04)."""
+"""Registered instructions of the PPMC-312: command FIFO, event buffers.
+
+Rules: P312-OVR-01..05, P312-EVT-01..04.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +19,17 @@ from ..motion.position import Counters, Interlock, Watch
 from ..pace import Pace
 from ..stages import FreeCurve, Table
 
-# What instructions of the PPMC-312 need of the part: its blocks and its state. `ppmc312.core.Core` is it.
+# Members of the part that instructions need: its blocks and its state. `ppmc312.core.Core` implements them.
 
 
 class Core(Protocol):
-    """table: of the last setting, None in state INI. transfer: a free curve that is being sent. version: of
-    the firmware."""
+    """Part, as instructions see it.
+
+    Attributes:
+        table: table of the last setting, `None` in state INI.
+        transfer: free curve that is being transferred.
+        version: version of the firmware.
+    """
 
     table: Table | None
     transfer: FreeCurve | None
@@ -41,32 +49,32 @@ class Core(Protocol):
 
     @property
     def state(self) -> State:
-        """The operation state of chapter 4."""
+        """Operation state of chapter 4."""
 
     def reset(self, t: int, source: Source, /) -> None:
-        """The part's software reset, which answers."""
+        """Execute the software reset, which sends a response."""
 
     def forget_table(self) -> None:
-        """State INI: no table, no registered instructions."""
+        """Change to state INI: no table, no registered instructions."""
 
     def set_table(self, table: Table) -> None:
-        """State NOR with a new table."""
+        """Change to state NOR with a new table."""
 
     def drop_overrides(self, t: int) -> None:
-        """An override has failed."""
+        """Process a failed override."""
 
     def alarm(self, t: int, status: Alarm) -> None:
-        """Multiple occurrence."""
+        """Process a multiple occurrence."""
 
     def clear_alarm(self, t: int) -> None:
-        """24."""
+        """Execute 24."""
 
 
 FIFO_DEPTH, BUFFER_DEPTH = 8, 4
 
 
 class Entry(NamedTuple):
-    """A registered instruction: block in logical order, trigger, position that triggers it."""
+    """Registered instruction: block in logical order, trigger, position that triggers it."""
 
     block: bytes
     trigger: Trigger
@@ -75,20 +83,28 @@ class Entry(NamedTuple):
 
 @dataclass
 class Triggered:
-    """An entry of the FIFO that its trigger has released at edge t."""
+    """Entry of the FIFO that its trigger released at edge t."""
 
     entry: Entry
     t: int
 
     @property
     def stops_at_position(self) -> bool:
-        """Position-triggered 80, which stops the pulses before it is processed (P312-OVR-12)."""
+        """True for an 80 that a position triggers (P312-OVR-12).
+
+        It stops the pulses before it is processed.
+        """
         return self.entry.trigger is Trigger.POSITION and self.entry.block[2] == Code.STOP
 
 
 class Fifo:
-    """Command buffers. waiting: armed head first. triggered: released, not processed. armed: release to the
-    arming of the next head, in clk."""
+    """Command buffers.
+
+    Attributes:
+        waiting: entries, the armed head first.
+        triggered: released entries that are not processed yet.
+        armed: cycles from a release to the arming of the next head.
+    """
 
     def __init__(self, armed: int) -> None:
         self._armed = armed
@@ -98,15 +114,15 @@ class Fifo:
 
     @property
     def full(self) -> bool:
-        """Eight entries wait."""
+        """True if eight entries wait."""
         return len(self.waiting) >= FIFO_DEPTH
 
     def uses(self, trigger: Trigger) -> bool:
-        """Whether an entry waits for this trigger."""
+        """Return True if an entry waits for this trigger."""
         return any(entry.trigger is trigger for entry in self.waiting)
 
     def register(self, entry: Entry, armed_from: int) -> None:
-        """Add an entry, which no trigger before that edge releases."""
+        """Add an entry; a trigger before edge `armed_from` does not release it."""
         if not self.waiting:
             self._armed_from = armed_from
         self.waiting.append(entry)
@@ -118,19 +134,19 @@ class Fifo:
         return released
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Discard all entries."""
         self.waiting.clear()
         self.triggered.clear()
 
     def event(self, t: int, trigger: Trigger) -> bool:
-        """Falling edge of an event pin; True if it released the head."""
+        """Process a falling edge of an event pin; return True if it released the head."""
         if not self.waiting or self.waiting[0].trigger is not trigger or t < self._armed_from:
             return False
         self._release(t)
         return True
 
     def count(self, t: int, position: int) -> Triggered | None:
-        """A count has led to this position; what it released."""
+        """Process a count to this position; return the entry that it released."""
         head = self.waiting[0] if self.waiting else None
         if head is None or head.trigger is not Trigger.POSITION or head.position != position:
             return None
@@ -139,8 +155,11 @@ class Fifo:
 
 @dataclass
 class EventBuffer:
-    """One event buffer. next: number of the entry that the next edge executes. edge: time of a remembered
-    edge that has not been worked on."""
+    """Event buffer.
+
+    next: number of the entry that the next edge executes. edge: time of a stored edge that is not processed
+    yet.
+    """
 
     entries: list[bytes] = field(default_factory=list)
     next: int = 0
@@ -148,7 +167,7 @@ class EventBuffer:
 
     @property
     def full(self) -> bool:
-        """Four entries."""
+        """True if the buffer has four entries."""
         return len(self.entries) >= BUFFER_DEPTH
 
     def register(self, block: bytes) -> None:
@@ -157,24 +176,24 @@ class EventBuffer:
         self.next = 0
 
     def delete(self) -> None:
-        """Remove the last entry, if there is one; the edge that waits for it is dropped."""
+        """Remove the last entry, if any; without entries, a stored edge is discarded."""
         if self.entries:
             self.entries.pop()
             self.next = 0
             self.edge = self.edge if self.entries else None
 
     def take(self) -> bytes:
-        """The next entry, cyclically."""
+        """Return the next entry, cyclically."""
         block = self.entries[self.next]
         self.next = (self.next + 1) % len(self.entries)
         return block
 
     def clear(self) -> None:
-        """Empty it; a remembered edge is dropped."""
+        """Clear the buffer; a stored edge is discarded."""
         self.entries.clear()
         self.next, self.edge = 0, None
 
     def read(self) -> bytes:
-        """Parameters of 47 after the code (P312-CMD-47)."""
+        """Return the parameters of 47 after the code (P312-CMD-47)."""
         codes = bytes(block[2] for block in self.entries).ljust(BUFFER_DEPTH, b"\0")
         return bytes([len(self.entries), self.next]) + codes

@@ -1,4 +1,7 @@
-"""Operation instructions of the PPMC-312: 10, 11, 80..88 with OV = 0 (chapter 3.3, checks 7 and 8)."""
+"""Operation instructions of the PPMC-312: 10, 11, 80..88 with OV = 0.
+
+Rules: chapter 3.3, checks 7 and 8.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +31,7 @@ from . import settings, terminals
 from .overrides import Core, Entry
 from .work import Refusal, Work
 
-# Checks 1..7 on an instruction block of the PPMC-312 and its registration (P312-BLK-01, P312-OVR-01).
+# Checks 1..7 on an instruction block of the PPMC-312, and its registration (P312-BLK-01, P312-OVR-01).
 
 MORE, LAST, CODE_MORE, CODE_LAST = range(4)
 INSTRUCTION_DUE, DATA_DUE = 0x01, 0x02
@@ -38,14 +41,17 @@ FIFO_FULL, EVT_IN_USE = 0x00, 0x01
 
 
 def is_reset(block: bytes) -> bool:
-    """A well-formed 03 01 FF."""
+    """Return True for a valid 03 01 FF."""
     return block == bytes([CODE_LAST, 1, Code.RESET])
 
 
 def check(core: Core, block: bytes, source: Source, at_position: bool = False) -> Work:
-    """Check a block in logical order. Raises Refusal; what a refusal destroys is destroyed by then.
+    """Check a block in logical order; return its work.
 
-    at_position: released by a position, which the DATASHEET times of 80 make a difference for.
+    at_position: released by a position, which affects the DATASHEET time of 80.
+
+    Raises:
+        Refusal: the block is rejected. State that a rejection clears is already cleared.
     """
     _check_size(core, block)
     header, body = block[0], block[2:]
@@ -99,7 +105,7 @@ def _check_length(core: Core, header: int, code: int, length: int) -> None:
 
 
 def _registration(core: Core, code: int, data: bytes, block: bytes) -> Work:
-    """OV = 1: into the command FIFO."""
+    """Return the work that registers an instruction with OV = 1 in the command FIFO."""
     trigger = Trigger.of_flags(data[0])
     position = 0
     if trigger is Trigger.POSITION:
@@ -146,7 +152,7 @@ BAD_RATE, BAD_VALUE = 0x20, 0x23
 
 
 def _rate(table: Table, data: bytes, zero: bool = True) -> int:
-    """Rate parameter; zero: 0 stands for RH."""
+    """Return a rate parameter. zero: 0 means RH."""
     rate = int.from_bytes(data, "big")
     if not rate and zero:
         return table.high
@@ -163,11 +169,11 @@ def _count(data: bytes) -> int:
 
 
 def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
-    """Plan and DATASHEET time to pulse 1 of a start."""
+    """Return plan and DATASHEET time to pulse 1 of a start."""
     given = data[1:3]
     if code == Code.RAMP:
         given = data[1:3] if len(data) == 7 else b"\0\0"
-        count = _count(data[-4:])  # judged before the rate
+        count = _count(data[-4:])  # checked before the rate
         plan = ramped(table, _rate(table, given), count)
         if any(given):
             slow = pace.TRAPEZOID_RATE, pace.OTHER_SHAPE_RATE
@@ -188,7 +194,7 @@ def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
 
 
 def start(core: Core, block: bytes) -> Work:
-    """10, 11, 82..86; block: in logical order."""
+    """Return the work of 10, 11, 82..86. block: in logical order."""
     code, data = block[2], block[3:]
     table = core.table
     assert table is not None
@@ -214,7 +220,7 @@ def start(core: Core, block: bytes) -> Work:
 
 
 def stop(core: Core, code: int, at_position: bool) -> Work:
-    """80, 81. at_position: triggered by a position."""
+    """Return the work of 80 or 81. at_position: triggered by a position."""
 
     def halt(t: int) -> None:
         if not core.operation.waits_for_end:
@@ -232,7 +238,7 @@ def stop(core: Core, code: int, at_position: bool) -> Work:
 
 
 def change(core: Core, code: int, data: bytes) -> Work:
-    """87, 88."""
+    """Return the work of 87 or 88."""
     assert core.table is not None
     rate = _rate(core.table, data[1:3], zero=False)
 

@@ -22,18 +22,18 @@ _TERMINALS = (
 
 
 def _bits(values: Sequence[int | bool]) -> int:
-    """The first one is the most significant."""
+    """Return the values as bits; the first one is the most significant bit."""
     return sum(bool(value) << place for place, value in enumerate(reversed(values)))
 
 
 def terminals(core: Core) -> bytes:
-    """27: plain pin levels (P312-CMD-27)."""
+    """Return the parameters of 27: unfiltered pin levels (P312-CMD-27)."""
     levels = core.context.levels
     return bytes(_bits([pin is not None and levels[pin] for pin in pins]) for pins in _TERMINALS)
 
 
 def status(core: Core) -> bytes:
-    """4D (P312-CMD-4D)."""
+    """Return the parameters of 4D (P312-CMD-4D)."""
     operation, watch, fifo = core.operation, core.watch, core.fifo
     first = [operation.run_ignored, core.interlock.on, 0, watch.encode.enabled, watch.in_position.enabled]
     first += [operation.end_monitored, watch.encode.outside, watch.in_position.outside]
@@ -84,7 +84,7 @@ def _event_read(core: Core, data: bytes) -> bytes:
 
 
 def _event_set(core: Core, data: bytes) -> Work:
-    """49 with legal parameters."""
+    """Return the work of 49 with legal parameters."""
     number, deletes = data[0] & 1, data[0] & 2
     buffer = core.events[number]
     said, act = REGISTERED, None
@@ -125,20 +125,20 @@ def _counter_clear(core: Core, t: int, data: bytes) -> bytes:
     return b""
 
 
-# What they tell of the pins, with the levels of the edge at which they are checked: what is done a clk later
-# comes before that clk's levels.
+# Reads of the pins, with the levels of the edge at which they are checked. An action in the next cycle
+# happens before the levels of that cycle are updated.
 _PINS: dict[int, Callable[[Core], bytes]] = {
     Code.INPUT: lambda core: bytes([core.context.levels["auxi"]]),
     Code.TERMINALS: terminals,
 }
-# What they tell of the part, as it is when they are checked.
+# Reads of the part, with its state at the time of the check.
 _READS: dict[int, Callable[[Core, bytes], bytes]] = {
     Code.VERSION: lambda core, data: bytes([core.version]),
     Code.POSITION_READ: _position_read,
     Code.EVENT_READ: _event_read,
     Code.STATUS: lambda core, data: status(core),
 }
-# What the others do at edge t, and the parameters of their answers.
+# Actions of the other instructions at edge t; they return the parameters of the response.
 _ACTS: dict[int, Callable[[Core, int, bytes], bytes]] = {
     Code.EXCITATION_ON: _set(exon_n=0),
     Code.EXCITATION_OFF: _set(exon_n=1),
@@ -154,7 +154,7 @@ _ACTS: dict[int, Callable[[Core, int, bytes], bytes]] = {
 
 
 def _check_event(data: bytes) -> None:
-    """P312-CMD-49: an embedded block, or a deletion without one."""
+    """Check an embedded block, or a deletion without one (P312-CMD-49)."""
     if data and data[0] & 2:
         legal = len(data) == 1
     else:
@@ -166,7 +166,7 @@ def _check_event(data: bytes) -> None:
 
 
 def act(core: Core, code: int, data: bytes) -> Work:
-    """Any of these instructions with a legal length; data: its parameters."""
+    """Return the work of one of these instructions with a legal length. data: its parameters."""
     if code == Code.TABLE_READ:
         return Work(lambda t: _table(core))
     if code in (Code.POSITION_READ, Code.POSITION_SET) and data[0] > 1:

@@ -1,8 +1,7 @@
-"""Instruction unit of the PPMC-312: who is next, checks, execution, answers (P312-BLK-01, P312-RSP-20,
-P312-OVR-10).
+"""Instruction unit of the PPMC-312: arbitration, checks, execution, responses.
 
-One instruction is processed at a time. Host blocks, released entries of the command FIFO and remembered
-event edges wait here.
+Rules: P312-BLK-01, P312-RSP-20, P312-OVR-10. One instruction is processed at a time. Blocks of the host,
+released entries of the command FIFO and stored event edges wait in this unit.
 """
 
 from __future__ import annotations
@@ -20,8 +19,15 @@ from .work import Refusal, Work, refusal_block
 
 
 class Job(NamedTuple):
-    """What is processed: block in logical order, who asked, edge that the DATASHEET times count from,
-    number of the event buffer, released by a position."""
+    """Instruction to process.
+
+    Attributes:
+        block: block in logical order.
+        source: source of the instruction.
+        since: edge that the DATASHEET times count from.
+        buffer: number of the event buffer.
+        at_position: released by a position.
+    """
 
     block: bytes
     source: Source
@@ -31,9 +37,10 @@ class Job(NamedTuple):
 
 
 class Unit:
-    """core: everything that instructions act on.
+    """Instruction unit.
 
-    holding: an answer is about to be stored; reports of classes 3 to 8 come after it.
+    core: everything that instructions act on. holding: a response is about to be stored; reports of classes 3
+    to 8 follow it.
     """
 
     def __init__(self, core: Core) -> None:
@@ -48,7 +55,7 @@ class Unit:
         self._storing = False
         self._late: bytes | None = None
         self._open_from = 0
-        """Edge from which the place of the answer that was read last may be used."""
+        """Edge from which the place of the response that was read last may be used."""
         self._alarming = False
         self._rest: list[bytes] = []
         self.holding = False
@@ -56,17 +63,17 @@ class Unit:
     # ------------------------------------------------------------------ requests
 
     def host_block(self, t: int, block: bytes) -> None:
-        """A complete block has been written; its header's write event is at edge t."""
+        """Process a complete block that was written; the write event of its header is at edge t."""
         self._host = Job(block, Source.HOST, t)
         self._answered = False
         self.kick(t)
 
     def kick(self, t: int) -> None:
-        """Something may wait."""
+        """Schedule an arbitration, because an instruction may wait."""
         self._at(t + self._core.pace.turn, self._turn)
 
     def event(self, t: int, trigger: Trigger) -> None:
-        """Falling edge of an event pin (P312-EVT-01, -04, P312-OVR-10)."""
+        """Process a falling edge of an event pin (P312-EVT-01, -04, P312-OVR-10)."""
         buffer = self._core.events[trigger - 1]
         if buffer.entries:
             if buffer.edge is None:
@@ -77,15 +84,21 @@ class Unit:
 
     @property
     def settled(self) -> bool:
-        """Everything that the command FIFO has released is processed, and no alarm is on its way."""
+        """True if all released entries of the command FIFO are processed.
+
+        In addition, no alarm may be pending.
+        """
         busy = self._busy and self._source is Source.OVERRIDE
         return not self._core.fifo.triggered and not self._alarming and not busy
 
     def _at(self, t: int, action: Callable[[int], None]) -> None:
-        """Instructions see what there was before an edge, so they come first."""
+        """Schedule an action before other events of edge t.
+
+        Instructions see the state before an edge.
+        """
         self._core.context.queue.at(t, Phase.BUS, action)
 
-    # ------------------------------------------------------------------ whose turn
+    # ------------------------------------------------------------------ arbitration
 
     def _turn(self, t: int) -> None:
         if self._busy or t < self._free:
@@ -104,16 +117,19 @@ class Unit:
             self._begin(t, job)
 
     def _unread(self) -> bool:
-        """An answer has not been read, or is about to be stored."""
+        """Return True if a response has not been read, or is about to be stored."""
         occupied = bool(self._core.responses.answer) or self._storing
         return occupied or (not self._answered and self._host is None)
 
     def _seen(self, since: int, t: int) -> bool:
-        """What has come on edge `since` can be begun at t."""
+        """Return True if an instruction that arrived at edge `since` can begin at edge t."""
         return since + self._core.pace.turn <= t
 
     def _next(self, t: int) -> tuple[Source, int] | None:
-        """Who of the triggered ones is first: position, evt0, evt1 (P312-OVR-10); the buffer's number."""
+        """Return the first of the triggered instructions, with the number of its buffer (P312-OVR-10).
+
+        The priority is position, evt0, evt1.
+        """
         fifo, events = self._core.fifo, self._core.events
         waits = [
             (n + 1, 0, (Source.EVENT, n))
@@ -136,7 +152,10 @@ class Unit:
         return Job(buffer.take(), source, since, number)
 
     def _lost(self, t: int, waits: tuple[Source, int]) -> None:
-        """Multiple occurrence: not executed, and what waits with it is forgotten (P312-RSP-20)."""
+        """Process a multiple occurrence (P312-RSP-20).
+
+        The instruction is not executed, and the instructions that wait with it are discarded.
+        """
         source, number = waits
         if source is Source.EVENT:
             self._core.events[number].clear()
@@ -146,7 +165,7 @@ class Unit:
         self.kick(t)
 
     def _alarm_soon(self, t: int) -> None:
-        """Multiple occurrence at edge t; its alarm is on its way."""
+        """Schedule the alarm of a multiple occurrence at edge t."""
         self._alarming = True
         self._at(t + self._core.pace.alarm, self._alarm)
 
@@ -168,7 +187,10 @@ class Unit:
         self._at(t + pace.judge, lambda now: self._judge(now, t, job))
 
     def _look_at_store(self, t: int, job: Job) -> None:
-        """A host that has not read its last answer is not served (P312-RSP-20)."""
+        """Reject an instruction of a host that has not read its last response.
+
+        The instruction is not executed (P312-RSP-20).
+        """
         answer = self._core.responses.answer
         if answer and answer.source is Source.HOST:
             self._idle(t)
@@ -200,7 +222,10 @@ class Unit:
         self.holding = True
 
     def _paced(self, t: int, work: Work) -> int:
-        """The time of the old chip, counted from the begin of processing (P312-TIM-20)."""
+        """Return the edge that the original chip's time defines (P312-TIM-20).
+
+        The time counts from the begin of processing.
+        """
         core = self._core
         if not core.context.datasheet or work.cycles is None:
             return t
@@ -209,7 +234,7 @@ class Unit:
         return max(t, self._began + timebase.cyc(cycles) + (pace.paced if work.starts or not work.clk else 2))
 
     def _act(self, t: int, job: Job, work: Work) -> None:
-        """The effect of a short instruction."""
+        """Execute the effect of a short instruction."""
         if work.begin:
             work.begin(t)
         due = self._paced(t + work.clk, work) if work.clk else t
@@ -219,7 +244,7 @@ class Unit:
         self.holding = False
         self._core.host.offer(t)
         if work.check:
-            # The levels of that edge count.
+            # The levels of that edge are used.
             look = t + self._core.pace.limits
             self._core.context.queue.at(look, Phase.COMMAND, lambda now: self._check(now, job, work, due))
         else:
@@ -252,10 +277,10 @@ class Unit:
         elif job.source is Source.OVERRIDE:
             core.drop_overrides(t)
 
-    # ------------------------------------------------------------------ answers
+    # ------------------------------------------------------------------ responses
 
     def _answer(self, t: int, source: Source, blocks: list[bytes]) -> None:
-        """The answer to what has had its effect at edge t is written, a byte a clk."""
+        """Write the response to an instruction whose effect was at edge t, one byte per cycle."""
         self.holding, self._rest = True, blocks[1:]
         self._write(t + self._core.pace.answer + len(blocks[0]), blocks[0], source)
 
@@ -265,9 +290,9 @@ class Unit:
         self._core.context.queue.at(stored, Phase.STORE, lambda now: self._store(now, block, source))
 
     def _over(self, t: int) -> None:
-        """The next instruction may be taken."""
+        """Enable the next instruction."""
         self._idle(t)
-        # An answer that has to wait lets other reports pass.
+        # A response that has to wait lets other reports pass.
         self.holding = self._core.responses.answer is None
         self._core.operation.motion.look_at_rest_soon(t)
         self.kick(t)
@@ -276,7 +301,7 @@ class Unit:
         self._busy, self._job, self._free = False, None, t + self._core.pace.turn
 
     def answer_reset(self, t: int) -> None:
-        """The first thing after a reset by FF."""
+        """Write the response to a reset by FF, the first one after it."""
         self._busy = True
         self._answer(t, Source.HOST, [bytes([Source.HOST, 1, Code.RESET])])
 
@@ -292,7 +317,7 @@ class Unit:
             )
             return
         if not self._core.responses.post(t, ANSWER, [block], source):
-            # Behind an answer to an event or an override; the mailbox stays closed (P312-RSP-20).
+            # It follows a response to an event or an override; the mailbox stays closed (P312-RSP-20).
             self._late = block
             return
         self._late, self._storing, self.holding = None, False, bool(self._rest)
@@ -304,7 +329,7 @@ class Unit:
         self._core.host.done(t)
 
     def was_read(self, t: int, report: Report) -> None:
-        """The host has read an answer; the one that waits for it, or the next block of it, follows."""
+        """Process the read of a response; the waiting response, or its next block, follows."""
         if report.kind != ANSWER:
             return
         pace, queue, late = self._core.pace, self._core.context.queue, self._late
@@ -317,7 +342,10 @@ class Unit:
             self._write(t + pace.reading(following), following, Source.HOST)
 
     def _fetch(self, t: int) -> None:
-        """The next block of a table read is put together, behind what is lost on the same edge."""
+        """Assemble the next block of a table read.
+
+        Instructions that are discarded at the same edge are processed before it.
+        """
         if waits := self._next(t):
             self._lost(t, waits)
         self._busy, self._source = True, Source.HOST

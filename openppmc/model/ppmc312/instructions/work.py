@@ -1,4 +1,4 @@
-"""What a checked instruction of the PPMC-312 leads to: a refusal, or work with its time."""
+"""Result of the checks of an instruction of the PPMC-312: a rejection, or work with its time."""
 
 from __future__ import annotations
 
@@ -10,8 +10,11 @@ from ..front.responses import block
 
 
 class Refusal(Exception):  # noqa: N818 - an answer, not a fault of the program
-    """An abnormality response. number: error number, status or length byte, as the answer needs it. clk: from
-    the effect of a short instruction to the refusal."""
+    """Rejection with an abnormality response.
+
+    number: error number, status or length byte, as the response requires. clk: cycles from the effect of a
+    short instruction to the rejection.
+    """
 
     def __init__(self, answer: Answer, number: int = 0, clk: int = 0) -> None:
         super().__init__(f"{answer.name} {number:#04x}")
@@ -19,13 +22,17 @@ class Refusal(Exception):  # noqa: N818 - an answer, not a fault of the program
 
 
 class Work(NamedTuple):
-    """An instruction that has passed its checks.
+    """Instruction that has passed its checks.
 
-    finish(t) does it at its edge and returns the answer without header and length, or several whole blocks;
-    it may still raise Refusal. clk: from the effect of a short instruction to finish. cycles: DATASHEET time
-    from the header write or the trigger in XTAL cycles, None for the time of FAST. starts: that time is the
-    one of pulse 1, which is TW after t0. begin(t): what it does at once, with the effect of a short one.
-    check(t): limits of a start, looked at before it is planned; may raise Refusal.
+    Attributes:
+        finish: finish(t) executes it at its edge. It returns the response without header and length, or
+            several whole blocks; it may raise Refusal.
+        clk: cycles from the effect of a short instruction to finish.
+        cycles: DATASHEET time in crystal cycles from the write of the header, or from the trigger; `None` for
+            the time of FAST.
+        starts: this time is that of pulse 1, which is TW after t0.
+        begin: begin(t) executes the immediate part, at the edge of the effect of a short instruction.
+        check: check(t) checks the limits of a start before it is planned; it may raise Refusal.
     """
 
     finish: Callable[[int], bytes | list[bytes]]
@@ -41,7 +48,7 @@ _ECHO = 28
 
 
 def refusal_block(refusal: Refusal, source: Source, state: State, given: bytes) -> bytes:
-    """The answer (10.1); given: code and parameters as received."""
+    """Return the response (10.1). given: code and parameters as received."""
     if source is not Source.HOST:
         failed = Answer.EVENT_FAILED if source is Source.EVENT else Answer.OVERRIDE_FAILED
         return block(source, failed, _FAILURES.get(refusal.answer, 0x00))

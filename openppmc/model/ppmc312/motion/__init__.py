@@ -1,1 +1,1 @@
-"""The PPMC-312 in motion: operation, pulses, positions, monitors, pins."""
+"""Motions of the PPMC-312: operation, pulses, positions, monitors, pins."""

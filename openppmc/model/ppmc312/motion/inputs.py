@@ -1,4 +1,4 @@
-"""Input levels of the PPMC-312 as decisions see them, generalized input: P312-INP-01, P312-MON-10."""
+"""Input levels of the PPMC-312 for decisions, and generalized input: P312-INP-01, P312-MON-10."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ EVENT_PINS = ("evt0_n", "evt1_n")
 
 
 class Filters:
-    """levels: of the guarded pins. In DATASHEET a low one counts only when it has lasted; a high one at once.
+    """Filters of the guarded pins. changed(t, pin): called when the level of a pin has changed.
 
-    changed(t, pin): the level of a pin has changed.
+    levels: filtered levels. With DATASHEET timing a low level counts only when it has lasted for the filter
+    time; a high level counts immediately.
     """
 
     def __init__(self, context: Context, changed: Callable[[int, str], None]) -> None:
@@ -26,7 +27,7 @@ class Filters:
         self._pending: dict[str, Event] = {}
 
     def see(self, t: int, levels: Mapping[str, int]) -> None:
-        """Synchronised levels from edge t on."""
+        """Process synchronised levels from edge t on."""
         fresh = [pin for pin in self._plain if levels[pin] != self._plain[pin]]
         for pin in fresh:
             self._plain[pin] = levels[pin]
@@ -46,12 +47,12 @@ class Filters:
             pending.cancel()
         if self.levels[pin] != level:
             self.levels[pin] = level
-            # All pins of one edge are in place before any of them is acted on.
+            # All pins of one edge are updated before an action on any of them.
             self._context.queue.at(t, Phase.QUEUE, lambda now: self._changed(now, pin))
 
 
 class InputChange:
-    """Watches auxi behind a mask once in 50 us."""
+    """Monitor that samples auxi with a mask every 50 us."""
 
     def __init__(self, context: Context, responses: Responses) -> None:
         self._context, self._responses = context, responses
@@ -61,7 +62,7 @@ class InputChange:
         self._next: Event | None = None
 
     def set_up(self, t: int, mask: int, auto: bool) -> None:
-        """28."""
+        """Execute 28."""
         self._mask, self._auto, self._since = mask, auto, t
         self._former = self._context.levels["auxi"]
         if self._next:
@@ -69,7 +70,7 @@ class InputChange:
             self._next = None
 
     def see(self, t: int) -> None:
-        """auxi has changed at edge t: look at it with the next sample."""
+        """Process a change of auxi at edge t: the next sample compares it."""
         if not self._mask or self._next:
             return
         timebase = self._context.timebase
@@ -93,7 +94,7 @@ class InputChange:
 
 
 class Outputs:
-    """Internal levels behind the pins."""
+    """Internal levels of the pins."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -103,7 +104,7 @@ class Outputs:
 
     def _after(self, name: str, t: int, cycles: int, action: Callable[[int], None]) -> None:
         self._cancel(name)
-        # The last cycle is the one that the pin needs.
+        # The last cycle is that of the pin register.
         at = t + self._context.timebase.cyc(cycles - 1) + 1
         self._timers[name] = self._context.queue.at(at, Phase.CHOPPER, action)
 
@@ -113,7 +114,7 @@ class Outputs:
             event.cancel()
 
     def counter_clear(self, t: int) -> None:
-        """22: the pulse begins, again if it runs."""
+        """Execute 22: the pulse begins, or starts again if it is active."""
         self.cclr_n = 0
         self._after("cclr", t, CLEAR_PULSE, self._counter_cleared)
 
@@ -121,7 +122,7 @@ class Outputs:
         self.cclr_n = 1
 
     def alarm_clear(self, t: int) -> None:
-        """24."""
+        """Execute 24."""
         self.aclr_n = 0
         self._after("aclr", t, CLEAR_PULSE, self._alarm_cleared)
 
@@ -129,28 +130,28 @@ class Outputs:
         self.aclr_n = 1
 
     def clamp(self) -> None:
-        """Zero clamp on."""
+        """Activate the zero clamp."""
         self.zclmp_n = 0
 
     def begin(self) -> None:
-        """t0."""
+        """Process t0."""
         self.zclmp_n = self.cd_n = 1
         self._cancel("cd")
 
     def pulses_ended(self, t: int) -> None:
-        """The time to the current reduction starts."""
+        """Start the time to the current reduction."""
         self._after("cd", t, CURRENT_DOWN, self.reduce)
 
     def reduce(self, t: int) -> None:
-        """Current reduction on: its time is over, or alm_n is low."""
+        """Activate the current reduction: its time is over, or alm_n is low."""
         self.cd_n = 0
 
     @property
     def values(self) -> tuple[int, ...]:
-        """The internal levels."""
+        """Internal levels."""
         return self.exon_n, self.cclr_n, self.aclr_n, self.zclmp_n, self.cd_n, self.auxo_n
 
     def levels(self) -> dict[str, int]:
-        """Pin names and internal levels."""
+        """Return pin names and internal levels."""
         names = ("exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "auxo_n")
         return dict(zip(names, self.values, strict=True))

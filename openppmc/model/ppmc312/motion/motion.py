@@ -1,6 +1,6 @@
-"""Pulse output of the PPMC-312 in time: t0, intervals, pulse shape, immediate ends (P312-MOT-01..07, -34).
+"""Pulse output of the PPMC-312 in time: t0, intervals, pulse shape, immediate ends.
 
-Which pulse comes with which rate is `sequence`, what happens around an operation `operation`.
+Rules: P312-MOT-01..07, -34. `sequence` has the rate of each pulse, `operation` the rest of an operation.
 """
 
 from __future__ import annotations
@@ -20,8 +20,14 @@ LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 
 @dataclass(slots=True)
 class Order:
-    """One operation. target: rate that the start check compares with the high-speed limit. origin: look for
-    it; turns: zero return, phase 1; index: the origin needs index_n as well."""
+    """Order of an operation.
+
+    Attributes:
+        target: rate that the start check compares with the high-speed limit.
+        origin: it ends at the origin.
+        turns: zero return, phase 1.
+        index: the origin needs index_n as well.
+    """
 
     plan: Plan
     direction: int
@@ -32,10 +38,17 @@ class Order:
 
 
 class Motion:
-    """pins: levels of the guarded inputs as decisions see them. speed_limit(): HSL. on_count(t, direction):
-    POS counts a pulse. on_compare(t, direction): and is compared; True: a stop at this position
-    (P312-OVR-12). settled(): what such a stop waits for is done. on_end(t, cause): pulse output ended, or
-    with Cause.RETURN phase 1 of a zero return.
+    """Pulse output.
+
+    Args:
+        pins: levels of the guarded inputs for decisions.
+        speed_limit: returns HSL.
+        on_count: on_count(t, direction) is called when POS counts a pulse.
+        on_compare: on_compare(t, direction) is called when POS is compared; True means a stop at this
+            position (P312-OVR-12).
+        settled: settled() returns True if everything that such a stop waits for is done.
+        on_end: on_end(t, cause) is called when the pulse output has ended, or with Cause.RETURN after phase 1
+            of a zero return.
     """
 
     def __init__(
@@ -64,7 +77,7 @@ class Motion:
     # ------------------------------------------------------------------ start
 
     def start(self, t: int, order: Order) -> None:
-        """t0 (P312-MOT-01)."""
+        """Process t0 (P312-MOT-01)."""
         self.active, self.direction, self.order = True, order.direction, order
         self.sequence = Sequence(order.plan)
         self._wants.clear()
@@ -85,27 +98,27 @@ class Motion:
 
     @property
     def due(self) -> int | None:
-        """Edge of the next boundary, if it is known."""
+        """Edge of the next boundary, `None` if it is unknown."""
         return self._due if self.active and self._divider is not None else None
 
     @property
     def busy(self) -> bool:
-        """Pulse output runs: pulses may come, or the last one is not over."""
+        """True while the pulse output is active: pulses may follow, or the last one is not over."""
         return self.active or self._ended is not None
 
     @property
     def in_table(self) -> bool:
-        """State ACC rather than FIX."""
+        """True in state ACC, False in FIX."""
         return self.busy and self.sequence.in_table
 
     # ------------------------------------------------------------------ requests
 
     def look(self, t: int) -> None:
-        """Judge the inputs at edge t."""
+        """Schedule a check of the inputs at edge t."""
         self._context.queue.at(t, Phase.GUARD, self._judge)
 
     def stop(self, t: int, cause: Cause) -> None:
-        """Immediate stop by 80 or by an alarm (P312-MOT-34)."""
+        """Process an immediate stop by 80 or by an alarm (P312-MOT-34)."""
         if self.active:
             self._wants.add(cause)
             self.look(t)
@@ -114,11 +127,11 @@ class Motion:
         elif cause is Cause.ALARM and self._at_position and self._ended is Cause.STOP:
             self._stay(t, cause)
         if cause is Cause.ALARM:
-            # An alarm does not wait for what the position has released.
+            # An alarm does not wait for instructions that the position has released.
             self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
 
     def slow_stop(self, t: int) -> None:
-        """81 (P312-MOT-30)."""
+        """Process 81 (P312-MOT-30)."""
         if self.active:
             sequence = self.sequence
             self._slow_from = t + 1
@@ -128,15 +141,15 @@ class Motion:
             self._stay(t, Cause.LOW)
 
     def _stay(self, t: int, cause: Cause) -> None:
-        """A stop between the phases of a zero return, or an alarm after a stop at a position."""
+        """Process a stop between the phases of a zero return, or an alarm after a stop at a position."""
         self._ended = cause
         self._rest_at(t + 1)
 
     def change(self, t: int, change: Change) -> None:
-        """87 or 88."""
+        """Process 87 or 88."""
         if self.active:
             sequence, lead = self.sequence, self._pace.ramp_lead if change.ramp else self._pace.change_lead
-            # The one that it replaces is gone before it counts itself.
+            # The change that it replaces is removed before it counts itself.
             self._flag(t + self._pace.drop_lead, lambda at: sequence.drop_change())
             self._changes.append((t, self._flag(t + lead, lambda at: sequence.change(change))))
             if change.ramp:
@@ -168,7 +181,10 @@ class Motion:
             self._flag(t + self._pace.origin_lead, lambda at: sequence.request(Cause.RETURN))
 
     def _look_at_limit(self, t: int, low: bool) -> None:
-        """High-speed limit: a level, which counts for boundaries `lead` clk later (P312-INP-12)."""
+        """Process the high-speed limit, which is a level (P312-INP-12).
+
+        It counts for boundaries `lead` cycles later.
+        """
         if t > self._limit_at:
             self._limit_before, self._limit_at = self._limit, t
         limit = low and t >= self._began + self._pace.young
@@ -182,7 +198,7 @@ class Motion:
     # ------------------------------------------------------------------ end
 
     def _end(self, t: int, cause: Cause) -> None:
-        """No more pulses from edge t on (P312-MOT-06, -34)."""
+        """Cut the pulses from edge t on (P312-MOT-06, -34)."""
         self._ended = Cause.NORMAL if self.sequence.complete else cause
         self.active = False
         self._cancel("pulse")
@@ -194,12 +210,12 @@ class Motion:
         self._context.queue.at(t, Phase.BEGIN, self.look_at_rest)
 
     def look_at_rest_soon(self, t: int) -> None:
-        """What a stop at a position waits for may be done at edge t."""
+        """Schedule a check at edge t, because a condition of a stop at a position may be fulfilled."""
         if self._at_position and self._ended is not None:
             self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
 
     def look_at_rest(self, t: int) -> None:
-        """The last pulse is over, and nothing is waited for."""
+        """End the motion if the last pulse is over and no condition is pending."""
         cause = self._ended
         if cause is None or self.pout or t < self._rest_from or (self._at_position and not self._settled()):
             return
@@ -209,7 +225,7 @@ class Motion:
     # ------------------------------------------------------------------ pulses
 
     def tick(self, t: int) -> None:
-        """Counted edge of EXTCK (P312-MOT-02)."""
+        """Process a counted edge of EXTCK (P312-MOT-02)."""
         if self._ended is None and not self.active or self._divider is not None:
             return
         running = self.sequence.running
@@ -225,7 +241,7 @@ class Motion:
             self._events["pulse"] = self._context.queue.at(due, Phase.BASE, self._pulse)
 
     def _pulse(self, t: int) -> None:
-        """Boundary at edge t: the next pulse, or the end."""
+        """Process the boundary at edge t: the next pulse, or the end."""
         if not self.active:
             return
         sequence, constant = self.sequence, not self.sequence.in_table
@@ -234,7 +250,8 @@ class Motion:
         if isinstance(step, Cause):
             self._end(t, step)
             return
-        # A change that was asked for in time for this boundary is forgotten with the walk, or dropped.
+        # A change that was requested in time for this boundary is discarded with the final deceleration, or
+        # dropped.
         lead = 1 if sequence.walk_begins else self._pace.change_lead
         if sequence.walk_begins or sequence.drops:
             for since, event in self._changes:
@@ -259,7 +276,7 @@ class Motion:
             self._context.queue.at(t + 1, Phase.RUN - 2, self._stop_at_position)
 
     def _stop_at_position(self, t: int) -> None:
-        """The position of a registered 80 has been reached (P312-OVR-12)."""
+        """Process the position of a registered 80 (P312-OVR-12)."""
         if not self.busy or self.sequence.complete:
             return
         self._at_position = True
@@ -268,7 +285,10 @@ class Motion:
             self._judge(t)
 
     def _plan_interval(self, t: int, rate: int, divider: int) -> None:
-        """Fall of pout and the next boundary by the prescaler, whose phase pulse 1 cleared."""
+        """Schedule the fall of pout and the next boundary.
+
+        They follow the prescaler, whose phase pulse 1 cleared.
+        """
         timebase = self._context.timebase
         if self.sequence.done == 1:
             self._origin = t

@@ -1,6 +1,8 @@
-"""One operation of the PPMC-312 from its acceptance to its stop report: RUN, END, zero return, alarms.
+"""Operation of the PPMC-312 from its acceptance to its stop report.
 
-P312-INP-11, -20, -30; P312-MOT-06, -35, -42, -43; the state table of chapter 4.
+It includes RUN, END, zero return and alarms.
+
+Rules: P312-INP-11, -20, -30; P312-MOT-06, -35, -42, -43; the state table of chapter 4.
 """
 
 from __future__ import annotations
@@ -20,10 +22,19 @@ from .sequence import Change
 
 
 class Operation:
-    """pins: input levels as decisions see them. alarm(t, status): multiple occurrence. rested(t): something
-    has moved, or pulse output has ended. settled(): nothing that a position has stopped for waits.
-    abnormal(): state ABN. run_level: RUN as decisions at this edge use it. end_monitored, run_ignored (CWS),
-    speed_limit (HSL) are settings; last_cause: of the last stop report."""
+    """Operation.
+
+    Args:
+        pins: input levels for decisions.
+        alarm: alarm(t, status) is called on a multiple occurrence.
+        rested: rested(t) is called when the position has changed, or the pulse output has ended.
+        settled: settled() returns False while an instruction waits for which a position has stopped the
+            motor.
+        abnormal: abnormal() returns True in state ABN.
+
+    run_level: RUN for decisions at this edge. end_monitored, run_ignored (CWS), speed_limit (HSL): settings.
+    last_cause: cause of the last stop report.
+    """
 
     def __init__(
         self,
@@ -58,7 +69,7 @@ class Operation:
 
     @property
     def state(self) -> State | None:
-        """ACC, FIX or WRN; None at rest."""
+        """ACC, FIX or WRN; `None` if stopped."""
         if self._held:
             return State.WRN
         if self.motion.in_table:
@@ -67,33 +78,33 @@ class Operation:
 
     @property
     def waits_for_end(self) -> bool:
-        """END wait."""
+        """True while it waits for END."""
         return self._end_wait is not None
 
     @property
     def at_rest(self) -> bool:
-        """No pulse output runs."""
+        """True if the pulse output is inactive."""
         return not self.motion.busy
 
     def _count(self, t: int, direction: int) -> None:
-        """POS counts a pulse."""
+        """Count a pulse in POS."""
         self._counters.count_pulse(direction)
         self._looked_at(t)
 
     # ------------------------------------------------------------------ start
 
     def limited(self, order: Order) -> bool:
-        """Whether a limit forbids the start (P312-INP-11)."""
+        """Return True if a limit forbids the start (P312-INP-11)."""
         slow = not self._pins[SLOW_LIMITS[order.direction]] and order.target <= self.speed_limit
         return not self._pins[LIMITS[order.direction]] or slow
 
     @property
     def may_run(self) -> bool:
-        """RUN is high or not monitored."""
+        """True if RUN is high or not monitored."""
         return bool(self.run_level) or self.run_ignored
 
     def start(self, t: int, order: Order) -> bool:
-        """t0, or state WRN; True if the operation is held."""
+        """Start at t0, or change to state WRN; return True if the operation is held."""
         if self.may_run:
             self._begin(t, order)
             return False
@@ -101,7 +112,7 @@ class Operation:
         return True
 
     def look_at_run(self, t: int) -> None:
-        """RUN or its monitoring has changed."""
+        """Process a change of RUN or of its monitoring."""
         if self._held and self.may_run:
             self._context.queue.at(t + self._pace.held, Phase.BEGIN, self._release)
 
@@ -121,7 +132,7 @@ class Operation:
     # ------------------------------------------------------------------ stops
 
     def stop(self, t: int, cause: Cause = Cause.STOP) -> None:
-        """80, or the alarm of a multiple occurrence or of alm_n."""
+        """Process 80, or the alarm of a multiple occurrence or of alm_n."""
         if cause is Cause.ALARM:
             self._alarm_at = t
         if self._held:
@@ -133,11 +144,11 @@ class Operation:
             self.motion.stop(t, cause)
 
     def slow_stop(self, t: int) -> None:
-        """81."""
+        """Process 81."""
         self.motion.slow_stop(t)
 
     def change(self, t: int, change: Change) -> None:
-        """87, 88."""
+        """Process 87 or 88."""
         self.motion.change(t, change)
 
     # ------------------------------------------------------------------ end
@@ -147,7 +158,7 @@ class Operation:
             self._turn_back(t)
             return
         self._outputs.pulses_ended(t)
-        # In ABN nothing waits for END, whatever the cause; entered just now, it is left at once.
+        # In ABN, END is not awaited, for any cause; ABN entered at this edge ends the wait immediately.
         waits = self.end_monitored and cause is not Cause.ALARM and self._pins["end_n"]
         if waits and not (self._abnormal() and self._alarm_at < t):
             self._end_wait = cause
@@ -158,14 +169,14 @@ class Operation:
         self._rested(t)
 
     def _turn_back(self, t: int) -> None:
-        """t0 of phase 2."""
+        """Process t0 of phase 2."""
         order = self.motion.order
         table = order.plan.table
         rate = table.rates[table.sa]
         self._begin(t, Order(constant(table, rate), 1 - order.direction, rate, True, False, order.index))
 
     def look_at_end(self, t: int) -> None:
-        """end_n or its monitoring has changed."""
+        """Process a change of end_n or of its monitoring."""
         if self._end_wait is not None and (not self.end_monitored or not self._pins["end_n"]):
             self._leave_end_wait(t)
 

@@ -1,4 +1,7 @@
-"""Positions of the PPMC-312, interlock and monitors that compare them (P312-MON-01..06, P312-OUT-03)."""
+"""Positions of the PPMC-312, interlock, and monitors that compare positions.
+
+Rules: P312-MON-01..06, P312-OUT-03.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from ..pace import Pace
 
 _WRAP = (1 << 32) - 1
 _LONG, _SHORT = 14, 4
-"""clk until nothing moves any more, with a monitor on and off."""
+"""Cycles until all comparisons are stable, with a monitor on and off."""
 
 
 @dataclass
@@ -23,11 +26,11 @@ class Counters:
     encoder: int = 0
 
     def count_pulse(self, ccw: int) -> None:
-        """One pulse: CW adds, CCW takes away."""
+        """Count one pulse: CW adds, CCW subtracts."""
         self.pulse = self.pulse + (-1 if ccw else 1) & _WRAP
 
     def count_encoder(self, ccw: int) -> None:
-        """One encoder edge."""
+        """Count one encoder edge."""
         self.encoder = self.encoder + (-1 if ccw else 1) & _WRAP
 
     @property
@@ -39,22 +42,24 @@ class Counters:
 
 @dataclass
 class Interlock:
-    """on: the control runs, intlk_n is low."""
+    """Interlock. on: the control is running, intlk_n is low."""
 
     position: int = 0
     on: bool = False
 
     def arrives(self, position: int) -> bool:
-        """A count has led to this position; True if it ends the control."""
+        """Process a count to this position; return True if it ends the control."""
         ends = self.on and position == self.position
         self.on = self.on and not ends
         return ends
 
 
 class Monitor:
-    """In-position or encode monitor: reports of one class when the distance enters or leaves a range.
+    """In-position or encode monitor.
 
-    enabled: EN as the status shows it. far: the distance is outside.
+    It sends reports of one class when the distance enters or leaves a range.
+
+    enabled: EN as in the status. far: the distance is out of range.
     """
 
     def __init__(self, kind: int, code: Answer, responses: Responses) -> None:
@@ -69,7 +74,7 @@ class Monitor:
 
     @property
     def outside(self) -> bool:
-        """0 while the monitor is off."""
+        """True if the distance is out of range; False while the monitor is off."""
         return self.enabled and self.far
 
     @property
@@ -82,14 +87,17 @@ class Monitor:
         return block(SPONTANEOUS, self._code, self._shown)
 
     def set_up(self, t: int, flags: int, distance: int) -> None:
-        """02 or 03 with legal parameters."""
+        """Execute 02 or 03 with legal parameters."""
         self._responses.withdraw(self.kind)
         self.enabled, self.auto, self.clamps = bool(flags & 1), bool(flags & 2), bool(flags & 4)
         self.range, self.far, self._told, self._kept = distance, False, False, False
         self._report_from, self._look_from = t + 1, t + 2
 
     def clock(self, t: int, inside: bool, evaluate: bool) -> None:
-        """One clk: what is to be told follows what was known before edge t (P312-RSP-22, P312-MON-05)."""
+        """Process one cycle (P312-RSP-22, P312-MON-05).
+
+        The reports depend on the state before edge t.
+        """
         if t < self._report_from:
             return
         far, enabled = self.far, self.enabled
@@ -106,14 +114,17 @@ class Monitor:
             self.enabled, self._kept = False, True
 
     def was_read(self, t: int) -> None:
-        """The host has read a report."""
+        """Process the read of a report."""
         self._told = self._shown
         self._report_from = t + 1
 
 
 class Watch:
-    """Both monitors on both counters. at_rest(): no pulse output runs. clamp(t): zclmp_n goes low.
-    end_low(): end_n is low."""
+    """Both monitors on both counters.
+
+    at_rest(): returns True if the pulse output is inactive. clamp(): asserts zclmp_n (low). end_low():
+    returns True if end_n is low.
+    """
 
     def __init__(
         self,
@@ -136,14 +147,17 @@ class Watch:
         self._awake = False
 
     def set_up(self, t: int, monitor: Monitor, flags: int, distance: int) -> None:
-        """02 or 03."""
+        """Execute 02 or 03."""
         monitor.set_up(t, flags, distance)
         if monitor is self.in_position:
             self._quiet = -1
         self.look(t)
 
     def look(self, t: int) -> None:
-        """Something has changed at edge t: a count, a position, a setting, the end of pulse output, end_n."""
+        """Run the comparison after a change at edge t.
+
+        The change is a count, a position, a setting, the end of the pulse output, or end_n.
+        """
         busy = self.in_position.enabled or self.encode.enabled
         self._until = max(self._until, t + (_LONG if busy else _SHORT))
         if not self._awake:
@@ -151,7 +165,10 @@ class Watch:
             self._queue.at(t, Phase.PIN, self._clock)
 
     def _clock(self, t: int) -> None:
-        """One clk of the comparison, while anything moves; it sees what there was before edge t."""
+        """Process one cycle of the comparison, while values change.
+
+        The comparison uses the state before edge t.
+        """
         position, encode = self.in_position, self.encode
         quiet = self._quiet >= self._pace.quiet and self._resting
         if quiet and self._clamps and self._at_rest() and (self._inside[position.kind] or self._end_low()):
@@ -171,7 +188,7 @@ class Watch:
             self._queue.at(t + 1, Phase.PIN, self._clock)
 
     def was_read(self, t: int, kind: int) -> None:
-        """The host has read E3 or E4."""
+        """Process the read of E3 or E4."""
         for monitor in (self.in_position, self.encode):
             if monitor.kind == kind:
                 monitor.was_read(t)

@@ -1,6 +1,6 @@
-"""Sequence of pulses and rates of the PPMC-312, boundary by boundary, with changes: P312-MOT-20..33.
+"""Sequence of pulses and rates of the PPMC-312 with changes of speed: P312-MOT-20..33.
 
-No time here: `boundary` is asked at the end of every interval, and once before pulse 1.
+This module contains no time: `boundary` is called at the end of every interval, and once before pulse 1.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _ORDER = (Cause.LIMIT_SLOW, Cause.SLOW, Cause.RETURN)
 
 
 class Change(NamedTuple):
-    """Speed change: 87 (ramp) or 88, and the rate aimed at."""
+    """Change of speed: 87 (ramp) or 88, and the target rate."""
 
     rate: int
     ramp: bool
@@ -31,10 +31,15 @@ class _Mode(Enum):
 
 
 class Sequence:
-    """One operation. done: pulses out. running: the pulse and interval that run, None before pulse 1.
+    """Pulses of an operation.
 
-    Of the last boundary: walk_begins: the walk to the end. drops: an 87 that waited is gone. sought: the
-    constant rate that runs was a stage's, so t(x) had to be found for it."""
+    Attributes:
+        done: pulses output.
+        running: current pulse and interval, `None` before pulse 1.
+        walk_begins: the last boundary began the deceleration to the end.
+        drops: the last boundary discarded a waiting 87.
+        sought: the constant rate of the last boundary was that of a stage, so t(x) had to be searched for it.
+    """
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
@@ -52,23 +57,23 @@ class Sequence:
 
     @property
     def complete(self) -> bool:
-        """Pulse N is out."""
+        """True after pulse N."""
         return self.done == self.plan.n
 
     @property
     def in_table(self) -> bool:
-        """State ACC: the running interval, or pulse 1 before it is out, comes from the table."""
+        """State ACC: the running interval, or pulse 1 before its output, uses a rate of the table."""
         return self.present.stage is not None
 
     @property
     def present(self) -> Step:
-        """What runs; before pulse 1, what would."""
+        """Current step; before pulse 1 the step of pulse 1."""
         return self.running or self.plan.step(1)
 
     # ------------------------------------------------------------------ requests
 
     def request(self, cause: Cause) -> None:
-        """Deceleration for 81 or for the origin of a zero return (P312-MOT-30, -43)."""
+        """Request a deceleration for 81 or for the origin of a zero return (P312-MOT-30, -43)."""
         if self._mode is _Mode.WALK:
             if self._walk_cause is Cause.RETURN and cause in _DECELERATING:
                 self._walk_cause = cause
@@ -76,7 +81,7 @@ class Sequence:
         self._requests.add(cause)
 
     def limit_level(self, active: bool) -> None:
-        """A high-speed limit forbids the present speed, or no longer does."""
+        """Set whether a high-speed limit forbids the current speed."""
         if active:
             self.request(Cause.LIMIT_SLOW)
         else:
@@ -84,25 +89,29 @@ class Sequence:
         self._limit = active
 
     def hold(self) -> None:
-        """An 87 waits; soon it may take effect."""
+        """Record a waiting 87, which may soon take effect."""
         self._held = True
 
     def change(self, change: Change) -> None:
-        """87 or 88 for the next boundary; it replaces one that waits."""
+        """Process 87 or 88 for the next boundary; it replaces a waiting one."""
         self._change = change
         self._held = change.ramp
 
     def drop_change(self) -> None:
-        """A newer 87 or 88 is on its way, or none counts any more."""
+        """Discard a waiting change: a newer 87 or 88 follows, or changes do not count any more."""
         self._change = None
         self._held = False
 
     # ------------------------------------------------------------------ boundary
 
     def boundary(self, ramps: bool = True, found: bool = True) -> Step | Cause:
-        """The next pulse, or why there is none (Cause.RETURN: phase 1 of a zero return is over).
+        """Return the next pulse, or the cause of the end.
 
-        ramps: 87 may take effect here. found: t(x) is known where it had to be `sought`.
+        Cause.RETURN means that phase 1 of a zero return is over.
+
+        Args:
+            ramps: 87 may take effect at this boundary.
+            found: t(x) is known, if it had to be searched.
         """
         self.walk_begins = self.drops = False
         if self.complete:
@@ -113,7 +122,7 @@ class Sequence:
             wanted = self._requests
             self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
         else:
-            wanted = set()  # the walk waits until it is known where it begins
+            wanted = set()  # the deceleration waits until its first stage is known
         if wanted and self._mode is not _Mode.WALK:
             end = self._decelerate(next(cause for cause in _ORDER if cause in wanted))
             if end is not None:
@@ -123,7 +132,7 @@ class Sequence:
         plan = self.plan
         if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.WALK:
             if self._held:
-                # It could only speed up the rest.
+                # It could only accelerate the rest.
                 self.drop_change()
                 self.drops = self._changed = True
             if self._changed:
@@ -134,7 +143,10 @@ class Sequence:
         return self.running
 
     def _walk_from(self, step: Step) -> list[list[int]]:
-        """Stages and pulses of the walk down from there; empty if there is none (P312-MOT-20)."""
+        """Return stages and pulses of the deceleration from a step (P312-MOT-20).
+
+        The list is empty if no deceleration is required.
+        """
         table = self.plan.table
         top = table.stage(step.rate) if step.stage is None else step.stage
         if step.rate >= table.rates[table.sd] or top < table.sd:
@@ -152,7 +164,7 @@ class Sequence:
         return None
 
     def _take_change(self) -> None:
-        """87 or 88, if one waits; 87 needs a constant speed to start from."""
+        """Apply a waiting 87 or 88; 87 requires a constant speed before."""
         change = self._change
         if change is None or (change.ramp and not self._ramps):
             return
@@ -178,7 +190,7 @@ class Sequence:
         self._stages = [[i, pulses[i]] for i in stages if pulses[i]]
 
     def _final(self) -> None:
-        """Deceleration point after a change (P312-MOT-33)."""
+        """Begin the final deceleration after a change (P312-MOT-33)."""
         table = self.plan.table
         start = Step(self._rate) if self._mode is _Mode.CONSTANT else self.present
         self._stages = self._walk_from(start)

@@ -18,15 +18,16 @@ JUDGED = Path(__file__).with_name("judged.yml")
 HEAD = """# Mutants
 
 `make mutate` writes this page.
-A mutant is the RTL with one small fault: an operator, a constant, a condition, an assignment
+A mutant is the RTL with one small fault: an operator, a constant, a condition, an assignment \
 ([how they are made](testing.md#mutants-by-rule)).
 It is killed if a proof or a test fails; the proofs of its block run first.
-*Endless*: a test runs into its time limit; this is counted separately.
-*Equivalent*: a review has found that the mutant behaves like the RTL.
-The score is killed / (killed + survived), without equivalent and endless mutants.
+*No end*: the tests do not terminate with it; these mutants are counted separately.
+*Equivalent*: a review found that it behaves like the RTL.
+The score is the share of the killed mutants among those that are killed, or that survived and are not \
+equivalent.
 """
-QUICK = "**Only the first tests ran on each mutant: further tests would kill some of the survivors.**\n"
-SO_FAR = "The mutants ran at different times; on some survivors, only the first tests ran.\n"
+QUICK = "**Only the first tests of each mutant were run here: some survivors would be killed.**\n"
+SO_FAR = "The mutants ran at different times; for some survivors only the first tests were run.\n"
 
 
 @dataclass(frozen=True)
@@ -104,8 +105,8 @@ def row(name: str, tried: Sequence[Tried], made: int) -> str:
 
 
 def table(title: str, rows: Sequence[str]) -> Iterator[str]:
-    """Yield a table with its heads."""
-    yield f"| {title} | made | tried | killed | by a proof | endless | equivalent | survived | score |"
+    """With its head."""
+    yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | survived | score |"
     yield "|---|---|---|---|---|---|---|---|---|"
     yield from rows
 
@@ -129,7 +130,7 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
             said = (
                 f"equivalent: {one.why}"
                 if one.why
-                else "endless"
+                else "no end"
                 if one.verdict == ENDLESS
                 else "**survived**"
             )
