@@ -108,7 +108,7 @@ def check(proof: Proof, limit: int = LIMIT, change: Change | None = None) -> Out
     verdict, found = engine.prove(folder, proof.bound, limit, proof.induct)
     if verdict == engine.FAILED:
         number, clk = min(found.items(), key=lambda hit: hit[1])
-        return outcome(f"{labels['prove'][number]} fails in cycle {clk}:  {trace(folder)}", refuted=True)
+        return outcome(f"{labels['prove'][number]} fails in cycle {clk}: {trace(folder)}", refuted=True)
     if verdict == engine.OPEN:
         return outcome(f"no result in {limit} s")
     if not labels["prove"] or not labels["cover"]:

@@ -91,12 +91,12 @@ def main() -> int:
         mine = [one for one in tried if folder_of(one.file) == folder]
         found = score(mine, len(mine))
         console.print(
-            f"{folder}: {found.killed} of {len(mine)} killed, {found.endless} endless,  "
+            f"{folder}: {found.killed} of {len(mine)} killed, {found.endless} endless, "
             f"{found.equivalent} equivalent, {found.alive} survived"
         )
         goal = LEAST if len(mine) <= SMALL else GOAL
         bad += bool(found.broken) or (found.percent is not None and found.percent < goal)
-    hint = "" if suites is None or suites.guided else f" (no stored coverage:  {NOT_GUIDED})"
+    hint = "" if suites is None or suites.guided else f" (no stored coverage: {NOT_GUIDED})"
     console.print(f"{relative(path)} written{hint}")
     return 1 if bad else 0
 
