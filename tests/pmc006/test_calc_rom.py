@@ -157,5 +157,5 @@ def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_package_without_marks() -> None:
     """A package without the marks is rejected and not changed."""
-    with pytest.raises(ProjectError, match="the marks of `make rom` are gone"):
+    with pytest.raises(ProjectError, match="the marks of `make rom` are missing"):
         calc_rom.package_text("package p; endpackage", program("halt"))
