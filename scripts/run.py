@@ -65,7 +65,7 @@ class Goal:
                 raise WrongError(f"{name}={values[name]}: {text}")
 
     def command(self) -> str:
-        """The shell text."""
+        """Return the shell text."""
 
         def optional(part: re.Match[str]) -> str:
             marks = MARK.findall(part[0])

@@ -20,7 +20,7 @@ SHOWN = 6
 
 
 def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
-    """Return the files of the shared folders without their own proof -> the proofs whose blocks use them."""
+    """Return files of the shared folders without a separate proof -> proofs whose blocks use them."""
     proved = {one.block for one in every}
     paths = [path for room in ROOMS for path in sorted((RTL / room).glob("*.sv")) if path.stem not in proved]
     sources = {path: path.read_text(encoding="utf-8") for one in every for path in one.sources()}
@@ -29,7 +29,7 @@ def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
 
 
 def without(every: Sequence[Proof]) -> list[str]:
-    """The files of the shared rooms without a proof of their own, and why."""
+    """Return the table of files of the shared folders without a separate proof, and the reasons."""
     lines = ["### Without a separate proof", "", "| File | Why | It is part of |", "|---|---|---|"]
     for name, by in unproved(every).items():
         package = "package: constants, types and functions, no state"
@@ -47,7 +47,7 @@ def method(proof: Proof) -> str:
 
 
 def row(proof: Proof) -> str:
-    """One line of the table."""
+    """Return one row of the table."""
     says = " <br>".join(f"{text}." for text in proof.says)
     if proof.why:
         says += f"<br>*Bounded:* {proof.why}"

@@ -115,7 +115,7 @@ def changes() -> bytes:
 
 
 async def _returned(switch: int, free: int, out: int) -> list[int]:
-    """Return the pulses of a zero return with `out` pulses to the origin; the switch is that of `origin`."""
+    """Return the pulses of a zero return with `out` pulses in phase 1; the switch is that of `origin`."""
     host = await Host.start(OnModel(), *TF)
     await host.ask("03 04 11 00 0000")
     await host.pulse(switch)

@@ -105,7 +105,7 @@ def row(name: str, tried: Sequence[Tried], made: int) -> str:
 
 
 def table(title: str, rows: Sequence[str]) -> Iterator[str]:
-    """With its head."""
+    """Yield a table with its heads."""
     yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | survived | score |"
     yield "|---|---|---|---|---|---|---|---|---|"
     yield from rows
