@@ -22,7 +22,7 @@ WORD = 32  # bits
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
-// Written by plain_sim.py. In: end, then "t pin value" a line; out: "t signal value" a line.
+// Written by plain_sim.py. Input: end, then lines "t pin value"; output: lines "t signal value".
 #include <cstdio>
 #include <vector>
 #include "Vplain.h"

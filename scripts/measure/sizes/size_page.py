@@ -126,7 +126,7 @@ def bank(found: Figures) -> str:
 
 
 def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:
-    """Return COMB of an axis with the plain recipe: of the PPMC-104 and related parts, and of other designs."""
+    """Return COMB of an axis with the plain recipe: PPMC-104 and relatives (axes, COMB), other designs."""
     kinds = {d.name: d for d in designs.of_parts() if d.name in ("ppmc104", "ppmc2104", "isa_4axis")}
     measured = {name: found.get(f"{name} ecp5 plain") for name in kinds}
     family = {
