@@ -39,7 +39,7 @@ class Figures:
             [f"register accesses/s, blocks of {BLOCK}", f"{self.accesses:,.0f}"],
             ["commands with their response/s", f"{self.commands:,.0f}"],
             ["initialise with a table, ms", f"{self.initialise:,.1f}"],
-            ["board time / wall time, motor turning", f"{self.factor:.2f}"],
+            ["board time / wall time, motor in motion", f"{self.factor:.2f}"],
             ["million cycles / s of processor time", f"{self.clk / 1e6:.2f}"],
         ]
 
