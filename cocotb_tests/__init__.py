@@ -1,1 +1,1 @@
-"""Simulations of the RTL: a folder a part, a room for the blocks and boards that parts share, the harness."""
+"""Simulations of the RTL: a folder per part, folders for shared blocks and boards, and the test harness."""

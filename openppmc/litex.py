@@ -104,7 +104,7 @@ def _plain(path: Path, wanted: Mapping[str, Any]) -> None:
         has = re.sub(r"^\d+'[bd]", "", value)
         if name in wanted and has != str(wanted[name]):
             raise SourcesError(
-                f"{path.name} was made with {name} = {value}, this SoC wants {wanted[name]}: "
+                f"{path.name} was made with {name} = {value}, this SoC needs {wanted[name]}; run "
                 f"make verilog TOP={path.stem} PARAMS={name}={wanted[name]}"
             )
 
@@ -132,7 +132,7 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
     bridge, own = folder / f"{BRIDGE}.v", folder / f"{part.top}.v"
     for path in (own, bridge):
         if not path.is_file():
-            raise SourcesError(f"{folder}: neither packages/{part.files}.f nor {path.name} is there")
+            raise SourcesError(f"{folder}: has neither packages/{part.files}.f nor {path.name}")
     _plain(own, parameters)
     _plain(bridge, {"AddrBits": part.bits})
     for path in (own, bridge):

@@ -73,7 +73,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     ) -> None:
         _number(pulses_per_unit, "pulses_per_unit")
         if not pulses_per_unit:
-            raise OutOfRange("pulses_per_unit 0: how many pulses are a unit?")
+            raise OutOfRange("pulses_per_unit 0: not supported; use the number of pulses in a unit")
         self._scale = pulses_per_unit
         self._device, self._axis = device, _axis(device, axis)
         self._lock = _locks.setdefault(device, threading.RLock())
@@ -123,7 +123,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             NotWhileBusy: another move of this positioner is in progress.
         """
         if self._moving:
-            raise NotWhileBusy(0, f"{self.name} is moving: wait for its Status, or stop it")
+            raise NotWhileBusy(0, f"{self.name} is moving; wait for its Status or stop it")
         return super().move(position, wait=wait, timeout=timeout, moved_cb=moved_cb)
 
     def stop(self, *, success: bool = False) -> None:

@@ -1,4 +1,5 @@
-// The page's script and style: node build.mjs [FOLDER]. The worker is a text in it, so that it also starts from a file.
+// Build the script and the style of the page: node build.mjs [FOLDER].
+// The script contains the worker as text, so that the page also works from a file.
 import { build } from "esbuild";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
@@ -23,7 +24,7 @@ await build({
   jsxImportSource: "preact",
   define: { WORKER: JSON.stringify(worker.outputFiles[0].text) },
 });
-// For tests without a page: the engine alone.
+// The engine without the page, for tests.
 await build({
   ...common,
   minify: false,

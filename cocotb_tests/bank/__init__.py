@@ -1,1 +1,1 @@
-"""Simulations of the bank and of what is around it."""
+"""Simulations of the bank and of the blocks around it."""

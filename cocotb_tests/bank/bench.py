@@ -1,5 +1,7 @@
-"""The bank on a bench: its builds, and pins as wide as AXES says. Pins and levels are those of the golden
-model."""
+"""Test bench of the bank: its builds, and pins whose width depends on AXES.
+
+Names and levels of the pins are those of the golden model.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ WINDOW = BusStyle(
 
 
 def shape(params: Mapping[str, object]) -> SimpleNamespace:
-    """Pins of a build."""
+    """Return the pins and their widths for a build."""
     axes, phase_idle = int(str(params["AXES"])), int(str(params["PHASE_IDLE"]))
     return SimpleNamespace(
         INPUTS=group.inputs(axes), OUTPUTS=group.outputs(axes, phase_idle), WIDTHS=group.widths(axes)
@@ -39,27 +41,27 @@ PARTS = (BANK,)
 
 
 def build(name: str, axes: int, mhz: int, phase_idle: int = 1) -> Config:
-    """A build of so many axes with a crystal of 16 MHz."""
+    """Return a build with this number of axes and a crystal of 16 MHz."""
     return Config(name, clk_hz=mhz * 1_000_000, phase_idle=phase_idle, extra=(("AXES", axes),))
 
 
 B8 = build("b8", 8, 16)
 B32 = build("b32", 32, 32)
-"""The least clk for so many axes: half of the shortest interval is a round."""
+"""Lowest clock frequency for this number of axes: half of the shortest interval is one round."""
 F100 = build("f100", 32, 100)
 B4 = build("b4", 4, 8, phase_idle=0)
-"""A round that is longer than the axes are many; a quantum of 2 clk."""
+"""The round is longer than the number of axes; a quantum is 2 cycles."""
 B16 = build("b16", 16, 16)
-"""Two bytes of map and MASK."""
+"""Two bytes of interrupt map and MASK."""
 B64 = build("b64", 64, 64)
 BUILDS = (B8, B32, F100, B4, B64)
 
 
 def axes_of(config: Config) -> int:
-    """AXES of a build."""
+    """Return AXES of a build."""
     return int(dict(config.extra)["AXES"])
 
 
 def round_of(config: Config) -> int:
-    """R of a build in clk (BANK-GEN-01)."""
+    """Return the round R of a build in cycles (BANK-GEN-01)."""
     return max(axes_of(config), 8)

@@ -1,4 +1,4 @@
-"""What `make test-verilog` runs of the bank, and what it leaves out and why."""
+"""Tests that `make test-verilog` runs for the bank, and the tests that it omits, with the reason."""
 
 from __future__ import annotations
 

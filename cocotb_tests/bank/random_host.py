@@ -1,8 +1,10 @@
-"""Random hosts of the bank: all axes at once, bytes, stops, groups, switches that move by themselves.
+"""Constrained-random hosts of the bank: bytes, stops and groups on all axes, and switches that move at
+random.
 
-A seed decides all, `build` the build; `play(dut, seed)` plays. Every fourth seed types much and moves
-little; the others keep all axes in quick motions until the golden model has made INTERVALS: where the RTL
-makes fewer, the comparison says which one is missing.
+A seed decides everything; `build` returns its build and `play(dut, seed)` runs it. In every fourth seed
+the host sends many instructions and moves little. The other seeds keep all axes in fast motions until
+the golden model has output INTERVALS intervals. If the RTL outputs fewer, the comparison reports the
+missing one.
 """
 
 from __future__ import annotations
@@ -18,15 +20,17 @@ from .lab import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Lab
 
 build = Builds("bank", ((B32, 50), (B8, 18), (B64, 12), (F100, 12), (B4, 8)))
 INTERVALS = 50_000
-"""From pulse to pulse of an axis; a host in motion goes on until its axes have made so many."""
+"""Pulse intervals of all axes; a host that keeps the axes in motion continues until they have output
+this number.
+"""
 ACTS = 260
-"""Of a host that types much."""
+"""Number of actions of a host that sends many instructions."""
 QUICK = (0, 0, 0, 0, 1, 1, 2, 2, 3, 4, 5)
 CLK_LIMIT = 3_000_000
 
 
 async def play(dut: Any, seed: int) -> int:
-    """Play one seed; how many intervals all axes have made."""
+    """Run one seed and return the number of intervals that all axes have output."""
     host = BankHost(seed)
     await host.begin(dut)
     await host.play()
@@ -34,19 +38,22 @@ async def play(dut: Any, seed: int) -> int:
 
 
 def in_motion(seed: int) -> bool:
-    """Whether the host of a seed keeps all axes in motion."""
+    """Return whether the host of a seed keeps all axes in motion."""
     return seed % 4 != 0
 
 
 class BankHost(RandomHost):
-    """One random host. It acts on what it reads; the golden model tells it which axes are at rest."""
+    """Constrained-random host.
+
+    It reacts to what it reads; the golden model reports which axes are at rest.
+    """
 
     def __init__(self, seed: int) -> None:
         super().__init__("bank", seed)
         self.quick = in_motion(seed)
 
     async def begin(self, dut: Any) -> None:
-        """A bank out of reset."""
+        """Start a bank and release its reset."""
         self.lab = await Lab.start(dut)
         self.side: Side = self.lab.bench
         rng = self.rng
@@ -58,14 +65,14 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """It has its side itself."""
+        """This object, which owns its side."""
         return self
 
     def _pause(self) -> int:
         return 0 if self.rng.random() < 0.7 else self.rng.randint(1, self.rng.choice((3, 12, 60)))
 
     async def play(self) -> None:
-        """Set up, act, let it end."""
+        """Initialise axes, act, and wait for the ends of all motions."""
         rng, lab = self.rng, self.lab
         for n in rng.sample(range(lab.size), lab.size):
             if rng.random() < (0.95 if self.quick else 0.7):
@@ -109,10 +116,10 @@ class BankHost(RandomHost):
             (self.calm, 8), (self.overrun, 5), (self.some_init, 3), (self.some_move, 6),
         )  # fmt: skip
 
-    # ------------------------------------------------------------ what it has seen
+    # ------------------------------------------------------------ pulses counted
 
     def count(self) -> int:
-        """Intervals of the golden model up to now."""
+        """Return the number of intervals that the golden model has output until now."""
         edges = self.model.edges
         for edge in edges[self._counted :]:
             if edge.signal == "pout_n":
@@ -124,11 +131,14 @@ class BankHost(RandomHost):
     # ------------------------------------------------------------ instructions
 
     def axis(self) -> int:
-        """Any of them."""
+        """Return the number of a random axis."""
         return self.rng.randrange(self.lab.size)
 
     async def send(self, n: int, code: int, *data: int) -> None:
-        """Mostly polled; a host that gives up polling is a legal host, too."""
+        """Send an instruction; most bytes are written after IBF = 0 was polled.
+
+        A host that stops polling is legal, too.
+        """
         bus = self.lab.axes[n].host
         for reg, byte in ((STATUS, code), *((DATA, byte) for byte in data)):
             if self.rng.random() < 0.9:
@@ -138,7 +148,7 @@ class BankHost(RandomHost):
             await bus.write(reg, byte, self.rng.choice((2, 2, 3)), self.rng.choice((3, 3, 4, 9)))
 
     async def init(self, n: int) -> None:
-        """Quick ramps; one that types also has strange ones."""
+        """Initialise an axis: with a short ramp in motion seeds, else also with unusual settings."""
         rng = self.rng
         if self.quick:
             rl, rh, pa = rng.choice((5, 5, 9, 19)), rng.choice((0, 0, 1, 2, 4)), rng.choice((4, 6, 10, 40))
@@ -154,11 +164,11 @@ class BankHost(RandomHost):
         await self.send(n, code, rl, rh, pa & 255, pa >> 8)
 
     async def some_init(self) -> None:
-        """Of any axis."""
+        """Initialise a random axis."""
         await self.init(self.axis())
 
     async def move(self, n: int) -> None:
-        """Any operation."""
+        """Start any operation on an axis."""
         rng = self.rng
         code = rng.choice((0x40, 0x60)) if rng.random() < 0.3 else 0x40
         code |= rng.choice((0, 8)) | rng.choice((0, 0, 0x10)) | rng.choice((0, 0x80))
@@ -174,11 +184,11 @@ class BankHost(RandomHost):
         await self.send(n, code | low, *([rate] if low in (4, 5, 7) else []), *data)
 
     async def some_move(self) -> None:
-        """Of any axis."""
+        """Start any operation on a random axis."""
         await self.move(self.axis())
 
     async def keep_moving(self) -> None:
-        """New operations for axes at rest."""
+        """Start operations on axes at rest."""
         rng, model = self.rng, self.model
         resting = [n for n in range(self.lab.size) if not model.busy(n)]
         for n in rng.sample(resting, min(len(resting), 6)):
@@ -187,26 +197,26 @@ class BankHost(RandomHost):
             await self.move(n)
 
     async def stop(self) -> None:
-        """0x40 or 0x41."""
+        """Send 0x40 or 0x41."""
         await self.send(self.axis(), self.rng.choice((0x40, 0x41, 0x41)))
 
     async def read(self) -> None:
-        """A read command and some of its answers."""
+        """Send a read command and read some of its answer."""
         n = self.axis()
         await self.send(n, self.rng.choice((0x80, 0x81, 0x82, 0x83)))
         for _ in range(self.rng.randrange(4)):
             await self.lab.axes[n].host.read(DATA)
 
     async def switching(self) -> None:
-        """Parameters of the chopper."""
+        """Set the parameters of the chopper."""
         await self.send(self.axis(), 0x84, self.rng.choice((0, 1, 3, 20)), self.rng.choice((0, 1, 3, 20)))
 
     async def off(self) -> None:
-        """Excitation OFF."""
+        """Send excitation OFF."""
         await self.send(self.axis(), 0xC0)
 
     async def any_byte(self) -> None:
-        """Any byte."""
+        """Send any byte."""
         n = self.axis()
         if self.rng.random() < 0.5:
             await self.send(n, self.rng.randrange(256))
@@ -214,7 +224,7 @@ class BankHost(RandomHost):
             await self.lab.axes[n].host.write(DATA, self.rng.randrange(256))
 
     async def overrun(self) -> None:
-        """Bytes to many axes, or to one, without a poll."""
+        """Send bytes to many axes, or several to one axis, without polling."""
         one = self.axis()
         for n in self.rng.choices(range(self.lab.size), k=6) if self.rng.random() < 0.5 else [one] * 3:
             byte = self.rng.choice((0x80, 0x83, 0x42, 0x4A, 0x41, 0x81))
@@ -223,7 +233,7 @@ class BankHost(RandomHost):
     # ------------------------------------------------------------ registers
 
     async def config(self) -> None:
-        """CONFIG; a quick host seldom makes an axis slow."""
+        """Write CONFIG; a host that keeps the axes in motion seldom selects slow clocks."""
         rng, n = self.rng, self.axis()
         await self.lab.axes[n].host.write(
             CONFIG, rng.choice((3, 3, 3, 3, 1)) if self.quick else rng.randrange(4)
@@ -231,19 +241,22 @@ class BankHost(RandomHost):
         await self.lab.axes[n].host.read(CONFIG)
 
     async def position(self) -> None:
-        """Position register, whole or in part."""
+        """Read the position register, all of it or a part."""
         n = self.axis()
         for k in range(self.rng.choice((1, 1, 4))):
             await self.lab.axes[n].host.read(POSITION + k)
 
     async def mask(self) -> None:
-        """A byte of MASK."""
+        """Write a byte of MASK."""
         k = self.rng.randrange(max(1, self.lab.size // 8))
         few = 1 << self.rng.randrange(8)
         await self.lab.host.write(k << 4 | MASK, self.rng.choice((0, few, few, 255, self.rng.randrange(256))))
 
     async def go(self) -> None:
-        """GO, once or more; a quick host lets none wait for long."""
+        """Write GO once or more.
+
+        A host that keeps the axes in motion seldom lets a held operation wait for long.
+        """
         for _ in range(self.rng.choice((1, 1, 1, 2, 3))):
             await self.lab.host.write(GO, 0)
         if self.quick and self.rng.random() < 0.7:
@@ -251,18 +264,18 @@ class BankHost(RandomHost):
                 await self.lab.host.write(k << 4 | MASK, 0)
 
     async def stop_all(self) -> None:
-        """STOP."""
+        """Write STOP."""
         await self.lab.host.write(STOP, 0)
 
     async def look(self) -> None:
-        """Interrupt map, or any register."""
+        """Read the interrupt map or any register."""
         k = self.rng.randrange(max(1, self.lab.size // 8))
         await self.lab.host.read(self.rng.choice((k << 4 | MAP, self.rng.randrange(1024))))
 
     # ------------------------------------------------------------ pins
 
     async def switch(self) -> None:
-        """Some switches move, soon; most go back."""
+        """Move some switches soon; most of them return."""
         rng, side = self.rng, self.side
         for _ in range(rng.choice((1, 1, 2, 6))):
             pin, n = rng.choice(SWITCHES), self.axis()
@@ -273,10 +286,10 @@ class BankHost(RandomHost):
                 self.background.add(t, **{f"{pin}[{n}]": rng.getrandbits(1)})
 
     async def calm(self) -> None:
-        """All switches idle."""
+        """Set all switches to their idle level."""
         await self.side.align()
         self.side.set(**{pin: (1 << self.lab.size) - 1 for pin in SWITCHES})
 
     async def reset(self) -> None:
-        """In the middle of everything."""
+        """Reset the bank at any moment."""
         await self.lab.reset(self.rng.choice((2, 3, 9)))

@@ -9,13 +9,13 @@ from .lab import DATA, INIT_A, STATUS, Lab
 
 UNDEFINED, WHILE_BUSY, NOT_READY, NOT_WANTED = 0, 1, 2, 3
 LONG = (0x0A, 255, 1, 4)
-"""Its table takes longest to build."""
+"""Initialisation with the longest table build."""
 ERROR = 0x80
 PARAMETERS = {3: 3, 4: 4, 5: 1, 7: 1}
 
 
 def idle_answer(code: int, initialised: bool) -> int:
-    """Status after a command byte at rest, from the code map of P104-CMD-01 and BANK-GEN-03 alone."""
+    """Return the status after a command byte at rest; it follows from P104-CMD-01 and BANK-GEN-03 alone."""
     if code < 0x40:
         return 0x40 if code & 3 and not code & 0x10 else 0x80
     if 0x80 <= code < 0xC0:
@@ -34,7 +34,9 @@ def idle_answer(code: int, initialised: bool) -> int:
 
 @directed("BANK-HSK-01", "BANK-GEN-01", builds=(B4, B8, B32, B64, F100))
 async def bank_hsk_01_seven_clk(dut):
-    """Given a byte at w, then the first visit at w + 7 or later takes it: w = V - 8, V - 7, V - 6."""
+    """The first visit V at w + 7 or later accepts a byte written at w: tried with w = V - 8, V - 7,
+    V - 6, V - 1, V (BANK-HSK-01).
+    """
     lab = await Lab.start(dut)
     for axis in (lab.axes[0], lab.axes[lab.size // 2], lab.axes[-1]):
         await axis.init(*INIT_A)
@@ -51,8 +53,9 @@ async def bank_hsk_01_seven_clk(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_03_replaced(dut):
-    """Given two bytes before a visit, then it takes the newer one if that came at V - 7, else the older
-    one."""
+    """If two bytes are written before a visit V, it accepts the newer one if that was written at V - 7
+    or earlier, else the older one (BANK-HSK-03).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     address = axis.n << 4 | STATUS
@@ -60,7 +63,7 @@ async def bank_hsk_03_replaced(dut):
         visit = axis.visit(lab.bench.now + 60)
         lab.at_event(visit - 14, address, 0x81)
         lab.at_event(visit - early, address, 0x87)
-        # No sooner is there room for a read behind a write: as of V + 1.
+        # The earliest read that fits after the write returns the state after V + 4.
         got = await lab.as_of(visit + 4, address) & ~(ERROR if early > 6 else 0)
         older = OBF | IBF if lab.round > 8 else got
         lab.check("BANK-HSK-03", f"status, w = V - {early}", got, 0 if early > 6 else older)
@@ -72,7 +75,7 @@ async def bank_hsk_03_replaced(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32, F100))
 async def bank_hsk_03_last_one_counts(dut):
-    """Given bytes to all axes faster than they are taken, then none is lost but those that were replaced."""
+    """When all axes get bytes faster than they accept them, only replaced bytes are lost (BANK-HSK-03)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         for code in (0x83, 0x81, 0x80):
@@ -86,8 +89,9 @@ async def bank_hsk_03_last_one_counts(dut):
 
 @directed("BANK-HSK-05", "BANK-HSK-01", builds=(B8, B32, B64))
 async def bank_hsk_05_axes_do_not_wait(dut):
-    """Given bytes to all axes one behind the other, then each initialises and moves, whatever the others
-    do."""
+    """When all axes get their bytes in turn, each axis initialises and moves regardless of the others
+    (BANK-HSK-05).
+    """
     lab = await Lab.start(dut)
     for register, byte in ((STATUS, 0x0A), (DATA, 9), (DATA, 4), (DATA, 4), (DATA, 0)):
         for axis in lab.axes:
@@ -107,7 +111,9 @@ async def bank_hsk_05_axes_do_not_wait(dut):
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_queue(dut):
-    """Given three answer bytes, then each data read brings the next one, on edge 2 after the strobe."""
+    """The end of each data read loads the next of three answer bytes, on edge 2 after its strobe
+    (BANK-HSK-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(2)
     await axis.go(0x44, 0x123456, 255)
@@ -122,21 +128,23 @@ async def bank_hsk_04_queue(dut):
         lab.check("BANK-HSK-04", "byte stays", await axis.host.read(DATA), 0x12)
     await axis.command(0x83)
     await axis.host.read(DATA)
-    await axis.command(0x80)  # what was there is dropped
+    await axis.command(0x80)  # the previous answer is dropped
     lab.check("BANK-HSK-04", "new answer", await axis.host.read(DATA), 0xC4)
     lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_answer_meets_a_read(dut):
-    """Given a read strobe that ends around the visit of a new answer, then that one is not taken away."""
+    """The end of a read strobe around the visit of a new answer does not remove the new answer
+    (BANK-HSK-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(5)
     for late in range(-4, 5):
         await axis.command(0x82)
         visit = axis.visit(lab.bench.now + 60)
         await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x83)
-        # The write has ended on V - 6; the read ends `late` clk from V.
+        # The write ends at V - 6; the read ends `late` cycles after V.
         start = lab.bench.now
         length = visit + late - start - 1
         if length < 6:
@@ -153,8 +161,9 @@ async def bank_hsk_04_answer_meets_a_read(dut):
 
 @directed("BANK-HSK-02", builds=(B8, B32))
 async def bank_hsk_02_end_takes_the_visit(dut):
-    """Given a byte for the visit that ends a motion, or that completes an initialisation, then the next
-    takes it."""
+    """A visit that ends a motion or completes an initialisation accepts no byte; the next visit accepts
+    it (BANK-HSK-02).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(4)
     address = axis.n << 4 | STATUS
@@ -170,7 +179,9 @@ async def bank_hsk_02_end_takes_the_visit(dut):
 
 @directed("BANK-GEN-03", "BANK-HSK-04", builds=(B8, B32))
 async def bank_gen_03_all_codes_at_rest(dut):
-    """Given all 256 codes before and after an initialisation, then status is as the code map says."""
+    """Each of the 256 codes, sent before and after an initialisation, sets the status that the code map
+    states (BANK-GEN-03).
+    """
     lab = await Lab.start(dut)
     for initialised, axis in ((False, lab.axes[1]), (True, lab.axes[6])):
         if initialised:
@@ -191,7 +202,9 @@ async def bank_gen_03_all_codes_at_rest(dut):
 
 @directed("BANK-GEN-03", builds=(B8, B32))
 async def bank_gen_03_all_codes_while_busy(dut):
-    """Given all 256 codes in a motion, then stops work, 0xC0 is error 1, and what is left out is error 0."""
+    """During a motion, stops act, 0xC0 sets error 1, and each code that is left out sets error 0
+    (BANK-GEN-03).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(7)
     await axis.go(0x45, rate=9)
@@ -212,7 +225,7 @@ async def bank_gen_03_all_codes_while_busy(dut):
 
 @directed("BANK-GEN-03", builds=(B8,))
 async def bank_gen_03_data_bytes(dut):
-    """Given data that nobody wants, and wrong settings, then errors are those of the PPMC-104."""
+    """Unexpected data and invalid settings set the same errors as in a PPMC-104 (BANK-GEN-03)."""
     lab = await Lab.start(dut)
     axis = lab.axes[2]
     lab.check("BANK-GEN-03", "data", await axis.host.data(0x55), 0x80 | NOT_WANTED << 4)
@@ -232,7 +245,9 @@ async def bank_gen_03_data_bytes(dut):
 
 @directed("BANK-INI-01", "BANK-INI-02", "BANK-HSK-05", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_ini_02_shared_builder(dut):
-    """Given a long build, then last bytes of other axes wait, all other bytes do not; then each is built."""
+    """During a long table build the last initialisation bytes of other axes wait and all other bytes
+    are accepted; then the waiting axes are built (BANK-INI-02, BANK-HSK-05).
+    """
     lab = await Lab.start(dut)
     one, two, three = (lab.axes[n] for n in (1, 2, 5))
     await one.init(*LONG, opened=False)
@@ -243,7 +258,7 @@ async def bank_ini_02_shared_builder(dut):
     await three.host.write(DATA, 0)
     for _ in range(5):
         lab.check("BANK-HSK-05", "status", [await x.status() for x in (two, three)], [0x12, 0x12])
-    await three.host.write(STATUS, 0x87)  # a command instead
+    await three.host.write(STATUS, 0x87)  # a command instead of the last byte
     await lab.bench.clocks(2 * lab.round)
     lab.check("BANK-HSK-05", "status of a command", await three.status(), 0x80)
     lab.check("BANK-HSK-05", "status of the last byte", await two.status(), 0x12)
@@ -259,8 +274,9 @@ async def bank_ini_02_shared_builder(dut):
 
 @directed("BANK-HSK-05", "BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_05_command_at_the_end_of_a_build(dut):
-    """Given a last byte that waits, when a command replaces it around the end of the build, then one is
-    taken."""
+    """If a command replaces a waiting last byte around the end of a build, exactly one of the two is
+    accepted (BANK-HSK-05).
+    """
     lab = await Lab.start(dut)
     two, three = lab.axes[6], lab.axes[3]
     await lab.ready(1)
@@ -278,7 +294,7 @@ async def bank_hsk_05_command_at_the_end_of_a_build(dut):
         await two.host.write(DATA, 0)
         await lab.bench.until(max(lab.bench.now, start + length - early - 20))
         await two.host.write(STATUS, 0x80)
-        # The builder is booked again, by a third one.
+        # A third axis occupies the builder again.
         await three.init(0x0A, 20, 1, 4, opened=False)
         await two.host.poll(IBF, 0)
         await three.opened()
@@ -288,7 +304,7 @@ async def bank_hsk_05_command_at_the_end_of_a_build(dut):
 
 @directed("BANK-GEN-05", "BANK-INI-01", builds=(B8, B32))
 async def bank_gen_05_reset_in_a_build(dut):
-    """Given a build and a last byte that waits for it, when reset comes, then the builder is free."""
+    """A reset during a build, with a last byte waiting for the builder, frees the builder (BANK-GEN-05)."""
     lab = await Lab.start(dut)
     for n in range(lab.size):
         waiting = lab.axes[n]
@@ -309,7 +325,9 @@ async def bank_gen_05_reset_in_a_build(dut):
 
 @directed("BANK-HSK-03", builds=(B8, B32))
 async def bank_hsk_03_replaced_many_times(dut):
-    """Given one to nine bytes while none is taken, then IBF stays 1, and the last one counts."""
+    """When one to nine bytes are written while no byte is accepted, IBF stays 1 and the last byte is
+    accepted (BANK-HSK-03).
+    """
     lab = await Lab.start(dut)
     axis = lab.axes[4]
     for count in range(1, 10):
@@ -324,7 +342,9 @@ async def bank_hsk_03_replaced_many_times(dut):
 
 @directed("BANK-HSK-04", builds=(B8, B32))
 async def bank_hsk_04_answers_that_nobody_reads(dut):
-    """Given one to nine answers behind one that was read, then the last one is there, unread."""
+    """After one to nine answers, of which the host has read none, the last answer is available
+    (BANK-HSK-04).
+    """
     lab = await Lab.start(dut)
     axis = lab.axes[1]
     for count in range(1, 10):

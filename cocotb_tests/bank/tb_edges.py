@@ -1,4 +1,4 @@
-"""Edges that a host relies on: requests around an end, STOP and GO, table builds, absent axes."""
+"""Event orders that a host relies on: requests around an end, STOP and GO, table builds, absent axes."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ STOP_BIT, ALARM_BIT, LIMIT_BIT, SLOW_BIT = 0x40, 0x20, 0x10, 0x08
 
 
 def blip(axis: Axis, edge: int, **pins: int) -> None:
-    """Levels of input pins that the synchronised edge `edge` samples, and no other."""
+    """Schedule levels of input pins that only the edge `edge`, after the synchroniser, samples."""
     axis.at(edge - SYNC, **pins)
     axis.at(edge - SYNC + 1, **{name: 1 - level for name, level in pins.items()})
 
@@ -61,7 +61,7 @@ async def bank_mot_05_slow_down_limit_with_a_stop(dut):
         lab.at_event(visit - 7, axis.n << 4 | STATUS, request)
         await lab.bench.until(visit + lab.round + 1)
         await axis.idle()
-        # A slow-down limit one visit earlier begins the deceleration: 0x41 is then refused.
+        # A slow-down limit one visit earlier begins the deceleration: 0x41 is then rejected.
         bits = {-1: SLOW_BIT | (STOP_BIT if request == 0x40 else 0), 0: STOP_BIT | both, 1: STOP_BIT}[late]
         what = f"finish status, {request:02X}, slow-down limit {late:+} visits"
         lab.check("BANK-MOT-05", what, await axis.finish(), 0x86 | bits)
@@ -69,8 +69,9 @@ async def bank_mot_05_slow_down_limit_with_a_stop(dut):
 
 @directed("BANK-GRP-04", builds=(B8, B32, F100))
 async def bank_grp_04_causes_of_a_start_after_stop(dut):
-    """An operation that starts at visits g to g + R ends on the next edge with bit 6, and with the bits of
-    the alarm or limit that is active on that edge (BANK-GRP-04)."""
+    """An operation that starts at visits g to g + R ends on the next edge with bit 6, and with the bits
+    of the alarm or limit that is active on that edge (BANK-GRP-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     bits = {"alm_n": ALARM_BIT, "l1_n": LIMIT_BIT, "l3_n": 0}
@@ -78,7 +79,7 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
         visit = axis.visit(lab.bench.now + 120)
         g = visit - late
         if abs(g - (visit - 7)) < 6:
-            continue  # no room on the bus
+            continue  # the bus is occupied
         axis.since = visit - 30
         axis.set(**{pin: 0})
         for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
@@ -100,13 +101,13 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
     axis = await lab.ready(5)
     for gap in (6, 7, lab.round - 1, lab.round, lab.round + 1):
         if gap > 2 * lab.round - 8:
-            continue  # no room on the bus
+            continue  # the bus is occupied
         await lab.mask(axis.n)
         await axis.go(0x42)
         await lab.mask()
-        g = axis.visit(lab.bench.now + 60) - 4 - lab.round  # the last visit that looks for the first GO
+        g = axis.visit(lab.bench.now + 60) - 4 - lab.round  # the last visit that checks for the first GO
         g += lab.round * (g < lab.bench.now + 20)
-        member = g + 2 * lab.round - 2  # counts for the visits of the second GO alone
+        member = g + 2 * lab.round - 2  # MASK = 1 only for the visits of the second GO
         for edge, address, byte in (
             (g, GO, 0),
             (g + gap, GO, 0),
@@ -160,7 +161,7 @@ async def bank_ini_01_duration_of_a_build(dut):
         complete = axis.visit(visit + build_cycles(slow, fast) + 3)
         await lab.bench.until(max(visit, lab.bench.now))  # a byte written earlier would replace the last one
         read = axis.taken(await axis.host.write(STATUS, 0x82))
-        # The visit that completes the initialisation takes no byte.
+        # The visit that completes the initialisation accepts no byte.
         taken, offset = max(complete + lab.round, read), number % 2 - 1
         if taken + offset > lab.bench.now + 8:
             got = await lab.as_of(taken + offset, axis.n << 4 | STATUS)
@@ -177,8 +178,9 @@ async def bank_ini_01_duration_of_a_build(dut):
 
 @directed("BANK-GRP-02", "BANK-INI-02", builds=(B8, B32))
 async def bank_grp_02_go_while_an_axis_is_initialised(dut):
-    """GO refuses an axis whose table is being built: error 2 for the first initialisation, up to the visit
-    that completes it, else error 0; the initialisation completes all the same (BANK-GRP-02)."""
+    """GO rejects an axis whose table is being built: error 2 for the first initialisation, up to the
+    visit that completes it, else error 0. The initialisation completes nevertheless (BANK-GRP-02).
+    """
     lab = await Lab.start(dut)
     axis = lab.axes[6]
     slow, fast = CHOPPED[1:3]
@@ -204,8 +206,9 @@ async def bank_grp_02_go_while_an_axis_is_initialised(dut):
 
 @directed("BANK-WIN-01", "BANK-WIN-03", builds=(B4, B8, B32))
 async def bank_win_01_bank_registers_at_absent_axes(dut):
-    """MASK, GO and STOP written at an absent axis do nothing; a byte of MASK for absent axes reads as 0, and
-    writes to it do nothing (BANK-WIN-01, BANK-WIN-03)."""
+    """MASK, GO and STOP written at an absent axis have no effect; a byte of MASK for absent axes reads
+    as 0, and writes to it have no effect (BANK-WIN-01, BANK-WIN-03).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(0)
     await lab.mask(0)

@@ -9,13 +9,13 @@ from .lab import GO, INIT_A, MASK, STATUS, STOP, SYNC, Axis, Lab
 
 
 def due(lab: Lab, g: int) -> int:
-    """Edge of pulse 1 after a GO with its event on g (BANK-GRP-02)."""
+    """Return the edge of pulse 1 after a GO with its write event on g (BANK-GRP-02)."""
     return g + 4 + lab.round + lab.cfg.w
 
 
 @directed("BANK-GRP-01", "BANK-GRP-02", builds=(B4, B8, B32, B64, F100))
 async def bank_grp_02_all_on_one_edge(dut):
-    """Given operations of all axes that are held, when GO is written, then all pulses 1 come on one edge."""
+    """After GO, the held operations of all axes output pulse 1 on the same edge (BANK-GRP-02)."""
     lab = await Lab.start(dut)
     axes = await lab.all_ready()
     await lab.mask(*range(lab.size))
@@ -40,14 +40,15 @@ async def bank_grp_02_all_on_one_edge(dut):
 
 @directed("BANK-GRP-01", builds=(B8, B32, F100))
 async def bank_grp_01_mask_of_a_start(dut):
-    """Given MASK written at w, then an operation that starts at V is held if w = V - 5 or before."""
+    """An operation that starts at V is held if MASK was written at w = V - 5 or earlier (BANK-GRP-01)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     for byte in (8, 0):
         for early in (6, 5, 4):
             await lab.mask(*([] if byte else [3]))
             visit = axis.visit(lab.bench.now + 100)
-            # No room for both writes in one round of 8: the operation's byte comes as soon as it can.
+            # The two writes do not fit into one round of 8 cycles: the operation's byte is written as early
+            # as possible.
             lab.at_event(visit - early - 7, axis.n << 4 | STATUS, 0x42)
             lab.at_event(visit - early, MASK, byte)
             start = axis.visit(visit - early)
@@ -66,8 +67,9 @@ async def bank_grp_01_mask_of_a_start(dut):
 
 @directed("BANK-GRP-02", "BANK-HSK-02", builds=(B4, B8, B32))
 async def bank_grp_02_refused(dut):
-    """Given members busy, at rest, without an initialisation, waiting for parameters, then GO tells each
-    why."""
+    """GO sets error 1 for a busy member, 2 for one without an initialisation, and 0 for one at rest or
+    waiting for parameters (BANK-GRP-02).
+    """
     lab = await Lab.start(dut)
     busy, held, rest, fresh = lab.axes[:4]
     waiting, out = lab.axes[4:6] if lab.size > 4 else (None, None)
@@ -95,17 +97,18 @@ async def bank_grp_02_refused(dut):
 
 @directed("BANK-GRP-02", builds=(B8, B32, F100))
 async def bank_grp_02_which_visit(dut):
-    """Given GO at g and an operation that starts at V, then it is found if V is before the visit at g + 5
-    or later."""
+    """GO acts at the first visit at g + 5 or later; it finds only operations that started at an earlier
+    visit (BANK-GRP-02).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(2)
     await lab.mask(2)
     for early in range(14, -3, -1):
         visit = axis.visit(lab.bench.now + 100)
-        # The operation starts at `visit`; GO is written `early` clk before.
+        # The operation starts at `visit`; GO is written `early` cycles before it.
         events = sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (visit - early, GO, 0)])
         if abs(7 - early) < 6:
-            continue  # no room on the bus
+            continue  # the bus is occupied
         axis.since = visit - 30
         for event, address, byte in events:
             await lab.write_at(event, address, byte)
@@ -113,7 +116,7 @@ async def bank_grp_02_which_visit(dut):
         found = axis.visit(visit - early + 5)
         late = found <= visit
         if late:
-            # It met the axis at rest: error 0, unless the byte came behind it and cleared that.
+            # GO found the axis at rest and set error 0, unless a later byte cleared it.
             lab.check("BANK-GRP-02", "status", await axis.status() & BUSY, BUSY)
             await lab.go()
         await axis.idle()
@@ -123,7 +126,9 @@ async def bank_grp_02_which_visit(dut):
 
 @directed("BANK-GRP-03", builds=(B8, B32, B64))
 async def bank_grp_03_second_go_waits(dut):
-    """Given GO again while one acts, then it acts R clk later; a third one makes no more."""
+    """A GO written while another GO acts takes effect R cycles after the first; a third one has no
+    effect (BANK-GRP-03).
+    """
     lab = await Lab.start(dut)
     axes = await lab.all_ready(0, lab.size - 1)
     await lab.mask(*(axis.n for axis in axes))
@@ -149,7 +154,7 @@ async def bank_grp_03_second_go_waits(dut):
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B8, B32, B64))
 async def bank_grp_03_mask_meanwhile(dut):
-    """Given MASK that changes while GO acts, then each visit takes it as it was 5 clk before."""
+    """While GO acts, each visit uses the MASK of 5 cycles before it (BANK-GRP-03)."""
     lab = await Lab.start(dut)
     axes = await lab.all_ready()
     for late in range(6, lab.round + 8, max(1, lab.round // 8)):
@@ -172,7 +177,7 @@ async def bank_grp_03_mask_meanwhile(dut):
 
 @directed("BANK-GRP-01", "BANK-GRP-04", "BANK-MOT-02", builds=(B8, B32))
 async def bank_grp_01_held_is_watched(dut):
-    """Given operations that are held, then limit, alarm, stops and STOP end them without a pulse."""
+    """Limit, alarm, stop commands and STOP end a held operation without a pulse (BANK-GRP-01)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1)
     await lab.mask(1)
@@ -209,14 +214,14 @@ async def bank_grp_01_held_is_watched(dut):
 
 @directed("BANK-GRP-04", builds=(B8, B32, F100))
 async def bank_grp_04_starts_around_stop(dut):
-    """Given STOP at g, then operations that start at visits g + 1 to g + R are ended, others are not."""
+    """STOP at g ends operations that start at visits up to g + R, and no later ones (BANK-GRP-04)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(4)
     for late in (-9, -8, -7, -1, 0, 1, 2, lab.round - 1, lab.round, lab.round + 1, lab.round + 2):
         visit = axis.visit(lab.bench.now + 100)
         g = visit - late
         if abs(g - (visit - 7)) < 6:
-            continue  # no room on the bus
+            continue  # the bus is occupied
         axis.since = visit - 30
         for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
             await lab.write_at(event, address, byte)
@@ -228,7 +233,7 @@ async def bank_grp_04_starts_around_stop(dut):
 
 @directed("BANK-GRP-04", "BANK-MOT-04", builds=(B8, B32))
 async def bank_grp_04_all_at_once(dut):
-    """Given motions of all axes, and some at rest, then STOP ends those that run, on edge g + 1."""
+    """STOP ends all running motions on edge g + 1 and does not change axes at rest (BANK-GRP-04)."""
     lab = await Lab.start(dut)
     axes = await lab.all_ready()
     moving: list[Axis] = [axis for axis in axes if axis.n % 3]
@@ -250,17 +255,19 @@ async def bank_grp_04_all_at_once(dut):
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100))
 async def bank_grp_03_third_go(dut):
-    """Given a third GO around the end of the first one, then it waits for the second if that acts already."""
+    """A third GO before g + R has no effect; at g + R or later it waits for the second GO, which acts
+    by then (BANK-GRP-03).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(9)
     for late in (-1, 0, 1):
         await lab.mask(axis.n)
         await axis.go(0x42)
         await lab.mask()
-        g = axis.visit(lab.bench.now + 40) - 5  # found at the earliest moment
+        g = axis.visit(lab.bench.now + 40) - 5  # the earliest visit detects this GO
         for edge in (g, g + lab.round // 2, g + lab.round + late):
             await lab.write_at(edge, GO, 0)
-        # A member again for the visit that a third one has, and for none before.
+        # MASK = 1 for the visit of the third GO, and for no earlier one.
         await lab.write_at(g + 2 * lab.round - 4, axis.n // 8 << 4 | MASK, 1 << axis.n % 8)
         await lab.bench.clocks(4 * lab.round + lab.cfg.w)
         want = [due(lab, g + 2 * lab.round)] if late >= 0 else []

@@ -1,8 +1,8 @@
-"""Switches, STOP and stops -2 to +2 clk around a pulse, at every place of the pulse in its round
-(BANK-MOT-02).
+"""Switches, STOP and stop commands -2 to +2 cycles around a pulse, for each position of the pulse in
+its round (BANK-MOT-02).
 
-Held operations of all axes are let go by one GO: their pulses come on one edge, which lies differently in the
-round of each. What must come of it follows from the edges alone.
+One GO releases held operations of all axes. Their pulses occur on one edge, which has a different
+position in the round of each axis. The expected results follow from the edges alone.
 """
 
 from __future__ import annotations
@@ -22,14 +22,16 @@ N = 4
 OFFSETS = range(-2, 3)
 WAYS = (0, 1)
 PULSES = (1, 2, N)
-"""First, one in the middle, last."""
+"""First, middle and last pulse."""
 CAUSES = {"limit": 0x10, "alarm": 0x20, "origin": 0x00}
 PINS = {"limit": ("l1_n", "l2_n"), "alarm": ("alm_n", "alm_n"), "origin": ("cnp_n", "cnp_n")}
 
 
 @dataclass(frozen=True)
 class Case:
-    """One axis of a wave: what ends it, `offset` clk from pulse `pulse`, and for how long the pin is L."""
+    """One axis of a wave: the cause of its end, `offset` cycles from pulse `pulse`, and the cycles for
+    which the pin is low.
+    """
 
     cause: str
     offset: int
@@ -39,12 +41,12 @@ class Case:
 
     @property
     def code(self) -> int:
-        """Operation: a search, or N pulses."""
+        """Operation code: an origin search, or N pulses."""
         return (0x47 if self.cause == "origin" else 0x44) | self.ccw << 3
 
 
 class Waves:
-    """Waves of cases on all axes of a lab; `rate` gives half of an interval, or W, of low time."""
+    """Waves of cases on all axes of a lab. `rate` sets the low time: half of an interval, or W."""
 
     def __init__(self, lab: Lab, rate: int) -> None:
         self.lab, self.rate, self.done = lab, rate, 0
@@ -52,27 +54,30 @@ class Waves:
         self.positions = [0] * lab.size
 
     async def start(self) -> None:
-        """All axes set up and in the group."""
+        """Initialise all axes and set their MASK bits."""
         await self.lab.all_ready()
         await self.lab.mask(*range(self.lab.size))
 
     def edges(self, g: int) -> list[int]:
-        """Edges of the pulses that a GO brings, if nothing ends the motion."""
+        """Return the edges of the pulses that a GO starts, if nothing ends the motion."""
         first = g + 4 + self.lab.round + self.lab.cfg.w
         return [first + k * self.interval for k in range(N)]
 
     async def let_go(self) -> list[int]:
-        """GO at a fixed place of the round, so that the axes have their pulses at all others; `edges`."""
+        """Write GO at a fixed position in the round and return `edges`.
+
+        The pulses then have all positions in the rounds of the axes.
+        """
         g = -(-(self.lab.bench.now + 10) // self.lab.round) * self.lab.round
         await self.lab.write_at(g, GO, 0)
         return self.edges(g)
 
     async def held(self, axis: Axis, code: int) -> None:
-        """An operation of N pulses, or one without a number."""
+        """Start a held operation of N pulses, or one without a pulse count."""
         await (axis.go(code, N, self.rate) if code & 7 == 4 else axis.go(code, rate=self.rate))
 
     async def play(self, cases: list[Case]) -> None:
-        """One wave, a case an axis; AssertionError unless each ends as it must."""
+        """Run one wave with one case per axis. Raise AssertionError unless each motion ends as expected."""
         lab = self.lab
         for axis, case in zip(lab.axes, cases, strict=True):
             await self.held(axis, case.code)
@@ -94,13 +99,13 @@ class Waves:
             await self.judge(axis, case, come, finish, total)
 
     async def over(self, edges: list[int]) -> None:
-        """Until all axes must be at rest."""
+        """Wait until all axes must be at rest."""
         await self.lab.bench.until(
             max(self.lab.bench.now, edges[-1] + self.lab.cfg.w + 2 * self.lab.round + 10)
         )
 
     async def judge(self, axis: Axis, case: object, come: list[int], finish: int, total: int = N) -> None:
-        """Pulses, finish status, remaining pulses, position, phases."""
+        """Check pulses, finish status, remaining pulses, position and phases."""
         lab, what = self.lab, f"axis {axis.n}, {case}, rate {self.rate}"
         ccw = axis.level("dir")
         self.positions[axis.n] += -len(come) if ccw else len(come)
@@ -115,12 +120,15 @@ class Waves:
 
 
 def cases_of_pins() -> list[tuple[str, int, int, int]]:
-    """Every cause, offset, pulse and direction."""
+    """Return all combinations of cause, offset, pulse and direction."""
     return list(product(CAUSES, OFFSETS, PULSES, WAYS))
 
 
 async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
-    """Every case `rounds` times on the axes of a bank in turn: at every place in the round, if that is R."""
+    """Run every case `rounds` times on successive axes.
+
+    If `rounds` is R, this covers each position in the round.
+    """
     lab = await Lab.start(dut)
     waves, rng = Waves(lab, rate), random.Random(rate)
     await waves.start()
@@ -133,29 +141,31 @@ async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
 
 
 def _turned(cases: list[tuple[str, int, int, int]], turn: int) -> list[tuple[str, int, int, int]]:
-    """The cases so that each meets another axis in each turn."""
+    """Rotate the cases, so that each runs on another axis in each turn."""
     return cases[turn:] + cases[:turn]
 
 
 @directed("BANK-MOT-01", "BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B8,))
 async def bank_mot_02_pins_around_pulses(dut):
-    """Given limits, alarm, origin at -2 to +2 clk around first, middle, last pulses, then each ends as it
-    must."""
+    """A limit, an alarm or the origin at -2 to +2 cycles around the first, a middle or the last pulse
+    ends the motion as the edges require (BANK-MOT-02).
+    """
     waves = await pin_waves(dut, 0, 12)
     assert waves.done >= 90 * 12
 
 
 @directed("BANK-MOT-02", "BANK-MOT-04", "BANK-WIN-07", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_02_pins_around_slower_pulses(dut):
-    """Given the same at a rate whose low time is W, and in other builds, then it is the same."""
+    """The same holds at a rate whose low time is W, and in the other builds (BANK-MOT-02)."""
     waves = await pin_waves(dut, 3, 2)
     assert waves.done >= 180
 
 
 @directed("BANK-MOT-02", "BANK-GRP-04", "BANK-WIN-07", builds=(B4, B8, B32, F100))
 async def bank_grp_04_stop_around_pulses(dut):
-    """Given STOP with g + 1 at -2 to +2 clk around a pulse of all axes, then those from g + 1 on do not
-    come."""
+    """STOP with g + 1 at -2 to +2 cycles around a pulse of all axes suppresses exactly the pulses at
+    g + 1 or later (BANK-GRP-04).
+    """
     lab = await Lab.start(dut)
     waves = Waves(lab, 2)
     await waves.start()
@@ -174,7 +184,9 @@ async def bank_grp_04_stop_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-03", "BANK-WIN-07", builds=(B8, F100))
 async def bank_mot_02_stop_command_around_pulses(dut):
-    """Given 0x40 or 0x41 at visits around each pulse, then pulses from that visit on do not come."""
+    """0x40 or 0x41 accepted at visits around each pulse suppresses exactly the pulses at that visit or
+    later (BANK-MOT-02).
+    """
     lab = await Lab.start(dut)
     waves = Waves(lab, 1)
     await waves.start()
@@ -199,7 +211,9 @@ async def bank_mot_02_stop_command_around_pulses(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-03", "BANK-GRP-04", "BANK-WIN-07", builds=(B8, B32))
 async def bank_mot_02_two_causes(dut):
-    """Given two causes one to six clk apart around a pulse, then the earlier one says what the bits are."""
+    """Of two causes up to six cycles apart around a pulse, the earlier one sets its bit; both set
+    theirs if they occur on the same edge (BANK-MOT-02).
+    """
     lab = await Lab.start(dut)
     waves = Waves(lab, 0)
     await waves.start()
@@ -227,8 +241,10 @@ async def bank_mot_02_two_causes(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
-    """Given every operation, up, at the top and down, when L1 and ALM fall on one edge, then both bits. A
-    count that is done with a slow-down limit before its last pulse has no bit."""
+    """If L1 and ALM fall on the same edge, both bits are set: for each operation, while accelerating,
+    at the top and while decelerating. A completed count with a slow-down limit before its last pulse
+    sets no bit (BANK-MOT-02, BANK-MOT-05).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     pins = (axis.pin("l1_n"), axis.pin("alm_n"))
@@ -248,7 +264,9 @@ async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
 
 @directed("BANK-MOT-02", "BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_02_what_is_ignored(dut):
-    """Given origin, other limits, slow-down limits at constant speed, then nothing ends; 0x81 tells them."""
+    """At constant speed, the origin, the limits of the other direction and the slow-down limits do not
+    end a motion; 0x81 reports their levels (BANK-MOT-02, BANK-MOT-05).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     for code, pins in ((0x44, ("cnp_n", "l2_n", "l3_n", "l4_n")), (0x4C, ("cnp_n", "l1_n", "l3_n", "l4_n"))):
@@ -269,7 +287,9 @@ async def bank_mot_02_what_is_ignored(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
 async def bank_mot_05_inputs_to_the_clk(dut):
-    """Given an alarm seen on edge V - 4, then 0x81 taken at V shows it, and not one seen a clk later."""
+    """0x81 accepted at V reports an alarm that was detected on edge V - 4 or earlier, but not one cycle
+    later (BANK-MOT-05).
+    """
     lab = await Lab.start(dut)
     axis = lab.axes[6]
     for early, want in ((5, 0x8F), (4, 0x8F), (3, 0xCF)):
@@ -283,12 +303,14 @@ async def bank_mot_05_inputs_to_the_clk(dut):
 
 @directed("BANK-MOT-02", builds=(B8, B32))
 async def bank_mot_02_after_a_forced_end(dut):
-    """Given a limit in the low time of the last pulse of a forced deceleration, then it is no cause."""
+    """A limit in the low time of the last pulse of a forced deceleration is not a cause of the end
+    (BANK-MOT-02).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(2)
     for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
         edge0 = await axis.go(0x43, 100, poll=False)
-        last = axis.taken(edge0) + lab.cfg.w  # asked for before pulse 1, the deceleration leaves that one
+        last = axis.taken(edge0) + lab.cfg.w  # requested before pulse 1: only this pulse is left
         await axis.host.poll(2, 0)
         await axis.command(0x41)
         axis.at(last + offset - SYNC, l1_n=0)

@@ -1,4 +1,6 @@
-"""Motions: exact intervals at several axes at once, ends and what visits know of them (BANK-MOT)."""
+"""Motions: exact intervals on several axes at the same time, ends, and when visits detect them
+(BANK-MOT).
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,9 @@ RAMP = (20, 0, 30)
 
 @directed("BANK-MOT-01", "BANK-GEN-01", "BANK-GEN-02", builds=(B4, B8, B32, B64, F100))
 async def bank_mot_01_all_axes_at_once(dut):
-    """Given ramps and constant speeds of all axes at once, then each train and each low time is exact to
-    the clk."""
+    """During ramps and constant speeds of all axes, each pulse train and each low time is exact to the
+    cycle (BANK-MOT-01).
+    """
     lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.init(0x0A, *RAMP, opened=False)
@@ -52,8 +55,7 @@ async def bank_mot_01_all_axes_at_once(dut):
 
 @directed("BANK-MOT-01", "BANK-INI-01", builds=(B8, B32))
 async def bank_mot_01_another_ramp(dut):
-    """Given axes with ramps of their own, when one gets another ramp, then it has that one, and the others
-    keep theirs."""
+    """An axis that is initialised again uses its new ramp; the other axes keep theirs (BANK-MOT-01)."""
     lab = await Lab.start(dut)
     ramps = {1: (20, 3, 8), 2: (9, 0, 12), 6: (14, 5, 4)}
     for ramp in ((12, 1, 10), (30, 2, 6)):
@@ -69,8 +71,9 @@ async def bank_mot_01_another_ramp(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_slow_clocks(dut):
-    """Given csel and vsel in all ways, then intervals are those of the PPMC-104, taken 7 clk before the
-    start."""
+    """The intervals for all values of csel and vsel are those of the PPMC-104; the values written 7
+    cycles before the start apply (BANK-MOT-01, BANK-GEN-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 3)
     for csel, vsel in ((1, 1), (1, 0), (0, 1), (0, 0)):
@@ -83,7 +86,7 @@ async def bank_mot_01_slow_clocks(dut):
     for late in range(-3, 4):
         await axis.set_config(1, 1)
         await axis.host.send(0x45)
-        # CONFIG is written `late` + 7 clk after the byte that starts the motion.
+        # CONFIG is written `late` + 7 cycles after the byte that starts the motion.
         axis.since = lab.bench.now
         event = axis.visit(lab.bench.now + 80) - 14 + late
         lab.at_event(event, axis.n << 4 | DATA, 1)
@@ -97,8 +100,9 @@ async def bank_mot_01_slow_clocks(dut):
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
 async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
-    """Given csel L and a ramp that skips so many rates that the way down looks for the next one beyond the
-    low time, then intervals are those of the PPMC-104."""
+    """With csel low, the intervals of a steep ramp are those of the PPMC-104. Such a ramp skips many
+    rates; while decelerating, the search for the next rate therefore ends after the low time (BANK-MOT-01).
+    """
     lab = await Lab.start(dut)
     axis = lab.axes[lab.size - 2]
     ramp = (90, 2, 4)
@@ -113,7 +117,9 @@ async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
 
 @directed("BANK-MOT-04", builds=(B4, B8, B32, F100))
 async def bank_mot_04_busy_falls(dut):
-    """Given a complete move, then BUSY falls at the first visit after the last low time: V - 1, V."""
+    """After a complete move, BUSY falls at the first visit V after the last low time: sampled at V - 1
+    and V (BANK-MOT-04).
+    """
     lab = await Lab.start(dut)
     for axis in (lab.axes[0], lab.axes[-1]):
         await axis.init(*INIT_A)
@@ -129,8 +135,9 @@ async def bank_mot_04_busy_falls(dut):
 
 @directed("BANK-MOT-03", "BANK-MOT-04", builds=(B8, B32, F100))
 async def bank_mot_04_cut_while_high(dut):
-    """Given a limit while pout_n is H, seen on edge e, then BUSY falls at the first visit at e + 5 or
-    later."""
+    """If a limit is detected on edge e while pout_n is high, BUSY falls at the first visit at e + 5 or
+    later (BANK-MOT-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 1)
     for early in (4, 5, 6):
@@ -151,7 +158,9 @@ async def bank_mot_04_cut_while_high(dut):
 
 @directed("BANK-MOT-03", builds=(B8, B32))
 async def bank_mot_03_byte_before_it_is_known(dut):
-    """Given a limit, then a Decelerating Stop taken before the visit that knows is taken as in a motion."""
+    """A Decelerating Stop accepted before the visit that detects the end is treated as during a motion
+    (BANK-MOT-03).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(4)
     for early, error in ((4, False), (5, True)):
@@ -161,7 +170,7 @@ async def bank_mot_03_byte_before_it_is_known(dut):
         axis.at(visit - early - SYNC, l1_n=0)
         await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
         await lab.bench.clocks(3 * lab.round)
-        # At the visit that ends the motion no byte is taken: at the next one it is a stop at rest.
+        # The visit that ends the motion accepts no byte; at the next visit the byte is a stop at rest.
         lab.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
         axis.set(l1_n=1)
         lab.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
@@ -169,8 +178,9 @@ async def bank_mot_03_byte_before_it_is_known(dut):
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
 async def bank_mot_05_slow_down_limit(dut):
-    """Given a slow-down limit seen on edge V - 4, then visit V sees it, and not if it was seen a clk
-    later."""
+    """Visit V acts on a slow-down limit that was detected on edge V - 4, but not on one detected a
+    cycle later (BANK-MOT-05).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 2)
     for early in (5, 4, 3):
@@ -178,7 +188,7 @@ async def bank_mot_05_slow_down_limit(dut):
         await axis.pulse(2, lab.cfg.w + 20)
         visit = axis.visit(lab.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
-        axis.at(visit - early - SYNC + 1, l3_n=1)  # for this visit or for none
+        axis.at(visit - early - SYNC + 1, l3_n=1)  # only this visit, or no visit, samples the level
         if early == 4:
             await axis.idle()
             lab.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
@@ -190,8 +200,9 @@ async def bank_mot_05_slow_down_limit(dut):
 
 @directed("BANK-MOT-05", "P104-LIM-09", "P104-FDC-05", builds=(B8, B32))
 async def bank_mot_05_only_the_first_request(dut):
-    """Given a way down that a command or the count has begun, when a slow-down limit comes, then no bit of
-    it; nor of one that a visit sees which knows of an end."""
+    """A slow-down limit sets no bit if a command or the count has begun the deceleration, or if the
+    visit that samples it has detected an end (BANK-MOT-05).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(3)
     for code, n, made, finish in ((0x41, 1_000, 6, 0xC3), (None, 24, 21, 0x83), (0x40, 24, 21, 0xC3)):
@@ -207,7 +218,7 @@ async def bank_mot_05_only_the_first_request(dut):
         await axis.idle()
         axis.set(l3_n=1)
         lab.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
-    # While pout_n is high, and in its low time, which an end waits for.
+    # Both while pout_n is high and during its low time, which delays an end of the motion.
     for early, plus in product((7, 6, 5, 4, 3, 2), (100, 0)):
         await axis.go(0x46)
         await axis.pulse(6, plus)
@@ -215,13 +226,16 @@ async def bank_mot_05_only_the_first_request(dut):
         axis.at(visit - early - SYNC, l1_n=0, l3_n=0)
         await axis.idle()
         axis.set(l1_n=1, l3_n=1)
-        # Both are seen on edge V - early; visit V sees the slow-down limit, and from 5 clk on the end.
+        # Both are detected on edge V - early. Visit V samples the slow-down limit; it detects the end if
+        # early is at least 5.
         await axis.result(f"BANK-MOT-03, V - {early}, {plus}", 6, 0x9E if early == 4 else 0x96)
 
 
 @directed("BANK-MOT-05", "BANK-MOT-02", builds=(B8, B32, F100))
 async def bank_mot_05_which_pulse_counts(dut):
-    """Given the flag at visits around a pulse, then one at V counts for a pulse on edge V and later ones."""
+    """A deceleration flag set at visit V takes effect for a pulse on edge V and for later ones
+    (BANK-MOT-05).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(5)
     for code in (0x41, 0):
@@ -237,7 +251,8 @@ async def bank_mot_05_which_pulse_counts(dut):
                 axis.at(visit - 4 - SYNC + lab.round, l3_n=1)
             await axis.pulse(2)
             await axis.idle()
-            # Behind pulse 1 the interval of index 0 runs, the last one; behind pulse 2 that of index 1.
+            # After pulse 1 the interval of index 0 runs, which is the last one; after pulse 2 that of
+            # index 1.
             want = 2 if visit <= second else 4
             lab.check("BANK-MOT-05", f"pulses, V {visit - second:+} clk", len(axis.pulses), want)
             await axis.finish()
@@ -245,8 +260,9 @@ async def bank_mot_05_which_pulse_counts(dut):
 
 @directed("BANK-MOT-02", "BANK-WIN-07", "BANK-MOT-03", builds=(B8, B32, F100))
 async def bank_mot_02_taken_back(dut):
-    """Given a pulse that was counted and does not come, then the position takes it back when the end is
-    known."""
+    """If a counted pulse is suppressed, the position is corrected when the end is detected
+    (BANK-WIN-07).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(6)
     for number in range(3):

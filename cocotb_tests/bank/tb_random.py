@@ -1,4 +1,4 @@
-"""Random hosts of the bank, compared with the golden model edge by edge."""
+"""Constrained-random hosts of the bank, compared with the golden model edge by edge."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .random_host import INTERVALS, in_motion, play
     least=200,
 )
 async def bank_random_host(dut: Any, seed: int) -> None:
-    """Given a random host, when it has played, then all outputs changed as in the golden model."""
+    """During the transactions of a random host, all outputs change as in the golden model."""
     made = await play(dut, seed)
     logging.getLogger("cocotb.bank").info("seed %d: %d intervals", seed, made)
     add_counts(intervals=made)

@@ -14,8 +14,9 @@ CHOPPED = (0x2A, 9, 4, 4)
 
 @directed("BANK-CHP-01", "BANK-INI-02", builds=(B4, B8, B32, F100))
 async def bank_chp_01_phases(dut):
-    """Given chopping at all axes, then every phase is exact to the clk, from the end of a motion on as
-    well."""
+    """While all axes chop, every phase is exact to the cycle, also after the end of a motion
+    (BANK-CHP-01).
+    """
     lab = await Lab.start(dut)
     axes = await lab.all_ready(init=CHOPPED)
     since = lab.bench.now
@@ -43,8 +44,9 @@ async def bank_chp_01_phases(dut):
 
 @directed("BANK-CHP-01", "BANK-GEN-04", builds=(B8, F100))
 async def bank_chp_01_settings(dut):
-    """Given parameters and vsel, then phases are those of the rule; vsel counts 7 clk before the ordering
-    visit."""
+    """Parameters and vsel set the phases of the chopper as the rules state; vsel applies if written 7
+    cycles or more before the visit that orders the first edge of a phase (BANK-CHP-01, BANK-GEN-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(3, CHOPPED)
     quantum = lab.cfg.quanta(1)
@@ -74,7 +76,7 @@ async def bank_chp_01_settings(dut):
         ordered = axis.visit(edge - lab.round + 1)
         await lab.write_at(ordered - early, axis.n << 4 | CONFIG, 1)
         await lab.bench.clocks(lab.cfg.quanta(200))
-        # `level` ends on `edge`; what follows is of the other kind.
+        # `level` ends on `edge`; the next phase has the other level.
         follows = (132, 115) if level else (108, 100)
         nexts = [t for t, _ in axis.patterns(edge)]
         want = follows[1 if early >= 7 else 0] * quantum
@@ -83,7 +85,7 @@ async def bank_chp_01_settings(dut):
 
 @directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
 async def bank_hsk_02_chopper_takes_the_visit(dut):
-    """Given a byte for the visit that orders an edge of the chopper, then the next visit takes it."""
+    """A byte whose visit orders an edge of the chopper is accepted at the next visit (BANK-HSK-02)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 1, CHOPPED)
     address = axis.n << 4 | STATUS
@@ -104,8 +106,9 @@ async def bank_hsk_02_chopper_takes_the_visit(dut):
 
 @directed("BANK-INI-02", "BANK-HSK-02", "BANK-INI-01", builds=(B8, B32, F100))
 async def bank_ini_02_completion(dut):
-    """Given an initialisation, then bytes are taken from the visit on that follows the one that completes
-    it."""
+    """After an initialisation, the first visit that accepts bytes is the one after the visit that
+    completes it (BANK-INI-02).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(2, CHOPPED)
     edges = []
@@ -122,13 +125,14 @@ async def bank_ini_02_completion(dut):
 
 @directed("BANK-HLD-01", "BANK-CHP-01", builds=(B8,))
 async def bank_hld_01_hold(dut):
-    """Given ends of motions, then hold rises at the first visit 34 ms later that orders no edge of the
-    chopper."""
+    """After a motion, hold rises at the first visit at least 34 ms later that orders no edge of the
+    chopper (BANK-HLD-01).
+    """
     lab = await Lab.start(dut)
     plain, chopped, again, low = lab.axes[0], lab.axes[3], lab.axes[5], lab.axes[7]
     for axis in (plain, chopped, again, low):
         await axis.init(*(CHOPPED if axis is chopped else (0x0A, 9, 4, 4)))
-    # 34 ms are 136 000 quanta: 60 periods of 700 + 1555 and one ON phase: the edge lies on the very visit.
+    # 34 ms are 136 000 quanta: 60 periods of 700 + 1555 and one ON phase, so the edge lies on this visit.
     await chopped.set_config(1, 0)
     await chopped.host.send(0x84, (50, 120))
     ends = {}

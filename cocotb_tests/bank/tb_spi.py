@@ -1,4 +1,4 @@
-"""ppmc_bank_carrier with HOST = "SPI": all of the window over four wires (docs/bank/spi.md)."""
+"""ppmc_bank_carrier with HOST = "SPI": the complete window over four wires (docs/bank/spi.md)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ OBF, IBF, BUSY = 1, 2, 4
 
 
 class Host:
-    """An SPI master in mode 0 with clk = 8 sck, in no step with clk."""
+    """SPI master in mode 0; a period of sck is 8 cycles, asynchronous to clk."""
 
     def __init__(self, dut: Any) -> None:
         self.dut = dut
@@ -32,7 +32,7 @@ class Host:
         self.status = 0
 
     async def start(self) -> None:
-        """Clock, reset, idle pins, the bank ready."""
+        """Start the clock, reset with idle pins, and wait until the bank is ready."""
         dut = self.dut
         dut.clk.set(Immediate(0))
         dut.rst_n.set(Immediate(1))
@@ -48,11 +48,11 @@ class Host:
         await self.clk(60)
 
     async def clk(self, n: float) -> None:
-        """Wait n clk."""
+        """Wait n cycles."""
         await Timer(round(n * self.period), "ps")
 
     async def frame(self, word: int, *data: int) -> bytes:
-        """Header and bytes; returns what came behind the header, and keeps the status."""
+        """Send a header and bytes, store the status, and return the bytes that follow the header."""
         dut, seen = self.dut, bytearray()
         await self.clk(4.3)
         dut.spi_cs_n.value = 0
@@ -75,8 +75,10 @@ class Host:
         return bytes(seen[2:])
 
     async def raw(self, mode: int, skew: float, *data: int) -> bytes:
-        """Send a frame in SPI mode 0 to 3 and return all bytes of miso. skew: cycles from an edge of sck to
-        the change of mosi that belongs to it, -2 to 2."""
+        """Send a frame in SPI mode 0 to 3 and return all bytes of miso.
+
+        Args: skew: cycles from an edge of sck to the change of mosi that belongs to it, -2 to 2.
+        """
         dut, seen = self.dut, bytearray()
         idle, late = mode >> 1, mode & 1
         dut.sck.value = idle
@@ -108,7 +110,7 @@ class Host:
         return bytes(seen)
 
     async def _together(self, sck: int, mosi: int, skew: float) -> None:
-        """An edge of sck, and a change of mosi `skew` cycles from it."""
+        """Output an edge of sck, and a change of mosi `skew` cycles from it."""
         steps = [("sck", sck), ("mosi", mosi)]
         for name, level in steps if skew >= 0 else steps[::-1]:
             getattr(self.dut, name).value = level
@@ -116,15 +118,15 @@ class Host:
                 await self.clk(abs(skew))
 
     async def write(self, axis: int, register: int, *data: int, step: int = 0) -> None:
-        """A burst of writes."""
+        """Write a burst."""
         await self.frame(WRITE | step | axis << 4 | register, *data)
 
     async def read(self, axis: int, register: int, count: int = 1, step: int = 0) -> bytes:
-        """A burst of reads."""
+        """Read a burst."""
         return (await self.frame(step | axis << 4 | register, *[0xFF] * count, 0))[1:]
 
     async def until(self, axis: int, good: Callable[[int], bool]) -> int:
-        """The first status of an axis that is good."""
+        """Poll the status of an axis and return the first one for which `good` is true."""
         for _ in range(400):
             status = (await self.read(axis, COMMAND))[0]
             if good(status):
@@ -132,7 +134,7 @@ class Host:
         raise AssertionError(f"axis {axis}: status {status:#04x}")
 
     async def call(self, axis: int, code: int, *data: int) -> int:
-        """A command with its parameters; returns the status."""
+        """Send a command with its parameters and return the status."""
         await self.write(axis, COMMAND, code)
         for byte in data:
             await self.until(axis, lambda status: not status & IBF)
@@ -143,7 +145,9 @@ class Host:
 @cocotb.test()
 @configs(CONFIG)
 async def spi_window(dut):
-    """Given bursts by axis and by register, then INFO, CONFIG, MASK are where the rules say."""
+    """In bursts by axis and by register, INFO, CONFIG and MASK are at the addresses that the rules
+    state.
+    """
     host = Host(dut)
     await host.start()
     same("INFO", await host.read(0, INFO, 4, NEXT_AXIS), bytes([0x42, 1, AXES, 0]))
@@ -158,7 +162,7 @@ async def spi_window(dut):
 @cocotb.test()
 @configs(CONFIG)
 async def spi_moves(dut):
-    """Given an axis that moves, then status, interrupt, map, finish status and position are read."""
+    """During and after a motion, the host reads status, interrupt, map, finish status and position."""
     host = Host(dut)
     await host.start()
     same("initialised", await host.call(3, *INITIALISE), 0)
@@ -176,8 +180,9 @@ async def spi_moves(dut):
 @cocotb.test()
 @configs(CONFIG)
 async def spi_read_back_finds_a_wrong_mode(dut):
-    """MASK read back as written proves that the mode is right, which the status does not in mode 1; a frame
-    in a wrong mode moves no motor (docs/bank/spi.md)."""
+    """MASK read back as written proves that the mode is right, which the status does not in mode 1. A
+    frame in a wrong mode moves no motor (docs/bank/spi.md).
+    """
     host = Host(dut)
     await host.start()
     for mode, skew in product(range(4), (-2, -1, -0.4, 0, 0.4, 1, 2)):
@@ -187,7 +192,7 @@ async def spi_read_back_finds_a_wrong_mode(dut):
             got.append((await host.raw(mode, skew, 0x00, 0x08, 0xFF, 0x00)).hex())
         what = f"mode {mode}, mosi {skew:+} cycles from sck"
         right = got == ["80000005", "80000000"]
-        # In mode 1 with mosi before the edge of sck the bridge samples what the master means.
+        # In mode 1 with mosi before the edge of sck, the bridge samples the bits that the master sends.
         same(f"MASK is read back as written, {what}", right, mode in (0, 3) or (mode == 1 and skew <= 0))
         same(f"pulses, {what}", int(dut.pout_n.value), (1 << AXES) - 1)
         same(f"sign of the status, {what}", [word[0] for word in got], ["c" if mode == 2 else "8"] * 2)

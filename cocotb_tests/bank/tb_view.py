@@ -1,4 +1,4 @@
-"""Contract of ppmc_bank_view: docs/bank/carrier.md, and what BANK-WIN-04 wants of strobes."""
+"""Contract of ppmc_bank_view: docs/bank/carrier.md, and the requirements of BANK-WIN-04 for strobes."""
 
 from __future__ import annotations
 
@@ -17,11 +17,13 @@ CHOICE = 3
 AXES = 64
 WRITE_CLK, READ_CLK, GAP_CLK = 4, 6, 4
 STEADY = 2
-"""Clk edges that sample the address with or before the first one that samples the strobe (BANK-WIN-04)."""
+"""Rising edges of `clk` that sample the address, up to the first one that samples the strobe
+(BANK-WIN-04).
+"""
 
 
 class Bridge:
-    """Strobes of UB-BUS-01 at the view; `seen` lists (cs_n, address) of every clk at the bank."""
+    """Strobes of UB-BUS-01 at the view; `seen` lists (cs_n, address) at the bank for every cycle."""
 
     def __init__(self, dut: Any) -> None:
         self.unit = Unit(dut, "view", BLOCKS, "cs_no a_o d_o")
@@ -33,7 +35,7 @@ class Bridge:
         return data
 
     async def access(self, a: int, value: int | None = None, shown: int = 0) -> int:
-        """One cycle; `shown`: what the bank shows. Returns what is on the bus in the last clk."""
+        """Make one access, while the bank outputs `shown`. Return the byte on the bus in the last cycle."""
         data = 0
         await self._clk(a_i=a, d_i=value or 0, bank_d_i=shown)
         for _ in range(READ_CLK if value is None else WRITE_CLK):
@@ -43,7 +45,10 @@ class Bridge:
         return data
 
     def strobes(self) -> list[tuple[int, int]]:
-        """(address, clk) of the strobes at the bank; AssertionError if an address does not stand."""
+        """Return (address, cycles) of the strobes at the bank.
+
+        Raise AssertionError if an address is not stable.
+        """
         found = []
         for n, (cs_n, address) in enumerate(self.seen):
             if cs_n:
@@ -58,7 +63,7 @@ class Bridge:
 
 
 async def start(dut: Any) -> Bridge:
-    """A bridge before a view that was reset."""
+    """Return a bridge in front of a view that was reset."""
     bridge = Bridge(dut)
     await bridge.unit.reset(cs_ni=1, wr_ni=1)
     return bridge
@@ -66,7 +71,7 @@ async def start(dut: Any) -> Bridge:
 
 @cocotb.test()
 async def view_random_accesses(dut):
-    """Given accesses at random, then each goes to the chosen axis, and 0x3 chooses it and shows it."""
+    """Each random access reaches the chosen axis; 0x3 chooses the axis and returns its number."""
     rand, bridge = rng(), await start(dut)
     axis, want = 0, []
     for _ in range(600):
@@ -86,7 +91,9 @@ async def view_random_accesses(dut):
 
 @cocotb.test()
 async def view_axes_that_the_window_lacks(dut):
-    """Given one of 64 to 255, then reads give FF, the bank sees nothing, and 0x3 is there to choose anew."""
+    """For a chosen axis of 64 to 255, reads return FF, the bank gets no strobe, and 0x3 can choose
+    again.
+    """
     bridge = await start(dut)
     for axis in (64, 128, 192, 255):
         await bridge.access(CHOICE, axis)
@@ -101,7 +108,7 @@ async def view_axes_that_the_window_lacks(dut):
 
 @cocotb.test()
 async def view_reset(dut):
-    """Given a chosen axis, when the bank is reset, then it is axis 0."""
+    """A reset of the bank chooses axis 0."""
     bridge = await start(dut)
     await bridge.access(CHOICE, 17)
     same("chosen", await bridge.access(CHOICE), 17)

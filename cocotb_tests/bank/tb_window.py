@@ -1,4 +1,6 @@
-"""Window: registers, strobes, positions, interrupt map (BANK-WIN), not ready (BANK-GEN-05)."""
+"""Window: registers, strobes, positions, interrupt map (BANK-WIN), and the bank before it is ready
+(BANK-GEN-05).
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,7 @@ REGISTERS = range(16)
 
 @directed("BANK-WIN-03", builds=(B8, B32, B64, B4, F100))
 async def bank_win_03_info(dut):
-    """Given a bank, when INFO is read, then it tells the window and AXES, at any axis with the same
-    a[6:4]."""
+    """INFO returns the window and AXES at each axis with the same a[6:4] (BANK-WIN-03)."""
     lab = await Lab.start(dut)
     for axis in range(lab.size):
         want = (0x42, 1, lab.size, 0, 0, 0, 0, 0)[axis % 8]
@@ -27,7 +28,7 @@ async def bank_win_03_info(dut):
 
 @directed("BANK-WIN-01", builds=(B4, B8, B32))
 async def bank_win_01_addresses(dut):
-    """Given axes and registers that are not there, then they read FF, and writes to them do nothing."""
+    """Axes and registers that do not exist read as FF, and writes to them have no effect (BANK-WIN-01)."""
     lab = await Lab.start(dut)
     for axis in {lab.size, lab.size + 1, 2 * lab.size - 1, 63}:
         for register in REGISTERS:
@@ -54,7 +55,9 @@ async def bank_win_01_addresses(dut):
 
 @directed("BANK-WIN-02", "BANK-GEN-04", builds=(B8, B32))
 async def bank_win_02_registers_of_an_axis(dut):
-    """Given CONFIG of every axis, then it is 3 after reset, holds bits 0 and 1, and each axis has its own."""
+    """Each axis has its own CONFIG: 3 after reset, of which bits 0 and 1 are stored (BANK-WIN-02,
+    BANK-GEN-04).
+    """
     lab = await Lab.start(dut)
     for axis in lab.axes:
         lab.check("BANK-GEN-04", "CONFIG after reset", await axis.host.read(CONFIG), 3)
@@ -68,14 +71,16 @@ async def bank_win_02_registers_of_an_axis(dut):
 
 @directed("BANK-WIN-03", builds=(B8, B4, B32, B64))
 async def bank_win_03_registers_of_the_bank(dut):
-    """Given MASK, map, GO, STOP, INFO, then bytes lie at k = a[6:4], and what cannot be written stays."""
+    """Byte k of MASK, map and INFO is at k = a[6:4]; read-only registers keep their values
+    (BANK-WIN-03).
+    """
     lab = await Lab.start(dut)
     count = max(1, lab.size // 8)
     for k in range(count):
         await lab.host.write(k << 4 | MASK, 0xA5 ^ 0x11 * k)
     for axis in range(lab.size):
         k = axis % 8
-        # Axes that are not there have no bit.
+        # Absent axes have no bit.
         want = (0xA5 ^ 0x11 * k) & (1 << min(8, lab.size)) - 1 if k < count else 0
         lab.check("BANK-WIN-03", f"MASK at {axis}", await lab.host.read(axis << 4 | MASK), want)
         for register, byte in ((GO, 0), (STOP, 0), (MAP, 0)):
@@ -88,7 +93,9 @@ async def bank_win_03_registers_of_the_bank(dut):
 
 @directed("BANK-WIN-04", "BANK-HSK-04", builds=(B8, F100))
 async def bank_win_04_short_reads(dut):
-    """Given read strobes of 1 and 2 clk, then d_o keeps the byte of the read before and nothing is taken."""
+    """During read strobes of 1 and 2 cycles, d_o keeps the byte of the previous read, and no byte is
+    consumed (BANK-WIN-04).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(2)
     await axis.command(0x83)
@@ -105,8 +112,9 @@ async def bank_win_04_short_reads(dut):
 
 @directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
 async def bank_win_04_strange_strobes(dut):
-    """Given writes of 1 clk, both strobes at once, strobes without cs_n, then bytes come whole or not at
-    all."""
+    """Bytes of 1-cycle writes, of both strobes together and of strobes without cs_n are written
+    completely or not at all (BANK-WIN-04).
+    """
     lab = await Lab.start(dut)
     host, bench = lab.host, lab.bench
     for byte in (1, 2, 0, 3):
@@ -122,7 +130,9 @@ async def bank_win_04_strange_strobes(dut):
 
 @directed("BANK-WIN-05", builds=(B8, B32, F100))
 async def bank_win_05_read_to_the_clk(dut):
-    """Given a read, then d_oe follows on edge 2, d_o on edge 4, d_oe ends on edge 2, and d_o stands."""
+    """In a read, d_oe = 1 from edge 2 and d_o is valid from edge 4; d_oe = 0 on edge 2 after the
+    strobe, and d_o does not change (BANK-WIN-05).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     for length in (6, 9):
@@ -138,8 +148,9 @@ async def bank_win_05_read_to_the_clk(dut):
 
 @directed("BANK-WIN-05", "BANK-HSK-04", builds=(B8, B32, F100))
 async def bank_win_05_snapshot(dut):
-    """Given a byte that starts a motion at V, then a read shows it as it stood after edge 2: V - 1, V, V +
-    1."""
+    """A read returns the state after its edge 2: tried around the visit V that accepts an operation, at
+    V - 1, V and V + 1 (BANK-WIN-05).
+    """
     lab = await Lab.start(dut)
     for axis in {lab.axes[0], lab.axes[lab.size - 1]}:
         await axis.init(*INIT_A)
@@ -154,7 +165,9 @@ async def bank_win_05_snapshot(dut):
 
 @directed("BANK-WIN-06", "BANK-HSK-01", builds=(B8, F100))
 async def bank_win_06_last_sample(dut):
-    """Given d_i that moves in the strobe, then the last sample counts; the event is on edge 2."""
+    """If d_i changes during the strobe, the last sample is written, with the write event on edge 2
+    (BANK-WIN-06).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     bench.set(a=CONFIG)
@@ -173,7 +186,9 @@ async def bank_win_06_last_sample(dut):
 
 @directed("BANK-WIN-05", "BANK-WIN-06", "BANK-WIN-04", builds=(B8,))
 async def bank_win_05_reset_in_an_access(dut):
-    """Given a read or a write, when reset comes some clk into it, then at once d_oe is 0 and it is lost."""
+    """A reset 1 to 7 cycles after the begin of an access sets d_oe = 0 immediately, and the access has
+    no effect (BANK-WIN-05, BANK-WIN-06).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     for strobe, into in product(("rd_n", "wr_n"), range(1, 8)):
@@ -190,7 +205,7 @@ async def bank_win_05_reset_in_an_access(dut):
 
 @directed("BANK-WIN-07", builds=(B8, F100))
 async def bank_win_07_position_counts(dut):
-    """Given moves both ways, pulses only, too, then the position counts each pulse, below zero as well."""
+    """The position counts each pulse in both directions, also in POUT mode and below zero (BANK-WIN-07)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(5)
     want = 0
@@ -205,11 +220,13 @@ async def bank_win_07_position_counts(dut):
 
 @directed("BANK-WIN-07", builds=(B8, F100, B32))
 async def bank_win_07_counted_at_the_visit(dut):
-    """Given a pulse on edge e, then it is counted at the last visit at or before e: -1, 0, +1 clk."""
+    """A pulse on edge e is counted at the last visit at or before e: read at this visit -1, 0, +1
+    cycles (BANK-WIN-07).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(lab.size - 2)
     for number, offset in enumerate((-1, 0, 1)):
-        await axis.set_config(1, 0)  # 30 quanta more: at 100 MHz no multiple of R
+        await axis.set_config(1, 0)  # 30 quanta more: not a multiple of R at 100 MHz
         edge0 = await axis.go(0x44, 3, 20, poll=False)
         second = axis.taken(edge0) + lab.cfg.w + lab.cfg.quanta(21 * 8 + 30)
         ordered = axis.visit(second - lab.round + 1)
@@ -221,8 +238,9 @@ async def bank_win_07_counted_at_the_visit(dut):
 
 @directed("BANK-WIN-07", "BANK-WIN-01", builds=(B8, B32))
 async def bank_win_07_kept_bytes(dut):
-    """Given a read of byte 0, then bytes 1 to 3 are of that moment, at any axis, until byte 0 is read
-    again; that of an axis which is not there keeps nothing."""
+    """A read of byte 0 latches bytes 1 to 3 for reads at any axis, until byte 0 is read again. A read
+    of byte 0 of an absent axis latches nothing (BANK-WIN-07, BANK-WIN-01).
+    """
     lab = await Lab.start(dut)
     one, other = await lab.all_ready(1, 6)
     await one.move(0x4A)
@@ -238,12 +256,14 @@ async def bank_win_07_kept_bytes(dut):
 
 @directed("BANK-WIN-08", builds=(B4, B8, B32, B64))
 async def bank_win_08_interrupts(dut):
-    """Given ends with and without an interrupt, then the map has a bit an axis; int_n is L while any is."""
+    """The map has one bit per axis, set by ends with an interrupt; int_n is low while any bit is set
+    (BANK-WIN-08).
+    """
     lab = await Lab.start(dut)
     numbers = {0, 1, lab.size // 2, lab.size - 1}
     axes = await lab.all_ready(*sorted(numbers))
     for axis in axes:
-        await axis.move(0x52 if axis.n == 1 else 0x42)  # I = 1: none
+        await axis.move(0x52 if axis.n == 1 else 0x42)  # I = 1: no interrupt
     pending = sum(1 << n for n in numbers if n != 1)
     for axis in axes:
         lab.check("BANK-WIN-08", "map", await lab.map(), pending)
@@ -256,21 +276,25 @@ async def bank_win_08_interrupts(dut):
 
 @directed("BANK-WIN-05", "BANK-WIN-08", builds=(B4, B8, B16, B32, B64))
 async def bank_win_08_map_to_the_cycle(dut):
-    """A read of the map returns each bit as it is after edge 2 of the read, at every phase between the read
-    and the visits that set or clear bits, at each address of the byte (BANK-WIN-05, BANK-WIN-08)."""
+    """A read of the map returns each bit as it is after edge 2 of the read. This holds for each phase
+    between the read and the visits that set or clear bits, and at each address of the byte
+    (BANK-WIN-05, BANK-WIN-08).
+    """
     lab = await Lab.start(dut)
     await lab.all_ready()
     for k in range(max(1, lab.size // 8)):
         axes = lab.axes[8 * k : 8 * k + 8]
         await lab.mask(*(axis.n for axis in axes))
-        # Axis a is visited one cycle after axis a - 1: the addresses that matter are those next to the byte.
+        # Axis a is visited one cycle after axis a - 1, so the addresses next to the byte are sufficient.
         for at in [n for n in range(k, lab.size, 8) if lab.size < 32 or -8 <= n - 8 * k <= 16]:
             for step in range(len(axes) + 6):
                 await _map_near_visits(lab, axes, at << 4 | MAP, step)
 
 
 async def _map_near_visits(lab: Lab, axes: list[Axis], address: int, step: int) -> None:
-    """Read the map step - 3 cycles after the first visit that sets a bit, then near each that clears one."""
+    """Read the map step - 3 cycles after the first visit that sets a bit, then near each visit that
+    clears one.
+    """
     for axis in axes:
         await axis.command(0x42)
     g = await lab.go()
@@ -292,7 +316,9 @@ async def _map_near_visits(lab: Lab, axes: list[Axis], address: int, step: int) 
 
 @directed("BANK-GEN-05", builds=(B8, B4, B32, B64))
 async def bank_gen_05_not_ready(dut):
-    """Given a reset, then until edge R + 7 status is 02, all else 00, and writes do nothing."""
+    """After a reset, until edge R + 7, status reads as 02 and all else as 00, and writes have no effect
+    (BANK-GEN-05).
+    """
     lab = await Lab.start(dut)
     lab.check("BANK-GEN-05", "outputs", lab.axes[0].outputs(), _resting(lab))
     for register, busy, ready in ((STATUS, 2, 0), (CONFIG, 0, 3), (INFO, 0, 0x42), (MASK, 0, 0)):
@@ -309,7 +335,9 @@ async def bank_gen_05_not_ready(dut):
 
 @directed("BANK-GEN-05", builds=(B8, B32, B64))
 async def bank_gen_05_reset_in_motion(dut):
-    """Given motions of all axes, when reset comes, then all pins rest at once, and the bank is as new."""
+    """A reset during motions of all axes sets all pins to their reset levels immediately and clears the
+    bank (BANK-GEN-05).
+    """
     lab = await Lab.start(dut)
     for init in (INIT_A, (0x29, 20, 0, 30)):
         await lab.all_ready(init=init)

@@ -1,4 +1,4 @@
-"""Tests of what is around a bank: the view of one axis, the carrier with its SPI host."""
+"""Tests of the blocks around a bank: the view of one axis, and the carrier with its SPI host."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import files
 
 VIEW = cocotb_items("cocotb_tests.bank", "tb_view", part=BLOCKS, shared=True)
 SPI = cocotb_items("cocotb_tests.bank", "tb_spi", part=BLOCKS, shared=True)
-# Start values 0, as in an FPGA, and one file, as the tests of the UART bridge have them.
+# Start values 0, as in an FPGA, and one C++ file, as in the tests of the UART bridge.
 FROM_ZERO = ("--output-split", "0", "--x-initial", "0")
 
 

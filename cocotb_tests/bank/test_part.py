@@ -1,4 +1,4 @@
-"""Directed tests of the bank: one pytest item a cocotb test and build configuration."""
+"""Directed tests of the bank: one pytest item per cocotb test and build configuration."""
 
 from __future__ import annotations
 
@@ -22,7 +22,8 @@ ITEMS = cocotb_items(
     part=BANK,
 )
 
-# Parameter, legal values, values just outside; the others as the header has them: 32 axes, 100 MHz.
+# Parameter, legal values, values just outside. The other parameters keep their defaults: 32 axes, 100
+# MHz.
 RANGES = {
     "CLK_HZ": (("32_000_000", "200_000_000"), ("28_000_000", "204_000_000", "100_000_001")),
     "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001", "15_000_000")),
@@ -39,5 +40,7 @@ def test_bank(item: Item, sim_options: SimOptions) -> None:
 
 @verifies("BANK-GEN-01", "BANK-GEN-02")
 def test_bank_gen_02_ranges() -> None:
-    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    """The elaboration accepts each parameter at its bounds and rejects the values just outside
+    (BANK-GEN-02).
+    """
     check_ranges("BANK-GEN-02", part_design("bank", F100), RANGES)

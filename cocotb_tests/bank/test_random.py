@@ -1,6 +1,6 @@
-"""Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
+"""Random hosts against the golden model: a fixed list of seeds; `--seed N` runs seed N only.
 
-One simulation plays several seeds of one build. `make soak PART=bank` plays as many others as you like.
+One simulation runs several seeds of one build. `make soak PART=bank` runs any number of other seeds.
 """
 
 from __future__ import annotations
@@ -18,13 +18,14 @@ pytest_generate_tests = generating(test_random=random_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """The hosts of some seeds: every output edge equals the golden model's."""
+    """For the hosts of some seeds, every output edge equals that of the golden model."""
     random_item.run(item, seeds, sim_options)
 
 
 def test_seeds_are_enough() -> None:
-    """The fixed seeds use every build, each once, and compare a million intervals; each host sees to its
-    own."""
+    """The fixed seeds use every build, each seed once, and compare a million intervals; each host
+    checks its own number.
+    """
     assert random_item.complete
     assert {build(seed).name for seed in SEEDS} == build.names
     assert sum(INTERVALS for seed in SEEDS if in_motion(seed)) >= 1_000_000

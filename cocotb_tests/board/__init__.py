@@ -1,1 +1,1 @@
-"""Tests of what rtl/boards adds around ppmc104_carrier, in simulation."""
+"""Simulations of the blocks that rtl/boards adds around ppmc104_carrier."""

@@ -1,4 +1,4 @@
-"""ppmc_board_reset and ppmc_board_lamp against their headers."""
+"""Contracts of ppmc_board_reset and ppmc_board_lamp, as their headers state them."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BLOCKS = {
 
 
 async def clocks_to_release(unit: Unit, limit: int) -> int:
-    """Clock edges from now until rst_no is 1; at most `limit`."""
+    """Return the number of clock edges from now until rst_no is 1; at most `limit`."""
     for count in range(limit):
         if await unit.settle():
             return count
@@ -30,14 +30,16 @@ async def clocks_to_release(unit: Unit, limit: int) -> int:
 
 @cocotb.test()
 async def board_reset_release(dut):
-    """Power-on, lock lost, and a bouncing button: reset lasts HoldUs to 2 HoldUs after all is good."""
+    """After power-on, loss of lock, or a bouncing button, the reset lasts HoldUs to 2 HoldUs after all
+    inputs are good.
+    """
     random = rng()
     for i, (clk_hz, hold_us) in enumerate(RESETS):
         unit = Unit(dut, f"reset{i}", BLOCKS, "rst_no")
         least = clk_hz // 1_000_000 * hold_us
         unit.put(lock_i=1, req_ni=1)
         unit.choose()
-        if i == 0:  # the start values make a reset of their own, without any lock
+        if i == 0:  # the start values make a reset, without any lock
             first = await clocks_to_release(unit, 3 * least)
             assert least <= first <= 2 * least + 3, f"power-on: {first} clk of {least}"
         for what in ("lock_i", "req_ni"):
@@ -58,7 +60,7 @@ async def board_reset_release(dut):
 
 @cocotb.test()
 async def board_reset_assertion(dut):
-    """lock_i resets at once and without a clock, req_ni with the third edge that sees it."""
+    """lock_i resets immediately and without a clock; req_ni resets with the third edge that samples it."""
     clk_hz, hold_us = RESETS[2]
     unit = Unit(dut, "reset2", BLOCKS, "rst_no")
     unit.put(lock_i=1, req_ni=1)
@@ -73,7 +75,9 @@ async def board_reset_assertion(dut):
 
 @cocotb.test()
 async def board_lamp_stretch(dut):
-    """A pulse of one clk is seen for 1/32 to 1/16 s, and a new one in between makes it longer."""
+    """A single-cycle pulse lights the LED for 1/32 to 1/16 s, and a new pulse during this time extends
+    it.
+    """
     unit = Unit(dut, "lamp", BLOCKS, "lamp_o")
     await unit.reset()
     same("after reset", await unit.clk(on_i=0), 0)

@@ -1,4 +1,6 @@
-"""A whole board top without a PLL: power-on, the tri-states of the bus, both resets, the UART host's pins."""
+"""A complete board top without a PLL: power-on, tri-states of the bus, both resets, pins of the UART
+host.
+"""
 
 from __future__ import annotations
 
@@ -10,11 +12,11 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness import same
 
 CLK_HZ = 50_000_000
-READ_PINS = 0x82  # answers S1 … S5, HOLD, DIR from bit 7 down
+READ_PINS = 0x82  # requests S1 … S5, HOLD, DIR from bit 7 down
 
 
 async def power_on(dut) -> int:
-    """Start the clock with every input idle; returns the number of clk until the top says that it runs."""
+    """Start the clock with every input idle; return the cycles until the top reports that it runs."""
     for name in ("key_n", "host_rst_n", "cs_n", "rd_n", "wr_n"):
         getattr(dut, name).value = 1
     for name in ("a0", "host_oe", "host_d"):
@@ -24,7 +26,7 @@ async def power_on(dut) -> int:
 
 
 async def clocks_to_run(dut) -> int:
-    """clk from now until the lamp "running" is lit; none of the outputs may act before."""
+    """Return the cycles from now until the LED "running" is lit; no output may act before."""
     start = get_sim_time("ns")
     await ClockCycles(dut.clk, 3)
     assert dut.d_oe.value == 0
@@ -34,7 +36,7 @@ async def clocks_to_run(dut) -> int:
 
 
 async def write(dut, a0: int, byte: int) -> None:
-    """One write cycle of the old host."""
+    """Make one write access of the old host."""
     dut.a0.value, dut.host_d.value, dut.host_oe.value, dut.cs_n.value = a0, byte, 1, 0
     dut.wr_n.value = 0
     await ClockCycles(dut.clk, 4)
@@ -47,7 +49,7 @@ async def write(dut, a0: int, byte: int) -> None:
 
 
 async def read(dut, a0: int) -> int:
-    """One read cycle of the old host: the byte, after checking the direction of the bus."""
+    """Make one read access of the old host, check the direction of the bus, and return the byte."""
     assert dut.d_oe.value == 0
     dut.a0.value, dut.cs_n.value, dut.rd_n.value = a0, 0, 0
     await ClockCycles(dut.clk, 5)
@@ -61,7 +63,9 @@ async def read(dut, a0: int) -> int:
 
 @cocotb.test()
 async def bus_power_on_and_read(dut):
-    """The start values make the reset; a command and its answer cross the bidirectional pins."""
+    """The start values make the reset; then a command and its answer pass through the bidirectional
+    pins.
+    """
     count = await power_on(dut)
     assert 1e-3 <= count / CLK_HZ <= 2.1e-3, f"{count} clk"
     same("status", await read(dut, 1), 0x00)
@@ -73,7 +77,7 @@ async def bus_power_on_and_read(dut):
 
 @cocotb.test()
 async def bus_resets(dut):
-    """The button and the host's line reset the part; an answer that waits is gone."""
+    """The button and the reset line of the host reset the part; an answer that waits is discarded."""
     await power_on(dut)
     for name in ("key_n", "host_rst_n"):
         await write(dut, 1, READ_PINS)
@@ -89,7 +93,7 @@ async def bus_resets(dut):
 
 @cocotb.test()
 async def uart_leaves_the_bus_alone(dut):
-    """With the UART host a strobe on the bus pins does nothing; the line to the PC is idle."""
+    """With the UART host, a strobe on the bus pins has no effect, and the line to the PC is idle."""
     await power_on(dut)
     dut.cs_n.value, dut.rd_n.value, dut.a0.value = 0, 0, 1
     for _ in range(50):

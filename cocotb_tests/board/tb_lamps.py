@@ -1,5 +1,8 @@
-"""Lamps of the carriers, with a bus as host: limits, alarm and MON light one, motion another; nothing else
-does. The PPMC-312 moves for other hosts alone: its lamp of the motion is seen at rest."""
+"""LEDs of the carriers, with a bus as host: limits, alarm and MON light one LED, a motion lights the
+other, and no other input does.
+
+The PPMC-312 moves for other hosts only: its motion LED is tested at standstill.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ LIT = {
     "stmc": ("l1_n", "l2_n", "l3_n", "l4_n", "mon"),
     "ppmc312": ("fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n"),
 }
-"""Pins whose active level lights led_switch, every bit of them."""
+"""Pins whose active level, of any bit, lights led_switch."""
 DARK = {"ppmc104": ("cnp_n",), "ppmc2104": ("org_n",), "stmc": ("cnp_n",), "ppmc312": ("org_n", "end_n")}
 STROBES = {"ppmc104": "wr_n", "stmc": "wr_n", "ppmc2104": "ds_wrs_n"}
 RAMP = (9, 4, 4, 0)  # RL, RH, PA
@@ -23,7 +26,7 @@ AXES = {"ppmc2104": (0x00, 0x20)}  # bit of the code for each axis
 
 
 async def start(dut, part: str) -> None:
-    """The carrier out of reset with idle pins."""
+    """Reset the carrier with idle pins."""
     for pin, level in {"uart_rxd": 1, "rs485_rxd": 1, **PARTS[part].inputs, "rst_n": 0}.items():
         if hasattr(dut, pin):
             getattr(dut, pin).value = level
@@ -34,7 +37,7 @@ async def start(dut, part: str) -> None:
 
 
 async def write(dut, part: str, a0: int, byte: int) -> None:
-    """One write cycle of the old host."""
+    """Make one write access of the old host."""
     strobe = getattr(dut, STROBES[part])
     dut.a0.value, dut.d_i.value, dut.cs_n.value, strobe.value = a0, byte, 0, 0
     await ClockCycles(dut.clk, 4)
@@ -45,7 +48,9 @@ async def write(dut, part: str, a0: int, byte: int) -> None:
 @cocotb.test()
 @cocotb.parametrize(part=[*LIT])
 async def lamp_of_the_switches(dut, part: str):
-    """Given each switch of each axis alone, then limits and the alarm (MON of the STMC) light the lamp."""
+    """Each limit and the alarm (MON of the STMC) of each axis lights led_switch alone; other switches
+    do not.
+    """
     await start(dut, part)
     same("at rest", (int(dut.led_switch.value), int(dut.led_moving.value)), (0, 0))
     for pin in (*LIT[part], *DARK[part]):
@@ -63,7 +68,7 @@ async def lamp_of_the_switches(dut, part: str):
 @cocotb.test()
 @cocotb.parametrize(part=[*STROBES])
 async def lamp_of_the_motion(dut, part: str):
-    """Given a move of each axis, then the lamp is lit from its start until the hold time is over."""
+    """During a move of each axis, led_moving is lit from the start until the hold time is over."""
     await start(dut, part)
     for axis, bit in enumerate(AXES.get(part, (0,))):
         for register, byte in ((1, 0x02 | bit), *((0, byte) for byte in RAMP)):

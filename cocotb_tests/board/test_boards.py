@@ -1,4 +1,6 @@
-"""rtl/boards in simulation: reset and lamps, a top with either host, a PPMC-312 on its line, the PMC006B4."""
+"""rtl/boards in simulation: reset and LEDs, a top with either host, a PPMC-312 on its line, the
+PMC006B4.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,9 @@ ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"
 RTL = ROOT / "rtl" / "boards"
-# One C++ file: the wheel's make file cannot use the header that several share. Start values 0, as in an FPGA:
-# the top's power-on reset is made of them, and no pin can give an edge of reset before the first clk.
+# One C++ file, because the make file of the wheel cannot use the header that several files share. Start
+# values 0, as in an FPGA: they make the power-on reset of the top, which has no pin that could make an edge
+# of its reset before the first rising edge of `clk`.
 ARGS = ("--output-split", "0", "--x-initial", "0")
 SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
 
@@ -36,7 +39,7 @@ def test_board_block(item, sim_options):
 
 @pytest.mark.parametrize("item", BUS_ITEMS)
 def test_board_top(item, sim_options):
-    """Run one simulation of a board top; the test's name says with which host."""
+    """Run one simulation of a board top; the name of the test contains the host."""
     part = part_design("ppmc104", item.config)
     tops = [RTL / "de10nano" / "board_de10nano_ppmc104.sv", HERE / "bus_bench.sv"]
     files = [*board_files("ppmc104"), *SHARED, *tops]
@@ -47,7 +50,7 @@ def test_board_top(item, sim_options):
 
 @pytest.mark.parametrize("item", LAMP_ITEMS)
 def test_lamps(item, sim_options):
-    """Run one simulation of a carrier with a bus host; the test's name says of which part."""
+    """Run one simulation of a carrier with a bus host; the name of the test contains the part."""
     name = item.test.rpartition("=")[2]
     part = part_design(name, item.config)
     files = [*part.sources, *board_files(name)]
@@ -59,7 +62,9 @@ def test_lamps(item, sim_options):
 
 @pytest.mark.parametrize("item", ITEMS_312)
 def test_board_ppmc312_serial(item, sim_options):
-    """Run one simulation of what the board tops with a PPMC-312 share, with its serial line as host."""
+    """Run one simulation of the common part of the board tops with a PPMC-312, with its serial line as
+    host.
+    """
     part = part_design("ppmc312", item.config)
     bench = ROOT / "cocotb_tests/ppmc312/line/board_bench.sv"
     files = [*part.sources, *board_files("ppmc312"), *SHARED, bench]

@@ -1,4 +1,4 @@
-"""Several benches in one simulation, as groups of tests and batches of random hosts make them."""
+"""Several test benches in one simulation, as in groups of tests and batches of random hosts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from cocotb_tests.harness.clock import clockwork
 
 @cocotb.test()
 async def benches_leave_one_watch_a_port(dut: Any) -> None:
-    """Given three benches one after the other, when an output changes, then it is recorded once."""
+    """After three benches were started in one simulation, each output edge is still recorded exactly
+    once.
+    """
     for _ in range(3):
         bench = await Bench.start(dut, PARTS["ppmc104"])
     await HostBus(bench).status()
@@ -23,7 +25,7 @@ async def benches_leave_one_watch_a_port(dut: Any) -> None:
 
 @cocotb.test()
 async def a_bench_records_what_it_watches_itself(dut: Any) -> None:
-    """Given a bench that watches one more port, when the next one starts, then that is forgotten."""
+    """A port that one bench watches in addition is not watched by the next bench."""
     await Bench.start(dut, PARTS["ppmc104"])
     more = clockwork().port("d_i")
     clockwork().watch(more)

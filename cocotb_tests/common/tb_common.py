@@ -19,8 +19,8 @@ TICKS = [
     (100_000_000, 16_000_000, 4),
     (200_000_000, 16_000_000, 4),
     (11_059_200, 1_000_000, 1),
-    (25_000_000, 16_000_000, 1),  # shorter than two clk
-    (16_000_000, 16_000_000, 1),  # each clk
+    (25_000_000, 16_000_000, 1),  # shorter than two cycles
+    (16_000_000, 16_000_000, 1),  # every cycle
 ]
 SQUARES = [
     (8_000_000, 16_000_000, 2),
@@ -79,7 +79,7 @@ def unit(dut, name: str, watch: str) -> Unit:
 
 @cocotb.test()
 async def sync_two_stages(dut):
-    """Given random levels, then q1 has them after the edge, q2 a clk later; in reset both are ResetVal."""
+    """A level is on q1 after the edge that samples it, on q2 one cycle later; in reset both are ResetVal."""
     rand, u = rng(), unit(dut, "sync", "q1_o q2_o")
     await u.reset(d_i=0)
     past = [0b10110, 0b10110]
@@ -92,7 +92,7 @@ async def sync_two_stages(dut):
 
 @cocotb.test()
 async def reset_release(dut):
-    """Given rst_ni at random times, then rst_no falls at once and rises at the second edge that sees 1."""
+    """rst_no falls immediately with rst_ni and rises at the second edge that samples rst_ni = 1."""
     rand, u = rng(), unit(dut, "reset", "rst_no")
     await u.reset()
     for _ in range(60):
@@ -111,7 +111,9 @@ async def reset_release(dut):
 
 @cocotb.test()
 async def ram_two_clk(dut):
-    """Given random writes and reads of other addresses, then data stands two clk after its address."""
+    """With random writes and reads of different addresses, read data is valid two cycles after its
+    address.
+    """
     rand, u = rng(), unit(dut, "ram", "rdata_o")
     u.choose()
     mem, due = [0] * 32, []
@@ -128,13 +130,15 @@ async def ram_two_clk(dut):
 
 @cocotb.test()
 async def tick_gen_exact(dut):
-    """Given restarts at random times, then tick n comes at exactly ceil(n * TickXtal * ClkHz / XtalHz)."""
+    """After a restart at a random time, tick n occurs exactly ceil(n * TickXtal * ClkHz / XtalHz)
+    cycles later.
+    """
     rand = rng()
     for i, (clk, xtal, step) in enumerate(TICKS):
         u = unit(dut, f"tick{i}", "tick_o")
         period = Fraction(step * clk, xtal)
         await u.reset()
-        # The longest phase cycle of the set has 1728 clk.
+        # The longest phase cycle of the set has 1728 cycles.
         for run in [2000] + [rand.randint(1, ceil(6 * period)) for _ in range(15)]:
             await u.clk(restart_i=1)
             n = 1
@@ -148,7 +152,7 @@ async def tick_gen_exact(dut):
 
 @cocotb.test()
 async def square_no_drift(dut):
-    """Given a reset, then toggle t comes ceil(t * HalfXtal * ClkHz / XtalHz) clk after it."""
+    """Toggle t occurs ceil(t * HalfXtal * ClkHz / XtalHz) cycles after reset."""
     for i, (clk, xtal, half) in enumerate(SQUARES):
         u = unit(dut, f"square{i}", "wave_o")
         period = Fraction(half * clk, xtal)
@@ -164,7 +168,7 @@ async def square_no_drift(dut):
 
 @cocotb.test()
 async def xtal_timer_exact(dut):
-    """Given limits, then past_o is high from the clk after ceil(limit * ClkHz / XtalHz) on, and stays."""
+    """past_o is high, and stays high, from the cycle after ceil(limit * ClkHz / XtalHz) on."""
     rand = rng()
     for i, (clk, xtal, width) in enumerate(TIMERS):
         u = unit(dut, f"timer{i}", "past_o")
@@ -181,7 +185,7 @@ async def xtal_timer_exact(dut):
 
 @cocotb.test()
 async def xtal_timer_new_limit(dut):
-    """Given a running count, when the limit is changed, then past_o follows the new one at once."""
+    """While the timer counts, past_o follows a new limit in the same cycle."""
     u = unit(dut, "timer2", "past_o")
     await u.reset()
     await u.clk(restart_i=1, limit_i=100)

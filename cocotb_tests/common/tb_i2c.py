@@ -1,4 +1,4 @@
-"""Contract of ppmc_i2c_master: the times on both lines against the data sheets of the EEPROMs."""
+"""Contract of ppmc_i2c_master: the times on both lines compared with the data sheets of the EEPROMs."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ AREA = "i2c"
 NONE, START, STOP, BYTE, FREE = range(5)
 CLOCKS = [
     (8_000_000, 400_000),
-    (8_727_000, 400_000),  # 0.55 bit is a hair below 12 clk
-    (8_909_000, 400_000),  # half a bit is one below 12 clk
+    (8_727_000, 400_000),  # 0.55 bit is slightly less than 12 cycles
+    (8_909_000, 400_000),  # half a bit is one cycle less than 12
     (11_059_200, 300_000),
     (12_000_000, 400_000),
     (16_000_000, 400_000),
@@ -44,16 +44,23 @@ SHORTEST_NS = {
     "su_sto": (600, 4000),
     "buf": (1300, 4700),
 }
-"""First what 24LC32A from 2.5 V on (Microchip, table of the AC characteristics) and M24C32 at 400 kHz (ST,
-likewise) both ask for; then the 24AA32A below 2.5 V, at 90 kHz."""
+"""Minimum times in ns. First value: required by both the 24LC32A from 2.5 V on (Microchip, table of the
+AC characteristics) and the M24C32 at 400 kHz (ST, the same table). Second value: 24AA32A below 2.5 V,
+at 90 kHz.
+"""
 SENT = (0xA5, 0x3C)
 ACCESS_NS = 900
-"""Fall of SCL to what the device sends (both); it is looked at later than that."""
+"""Longest time in ns from the fall of SCL to the bit of the device (both devices); the master samples
+later.
+"""
 
 
 @dataclass
 class Lines:
-    """Levels over time, and the shortest of each time in clk. Whoever holds SCL low does it `stretch` clk."""
+    """Levels over time, and the shortest value of each time in cycles.
+
+    The device holds SCL low for `stretch` cycles.
+    """
 
     stretch: int = 0
     t: int = 0
@@ -69,7 +76,7 @@ class Lines:
             self.found[name] = min(span, self.found.get(name, span))
 
     def clk(self, scl_oe: int, sda_oe: int) -> tuple[int, int]:
-        """Levels after an edge on which the master pulls so."""
+        """Return the levels of both lines after an edge on which the master pulls the lines as given."""
         self.t += 1
         self.held = max(0, self.held - 1)
         scl, sda = int(not scl_oe and not self.held), int(not sda_oe)
@@ -91,7 +98,7 @@ class Lines:
         return scl, sda
 
     def _data(self, scl: int, sda: int) -> None:
-        """SDA changes: START, STOP, or a bit while SCL is low."""
+        """Note a change of SDA: START, STOP, or a bit while SCL is low."""
         if not (scl and self.scl):
             assert not scl and not self.scl, f"clk {self.t}: both lines change together"
             self._note("hd_dat", "fall")
@@ -107,7 +114,7 @@ class Lines:
 
 
 def course() -> Iterator[tuple[int, int]]:
-    """Commands and bytes: transfers with a repeated START, STOP and START without a pause."""
+    """Yield commands and bytes: transfers with a repeated START, and a START directly after a STOP."""
     for address in (0xA1, 0xA0):
         yield START, 0
         yield BYTE, address
@@ -117,7 +124,7 @@ def course() -> Iterator[tuple[int, int]]:
 
 
 async def played(dut: object, number: int, stretch: int = 0) -> Lines:
-    """A course on one instance."""
+    """Run `course` on one instance; return the lines."""
     u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
     lines = Lines(stretch)
     await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=NONE)
@@ -134,8 +141,9 @@ async def played(dut: object, number: int, stretch: int = 0) -> Lines:
 
 @cocotb.test()
 async def i2c_times_of_the_data_sheets(dut):
-    """Given any clock, then every time on the lines is at least what 24LC32A and M24C32 ask for, and SCL low
-    lasts 55 % of the period, to the clk."""
+    """For each clock, every time on the lines is at least the minimum of 24LC32A and M24C32, and SCL is
+    low for 55 % of the period, to the cycle.
+    """
     for number, (clk, scl) in enumerate(CLOCKS):
         lines = await played(dut, number)
         found = {name: Fraction(span * 10**9, clk) for name, span in lines.found.items()}
@@ -148,7 +156,7 @@ async def i2c_times_of_the_data_sheets(dut):
 
 @cocotb.test()
 async def i2c_times_with_a_stretched_clock(dut):
-    """Given a device that holds SCL low at any length, then the high time is kept, too."""
+    """If a device holds SCL low for any length, the high time is still met."""
     rand = rng()
     for number, (clk, scl) in enumerate(CLOCKS[:6]):
         low = clk * 11 // (scl * 20)
@@ -161,7 +169,7 @@ async def i2c_times_with_a_stretched_clock(dut):
 
 @cocotb.test()
 async def i2c_period(dut):
-    """Given bytes without a pause, then SCL rises every period, to the clk, without drift."""
+    """During bytes without a pause, SCL rises once per period, exact to the cycle, without drift."""
     for number, (clk, scl) in enumerate(CLOCKS):
         u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
         await u.reset(scl_i=1, sda_i=0, ack_i=1, cmd_i=BYTE, byte_i=0)
@@ -178,7 +186,7 @@ async def i2c_period(dut):
 
 @cocotb.test()
 async def i2c_access_time(dut):
-    """Given a device whose bits come as late as the data sheets let them, then they are received."""
+    """Bits of a device with the longest access time of the data sheets are received."""
     for number, (clk, _) in enumerate(CLOCKS[:7]):
         u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
         await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=BYTE, byte_i=0xFF)

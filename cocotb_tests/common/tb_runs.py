@@ -1,4 +1,4 @@
-"""Not tests of a block: every way in which a test can end (tests/common/harness/test_runs.py)."""
+"""Test cases that end in every possible way, for tests/common/harness/test_runs.py; they test no block."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LEFT: list[str] = []
 
 
 async def _clk(dut: Any, **levels: int) -> int:
-    """One clk with these inputs, all others 0; the level of q behind it."""
+    """Make one clock cycle with these inputs, all others 0; return the level of q after it."""
     for pin in ("clk", "fire", "die"):
         getattr(dut, pin).value = levels.get(pin, 0)
     await Timer(1, "step")
@@ -29,7 +29,7 @@ async def _clk(dut: Any, **levels: int) -> int:
 
 @cocotb.test()
 async def passes(dut):
-    """q changes with each clk."""
+    """q changes with each cycle."""
     assert await _clk(dut) != await _clk(dut)
 
 
@@ -50,7 +50,7 @@ async def skips(dut):
 
 @cocotb.test(skip=True)
 async def skipped(dut):
-    """Would fail."""
+    """Would fail if it ran."""
     raise AssertionError("it ran")
 
 
@@ -85,7 +85,7 @@ async def shows(dut):
 @cocotb.test()
 @cocotb.parametrize(edge=[1, 2])
 async def clocked(dut: Any, edge: int) -> None:
-    """An assertion fires at one rising edge of a clock that is started."""
+    """An assertion fires at one rising edge of a running clock."""
     work = clockwork()
     dut.fire.value = dut.die.value = 0
     work.clock(work.port("clk"), 10)
@@ -98,27 +98,27 @@ async def clocked(dut: Any, edge: int) -> None:
 
 @cocotb.test()
 async def fires(dut):
-    """An assertion of the RTL."""
+    """An assertion of the RTL fires."""
     await _clk(dut, fire=1)
     await _clk(dut)
 
 
 @cocotb.test()
 async def dies(dut):
-    """$fatal in the RTL."""
+    """The RTL calls $fatal."""
     await _clk(dut, die=1)
 
 
 @cocotb.test()
 async def crashes(dut):
-    """A segmentation fault."""
+    """A segmentation fault occurs."""
     await _clk(dut)
     ctypes.string_at(0)
 
 
 @cocotb.test()
 async def loops(dut):
-    """No end, and no time of the simulation passes."""
+    """The test does not end, and no simulation time passes."""
     await _clk(dut)
     while True:
         pass
@@ -126,21 +126,21 @@ async def loops(dut):
 
 @cocotb.test()
 async def leaks(dut):
-    """Leaves something behind."""
+    """The test leaves state for a later test."""
     await _clk(dut)
     LEFT.append("something")
 
 
 @cocotb.test()
 async def follows(dut):
-    """Fails behind `leaks` only."""
+    """The test fails only if it runs after `leaks`."""
     await _clk(dut)
     assert not LEFT
 
 
 @cocotb.test()
 async def wavers(dut):
-    """Fails the first time, passes from then on."""
+    """The test fails the first time and passes from then on."""
     await _clk(dut)
     seen = Path(os.environ["OPENPPMC_SEEN"])
     if not seen.exists():
@@ -150,14 +150,14 @@ async def wavers(dut):
 
 @cocotb.test()
 async def shy(dut):
-    """Fails without waves only."""
+    """The test fails only if no waves are recorded."""
     await _clk(dut)
     assert b"--trace" in Path("/proc/self/cmdline").read_bytes(), "nobody looks"
 
 
 @cocotb.test()
 async def pries(dut):
-    """Reads a signal that is hidden."""
+    """The test reads a hidden signal."""
     await _clk(dut)
     assert int(dut.u_inner.count.value) == 1
 
@@ -165,7 +165,7 @@ async def pries(dut):
 @cocotb.test()
 @inside("u_inner.count")
 async def looks(dut):
-    """Reads a signal that it has asked for."""
+    """The test reads a signal that it has requested."""
     first = int(dut.u_inner.count.value)
     await _clk(dut)
     assert int(dut.u_inner.count.value) == (first + 1) % 16

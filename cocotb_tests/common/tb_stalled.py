@@ -1,4 +1,6 @@
-"""Not tests of a block: what is said of blocks that never answer (tests/common/harness/test_stalled.py)."""
+"""Test cases for reports about blocks that never answer (tests/common/harness/test_stalled.py); they
+test no block.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ BLOCKS = {"sync": Block("ppmc_sync", "d_i q1_o q2_o", {"ResetVal": 0})}
 
 @cocotb.test()
 async def waits_for_an_edge(dut):
-    """An output that never rises, under a clock that runs by itself."""
+    """Wait for an output that never rises, with a free-running clock."""
     u = Unit(dut, "sync", BLOCKS, "q2_o", Unit.FREE)
     await u.reset()
     await u.run_until("q2_o", 1)
@@ -19,7 +21,7 @@ async def waits_for_an_edge(dut):
 
 @cocotb.test()
 async def polls(dut):
-    """An output that never rises, looked at after each clk, in a function of its own."""
+    """After each cycle, poll an output that never rises, in a separate function."""
     u = Unit(dut, "sync", BLOCKS, "q2_o", 3_000)
 
     async def risen() -> None:

@@ -1,4 +1,4 @@
-"""Tests of the bench in a simulation, one simulation each."""
+"""Tests of the test bench in a simulation, one simulation per test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Unit tests of the blocks of rtl/common, one simulation each."""
+"""Unit tests of the blocks of rtl/common, one simulation per test."""
 
 from __future__ import annotations
 

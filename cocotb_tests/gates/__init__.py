@@ -1,1 +1,1 @@
-"""What only gate-level simulations need: the board top that they run, its UART, models of FPGA cells."""
+"""Code for gate-level simulations only: the board top that they run, its UART, models of FPGA cells."""

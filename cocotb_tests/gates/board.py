@@ -14,16 +14,19 @@ B24 = Config("b24m", clk_hz=24_000_000)
 
 
 def sources() -> list[Path]:
-    """The part's sources, then the board module and its blocks (the tops of boards hold vendor cells)."""
+    """Return the sources of the part, then the board module and its blocks.
+
+    The tops of boards contain vendor cells.
+    """
     return [*project.sources(project.part("ppmc104")), *project.board_files("ppmc104")]
 
 
 def params(config: Config) -> dict[str, object]:
-    """Parameters of the board top: those of the part, and the UART as host."""
+    """Return the parameters of the board top: those of the part, and the UART as host."""
     return {**config.params, "HOST": "UART"}
 
 
 def items() -> list[Item]:
-    """The tests of the board."""
+    """Return the tests of the board."""
     params = cocotb_items("cocotb_tests.gates", "tb_board", part=PARTS["ppmc104"])
     return [param.values[0] for param in params]

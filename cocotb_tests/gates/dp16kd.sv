@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// DP16KD: simulation model of the ECP5's block RAM in the modes that synthesis of this project uses; the
-//         model library of yosys has only its ports. Anything else ends the elaboration with an error.
-// Rules:  two ports, 1 to 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of their
-//         addresses. Word address from AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4 bits), AD1 or AD0 up; with 36 bits AD0 to
-//         AD3 enable the bytes of a write, with 18 bits AD0 and AD1. With 36 bits port A only writes DIB, DIA
-//         and port B only reads, 36 bits into DOB, DOA, fewer into DOB.
-// Timing: a read stands after the clk edge; a port that writes keeps its output (NORMAL), shows the new word
-//         (WRITETHROUGH) or the old one (READBEFOREWRITE).
+// DP16KD: simulation model of the block RAM of the ECP5, in the modes that this project uses. The model
+//         library of yosys has only its ports. Any other mode ends the elaboration with an error.
+// Rules:  two ports, 1 to 18 bits each, no output register. INITVAL: 18 bits of every 20, in the order of
+//         their addresses. The word address begins at AD5 (36 bits), AD4 (18 bits), AD3 (9 bits), AD2 (4),
+//         AD1 (2) or AD0 (1). With 36 bits AD0 to AD3 enable the bytes of a write, with 18 bits AD0 and AD1.
+//         With 36 bits port A only writes (DIB, DIA) and port B only reads: 36 bits to DOB and DOA, fewer
+//         to DOB.
+// Timing: read data is valid after the rising edge of the clock. A port that writes keeps its output
+//         (NORMAL), outputs the new word (WRITETHROUGH) or the old one (READBEFOREWRITE).
 `default_nettype none
 
-// The parameters INITVAL_00 .. INITVAL_3F, and sixteen of them as one number.
+// The parameters INITVAL_00 .. INITVAL_3F, and a concatenation of sixteen of them.
 `define INITVAL(name) parameter logic [319:0] INITVAL_``name = '0
 `define INITVALS(digit) `INITVAL(digit``0), `INITVAL(digit``1), `INITVAL(digit``2), `INITVAL(digit``3), \
     `INITVAL(digit``4), `INITVAL(digit``5), `INITVAL(digit``6), `INITVAL(digit``7), `INITVAL(digit``8), \
@@ -117,7 +118,7 @@ module DP16KD #(
         place = 6'd9 * 6'(ad[p][4:3]);
         bytes = 4'b1 << ad[p][4:3];
         data  = {4{d[p][8:0]}};
-        if (Width < 9) begin  // the ninth bit is left out
+        if (Width < 9) begin  // the ninth bit is omitted
           place = place + 6'(int'(ad[p][2:0]) & (8 - Width));
           data  = 36'(d[p]) << place;
         end

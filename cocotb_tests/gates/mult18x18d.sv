@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MULT18X18D: simulation model of the ECP5's multiplier as yosys maps a product: 18 x 18 bits, no register.
-//         The model library of yosys has only its ports. It has no parameters: an instance that sets one, for
-//         a register say, ends the elaboration with an error.
+// MULT18X18D: simulation model of the multiplier of the ECP5 as yosys maps a product: 18 x 18 bits, no
+//         register. The model library of yosys has only its ports. The model has no parameters: an instance
+//         that sets one, for example for a register, ends the elaboration with an error.
 // Timing: combinational.
 `default_nettype none
 
@@ -18,7 +18,7 @@ module MULT18X18D (
   logic signed [18:0] a, b;
   logic signed [37:0] product;
 
-  // The bit in front is the sign, or 0 for an unsigned factor.
+  // The extra upper bit is the sign, or 0 for an unsigned factor.
   assign a = {SIGNEDA && A17, A17, A16, A15, A14, A13, A12, A11, A10, A9, A8, A7, A6, A5, A4, A3, A2,
       A1, A0};
   assign b = {SIGNEDB && B17, B17, B16, B15, B14, B13, B12, B11, B10, B9, B8, B7, B6, B5, B4, B3, B2,

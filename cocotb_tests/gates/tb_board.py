@@ -1,4 +1,6 @@
-"""The board top by its UART: who is there, moves edge by edge as the golden model, bad frames."""
+"""The board top through its UART: identification, moves compared with the golden model edge by edge,
+invalid frames.
+"""
 
 from __future__ import annotations
 
@@ -22,37 +24,37 @@ EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
 
 
 async def start(dut: Any, code: int = 0) -> tuple[Bench, Uart]:
-    """Reset, then the line rate of that code."""
+    """Reset the board, then select the line rate of that code."""
     uart = Uart(dut)
     bench = await Bench.start(dut, PARTS["ppmc104"])
     uart.listen()
     await Timer(100, "us")
     answer = await uart.ask(Script().rate(code))
     assert answer.result is Result.DONE, answer
-    # The new rate acts after the stop bit, in whose middle the answer was complete.
+    # The new rate applies after the stop bit; the answer was complete in the middle of this bit.
     await Timer(10, "us")
     uart.rate = RATES[code]
     return bench, uart
 
 
 class Golden:
-    """The golden model after INIT, for one move after the other."""
+    """The golden model after INIT, for successive moves."""
 
     def __init__(self) -> None:
         self.model = Ppmc104(B24.clk_hz, B24.xtal_hz, B24.timing, B24.phase_idle)
         self.t = 100
         self.call(*INIT)
-        self.t += 100_000  # the ramp table is built meanwhile
+        self.t += 100_000  # the ramp table is built during this time
 
     def call(self, command: int, *data: int) -> None:
-        """A command with its parameters."""
+        """Send a command with its parameters."""
         for place, byte in enumerate((command, *data)):
             self.t = self.model.write(self.t, int(place == 0), byte) + 400
 
     def move(self, op: int, count: int, limit_at: int | None) -> list[tuple[int, str, int]]:
-        """Motor edges of a move, in clk after its first pulse, up to the fall of int_n.
+        """Return the motor edges of a move, in cycles after its first pulse, up to the fall of int_n.
 
-        limit_at: clk after the first pulse on which l2_n falls.
+        Args: limit_at: cycles after the first pulse at which l2_n falls.
         """
         model, before = self.model, len(self.model.pulses)
         for place, byte in enumerate((op, *(count - 1).to_bytes(3, "little"))):
@@ -68,7 +70,7 @@ class Golden:
         return since(first, [(edge.t, edge.signal, edge.value) for edge in model.edges])
 
     def finish(self) -> int:
-        """Finish status; it is read, so int_n rises."""
+        """Read and return the finish status; the read deasserts int_n (high)."""
         self.call(0x80)
         status = self.model.read(self.t, 0)
         self.t += 10
@@ -76,7 +78,7 @@ class Golden:
 
 
 def since(first: int, edges: list[tuple[int, str, int]]) -> list[tuple[int, str, int]]:
-    """Edges of the motor's pins from clk `first` on, up to the first fall of int_n, sorted."""
+    """Return the sorted edges of the motor pins from cycle `first` up to the first fall of int_n."""
     end = min(t for t, name, value in edges if t >= first and name == "int_n" and value == 0)
     return sorted((t - first, name, value) for t, name, value in edges if first <= t <= end and name in MOTOR)
 
@@ -90,9 +92,10 @@ async def move(
     counted: int = 0,
     limit_at: int | None = None,
 ) -> int:
-    """One move by one frame, edges and finish status compared with the golden model; returns its pulses.
+    """Make one move with one frame, compare edges and finish status with the golden model, and return
+    its pulses.
 
-    The pulses must be in the pulse counter, CW up from `counted`, and the end must give an event.
+    The pulse counter must count them, CW up from `counted`, and the end must send an event.
     """
     begin = bench.now
     sender = cocotb.start_soon(uart.ask(Script().call(op, *(count - 1).to_bytes(3, "little"))))
@@ -122,7 +125,7 @@ async def move(
 @cocotb.test()
 @configs(B24)
 async def board_identifies_itself(dut: Any) -> None:
-    """Given a board after reset, when asked at 115 200 baud, then it gives its part and its clocks."""
+    """After reset, the board reports its part and its clocks at 115 200 baud."""
     _, uart = await start(dut)
     answer = await uart.ask(Script().ident().pins())
     who = Identity.parse(answer.values[0])
@@ -133,7 +136,7 @@ async def board_identifies_itself(dut: Any) -> None:
 @cocotb.test()
 @configs(B24)
 async def board_drops_a_bad_frame(dut: Any) -> None:
-    """Given a frame with a wrong CRC, when it ends, then NAK 2 comes and nothing of it is done."""
+    """A frame with a wrong CRC is answered with NAK 2, and no part of it is executed."""
     bench, uart = await start(dut, RATES.index(1_000_000))
     line = bytearray(encode(bytes([5]) + bytes(Script().call(*INIT))))
     line[3] ^= 0x01
@@ -141,7 +144,8 @@ async def board_drops_a_bad_frame(dut: Any) -> None:
     nak = await uart.frame()
     assert nak.payload == bytes([NAK, NAK_CRC]), nak
     status = await uart.ask(Script().read(1).call(CW, 0, 0, 0))
-    # Not initialised: the part refuses the move, so the init of the bad frame did not reach it.
+    # Not initialised: the part rejects the move, so the initialisation in the invalid frame did not reach
+    # it.
     assert status.result is Result.REFUSED, status
     assert not bench.pulses()
 
@@ -150,7 +154,9 @@ async def board_drops_a_bad_frame(dut: Any) -> None:
 @configs(B24)
 @cocotb.parametrize(rate=(1_000_000, 3_000_000))
 async def board_moves(dut: Any, rate: int) -> None:
-    """Given INIT by UART, when the motor moves CW and then CCW into its limit, then each edge is right."""
+    """After an initialisation through the UART, each edge of a move CW and of a move CCW into its limit
+    equals that of the golden model.
+    """
     bench, uart = await start(dut, RATES.index(rate))
     answer = await uart.ask(Script().events(True).call(*INIT))
     assert answer.result is Result.DONE, answer

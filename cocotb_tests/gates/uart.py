@@ -1,4 +1,4 @@
-"""The PC's side of the board tops' UART in a simulation: scripts out, answers in."""
+"""UART host for the board tops in a simulation: sends scripts, receives answers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from openppmc.host.script import Answer, Script, parse_answer
 
 
 class Uart(Wire):
-    """The line on `uart_rxd` (to the board) and `uart_txd`; `frames` holds what came, oldest first."""
+    """The line on `uart_rxd` (to the board) and `uart_txd`; `frames` holds the received frames, oldest
+    first.
+    """
 
     def __init__(self, dut: Any, rate: int = 115_200) -> None:
         super().__init__(dut.uart_rxd, dut.uart_txd, rate)
@@ -22,12 +24,15 @@ class Uart(Wire):
         self._seq = 0
 
     def came(self, byte: int) -> None:
-        """Collect the frames."""
+        """Add a received byte and collect the complete frames."""
         self.frames += self._deframer.feed(bytes([byte]))
         self._came.set()
 
     async def frame(self, limit_us: int = 200_000) -> Frame:
-        """The next frame; AssertionError if it is broken or none comes within the limit."""
+        """Return the next frame.
+
+        Raise AssertionError if it is broken or no frame arrives within the limit.
+        """
         limit = Timer(limit_us, "us")
         while not self.frames:
             self._came.clear()

@@ -1,4 +1,6 @@
-"""An SPI host before ppmc_spi, and what docs/bank/spi.md says that the block does with its frames."""
+"""An SPI host for ppmc_spi, and a reference model of the block's behaviour according to
+docs/bank/spi.md.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ COUNT = 1024
 
 @dataclass(frozen=True)
 class Pace:
-    """Times in clk: low and high time of sck, first rise behind cs_n, cs_n high; sck idles at `idle`."""
+    """Times in cycles: low and high time of sck, cs_n to the first rise, cs_n high; sck idles at `idle`."""
 
     low: float = 4.0
     high: float = 4.0
@@ -29,22 +31,22 @@ class Pace:
 
 
 def bits_of(*values: int) -> list[int]:
-    """Bytes as bits, the highest first."""
+    """Return bytes as bits, the highest first."""
     return [byte >> n & 1 for byte in values for n in range(7, -1, -1)]
 
 
 def byte_of(bits: list[int]) -> int:
-    """Eight bits as a byte, the highest first."""
+    """Return eight bits, the highest first, as a byte."""
     return int("".join(map(str, bits)), 2)
 
 
 def header(word: int) -> list[int]:
-    """A header as two bytes."""
+    """Return a header as two bytes."""
     return [word >> 8, word & 0xFF]
 
 
 class SpiHost:
-    """Drives the pins at any times, in fractions of a clk; clk edge n is at time n."""
+    """Drives the pins at any times, in fractions of a cycle; rising edge n of `clk` is at time n."""
 
     def __init__(self, unit: Unit, dut: Any, name: str) -> None:
         self.unit, self.now, self.edge = unit, 0.0, 0
@@ -66,24 +68,27 @@ class SpiHost:
         self.slave: StrobeSlave
 
     async def reset(self) -> None:
-        """Idle pins, reset, a slave at the bus."""
+        """Set idle pins, reset, and connect a slave to the bus."""
         await self.unit.reset(cs_ni=1, int_ni=1)
         self.slave = StrobeSlave(self._pins, "bus", COUNT, rng())
         await self.wait(8)
 
     async def until(self, time: float) -> None:
-        """Let all clk edges before this time pass."""
+        """Let all rising edges of `clk` before this time pass."""
         self.now = time
         while self.edge < time:
             await self.unit.clk()
             self.edge += 1
 
     async def wait(self, clk: float) -> None:
-        """Leave the pins as they are for a while."""
+        """Leave the pins unchanged for this number of cycles."""
         await self.until(self.now + clk)
 
     async def frame(self, bits: list[int], pace: Pace = Pace(), short: int = -1) -> list[int]:
-        """One frame; returns the level of miso at each rise of sck. The bit `short` has a low time of 2."""
+        """Send one frame; return the level of miso at each rise of sck.
+
+        The low time of the bit `short` is 2 cycles.
+        """
         put, seen = self.unit.put, []
         put(sck_i=pace.idle)
         await self.wait(pace.gap)
@@ -103,22 +108,25 @@ class SpiHost:
         return seen
 
     async def talk(self, *values: int, pace: Pace = Pace()) -> list[int]:
-        """A frame of whole bytes; returns the bytes of miso."""
+        """Send a frame of whole bytes; return the bytes of miso."""
         seen = await self.frame(bits_of(*values), pace)
         return [byte_of(seen[n : n + 8]) for n in range(0, len(seen), 8)]
 
 
 class Book:
-    """What a block of the page does: accesses, miso, flags. `registers` are those behind it."""
+    """Reference model from docs/bank/spi.md: accesses, miso, flags.
+
+    `registers` are those that the block accesses.
+    """
 
     def __init__(self) -> None:
         self.registers = Registers(COUNT)
         self.accesses: list[tuple[str, int, int]] = []
         self.flags = 0
-        self.level = 0  # of INT
+        self.level = 0  # level of INT
 
     def frame(self, bits: list[int]) -> list[int]:
-        """One frame at a legal pace; returns the bits of miso."""
+        """Model one frame at legal times; return the bits of miso."""
         shown = self.flags
         if len(bits) >= 8:
             self.flags = 0
@@ -129,7 +137,7 @@ class Book:
         return out[: len(bits)]
 
     def _bytes(self, bits: list[int]) -> Iterator[int]:
-        """The bytes of miso behind the status."""
+        """Yield the bytes of miso that follow the status."""
         yield 0
         if len(bits) < 16:
             return

@@ -31,7 +31,7 @@ IDLE = {"cs_ni": 1, "rd_ni": 1, "wr_ni": 1}
 
 
 def strobes(cs_n: int, rd_n: int, wr_n: int, style: int) -> tuple[bool, bool]:
-    """(read, write) strobe of pin levels, written out as the truth table of each style."""
+    """Return the (read, write) strobe of pin levels, written as the truth table of each style."""
     if cs_n:
         return False, False
     if style == 0:
@@ -40,7 +40,7 @@ def strobes(cs_n: int, rd_n: int, wr_n: int, style: int) -> tuple[bool, bool]:
 
 
 def levels(kind: str, style: int) -> dict[str, int]:
-    """Pin levels of a "read" or a "write" strobe."""
+    """Return the pin levels of a "read" or a "write" strobe."""
     if style == 0:
         return {"cs_ni": 0, "rd_ni": int(kind != "read"), "wr_ni": int(kind != "write")}
     return {"cs_ni": 0, "rd_ni": int(kind == "read"), "wr_ni": 0}
@@ -48,7 +48,9 @@ def levels(kind: str, style: int) -> dict[str, int]:
 
 @cocotb.test()
 async def bus_write_any_pins(dut):
-    """Given random pins, then a write end sampled at edge 0 is an event at edge 2 with the byte before it."""
+    """For random pins, the end of a write sampled at edge 0 is an event at edge 2 with the byte of the
+    sample before.
+    """
     rand = rng()
     u = Unit(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o")
     for style in (0, 1):
@@ -74,7 +76,7 @@ async def bus_write_any_pins(dut):
 
 @cocotb.test()
 async def bus_short_strobe(dut):
-    """Given strobes that no clk edge samples, then there is no write, no read, nothing is taken."""
+    """Strobes that no clk edge samples cause no write and no read, and consume no byte."""
     u = Unit(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o rd_busy_o rd_done_o d_o")
     for style in (0, 1):
         await u.reset(style_i=style, data_valid_i=1, data_i=0x5A, **IDLE)
@@ -86,7 +88,7 @@ async def bus_short_strobe(dut):
 
 
 async def _read(u: Unit, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
-    """One read of `length` clk and its gap, everything checked; early = edge 0 must load, too."""
+    """Check one read of `length` cycles and its gap. With `early`, d_o must load on edge 0, too."""
     a0 = rand.randrange(2)
     sampled: list[tuple[int, int, int]] = []
     shown, taken, unseen = u.get("d_o"), False, False
@@ -107,7 +109,7 @@ async def _read(u: Unit, rand: random.Random, style: int, length: int, gap: int,
         same(f"{where}: rd_done", done, taken and n == length + 2)
         if n < 2 and n < length:
             shown = status if a0 else data
-        # What comes on edge 0 is shown by the refresh on edge 1; whatever comes later was not read.
+        # A byte that arrives on edge 0 is output by the refresh on edge 1; a later byte was not read.
         unseen = unseen or bool(new and (n or length == 1))
         if n == 1:
             taken = bool(valid and not a0)
@@ -116,7 +118,9 @@ async def _read(u: Unit, rand: random.Random, style: int, length: int, gap: int,
 
 @cocotb.test()
 async def bus_read(dut):
-    """Given reads, then d_o loads on edges 0 and 1 and stands still; a byte is taken if valid and shown."""
+    """In a read, d_o loads on edges 0 and 1 and is then stable; a byte is consumed if it was valid and
+    was output.
+    """
     rand = rng()
     u = Unit(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
     for style in (0, 1):
@@ -127,7 +131,9 @@ async def bus_read(dut):
 
 @cocotb.test()
 async def bus_read_after_gap_of_one(dut):
-    """Given two reads with a gap that one edge samples, then the second shows its register from edge 0."""
+    """If only one edge samples the gap between two reads, the second read outputs its register from
+    edge 0 on.
+    """
     u = Unit(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
     for style in (0, 1):
         await u.reset(style_i=style, status_i=0x33, data_i=0xC5, data_valid_i=1, **IDLE)
@@ -146,7 +152,7 @@ async def bus_read_after_gap_of_one(dut):
 
 @cocotb.test()
 async def mailbox_random(dut):
-    """Given random traffic, then input, queue, overwriting, taking and loading are those of a plain model."""
+    """Under random traffic, input, queue, overwriting, taking and loading equal those of a simple model."""
     rand = rng()
     for name, size in (("mail3", 3), ("mail5", 5)):
         u = Unit(dut, name, BLOCKS, "ibf_o ready_o obf_o new_o")
@@ -192,7 +198,7 @@ async def mailbox_random(dut):
 
 @cocotb.test()
 async def mailbox_directed(dut):
-    """Given each named case of the header, then the exact clk is met."""
+    """Each case that the header names occurs in the exact cycle."""
     u = Unit(dut, "mail3", BLOCKS, "ibf_o ready_o byte_o")
     await u.reset()
     await u.clk(wr_i=1, wr_data_i=0x11)
@@ -221,7 +227,9 @@ async def mailbox_directed(dut):
 
 @cocotb.test()
 async def host_port_status(dut):
-    """Given a write and an answer of three, then the status shows IBF and OBF, the reads give the bytes."""
+    """After a write and an answer of three bytes, the status contains IBF and OBF, and the reads return
+    the bytes.
+    """
     u = Unit(dut, "port", BLOCKS, "ready_o command_o byte_o")
 
     async def read(a0: int, length: int = 4) -> int:

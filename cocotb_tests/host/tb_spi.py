@@ -33,18 +33,18 @@ BLOCKS = {
     ),
 }
 LEGAL = Pace()
-"""clk = 8 sck."""
+"""A period of sck is 8 cycles."""
 
 
 async def start(dut: Any) -> tuple[SpiHost, Book]:
-    """Host and book of a block that was reset."""
+    """Return the host and the reference model of a block that was reset."""
     host = SpiHost(Unit(dut, "spi", BLOCKS), dut, "spi")
     await host.reset()
     return host, Book()
 
 
 async def check(host: SpiHost, book: Book, bits: list[int], pace: Pace = LEGAL, what: str = "") -> None:
-    """One frame, against the book."""
+    """Send one frame and compare it with the reference model."""
     want = book.frame(bits)
     same(f"{what} {bits} at {pace}: miso", await host.frame(bits, pace), want)
     await host.wait(16)
@@ -52,14 +52,14 @@ async def check(host: SpiHost, book: Book, bits: list[int], pace: Pace = LEGAL, 
 
 
 def any_pace(rand: random.Random) -> Pace:
-    """A legal one, the fastest among them."""
+    """Return random legal times, including the shortest ones."""
     low = rand.choice((3.01, 4.0, rand.uniform(3.01, 9)))
     high = rand.choice((1.01, 4.0, rand.uniform(1.01, 9)))
     return Pace(low, high, max(low, 3.01) + rand.uniform(0, 5), rand.uniform(2.01, 9), rand.randrange(2))
 
 
 def any_word(rand: random.Random) -> int:
-    """A header; one in eight is refused."""
+    """Return a header; one in eight is invalid."""
     step = rand.choice((0, NEXT, NEXT_AXIS, NEXT | NEXT_AXIS))
     word = rand.choice((0, WRITE)) | step | rand.randrange(COUNT)
     return word | (rand.randrange(1, 8) << 10 if rand.random() < 0.12 else 0)
@@ -67,7 +67,9 @@ def any_word(rand: random.Random) -> int:
 
 @cocotb.test()
 async def spi_random_frames(dut):
-    """Given frames, cuts and legal paces at random, then accesses, miso and flags are those of the page."""
+    """For random frames, truncations and legal times, accesses, miso and flags are those of
+    docs/bank/spi.md.
+    """
     rand = rng()
     host, book = await start(dut)
     for _ in range(150):
@@ -85,7 +87,9 @@ async def spi_random_frames(dut):
 
 @cocotb.test()
 async def spi_frames_close_together(dut):
-    """Given frames, cut and refused ones among them, with cs_n high for 2 clk, then no flag is lost."""
+    """No flag is lost between frames with cs_n high for 2 cycles, truncated and rejected frames
+    included.
+    """
     rand = rng()
     host, book = await start(dut)
     for _ in range(120):
@@ -99,7 +103,7 @@ async def spi_frames_close_together(dut):
 
 @cocotb.test()
 async def spi_cut_everywhere(dut):
-    """Given a frame cut behind every bit, then nothing incomplete is written and the next one works."""
+    """If a frame is truncated after any bit, no incomplete byte is written, and the next frame works."""
     host, book = await start(dut)
     for word, data in ((WRITE | NEXT | 0x2A4, (0x5A, 0xC3, 0x81)), (NEXT | 0x2A4, (0x80, 0x80, 0x00))):
         bits = bits_of(*header(word), *data)
@@ -116,7 +120,7 @@ async def spi_cut_everywhere(dut):
 
 @cocotb.test()
 async def spi_bursts(dut):
-    """Given bursts at one address, by register, by axis, past the end, then each access has its address."""
+    """In bursts at one address, by register, by axis and past the end, each access has its address."""
     host, book = await start(dut)
     for step in (0, NEXT, NEXT_AXIS, NEXT | NEXT_AXIS):
         for address in (0x3FE, 0x3F8, 0x014, 0x000):
@@ -128,18 +132,19 @@ async def spi_bursts(dut):
 
 @cocotb.test()
 async def spi_fastest(dut):
-    """Given the fastest sck and one a little faster, at all phases to clk, then it works, and it is told."""
+    """At all phases to clk, the fastest sck works, and a slightly faster one is reported."""
     for step in range(0, 16):
         host, book = await start(dut)
         await host.wait(step / 16)
         for pace in (LEGAL, Pace(3.5, 3.5), Pace(3.0625, 3.0), Pace(3.0625, 1.0625, lead=4)):
             for word, data in ((WRITE | NEXT | 7, (0xA5, 0x3C)), (NEXT | 7, (0xFF, 0xFF, 0x00))):
                 await check(host, book, bits_of(*header(word), *data), pace)
-        # sck with low times of 2 clk: mosi is taken well, miso comes late, which the first bits show.
+        # With low times of 2 cycles, mosi is sampled correctly, but miso is late: the first bits show
+        # this.
         bits = bits_of(*header(WRITE | 0x155), 0x77)
         book.frame(bits)
         seen = await host.frame(bits, Pace(2, 2, lead=6))
-        if step:  # with none, miso would change just before the host looks
+        if step:  # at phase 0, miso would change just before the host samples it
             same(f"phase {step}/16: first bits", seen[:4], [1, 1, 0, 0])
         await host.wait(16)
         same("accesses", host.slave.accesses(), book.accesses)
@@ -149,7 +154,7 @@ async def spi_fastest(dut):
 
 @cocotb.test()
 async def spi_one_short_low_time(dut):
-    """Given one low time of sck that is too short, in whichever bit, then the next frame tells it, once."""
+    """One low time of sck that is too short, in any bit, is reported by the next frame, once."""
     host, book = await start(dut)
     for short in range(1, 32):
         await host.frame(bits_of(*header(0), 0, 0), short=short)
@@ -160,7 +165,7 @@ async def spi_one_short_low_time(dut):
 
 @cocotb.test()
 async def spi_lines_that_stand_still(dut):
-    """Given a mosi that is always 0 or always 1, or only some clk of sck, then there is no access."""
+    """If mosi is constantly 0 or 1, or sck has edges while cs_n is high, no access occurs."""
     host, _ = await start(dut)
     same("all 0", await host.talk(0, 0, 0, 0), [SIGN, 0, 0, 0])
     same("all 1", await host.talk(0xFF, 0xFF, 0xFF, 0xFF), [SIGN, 0, 0, 0])
@@ -179,7 +184,7 @@ async def spi_lines_that_stand_still(dut):
 
 @cocotb.test()
 async def spi_driver(dut):
-    """Given cs_n, then miso is driven from 3 clk at most behind its fall to 3 clk at most behind its rise."""
+    """miso is driven from at most 3 cycles after the fall of cs_n until at most 3 cycles after its rise."""
     host, _ = await start(dut)
     for level, driven in ((0, 1), (1, 0)):
         host.unit.put(cs_ni=level)

@@ -20,8 +20,8 @@ SHAPES = [  # ClkHz, XtalHz, WidthXtal, HalfXtal, HalfRates
     (8_000_000, 16_000_000, 80, 16, 3),
     (25_000_000, 8_000_000, 40, 4, 5),
 ]
-HOLDS = [(1, 0), (5, 0), (8, 0), (13, 0), (0, 3), (6, 1), (7, 9)]  # quanta, clk behind them
-HOLD_UNITS = [(2, 8), (16, 4), (512, 2)]  # quanta a unit, bits of the number of units
+HOLDS = [(1, 0), (5, 0), (8, 0), (13, 0), (0, 3), (6, 1), (7, 9)]  # quanta, cycles after them
+HOLD_UNITS = [(2, 8), (16, 4), (512, 2)]  # quanta per unit, bits of the number of units
 CHOPS = [(12, 9), (3, 6), (1, 9)]
 BLOCKS = {
     **{
@@ -109,7 +109,9 @@ BLOCKS = {
 
 @cocotb.test()
 async def base_clock_quanta(dut):
-    """Given restarts at random times, then each period ends on its quantum, the extra stretch before it."""
+    """After a restart at a random time, each period ends on its quantum; the extra time precedes the
+    first.
+    """
     rand = rng()
     for i, (fast, slow, extra) in enumerate(BASES):
         u = Unit(dut, f"base{i}", BLOCKS, "tick_o")
@@ -117,7 +119,7 @@ async def base_clock_quanta(dut):
         for _ in range(40):
             is_slow, has_extra = rand.randrange(2), rand.randrange(2)
             period, before = slow if is_slow else fast, extra if has_extra else 0
-            # The quantum of the restart itself belongs to the interval before.
+            # The quantum of the restart itself belongs to the previous interval.
             await u.clk(restart_i=1, quantum_i=rand.randrange(2), slow_i=is_slow, extra_i=has_extra)
             count = 0
             for _ in range(rand.randint(1, 4 * (before + 3 * period))):
@@ -130,7 +132,7 @@ async def base_clock_quanta(dut):
 
 @cocotb.test()
 async def rate_counter_hit(dut):
-    """Given rates, then base clock rate + 1 hits, and the half is floor((rate + 1) / 2) and later."""
+    """hit_o is asserted at base clock rate + 1, and half_o from base clock floor((rate + 1) / 2) on."""
     rand = rng()
     for bits in (8, 10):
         u = Unit(dut, f"rate{bits}", BLOCKS, "hit_o half_o")
@@ -155,7 +157,7 @@ async def rate_counter_hit(dut):
 
 @cocotb.test()
 async def rate_counter_wait(dut):
-    """Given a rate that still rises, then base clocks are passed over, or count if they can be used."""
+    """While the rate still rises, base clocks are skipped; base clocks that can be used count."""
     rand = rng()
     u = Unit(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
@@ -174,7 +176,7 @@ async def rate_counter_wait(dut):
         for number in range(count, rate + 1):
             await u.clk(restart_i=0, tick_i=0, wait_i=0, rising_i=0)
             for _ in range(2):
-                # A half that was passed over is made up for at once.
+                # A half that was skipped is asserted immediately.
                 same("no tick", await u.clk(), (0, 2 * number >= rate))
             hit, _ = await u.clk(tick_i=1)
             same(f"rate {rate}, {passed} passed over, {number + 1} counted: hit", hit, number == rate)
@@ -182,7 +184,7 @@ async def rate_counter_wait(dut):
 
 @cocotb.test()
 async def rate_counter_final_rate(dut):
-    """Given a final rate while the interval must not end yet, then the half comes, the hit is put off."""
+    """With a final rate, while the interval must not end yet, the half occurs and the hit is delayed."""
     u = Unit(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
     for rate in range(9):
@@ -199,7 +201,7 @@ async def rate_counter_final_rate(dut):
 
 @cocotb.test()
 async def ext_clock_thresholds(dut):
-    """Given periods around both thresholds, then long_o and brisk_o switch at the exact clk."""
+    """For periods around both thresholds, long_o and brisk_o switch in the exact cycle."""
     rand = rng()
     for i, (long, brisk) in enumerate(EXTERNAL):
         u = Unit(dut, f"ext{i}", BLOCKS, "rise_o fall_o long_o brisk_o")
@@ -234,7 +236,9 @@ async def ext_clock_thresholds(dut):
 
 @cocotb.test()
 async def ext_lag_sum(dut):
-    """Given the first base edge d clk after the pulse, then the interval ends LagClk - d after its hit."""
+    """If the first base edge is d cycles after the pulse, the interval ends LagClk - d cycles after its
+    hit.
+    """
     rand = rng()
     for lag in LAGS:
         u = Unit(dut, f"lag{lag}", BLOCKS, "count_o fire_o")
@@ -253,7 +257,7 @@ async def ext_lag_sum(dut):
 
 @cocotb.test()
 async def pulse_shaper_width(dut):
-    """Given pulses of all kinds, then the low time is exact: whole, half an interval, or cut."""
+    """For pulses of all kinds the low time is exact: the full time, half an interval, or cut."""
     rand = rng()
     for i, (clk, xtal, width, half, rates) in enumerate(SHAPES):
         u = Unit(dut, f"shape{i}", BLOCKS, "low_o up_o")
@@ -280,7 +284,9 @@ async def pulse_shaper_width(dut):
 
 @cocotb.test()
 async def hold_timer_quanta(dut):
-    """Given motions, then hold_o falls one clk after busy_i rises, rises one after the last clk of rest."""
+    """hold_o falls one cycle after busy_i rises, and rises one cycle after the last cycle of the rest
+    time.
+    """
     rand = rng()
     for quanta, rest in HOLDS:
         u = Unit(dut, f"hold{quanta}", BLOCKS, "hold_o")
@@ -293,7 +299,7 @@ async def hold_timer_quanta(dut):
                 same("busy", await u.clk(busy_i=1, quantum_i=rand.randrange(2)), t == 0 and hold)
             count, hold, rested = 0, 0, 0
             for t in range(rand.randint(0, 8 * quanta + rest + 4)):
-                # The rest is shorter than a quantum.
+                # The additional rest time is shorter than a quantum.
                 quantum = t > 0 and rand.random() < 0.5 and (not rest or count < quanta or hold)
                 same(
                     f"{quanta} quanta, {count} passed, clk {t}",
@@ -308,7 +314,9 @@ async def hold_timer_quanta(dut):
 
 @cocotb.test()
 async def hold_timer_units(dut):
-    """Given units that change at random, then those at the end of the motion count, each to the quantum."""
+    """The units at the end of the motion set the hold time, exact to the quantum, although units_i
+    changes at random.
+    """
     rand = rng()
     for quanta, bits in HOLD_UNITS:
         u = Unit(dut, f"units{quanta}", BLOCKS, "hold_o")
@@ -334,7 +342,7 @@ async def hold_timer_units(dut):
 
 @cocotb.test()
 async def chopper_phases(dut):
-    """Given random times that change at random, then each phase has the length set at its beginning."""
+    """With times that change at random, each phase has the length that was set at its beginning."""
     rand = rng()
     for unit, _ in CHOPS:
         u = Unit(dut, f"chop{unit}", BLOCKS, "on_o")
@@ -365,7 +373,7 @@ async def chopper_phases(dut):
 
 @cocotb.test()
 async def chopper_longest(dut):
-    """Given the longest times of the widths, then both phases have them to the quantum."""
+    """With the longest times of the widths, both phases are exact to the quantum."""
     u = Unit(dut, "chop12", BLOCKS, "on_o")
     await u.reset(on_base_i=511, off_base_i=260, on_units_i=255, off_units_i=255, quantum_i=1)
     await u.clk(run_i=0)
@@ -376,7 +384,7 @@ async def chopper_longest(dut):
 
 @cocotb.test()
 async def excitation_walks(dut):
-    """Given random walks of every motor in full and half step, then the phases are those of the model."""
+    """For random steps of every motor in full and half step, the phases are those of the model."""
     rand = rng()
     u = Unit(dut, "excitation", BLOCKS, "pattern_o")
     for phases in (3, 4, 5):
@@ -403,7 +411,7 @@ async def excitation_walks(dut):
 
 @cocotb.test()
 async def excitation_off_steps(dut):
-    """Given phases switched off, when full steps come, then no phase is energised until home_i."""
+    """After the phases were switched off, full steps energise no phase until home_i."""
     u = Unit(dut, "excitation", BLOCKS, "pattern_o")
     for motor in (1, 2, 3):
         await u.reset(motor_i=motor)
@@ -418,7 +426,7 @@ async def excitation_off_steps(dut):
 @cocotb.test()
 @cocotb.parametrize(idle=[0, 1])
 async def motor_port_pins(dut, idle):
-    """Given steps, pulses and chopping, then every pin is one clk behind and has the right polarity."""
+    """During steps, pulses and chopping, every pin follows by one cycle and has the right polarity."""
     rand, steps = rng(), step_list(5, True)
     u = Unit(dut, f"port{idle}", BLOCKS, "s_o pout_no dir_o levels_o")
     off = 0 if (positive := 1 - idle) else 31
@@ -435,7 +443,8 @@ async def motor_port_pins(dut, idle):
             home_i=0, chop_restart_i=0, busy_i=busy, step_i=step, low_i=low, ccw_i=ccw, off_i=n == 299
         )
         same(f"clk {n}: pins, levels", got, (*before, steps[index] ^ off))
-        # Phases on: always in a motion; else 3 quanta, then off 2, the first ON phase from the restart on.
+        # Phases are on during a motion; else on for 3 quanta and off for 2. The first ON phase begins at
+        # the restart.
         on = busy or (n if n < 100 else n - 200) % 5 < 3
         before = ((steps[index] if on else 0) ^ off, 1 - low, ccw)
         index = (index + (-1 if ccw else 1) * step) % len(steps)
@@ -447,10 +456,10 @@ async def motor_port_pins(dut, idle):
 def guard(
     p: dict[str, int], flagged: int, variant: int = 0
 ) -> tuple[int, int, int, tuple[int, int, int, int]]:
-    """slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle.
+    """Return slow_seen, stop, forced and the causes (stop, alarm, limit, slow) of one cycle.
 
-    variant 1: slow-down limits always count, and deceleration at the start-up rate ends at once.
-    variant 2: and a slow-down limit ends a search for the origin.
+    Variant 1: slow-down limits always count, and a deceleration at the start-up rate ends immediately.
+    Variant 2: in addition, a slow-down limit ends an origin search.
     """
     limit = p["limit_ccw"] if p["ccw"] else p["limit_cw"]
     slow = p["slow_ccw"] if p["ccw"] else p["slow_cw"]
@@ -473,7 +482,7 @@ PLAIN = ("armed", "top", "crawl", "dec", "halt", "decel", "slow")
 
 
 def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
-    """Input pin (structures packed) that holds the level called `name`."""
+    """Return the input pin (structures packed) that holds the level called `name`, with its value."""
     for pin, names in (("op_i", OP), ("switches_i", SWITCHES)):
         if name in names:
             return {pin: sum(p[key] << (len(names) - 1 - n) for n, key in enumerate(names))}
@@ -483,10 +492,10 @@ def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
 @cocotb.test()
 @cocotb.parametrize(flagged=[0, 1], variant=[0, 1, 2])
 async def stop_guard_truth_table(dut, flagged, variant):
-    """Given every combination of levels, then stop, forced and slow_seen are those of a plain function.
+    """For every combination of levels, stop, forced and slow_seen are those of a plain function.
 
-    In a clk of stop the other two say nothing: there is no pulse that could use them, and what is kept of
-    them is asked in stop_guard_causes.
+    In a cycle of stop the other two are ignored, because no pulse can use them. stop_guard_causes
+    checks what is stored.
     """
     u = Unit(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
     await u.reset()
@@ -497,7 +506,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
     p = dict.fromkeys((*OP, *SWITCHES, *PLAIN), 0)
     await u.settle(armed_i=0, op_i=0, decel_i=0)
     same("flagged", u.get("flagged_o"), flagged)
-    # One level changes at a time (Gray code): one write a combination.
+    # One level changes at a time (Gray code): one write per combination.
     for n in range(1, 2 ** len(names) + 1):
         got, want = await u.settle(), guard(p, flagged, variant)[:3]
         if got[1] != want[1] or (not want[1] and got != want):
@@ -511,7 +520,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
 @cocotb.test()
 @cocotb.parametrize(variant=[0, 1, 2])
 async def stop_guard_causes(dut, variant):
-    """Given random levels clk by clk, then the causes and the request are kept until they are cleared."""
+    """With random levels in every cycle, the causes and the request are kept until they are cleared."""
     rand = rng()
     u = Unit(dut, f"guard{variant}", BLOCKS, "flagged_o cause_o")
     await u.reset()
@@ -536,7 +545,7 @@ async def stop_guard_causes(dut, variant):
 
 @cocotb.test()
 async def pulse_counter(dut):
-    """Given pulses of both directions and clears, then falls of pout_n are counted, modulo 16."""
+    """The counter counts falls of pout_n in both directions, modulo 16, between random clears."""
     rand = rng()
     u = Unit(dut, "count", BLOCKS, "count_o")
     await u.reset(pout_ni=1)

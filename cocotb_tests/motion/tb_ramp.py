@@ -38,7 +38,7 @@ BLOCKS = {
         " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
-    # One bit more than the table's words, for the longest ramp that these can hold.
+    # One bit more than the words of the table, for the longest ramp that they can hold.
     "wide": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
@@ -62,7 +62,7 @@ CORNERS = [
 
 
 def threshold(slow: int, fast: int, steps: int, r: int) -> int:
-    """First step with a rate below r, by bisection over the model's exact rates."""
+    """Return the first step with a rate below r, by bisection over the exact rates of the model."""
     low, high = 0, steps  # rate(high) < r <= rate(low)
     while high - low > 1:
         middle = (low + high) // 2
@@ -74,12 +74,12 @@ def threshold(slow: int, fast: int, steps: int, r: int) -> int:
 
 
 def table(slow: int, fast: int, steps: int) -> dict[int, int]:
-    """The whole table, r -> thr(r), and PA where the ramp ends."""
+    """Return the complete table, r -> thr(r), and PA at the rate where the ramp ends."""
     return {fast: steps, **{r: threshold(slow, fast, steps, r) for r in range(fast + 1, slow + 1)}}
 
 
 def triples(rand: random.Random, bits: int, count: int) -> list[tuple[int, int, int]]:
-    """Corners, the longest ramp of this width, and random ones, small steps preferred."""
+    """Return corner cases, the longest ramps of this width, and random ramps, mostly short ones."""
     top = 11_220 if bits == 14 else 65_535
     found = [*CORNERS, (255, 0, top), (255, 254, top), (200, 3, top)]
     while len(found) < len(CORNERS) + 3 + count:
@@ -89,7 +89,9 @@ def triples(rand: random.Random, bits: int, count: int) -> list[tuple[int, int, 
 
 
 async def _build(u: Unit, slow: int, fast: int, steps: int) -> tuple[dict[int, int], int]:
-    """One build under a free running clock: (what was written, clk from the start to the fall of busy_o)."""
+    """Build one table with a free-running clock; return (words written, cycles from the start to the
+    fall of busy_o).
+    """
     busy, enable = u.pins["busy_o"], u.pins["we_o"]
     await u.clk(start_i=1, slow_i=slow, fast_i=fast, steps_i=steps)
     same("busy_o after the start", await u.settle(start_i=0), 1)
@@ -115,7 +117,7 @@ async def _build(u: Unit, slow: int, fast: int, steps: int) -> tuple[dict[int, i
 @cocotb.test()
 @cocotb.parametrize(bits=[14, 16])
 async def ramp_builder_exact(dut, bits):
-    """Given corner and random ramps, then every threshold is exact and no build is too long."""
+    """For corner-case and random ramps, every threshold is exact and no build exceeds its maximum time."""
     u = Unit(dut, f"build{bits}", BLOCKS, "busy_o", Unit.FREE)
     await u.reset()
     longest = 0
@@ -132,7 +134,9 @@ async def ramp_builder_exact(dut, bits):
 
 @cocotb.test()
 async def ramp_table_read(dut):
-    """Given a built table, then thr(r) stands two clk after its address, the ramp beside it; again."""
+    """From a built table, thr(r) is valid two cycles after its address, together with the ramp; this
+    also holds after further builds.
+    """
     u = Unit(dut, "table", BLOCKS, "busy_o data_o slow_o fast_o steps_o")
     await u.reset()
     for slow, fast, steps in ((40, 5, 300), (30, 22, 9), (77, 77, 100)):
@@ -150,13 +154,13 @@ async def ramp_table_read(dut):
 
 
 def build_clk(slow: int, fast: int) -> int:
-    """Clk from start_i to the fall of busy_o of ppmc_ramp_tables with a free builder."""
+    """Return the cycles from start_i to the fall of busy_o of ppmc_ramp_tables with a free builder."""
     return 1955 + 136 * (slow - fast)
 
 
 @cocotb.test()
 async def ramp_tables_shared(dut):
-    """Given two axes that ask for ramps at random times, then each gets its own, one after the other."""
+    """If two axes request ramps at random times, each gets its own, one after the other."""
     rand = rng()
     u = Unit(dut, "tables", BLOCKS, "busy_o data_o")
     await u.reset()
@@ -176,7 +180,7 @@ async def ramp_tables_shared(dut):
         due[first] = build_clk(*ramps[first][:2])
         if case % 4 < 3:
             other = 1 - first
-            if gap == 0:  # both on one edge: axis 1 goes first
+            if gap == 0:  # both on one edge: axis 1 is first
                 first, other, start = 0, 1, {0: 3}
                 due[first] = build_clk(*ramps[first][:2])
             else:
@@ -199,16 +203,16 @@ async def ramp_tables_shared(dut):
 
 
 class Walker:
-    """The sequencer with a look-up table that answers two clk after the address."""
+    """The sequencer with a look-up table that returns data two cycles after the address."""
 
     def __init__(self, u: Unit, slow: int, fast: int, steps: int, blank: int = 0x2AAA) -> None:
-        """blank: what the table says of rates that it does not have."""
+        """Set the ramp. `blank` is the data for rates that the table does not contain."""
         self.u, self.ramp, self.blank = u, (slow, fast, steps), blank
         self.lut = table(slow, fast, steps)
         self.asked = deque([0, 0])
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
-        """One clk; returns the watched outputs before it."""
+        """Make one cycle and return the watched outputs before it."""
         answer = self.lut.get(self.asked.popleft(), self.blank)
         out = await self.u.settle(lut_data_i=answer, **inputs)
         self.asked.append(self.u.get("lut_addr_o"))
@@ -216,7 +220,9 @@ class Walker:
         return out
 
     async def move(self, rand: random.Random, n: int, forced_at: int) -> None:
-        """n pulses, deceleration asked for at pulse forced_at (0: before pulse 1; above n: never)."""
+        """Make n pulses; deceleration is requested at pulse forced_at (0: before pulse 1; above n:
+        never).
+        """
         slow, fast, steps = self.ramp
         where = f"{self.ramp}, {n} pulses, forced at {forced_at}"
         self.u.put(slow_i=slow, fast_i=fast, ramp_i=1, forced_i=0)
@@ -269,7 +275,7 @@ class Walker:
 
 @cocotb.test()
 async def ramp_seq_walks(dut):
-    """Given random ramps, pulse counts and stop moments, then rates and counts are those of the model."""
+    """For random ramps, pulse counts and stop times, rates and counts are those of the model."""
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
@@ -283,7 +289,7 @@ async def ramp_seq_walks(dut):
 
 @cocotb.test()
 async def ramp_seq_longest(dut):
-    """Given the longest ramp that the table's words can hold, then it is walked up, held and walked down."""
+    """A move on the longest ramp of the table accelerates, holds its speed and decelerates correctly."""
     rand = rng()
     u = Unit(dut, "wide", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
@@ -294,7 +300,7 @@ async def ramp_seq_longest(dut):
 
 @cocotb.test()
 async def ramp_seq_constant(dut):
-    """Given constant speed and single steps, then the rate is the one loaded, the count runs to its end."""
+    """For constant speed and single steps, the rate is the loaded one and the count runs to its end."""
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset(slow_i=200, fast_i=10, ramp_i=0)

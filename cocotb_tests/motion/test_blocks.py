@@ -1,4 +1,4 @@
-"""Unit tests of the blocks of rtl/motion, one simulation each."""
+"""Unit tests of the blocks of rtl/motion, one simulation per test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The PPMC-104 on a bench: what its pins mean. Pins and levels are those of the golden model."""
+"""Test bench of the PPMC-104: the meaning of its pins. Pins and levels are those of the golden model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `make bench` plays to count clk: table builds and commands with their answers, at the pins."""
+"""Measurements of `make bench` in cycles: table builds, and commands with their answers, at the pins."""
 
 from __future__ import annotations
 
@@ -21,7 +21,9 @@ AUX_ON, AUX_OFF = 0xC1, 0xC2
 
 
 async def build(host: HostBus, ramp: tuple[int, int, int]) -> int:
-    """clk from the end of the last data byte's strobe until a command that waits is carried out."""
+    """Return the cycles from the end of the strobe of the last data byte until a waiting command is
+    executed.
+    """
     bench, (slow, fast, pulses) = host.bench, ramp
     await host.send(INIT, [slow, fast, pulses & 0xFF])
     begin = await host.data(pulses >> 8, poll=False)
@@ -34,7 +36,9 @@ async def build(host: HostBus, ramp: tuple[int, int, int]) -> int:
 
 @cocotb.test()
 async def count_costs(dut: Any) -> None:
-    """Given a reset chip, when it is initialised and asked, then how many clk it takes is written down."""
+    """The cycles of initialisations and of commands with answers after a reset are written to
+    costs.json.
+    """
     host = HostBus(await Bench.start(dut, PPMC104))
     found = {name: await build(host, ramp) for name, ramp in RAMPS.items()}
     for name, (code, count) in ANSWERS.items():

@@ -1,4 +1,6 @@
-"""What `make demo` plays: a host that initialises a PPMC-104, makes two moves and lets the motor rest."""
+"""The stimulus of `make demo`: a host that initialises a PPMC-104 and makes two moves, followed by a
+standstill.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +13,13 @@ from cocotb_tests.harness.sessions import Story
 
 from .bench import PPMC104
 
-# 4-phase motor, full step, high level = coil on, internal clock, phases chopped at rest.
+# 4-phase motor, full step, high level = coil on, internal clock, phases chopped at standstill.
 INIT = 0x2A
 SLOW, FAST, RAMP = 199, 19, 250  # 2.5 kpps to 25 kpps within 250 pulses
 ACC_DEC, CONTINUOUS = 0x43, 0x45
 RATE = 49  # 10 kpps
 PULSES_TO_LIMIT = 60
-INTERRUPT_LATENCY = 800  # clk, 50 us: a host of its time was not faster
+INTERRUPT_LATENCY = 800  # cycles, 50 us: the time that a host of that time needed
 
 
 async def results(host: HostBus) -> None:
@@ -33,7 +35,7 @@ async def results(host: HostBus) -> None:
 
 @cocotb.test()
 async def demo_move(dut: Any) -> None:
-    """Given a reset chip, when a host moves 1000 pulses and then runs into L1, then all of it is recorded."""
+    """A host that moves 1000 pulses and then runs into L1 is recorded from reset to the end."""
     bench = await Bench.start(dut, PPMC104)
     host = HostBus(bench)
     story = Story(bench)
@@ -43,7 +45,7 @@ async def demo_move(dut: Any) -> None:
     with story.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
-        # The table build keeps this one in the buffer: IBF tells when the chip is ready.
+        # The table build keeps this command in the buffer: IBF indicates when the chip is ready.
         await host.fetch(0x82)
     with story.chapter("move", "1000 pulses with ramps"):
         await host.move(ACC_DEC, 1000)

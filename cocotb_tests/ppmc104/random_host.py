@@ -1,7 +1,9 @@
-"""Random hosts for the PPMC-104: a seed becomes a plain list of actions, made before the simulation starts.
+"""Constrained-random hosts for the PPMC-104: a seed becomes a list of actions before the simulation
+starts.
 
-`scenario(seed)` is pure: same seed, same configuration and same actions. `random_player` carries the list
-out on a bench; the actions are those of `common.player` and ("finish", clk).
+`scenario(seed)` is a pure function: the same seed yields the same configuration and the same actions.
+`random_player` executes the list on a test bench; the actions are those of `common.player` and
+("finish", cycles).
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.harness.random_host import HostWriter
 
-# The builds of the random tests with their weights; DATASHEET runs are few because they are long.
+# The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
 DATASHEET_WEIGHTS: list[tuple[Config, int]] = [(D16, 7), (D11, 4), (D25X8, 3)]
 
@@ -24,12 +26,12 @@ READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x85, 1))
 
 
 def scenario(seed: int) -> Scenario:
-    """The scenario of a seed (any int)."""
+    """Return the scenario of a seed (any int)."""
     return _Writer(seed).make()
 
 
 class _Writer(HostWriter):
-    """Builds one scenario; every random decision comes from one generator in one order."""
+    """Builds one scenario; one generator makes all random decisions in one order."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("ppmc104", seed, WEIGHTS, DATASHEET_WEIGHTS)
@@ -53,7 +55,7 @@ class _Writer(HostWriter):
             self.add("fetch", code, count)
         self.add("wait", rng.choice((50, 3_000)))
         if rng.random() < 0.03 and not self.external and self.config.clk_hz <= 16_000_000:
-            self.add("wait", self.config.cyc(544_000))  # let the hold timer run out
+            self.add("wait", self.config.cyc(544_000))  # the hold timer expires
         pins = {}
         if rng.random() < 0.4:
             pins = {"csel": rng.getrandbits(1), "vsel": rng.getrandbits(1), "auxi": rng.getrandbits(4)}
@@ -62,13 +64,13 @@ class _Writer(HostWriter):
         )
 
     def clock(self) -> ExternalClock:
-        """Programme of the clock pin, if this host uses it."""
+        """Return the waveform of the clock pin, if this host uses it."""
         return random_clock(self.rng, self.scale, CLOCK_PERIODS) if self.external else ExternalClock()
 
     # ------------------------------------------------------------ set-up commands
 
     def ramp(self) -> tuple[int, int, int]:
-        """Legal (RL, RH, PA), mostly small and quick ones."""
+        """Return a legal (RL, RH, PA); most are small and build quickly."""
         rng = self.rng
         kind = rng.random()
         if kind < 0.65:
@@ -100,7 +102,7 @@ class _Writer(HostWriter):
             self.add("send", self.init_code(), data)
         else:
             self.blind([(1, self.init_code()), *((0, byte) for byte in data)])
-        if rng.random() < 0.3:  # a byte that meets the table build
+        if rng.random() < 0.3:  # bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))
@@ -158,7 +160,9 @@ class _Writer(HostWriter):
             self.add("pins", dict.fromkeys(LIMIT_PINS, 1))
 
     def parameters(self, code: int) -> list[int]:
-        """Data bytes of an operation: short moves, small rates; now and then too few or too many."""
+        """Return the data bytes of an operation: short moves, small rates, sometimes too few or too
+        many bytes.
+        """
         rng, kind = self.rng, code & 7
         n = rng.choice((1, 1, 2, 3, 4, 5, 7, 8, 9, 10, 13, 21, 22, 30, 60, 1000))
         if rng.random() < 0.02:
@@ -172,7 +176,7 @@ class _Writer(HostWriter):
         return data
 
     def disturb(self) -> None:
-        """Something that happens during a motion."""
+        """Add an action that happens during a motion."""
         rng = self.rng
         self.add("wait", self.clk(1, 4_000))
         rng.choices(

@@ -13,5 +13,5 @@ CODES = (
 
 
 def noise(bench: Bench) -> Noise:
-    """The noise of this bench's seed."""
+    """Return the noise for the seed of this test bench."""
     return Noise(bench, STROBES, CODES)

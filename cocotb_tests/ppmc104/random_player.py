@@ -1,4 +1,4 @@
-"""Carries out the action list of `random_host` on a bench."""
+"""Player for the action lists of `random_host` on a test bench."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`Sheet`: a `Lab` for the DATASHEET timing model, with the measurements its tests are made of."""
+"""`Sheet`: a `Lab` for the DATASHEET timing model, with the measurements of its tests."""
 
 from __future__ import annotations
 
@@ -7,26 +7,28 @@ from cocotb_tests.harness import BUSY, IBF
 from .lab import WRITE_EVENT, Lab
 
 TOLERANCE = 16
-# A pin may follow the internal event by up to 2 clk (P104-HSK-03).
+# A pin may follow the internal event by up to 2 cycles (P104-HSK-03).
 PIN = 2
 # XTAL cycles of one us at 16 MHz (P104-GEN-02).
 US = 16
 
 
 class Sheet(Lab):
-    """`Lab` with the two measurements all these tests are made of."""
+    """`Lab` with the measurements that all these tests use."""
 
     def after(self, rule: str, what: str, got: int, xtal_cycles: int, pin: int = PIN) -> None:
-        """`got` clk is CYC(xtal_cycles), -0/+16, plus the way to the pin."""
+        """Check that `got` cycles are CYC(xtal_cycles), -0/+16, plus the delay to the pin."""
         nominal = self.cfg.cyc(xtal_cycles)
         self.window(rule, what, got, nominal, nominal + TOLERANCE + pin)
 
     async def event(self, code: int, n: int | None = None, rate: int | None = None) -> int:
-        """Start an operation; returns the write event of its last byte."""
+        """Start an operation; return the write event of its last byte."""
         return await self.go(code, n, rate, poll=False) + WRITE_EVENT
 
     async def opens(self, rule: str, since: int, xtal_cycles: int, code: int = 0xC1) -> int:
-        """A command written now is taken `xtal_cycles` after `since`, and not before; returns that edge."""
+        """Check that a command written now is accepted `xtal_cycles` after `since` and not before;
+        return that edge.
+        """
         nominal = since + self.cfg.cyc(xtal_cycles)
         await self.host.command(code, poll=False)
         await self.bench.until(max(self.bench.now, nominal - 20))
@@ -39,13 +41,15 @@ class Sheet(Lab):
         return self.bench.now
 
     def full_on_phase(self, rule: str, start: int, off: int, slack: int = 0) -> None:
-        """The first OFF phase begins a default ON phase after `start`, within 1 quantum (P104-SW-06)."""
+        """Check that the first OFF phase begins a default ON phase after `start`, within 1 quantum
+        (P104-SW-06).
+        """
         nominal, quantum = self.cfg.quanta(260), self.cfg.quanta(1) + 1
         low, high = nominal - quantum, nominal + quantum + PIN + slack
         self.window(rule, "start of chopping to the first OFF phase", off - start, low, high)
 
     async def rest(self) -> None:
-        """Let all closed times and the INT of an operation pass."""
+        """Wait until all processing windows are closed, and release the INT of an operation."""
         await self.host.poll(BUSY | IBF, 0)
         await self.finish()
         await self.bench.clocks(self.cfg.us(14) + 40)

@@ -1,5 +1,5 @@
-"""Puts the core into each state of the state table and keeps it there, by clocking it from outside
-by hand.
+"""Puts the core into each state of the state table and keeps it there, by controlling each edge of an
+external clock.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ async def fresh(lab: Lab) -> None:
 
 
 async def enter(lab: Lab, state: str, ramp_code: int = 0x43, constant_code: int = 0x44) -> None:
-    """From reset into `state`; moving states stay until more clock edges come.
+    """Reset and enter `state`; a moving state stays until more clock edges follow.
 
-    FIN lasts only the W clk of the last low time: use it at once. Raises KeyError for an unknown state.
+    FIN lasts only the W cycles of the last low time: use it immediately. Raises KeyError for an unknown
+    state.
     """
     await fresh(lab)
     if state == "UNINIT":

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-45 to AC-60: stimulus and figures as the acceptance table gives them."""
+"""Black-box acceptance checks AC-45 to AC-60: stimulus and values as in the acceptance table."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ A_DATA = (9, 4, 4)
 
 @directed("AC-45", "P104-SW-01", "P104-SW-03", "P104-SW-04", "P104-SW-05", "P104-SW-06", "P104-SW-07")
 async def p104_ac_45_chopping(dut):
-    """Given S = 1, when parameters and vsel change,
-    then the chopper follows; a step sees the full pattern.
+    """With S = 1, the chopper follows the parameters and vsel; a step switches to the full pattern
+    (AC-45).
     """
     lab = await Lab.start(dut, (0x2A, *A_DATA))
     on, off = 0b00011, 0b00000
@@ -46,7 +46,7 @@ async def p104_ac_45_chopping(dut):
 
 @directed("AC-46", "P104-SW-02", "P104-SW-04")
 async def p104_ac_46_chopper_starts_with_on(dut):
-    """Given S = 1, when a single step ends, then the first OFF phase begins 1040 clk later."""
+    """With S = 1, the first OFF phase begins 1040 cycles after the end of a single step (AC-46)."""
     lab = await Lab.start(dut, (0x2A, *A_DATA))
     await lab.go(0x42)
     end = await lab.ended()
@@ -56,7 +56,7 @@ async def p104_ac_46_chopper_starts_with_on(dut):
 
 @directed("AC-47", "P104-INI-08")
 async def p104_ac_47_chopping_ends(dut):
-    """Given S = 1, when a re-init with S = 0 completes, then chopping ends with the pattern on."""
+    """A re-initialisation with S = 0 ends the chopping at its completion, with the pattern on (AC-47)."""
     lab = await Lab.start(dut, (0x2A, *A_DATA))
     await lab.bench.edge("s", 0)
     await lab.init(*INIT_A)
@@ -69,7 +69,7 @@ async def p104_ac_47_chopping_ends(dut):
 
 @directed("AC-48", "P104-END-08")
 async def p104_ac_48_hold(dut):
-    """Given single steps 20 ms apart, when the second has rested 34 ms, then hold rises."""
+    """Of two single steps 20 ms apart, hold rises 34 ms after the second (AC-48)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x42)
     first = lab.pulses[0]
@@ -85,7 +85,7 @@ async def p104_ac_48_hold(dut):
 
 @directed("AC-48", "P104-END-08")
 async def p104_ac_48_hold_after_one_step(dut):
-    """Given one single step, when 34 ms have passed, then hold rises."""
+    """hold rises 34 ms after one single step (AC-48)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x42)
     rise = await lab.bench.edge("hold", 1)
@@ -94,7 +94,9 @@ async def p104_ac_48_hold_after_one_step(dut):
 
 @directed("AC-49", "P104-EX-08", "P104-INT-03", "P104-INT-04")
 async def p104_ac_49_external_clock(dut):
-    """Given external clocks, when rate 9 runs with vsel 1 and 0, then 640, 760, 1600 and 1400 clk."""
+    """With external clocks and rate 9, intervals are 640, 760, 1600 or 1400 cycles, depending on period
+    and vsel (AC-49).
+    """
     lab = await Lab.start(dut, (0x1A, *A_DATA))
     cases = ((64, 1, 640), (64, 0, 760), (160, 0, 1600), (160, 1, 1600), (128, 0, 1400))
     for period, vsel, expected in cases:
@@ -117,7 +119,7 @@ async def p104_ac_49_external_clock(dut):
 
 @directed("AC-50", "P104-TIM-03", "P104-BAD-13")
 async def p104_ac_50_external_clock_missing(dut):
-    """Given a stopped clock, when a move starts, then it waits with BUSY = 1 until 0x40."""
+    """If the external clock is stopped, a move waits with BUSY = 1 until 0x40 ends it (AC-50)."""
     lab = await Lab.start(dut, (0x1A, *A_DATA))
     await lab.go(0x44, 10, rate=9)
     await lab.bench.clocks(16_000)
@@ -128,7 +130,9 @@ async def p104_ac_50_external_clock_missing(dut):
 
 @directed("AC-51", "P104-BCK-03", "P104-EX-12", builds=(F11,))
 async def p104_ac_51_no_drift(dut):
-    """Given CLK_HZ = 11 059 200, when 1001 pulses run at rate 0, then each lies where the formula says."""
+    """With CLK_HZ = 11 059 200, each of 1001 pulses at rate 0 is on the edge that the formula states
+    (AC-51).
+    """
     lab = await Lab.start(dut, INIT_A)
     pulses = await lab.move(0x44, 1001, rate=0)
     got = [t - pulses[0] for t in pulses]
@@ -139,13 +143,13 @@ async def p104_ac_51_no_drift(dut):
 
 @directed("AC-52", "P104-HSK-01", "P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_ac_52_init_time(dut):
-    """Given DATASHEET, when C1 and C2 are written into the closed mailbox,
-    then only C2 is taken, at 16.5 ms.
+    """In DATASHEET, if C1 and C2 are written while the mailbox is closed, only C2 is accepted, 16.5 ms
+    after the initialisation (AC-52).
     """
     lab = await Lab.start(dut, None)
     await lab.host.run("c 0A d 09 d 04 d 04")
     event = await lab.host.data(0x00, poll=False) + 2
-    # The status right after the byte: taken at once, the mailbox closed behind it.
+    # The status directly after the byte: it is accepted immediately, and the mailbox closes after it.
     await lab.host.poll(IBF, 0)
     await lab.host.command(0xC1, poll=False)
     await lab.host.command(0xC2, poll=False)
@@ -160,8 +164,8 @@ async def p104_ac_52_init_time(dut):
 
 @directed("AC-53", "P104-DS-03", "P104-DS-04", "P104-DS-07", builds=(D16,))
 async def p104_ac_53_constant_speed_times(dut):
-    """Given DATASHEET, when 0x44 runs 3 pulses,
-    then BUSY, pulse 1, INT and the next command keep their times.
+    """In DATASHEET, BUSY, pulse 1, INT and the next command of a 0x44 with 3 pulses occur at their
+    documented times (AC-53).
     """
     lab = await Lab.start(dut, INIT_A)
     lab.since = lab.bench.now
@@ -187,7 +191,7 @@ async def p104_ac_53_constant_speed_times(dut):
 
 @directed("AC-54", "P104-DS-06", builds=(D16,))
 async def p104_ac_54_single_step_times(dut):
-    """Given DATASHEET, when 0x42 is written, then the pulse comes at 86 us and INT at 112 us."""
+    """In DATASHEET, the pulse of 0x42 occurs after 86 us and INT after 112 us (AC-54)."""
     lab = await Lab.start(dut, INIT_A)
     event = await lab.go(0x42, poll=False) + 2
     lab.window("AC-54", "pulse", await lab.pulse(1) - event, 1376, 1392)
@@ -196,7 +200,9 @@ async def p104_ac_54_single_step_times(dut):
 
 @directed("AC-55", "P104-DS-05", builds=(D16,))
 async def p104_ac_55_ramp_times(dut):
-    """Given DATASHEET, when trapezoids and triangles start, then pulse 1 comes at its own time."""
+    """In DATASHEET, pulse 1 of trapezoidal and triangular profiles occurs at its documented time
+    (AC-55).
+    """
     lab = await Lab.start(dut, INIT_B)
     for n, low in ((1000, 3200), (10, 3276), (20, 3353), (21, 3200)):
         event = await lab.go(0x43, n, poll=False) + 2
@@ -208,7 +214,7 @@ async def p104_ac_55_ramp_times(dut):
 
 @directed("AC-56", "P104-DS-12", builds=(D16,))
 async def p104_ac_56_too_fast_for_commands(dut):
-    """Given DATASHEET and 20 us intervals, when C1 comes, then it waits for the end; 0x40 does not."""
+    """In DATASHEET with 20 us intervals, C1 waits for the end of the move; 0x40 does not wait (AC-56)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 100, rate=9)
     await lab.pulse(20, 10)
@@ -228,7 +234,7 @@ async def p104_ac_56_too_fast_for_commands(dut):
 
 @directed("AC-57", "P104-BAD-19")
 async def p104_ac_57_reset_in_motion(dut):
-    """Given a running move, when rst_n falls between two clk edges, then all outputs are at reset levels."""
+    """When rst_n falls between two edges during a move, all outputs take their reset levels (AC-57)."""
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
     await lab.host.run("c C1 c 86 d 0F")
@@ -249,7 +255,7 @@ async def p104_ac_57_reset_in_motion(dut):
 
 @directed("AC-58", "P104-BUS-02")
 async def p104_ac_58_both_strobes(dut):
-    """Given both strobes low together, when they end together, then there was no access."""
+    """If both strobes are low together and end together, no access takes place (AC-58)."""
     lab = await Lab.start(dut, None)
     before = await lab.host.command(0x86)
     await lab.bench.clocks(4)
@@ -264,7 +270,7 @@ async def p104_ac_58_both_strobes(dut):
 
 @directed("AC-59", "P104-OPR-06", "P104-TIM-02")
 async def p104_ac_59_single_step_needs_no_clock(dut):
-    """Given a stopped external clock, when 0x42 starts, then its pulse comes all the same."""
+    """The pulse of 0x42 occurs even if the external clock is stopped (AC-59)."""
     lab = await Lab.start(dut, (0x1A, *A_DATA))
     await lab.move(0x42)
     lab.window("AC-59", "hold fall to pulse", lab.pulses[0] - lab.bench.falls("hold")[0], 80, 82)
@@ -275,7 +281,9 @@ async def p104_ac_59_single_step_needs_no_clock(dut):
 
 @directed("AC-60", "P104-TIM-05", "P104-END-02")
 async def p104_ac_60_limit_in_short_low_time(dut):
-    """Given rate 0, when L1 falls 2 clk after pulse 10, then that pulse keeps its 16 clk and is the last."""
+    """If L1 falls 2 cycles after pulse 10 at rate 0, this pulse keeps its 16 cycles and is the last one
+    (AC-60).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 100, rate=0)
     await lab.pulse(10, 2)

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-01 to AC-24: stimulus and figures as the acceptance table gives them."""
+"""Black-box acceptance checks AC-01 to AC-24: stimulus and values as in the acceptance table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
 
 
 def kind_of(code: int) -> str:
-    """What a command code is, from the code map alone (P104-CMD-01)."""
+    """Return the kind of a command code; it follows from the code map alone (P104-CMD-01)."""
     low = code & 7
     if code < 0x40:
         return "init" if code & 3 else "undefined"
@@ -25,7 +25,7 @@ def kind_of(code: int) -> str:
 
 
 async def stopped_after_ten(lab: Lab) -> None:
-    """The stimulus of AC-20: 1000 pulses at rate 99, stopped 400 clk after the tenth."""
+    """Run the stimulus of AC-20: 1000 pulses at rate 99, stopped 400 cycles after the tenth."""
     await lab.go(0x44, 1000, rate=0x63)
     await lab.pulse(10, 400)
     await lab.host.run("c 40")
@@ -34,7 +34,7 @@ async def stopped_after_ten(lab: Lab) -> None:
 
 @directed("AC-01", "P104-PORT-01", "P104-PORT-03", "P104-STA-07")
 async def p104_ac_01_reset_levels(dut):
-    """Given a reset, when it ends, then all outputs, status and data register have their reset values."""
+    """After reset, all outputs, the status and the data register have their reset values (AC-01)."""
     lab = await Lab.start(dut, None)
     expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
     lab.check("AC-01", "outputs", lab.outputs(), expected)
@@ -45,7 +45,7 @@ async def p104_ac_01_reset_levels(dut):
 
 @directed("AC-02", "P104-BUS-05")
 async def p104_ac_02_read_strobe(dut):
-    """Given a status read of 6 clk, when it runs, then d_oe and d_o keep to their windows."""
+    """During a status read of 6 cycles, d_oe and d_o change within their windows (AC-02)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     first = bench.set(a0=STATUS, cs_n=0, rd_n=0)
@@ -60,7 +60,7 @@ async def p104_ac_02_read_strobe(dut):
 
 @directed("AC-03", "P104-ERR-01", "P104-FSM-01")
 async def p104_ac_03_not_initialised(dut):
-    """Given a core after reset, when operations and stops come, then error 2 or 0 and nothing moves."""
+    """Before initialisation, operations return error 2 and stops error 0, and nothing moves (AC-03)."""
     lab = await Lab.start(dut, None)
     got = await lab.statuses("c 42 c 40 c 41 c 46 c C3 d 00")
     lab.check("AC-03", "statuses", got, [0xA0, 0x80, 0x80, 0xA0, 0xA0, 0xB0])
@@ -71,9 +71,7 @@ async def p104_ac_03_not_initialised(dut):
 
 @directed("AC-04", "P104-CMD-01", "P104-CMD-03", "P104-STA-06")
 async def p104_ac_04_all_codes(dut):
-    """Given a reset before each of the 256 codes, when the code is sent,
-    then the status is as its kind says.
-    """
+    """Each of the 256 codes, sent after a reset, sets the status of its kind (AC-04)."""
     lab = await Lab.start(dut, None)
     status = {"undefined": 0x80, "stop": 0x80, "operation": 0xA0, "init": 0x40, "switching": 0x20}
     status |= {"aux": 0x10, "read": 0x01, "on": 0x00, "off": 0x00}
@@ -89,7 +87,7 @@ async def p104_ac_04_all_codes(dut):
 
 @directed("AC-05", "P104-INI-02", "P104-STA-05")
 async def p104_ac_05_init_counts_down(dut):
-    """Given init A, when its bytes go in, then NUM counts 4, 3, 2, 1, 0."""
+    """NUM counts 4, 3, 2, 1, 0 during the bytes of initialisation A (AC-05)."""
     lab = await Lab.start(dut, None)
     got = await lab.statuses(f"c 0A {A_DATA}")
     lab.check("AC-05", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
@@ -97,7 +95,7 @@ async def p104_ac_05_init_counts_down(dut):
 
 @directed("AC-06", "P104-INI-05", "P104-RD-06")
 async def p104_ac_06_first_pattern(dut):
-    """Given init A, when it is accepted, then s shows index 0 and 0x82 reads it."""
+    """When initialisation A is accepted, s has pattern 0, and 0x82 returns it (AC-06)."""
     lab = await Lab.start(dut, None)
     await lab.host.run(f"c 0A {A_DATA}")
     lab.check("AC-06", "s", lab.bench.level("s"), 0b00011)
@@ -106,7 +104,7 @@ async def p104_ac_06_first_pattern(dut):
 
 @directed("AC-07", "P104-PHS-01")
 async def p104_ac_07_negative_logic(dut):
-    """Given negative logic, when initialised, then s is inverted and 0x82 shows the pin levels."""
+    """With negative logic, s is inverted, and 0x82 returns the pin levels (AC-07)."""
     lab = await Lab.start(dut, None)
     await lab.host.run(f"c 02 {A_DATA}")
     lab.check("AC-07", "s", lab.bench.level("s"), 0b11100)
@@ -115,14 +113,14 @@ async def p104_ac_07_negative_logic(dut):
 
 @directed("AC-08", "P104-RD-06", "P104-PHS-02", "P104-RD-05")
 async def p104_ac_08_reads_after_reset(dut):
-    """Given a core after reset, when the registers are read, then 0xFC, 0xCF, 0x00."""
+    """After reset, the registers return 0xFC, 0xCF and 0x00 (AC-08)."""
     lab = await Lab.start(dut, None)
     lab.check("AC-08", "reads", await lab.host.run("c 82 r c 81 r c 80 r"), [0xFC, 0xCF, 0x00])
 
 
 @directed("AC-09", "P104-EX-01", "P104-PRO-02")
 async def p104_ac_09_trapezoid(dut):
-    """Given init A, when 14 pulses are asked for, then the trapezoid of EX-01 comes out."""
+    """With initialisation A, 14 pulses have the trapezoidal profile of EX-01 (AC-09)."""
     lab = await Lab.start(dut, None)
     await lab.host.run(f"c 0A {A_DATA} c 43 d 0D d 00 d 00")
     await lab.idle()
@@ -132,7 +130,7 @@ async def p104_ac_09_trapezoid(dut):
 
 @directed("AC-10", "P104-EX-02", "P104-PRO-03")
 async def p104_ac_10_triangles(dut):
-    """Given init A, when D goes from 0 to 9, then the pulse counts and rates of EX-02 come out."""
+    """With initialisation A and D = 0 to 9, pulse counts and rates are those of EX-02 (AC-10)."""
     lab = await Lab.start(dut, INIT_A)
     table = [[], [9], [9, 9], [9, 7, 9], [9, 7, 7, 9], [9, 7, 5, 7, 9], [9, 7, 5, 5, 7, 9]]
     table += [[9, 7, 5, 5, 5, 7, 9], [9, 7, 5, 5, 5, 5, 7, 9], [9, 7, 5, 5, 4, 5, 5, 7, 9]]
@@ -144,7 +142,7 @@ async def p104_ac_10_triangles(dut):
 
 @directed("AC-11", "P104-EX-03")
 async def p104_ac_11_long_move(dut):
-    """Given a ramp of 100 steps, when 1000 pulses run, then they last 1 795 008 clk."""
+    """With a ramp of 100 steps, 1000 pulses last 1 795 008 cycles (AC-11)."""
     lab = await Lab.start(dut, None)
     await lab.host.run("c 0A d C7 d 31 d 64 d 00 c 43 d E7 d 03 d 00")
     await lab.bench.edge("int_n", 0, 2_000_000)
@@ -157,7 +155,7 @@ async def p104_ac_11_long_move(dut):
 
 @directed("AC-12", "P104-RMP-03")
 async def p104_ac_12_half_rounds_up(dut):
-    """Given RL 4, RH 0, PA 8, when 20 pulses run, then the exact half at index 1 is rounded up."""
+    """With RL 4, RH 0, PA 8, the exact half at index 1 is rounded up (AC-12)."""
     lab = await Lab.start(dut, None)
     await lab.host.run("c 0A d 04 d 00 d 08 d 00 c 43 d 13 d 00 d 00")
     await lab.idle()
@@ -167,7 +165,9 @@ async def p104_ac_12_half_rounds_up(dut):
 
 @directed("AC-13", "P104-TIM-02", "P104-TIM-04")
 async def p104_ac_13_first_pulse_and_phases(dut):
-    """Given AC-09, when it runs, then pulse 1 is 80..82 clk after hold and s moves with each pulse."""
+    """In the move of AC-09, pulse 1 occurs 80 to 82 cycles after hold falls, and s changes with each
+    pulse (AC-13).
+    """
     lab = await Lab.start(dut, INIT_A)
     pulses = await lab.move(0x43, 14)
     lab.window("AC-13", "hold fall to pulse 1", pulses[0] - lab.bench.falls("hold")[0], 80, 82)
@@ -176,7 +176,7 @@ async def p104_ac_13_first_pulse_and_phases(dut):
 
 @directed("AC-14", "P104-TIM-05")
 async def p104_ac_14_low_times(dut):
-    """Given AC-09 and a move at rate 0, when they run, then low times are 80, and 16 at rate 0."""
+    """Low times are 80 cycles in the move of AC-09, and 16 cycles at rate 0 (AC-14)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x43, 14)
     lab.check("AC-14", "low times", lab.bench.low_times(lab.since), [80] * 14)
@@ -187,7 +187,7 @@ async def p104_ac_14_low_times(dut):
 
 @directed("AC-15", "P104-EX-06", "P104-BCK-02")
 async def p104_ac_15_csel_vsel(dut):
-    """Given rate 99, when csel and vsel are 11, 01, 10, 00, then the four intervals of EX-06 come out."""
+    """At rate 99, csel and vsel 11, 01, 10 and 00 produce the four intervals of EX-06 (AC-15)."""
     lab = await Lab.start(dut, INIT_A)
     for csel, vsel, interval in ((1, 1, 3200), (0, 1, 12800), (1, 0, 3320), (0, 0, 12920)):
         lab.bench.set(csel=csel, vsel=vsel)
@@ -198,7 +198,7 @@ async def p104_ac_15_csel_vsel(dut):
 
 @directed("AC-16", "P104-BCK-02", "P104-BAD-16")
 async def p104_ac_16_latched_at_start(dut):
-    """Given a move, when csel and vsel fall after pulse 2, then its intervals stay."""
+    """The intervals of a move do not change when csel and vsel fall after pulse 2 (AC-16)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 5, rate=0x63)
     await lab.pulse(2, 10)
@@ -209,7 +209,7 @@ async def p104_ac_16_latched_at_start(dut):
 
 @directed("AC-17", "P104-END-01", "P104-RD-03", "P104-RD-04")
 async def p104_ac_17_int_and_finish(dut):
-    """Given a two-pulse move, when it ends, then INT falls with BUSY, and 0x80 releases it."""
+    """At the end of a move of two pulses, INT falls with BUSY, and 0x80 releases it (AC-17)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x43, 2)
     await lab.busy_until(lambda: lab.bench.level("int_n") == 0, "AC-17")
@@ -223,7 +223,9 @@ async def p104_ac_17_int_and_finish(dut):
 
 @directed("AC-18", "P104-CMD-02")
 async def p104_ac_18_masked_interrupt(dut):
-    """Given I = 1, when the move ends, then int_n stays 1 and the finish status is still new."""
+    """With I = 1, int_n stays 1 at the end of a move, and the finish status is still marked as new
+    (AC-18).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x53, 2)
     lab.check("AC-18", "int_n edges", lab.bench.edges("int_n"), [])
@@ -232,7 +234,7 @@ async def p104_ac_18_masked_interrupt(dut):
 
 @directed("AC-19", "P104-END-07")
 async def p104_ac_19_pending_interrupt(dut):
-    """Given a pending INT, when a masked step follows, then INT stays until 0x80."""
+    """A pending INT stays pending through a masked step until 0x80 (AC-19)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x42)
     await lab.move(0x52)
@@ -243,7 +245,9 @@ async def p104_ac_19_pending_interrupt(dut):
 
 @directed("AC-20", "P104-EX-10", "P104-END-06")
 async def p104_ac_20_immediate_stop(dut):
-    """Given N = 1000, when 0x40 comes after pulse 10, then it ends there and 989 is read."""
+    """In a move of 1000 pulses, 0x40 after pulse 10 ends it there, and the remaining pulses read as 989
+    (AC-20).
+    """
     lab = await Lab.start(dut, INIT_A)
     await stopped_after_ten(lab)
     lab.check("AC-20", "pulses", len(lab.pulses), 10)
@@ -253,7 +257,7 @@ async def p104_ac_20_immediate_stop(dut):
 
 @directed("AC-40", "P104-HSK-08", "P104-HSK-06")
 async def p104_ac_40_queue_replaced(dut):
-    """Given two unread bytes after AC-20, when 0x80 is executed, then its byte replaces them."""
+    """When 0x80 is executed with two unread bytes after AC-20, its byte replaces them (AC-40)."""
     lab = await Lab.start(dut, INIT_A)
     await stopped_after_ten(lab)
     await lab.host.run("c 80 r c 83 rrr")
@@ -265,7 +269,9 @@ async def p104_ac_40_queue_replaced(dut):
 
 @directed("AC-21", "P104-END-06")
 async def p104_ac_21_one_left(dut):
-    """Given N = 2, when 0x40 comes after pulse 1, then one pulse is left and 0 is read."""
+    """In a move of 2 pulses, 0x40 after pulse 1 leaves one pulse, and the remaining pulses read as 0
+    (AC-21).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 2, rate=0x63)
     await lab.pulse(1, 400)
@@ -275,7 +281,7 @@ async def p104_ac_21_one_left(dut):
 
 @directed("AC-22", "P104-FDC-02", "P104-EX-04")
 async def p104_ac_22_forced_in_acceleration(dut):
-    """Given init B, when 0x41 comes after pulse 4 or 1, then the ramp is mirrored to 8 pulses or 2."""
+    """With initialisation B, 0x41 after pulse 4 or 1 mirrors the ramp to 8 or 2 pulses (AC-22)."""
     lab = await Lab.start(dut, INIT_B)
     for pulse, intervals in ((4, [640, 576, 512, 480, 512, 576, 640]), (1, [640])):
         await lab.go(0x43, 1000)
@@ -287,7 +293,9 @@ async def p104_ac_22_forced_in_acceleration(dut):
 
 @directed("AC-23", "P104-EX-04", "P104-STP-04")
 async def p104_ac_23_forced_from_plateau(dut):
-    """Given init B, when 0x41 comes after pulse 29 and again after 33, then 40 pulses and error 7."""
+    """With initialisation B, 0x41 after pulse 29 leads to 40 pulses; 0x41 again after pulse 33 returns
+    error 7 (AC-23).
+    """
     lab = await Lab.start(dut, INIT_B)
     await lab.go(0x43, 1000)
     await lab.pulse(29, 50)
@@ -301,7 +309,9 @@ async def p104_ac_23_forced_from_plateau(dut):
 
 @directed("AC-24", "P104-PRO-05", "P104-STP-04")
 async def p104_ac_24_natural_deceleration(dut):
-    """Given init A and N = 14, when 0x41 comes after pulse 11, then error 7 and a complete move."""
+    """With initialisation A and N = 14, 0x41 after pulse 11 returns error 7, and the move is complete
+    (AC-24).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x43, 14)
     await lab.pulse(11, 50)

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-25 to AC-44: stimulus and figures as the acceptance table gives them."""
+"""Black-box acceptance checks AC-25 to AC-44: stimulus and values as in the acceptance table."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]
 
 @directed("AC-25", "P104-STP-05")
 async def p104_ac_25_decelerating_stop_at_constant_speed(dut):
-    """Given 0x45, when 0x41 comes after pulse 5, then it stops at once without an error."""
+    """During 0x45, 0x41 after pulse 5 ends the motion immediately without an error (AC-25)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x45, rate=0x63)
     await lab.pulse(5, 400)
@@ -23,7 +23,7 @@ async def p104_ac_25_decelerating_stop_at_constant_speed(dut):
 
 @directed("AC-26", "P104-EX-04", "P104-FDC-03")
 async def p104_ac_26_start_on_slow_down_limit(dut):
-    """Given L3 low before the start, when 0x43 starts CW, then exactly one pulse comes."""
+    """If L3 is low before 0x43 starts CW, exactly one pulse is output (AC-26)."""
     lab = await Lab.start(dut, INIT_B)
     lab.bench.set(l3_n=0)
     await lab.go(0x43, 1000)
@@ -32,7 +32,9 @@ async def p104_ac_26_start_on_slow_down_limit(dut):
 
 @directed("AC-27", "P104-FDC-01", "P104-FDC-04")
 async def p104_ac_27_short_slow_down_limit(dut):
-    """Given init B, when L3 is low for 10 clk after pulse 4, then the deceleration runs to its end."""
+    """With initialisation B, L3 low for 10 cycles after pulse 4 starts a deceleration that runs to its
+    end (AC-27).
+    """
     lab = await Lab.start(dut, INIT_B)
     await lab.go(0x43, 1000)
     await lab.pulse(4, 100)
@@ -43,7 +45,7 @@ async def p104_ac_27_short_slow_down_limit(dut):
 
 @directed("AC-28", "P104-EX-05")
 async def p104_ac_28_pout_mode_limit(dut):
-    """Given POUT mode and L3 always low, when 0xC3 runs, then the plateau is reached before it acts."""
+    """In POUT mode with L3 always low, 0xC3 reaches the plateau before L3 acts (AC-28)."""
     lab = await Lab.start(dut, INIT_B)
     lab.bench.set(l3_n=0)
     await lab.go(0xC3, 1000)
@@ -54,7 +56,9 @@ async def p104_ac_28_pout_mode_limit(dut):
 
 @directed("AC-29", "P104-LIM-04")
 async def p104_ac_29_pout_mode_lost_limit(dut):
-    """Given POUT mode, when L3 is low only between pulses 3 and 8, then all 1000 pulses come."""
+    """In POUT mode, L3 low only between pulses 3 and 8 has no effect: all 1000 pulses are output
+    (AC-29).
+    """
     lab = await Lab.start(dut, INIT_B)
     await lab.go(0xC3, 1000)
     await lab.pulse(3)
@@ -66,7 +70,7 @@ async def p104_ac_29_pout_mode_lost_limit(dut):
 
 @directed("AC-30", "P104-LIM-02", "P104-LIM-08")
 async def p104_ac_30_limits_of_the_direction(dut):
-    """Given CCW, when L1 and L3 are low, then nothing happens; with L4 low one pulse comes."""
+    """L1 and L3 do not affect a CCW move; with L4 low it outputs one pulse (AC-30)."""
     lab = await Lab.start(dut, INIT_B)
     lab.bench.set(l1_n=0, l3_n=0)
     await lab.go(0x4B, 30)
@@ -79,7 +83,9 @@ async def p104_ac_30_limits_of_the_direction(dut):
 
 @directed("AC-31", "P104-LIM-03", "P104-END-02")
 async def p104_ac_31_hard_limit(dut):
-    """Given 0x45, when L1 falls after pulse 5, then it ends in 8 clk, and only CCW moves afterwards."""
+    """During 0x45, L1 after pulse 5 ends the motion within 8 cycles; after that only CCW operations
+    move (AC-31).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x45, rate=0x63)
     await lab.pulse(5, 400)
@@ -97,7 +103,7 @@ async def p104_ac_31_hard_limit(dut):
 
 @directed("AC-32", "P104-LIM-05")
 async def p104_ac_32_alarm(dut):
-    """Given 0x46, when ALM falls after pulse 6, then it ends with 6 pulses."""
+    """ALM after pulse 6 of 0x46 ends it with 6 pulses (AC-32)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x46)
     await lab.pulse(6, 100)
@@ -107,8 +113,8 @@ async def p104_ac_32_alarm(dut):
 
 @directed("AC-33", "P104-LIM-07", "P104-LIM-09")
 async def p104_ac_33_causes_at_start(dut):
-    """Given L1 and ALM low, when 0x43 and 0x42 start,
-    then no pulse, both bits, the whole rest, INT each time.
+    """With L1 and ALM low at the start, 0x43 and 0x42 output no pulse; both cause bits, the full
+    remaining count and INT are set each time (AC-33).
     """
     lab = await Lab.start(dut, INIT_A)
     lab.bench.set(l1_n=0, alm_n=0)
@@ -123,7 +129,7 @@ async def p104_ac_33_causes_at_start(dut):
 
 @directed("AC-34", "P104-LIM-06")
 async def p104_ac_34_origin(dut):
-    """Given 0x47, when CNP falls after pulse 7, then it ends without a cause bit; 0x44 ignores CNP."""
+    """CNP after pulse 7 ends 0x47 without a cause bit; 0x44 ignores CNP (AC-34)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x47, rate=0x63)
     await lab.pulse(7, 400)
@@ -137,7 +143,7 @@ async def p104_ac_34_origin(dut):
 
 @directed("AC-35", "P104-END-05")
 async def p104_ac_35_too_late(dut):
-    """Given N = 3, when L1 falls in the low time of pulse 3, then the move counts as complete."""
+    """With N = 3, L1 in the low time of pulse 3 does not prevent a complete move (AC-35)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x43, 3)
     await lab.pulse(3, 20)
@@ -147,7 +153,9 @@ async def p104_ac_35_too_late(dut):
 
 @directed("AC-36", "P104-CMD-04", "P104-RD-01")
 async def p104_ac_36_commands_while_busy(dut):
-    """Given a running move, when commands come that BUSY forbids, then errors 1, 0, 6 and a calm move."""
+    """During a move, commands that BUSY forbids return errors 1, 0 and 6, and the move is not affected
+    (AC-36).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 6, rate=0x63)
     await lab.pulse(2)
@@ -160,7 +168,7 @@ async def p104_ac_36_commands_while_busy(dut):
 
 @directed("AC-37", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05")
 async def p104_ac_37_aux_while_busy(dut):
-    """Given a running move, when the aux commands come, then the pins follow and the move does not notice."""
+    """During a move, the aux commands drive their pins, and the move is not affected (AC-37)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 6, rate=0x63)
     await lab.pulse(2)
@@ -180,7 +188,7 @@ async def p104_ac_37_aux_while_busy(dut):
 
 @directed("AC-38", "P104-AUX-02", "P104-RD-08")
 async def p104_ac_38_aux_before_init(dut):
-    """Given a core after reset, when auxiliary ports are used, then they work."""
+    """The auxiliary ports work before initialisation (AC-38)."""
     lab = await Lab.start(dut, None)
     await lab.host.run("c 86 d FF")
     await lab.bench.clocks(2)
@@ -194,7 +202,7 @@ async def p104_ac_38_aux_before_init(dut):
 
 @directed("AC-39", "P104-HSK-07")
 async def p104_ac_39_cancelled_command(dut):
-    """Given a half-entered move, when a read command comes, then the move is dropped."""
+    """A read command cancels an operation whose parameters are incomplete (AC-39)."""
     lab = await Lab.start(dut, INIT_A)
     lab.check("AC-39", "0x81", await lab.host.run("c 43 d 09 c 81 r"), [0xCF])
     lab.check("AC-39", "status after a late byte", await lab.host.data(0x00), 0xB0)
@@ -204,7 +212,9 @@ async def p104_ac_39_cancelled_command(dut):
 
 @directed("AC-41", "P104-INI-03", "P104-INI-06")
 async def p104_ac_41_rejected_inits(dut):
-    """Given init A, when four illegal ones follow, then errors 5, 5, 4, 4 and the old ramp stays."""
+    """After initialisation A, four illegal ones return errors 5, 5, 4, 4, and the old ramp stays active
+    (AC-41).
+    """
     lab = await Lab.start(dut, INIT_A)
     cases = (((5, 6, 100), 0xD0), ((9, 4, 3), 0xD0), ((9, 4, 11221), 0xC0), ((5, 6, 11221), 0xC0))
     for values, status in cases:
@@ -216,7 +226,7 @@ async def p104_ac_41_rejected_inits(dut):
 
 @directed("AC-42", "P104-INI-03", "P104-EX-11")
 async def p104_ac_42_extreme_inits(dut):
-    """Given the extreme legal values, when they are sent, then all are accepted; RL = RH runs flat."""
+    """The extreme legal values of an initialisation are accepted; RL = RH runs at one rate (AC-42)."""
     lab = await Lab.start(dut, None)
     for values in ((9, 4, 4), (9, 4, 11220), (10, 10, 4), (255, 0, 4)):
         lab.check("AC-42", f"status of {values}", await lab.host.init(0x0A, *values), 0x00)
@@ -227,7 +237,9 @@ async def p104_ac_42_extreme_inits(dut):
 
 @directed("AC-43", "P104-INI-05", "P104-AUX-04")
 async def p104_ac_43_frozen_until_excitation_off(dut):
-    """Given init A, when a 5-phase re-init comes, then the motor type stays until Excitation OFF."""
+    """After initialisation A, a 5-phase re-initialisation does not change the motor type until
+    Excitation OFF (AC-43).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.host.run(f"c 0F {A_DATA}")
     lab.check("AC-43", "s after the re-init", lab.bench.level("s"), 0b00011)
@@ -247,7 +259,9 @@ async def p104_ac_43_frozen_until_excitation_off(dut):
 
 @directed("AC-44", "P104-PHS-01", "P104-PHS-06", "P104-OPR-05")
 async def p104_ac_44_step_lists(dut):
-    """Given each motor type and logic, when two turns run CW and back, then s follows its list."""
+    """For each motor type and logic, s follows its list through two electrical turns CW and back
+    (AC-44).
+    """
     lab = await Lab.start(dut, None)
     for name, code in STEP_CODES.items():
         for positive in (True, False):

@@ -1,4 +1,4 @@
-"""Bad input (P104-BAD): illegal bytes, wrong order, abuse of every pin, and the way back from it."""
+"""Bad input (P104-BAD): illegal bytes, wrong order, misuse of every pin, and the recovery from it."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from .tb_acceptance_moves import kind_of
 
 @directed("P104-BAD-01", "P104-CMD-03", "P104-HSK-07")
 async def p104_bad_01_undefined_codes(dut):
-    """Given half-entered commands at rest and in motion, when each undefined code comes,
-    then error 0 and cancel.
+    """Each undefined code returns error 0 and cancels an incomplete command, at rest and in motion
+    (P104-BAD-01).
     """
     lab = await Lab.start(dut, INIT_A)
     undefined = [code for code in range(256) if kind_of(code) == "undefined"]
@@ -35,8 +35,8 @@ async def p104_bad_01_undefined_codes(dut):
 
 @directed("P104-BAD-03", "P104-BAD-04", "P104-BAD-11")
 async def p104_bad_11_operation_before_init(dut):
-    """Given no initialisation, when operations with parameters come, then error 2,
-    then error 3 each, no motion.
+    """Before initialisation, operations return error 2, each of their parameters returns error 3, and
+    nothing moves (P104-BAD-11).
     """
     lab = await Lab.start(dut, None)
     for code, count in (
@@ -62,8 +62,8 @@ async def p104_bad_11_operation_before_init(dut):
 
 @directed("P104-BAD-05", "P104-BAD-02", "P104-BAD-12")
 async def p104_bad_05_too_many_parameters(dut):
-    """Given surplus bytes after commands, when they come,
-    then error 6 in motion or 3 at rest, nothing else.
+    """Surplus bytes after a command return error 6 in motion or 3 at rest and have no other effect
+    (P104-BAD-05).
     """
     lab = await Lab.start(dut, INIT_A)
     lab.since = lab.bench.now
@@ -83,8 +83,8 @@ async def p104_bad_05_too_many_parameters(dut):
 
 @directed("P104-BAD-07", "P104-BAD-22", "P104-HSK-06", "P104-HSK-08")
 async def p104_bad_22_queue_never_read(dut):
-    """Given a full queue nobody reads, when everything else is used,
-    then all of it works and the queue stays.
+    """If the host never reads a full queue, everything else still works, and the queue does not change
+    (P104-BAD-22).
     """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 9, 9)
@@ -106,8 +106,8 @@ async def p104_bad_22_queue_never_read(dut):
 
 @directed("P104-BAD-13", "P104-TIM-03", "P104-OPR-06")
 async def p104_bad_13_clock_stops_in_motion(dut):
-    """Given a clock that stops in mid-motion, when stops and limits come,
-    then they act; ramps wait for edges.
+    """If the external clock stops during a motion, stops and limits still act; decelerations wait for
+    edges (P104-BAD-13).
     """
     lab = await Lab.start(dut, (0x1A, 9, 4, 4))
     for cause, bits in (("40", 0xC0), ("l1_n", 0x90), ("alm_n", 0xA0)):
@@ -148,8 +148,8 @@ async def p104_bad_13_clock_stops_in_motion(dut):
 
 @directed("P104-BAD-15", "P104-LIM-07", "P104-LIM-09")
 async def p104_bad_15_everything_active(dut):
-    """Given all inputs active at once, when each operation starts or runs,
-    then no pulse more and bits 5 and 4.
+    """With all inputs active at its start or during it, an operation outputs no further pulse and sets
+    bits 5 and 4 (P104-BAD-15).
     """
     lab = await Lab.start(dut, INIT_A)
     pins = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")
@@ -178,8 +178,8 @@ async def p104_bad_15_everything_active(dut):
 
 @directed("P104-BAD-19", "P104-PORT-03", builds=(F16, F100))
 async def p104_bad_19_reset_in_every_state(dut):
-    """Given resets in START, a low pulse, between pulses, a table build, when released,
-    then a clean UNINIT core.
+    """A reset in START, in a low pulse, between pulses or in a table build leaves the core in UNINIT
+    with its reset levels (P104-BAD-19).
     """
     lab = await Lab.start(dut, None)
     expected = {"int_n": 1, "pout_n": 1, "hold": 1, "dir": 0, "aux_n": 1, "auxo": 0xF, "s": 0x1F}
@@ -209,9 +209,7 @@ async def p104_bad_19_reset_in_every_state(dut):
 
 @directed("P104-BAD-18", "P104-BUS-06")
 async def p104_bad_18_cs_ends_the_strobe(dut):
-    """Given cs_n that rises before wr_n and rd_n, when it does,
-    then the write is stored and the read ends.
-    """
+    """If cs_n rises before wr_n or rd_n, the write is stored and the read ends (P104-BAD-18)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     bench.set(a0=1, d_i=0xC1, cs_n=0, wr_n=0)
@@ -234,8 +232,8 @@ async def p104_bad_18_cs_ends_the_strobe(dut):
 
 @directed("P104-BAD-20", "P104-LIM-03")
 async def p104_bad_20_hard_limit_chatters(dut):
-    """Given a deceleration, when the hard limit chatters,
-    then the first level seen ends the motion for good.
+    """If the hard limit bounces during a deceleration, the first low level that is sampled ends the
+    motion permanently (P104-BAD-20).
     """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x43, 100)
@@ -251,7 +249,7 @@ async def p104_bad_20_hard_limit_chatters(dut):
 
 
 async def abuse(lab: Lab, rng: random.Random, rounds: int) -> None:
-    """Bytes, strobes of any length and pin levels without any sense."""
+    """Apply random bytes, strobes of any length, and random pin levels."""
     pins = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n", "csel", "vsel")
     ops = [0x42, 0x43, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC6, 0x0A, 0x1A, 0x2D, 0x13, 0x84, 0x86, 0xC0]
     for _ in range(rounds):
@@ -272,18 +270,20 @@ async def abuse(lab: Lab, rng: random.Random, rounds: int) -> None:
 
 @directed("P104-BAD-23", "P104-FSM-01", builds=(F8, F16, F100, D16))
 async def p104_bad_23_always_a_way_back(dut):
-    """Given random abuse, clock running or not, when 0x40, 0xC0 and an init follow, then the core works."""
+    """After random abuse, with or without a clock, 0x40, 0xC0 and an initialisation make the core work
+    again (P104-BAD-23).
+    """
     lab = await Lab.start(dut, None)
     rng = lab.bench.rng
     for turn in range(3 if lab.cfg.datasheet else 12):
         clock = lab.bench.external_clock(iter(lambda: rng.randrange(4, 90), 0), high=2) if turn % 2 else None
         await abuse(lab, rng, 60)
         lab.bench.set(l1_n=1, l2_n=1, l3_n=1, l4_n=1, cnp_n=1, alm_n=1, csel=1, vsel=1)
-        # A byte of the abuse may still wait; an operation may start behind our back once.
+        # A byte of the abuse may still wait, so one operation may still start.
         for _ in range(3):
             await lab.host.poll(IBF, 0, timeout=3_000_000)
             if lab.cfg.datasheet:
-                # BUSY of a start may still be to come (P104-DS-03).
+                # BUSY of a start may rise later (P104-DS-03).
                 await lab.bench.clocks(lab.cfg.us(120))
             if await lab.host.status() & BUSY:
                 await lab.host.command(0x40)

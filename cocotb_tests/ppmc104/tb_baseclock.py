@@ -14,9 +14,10 @@ EXTERNAL = (0x1A, 9, 4, 4)
 
 
 def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) -> list[int]:
-    """Pulse times with vsel = L on external edges, pulse 1 on edges[first] (P104-INT-03).
+    """Return the pulse times with vsel = L on external edges, with pulse 1 on edges[first]
+    (P104-INT-03).
 
-    All times share the one constant delay between a pin edge and its effect.
+    All times include the same constant delay from a pin edge to its effect.
     """
     x = (240 * config.clk_hz // config.xtal_hz + 1) // 2
     h = (272 * config.clk_hz // config.xtal_hz + 1) // 2
@@ -40,9 +41,7 @@ def carried(config: Config, edges: list[int], first: int, rate_list: list[int]) 
     builds=(F16, F8, F11, F25, F50, F100, F16X1),
 )
 async def p104_bck_01_internal_clocks(dut):
-    """Given each core clock and crystal, when csel and vsel vary,
-    then every pulse lies on its quantum tick.
-    """
+    """For each core clock, crystal, csel and vsel, every pulse is on its quantum tick (P104-BCK-01)."""
     lab = await Lab.start(dut, INIT_A)
     for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
         lab.bench.set(csel=csel, vsel=vsel)
@@ -58,7 +57,7 @@ async def p104_bck_01_internal_clocks(dut):
 
 @directed("P104-BCK-02", "P104-BAD-16", "P104-INI-09")
 async def p104_bck_02_latched(dut):
-    """Given csel and vsel toggling in motion, when a move runs, then only their levels at its start count."""
+    """If csel and vsel toggle during a motion, only their levels at its start apply (P104-BCK-02)."""
     lab = await Lab.start(dut, INIT_A)
     for csel, vsel in ((1, 1), (0, 1), (1, 0), (0, 0)):
         lab.bench.set(csel=csel, vsel=vsel)
@@ -73,8 +72,8 @@ async def p104_bck_02_latched(dut):
 
 @directed("P104-BCK-03", "P104-GEN-03", "P104-EX-12", builds=(F11, F25, F50))
 async def p104_bck_03_cumulative(dut):
-    """Given fractional clk per quantum, when mixed intervals add up,
-    then no pulse drifts and each is within 1 clk.
+    """With a fractional number of cycles per quantum, pulses do not drift, and each interval is within
+    1 cycle (P104-BCK-03).
     """
     lab = await Lab.start(dut, (0x0A, 40, 0, 23))
     await lab.move(0x43, 300)
@@ -90,8 +89,8 @@ async def p104_bck_03_cumulative(dut):
 
 @directed("P104-BCK-03")
 async def p104_bck_03_phase_restart(dut):
-    """Given starts at any phase of the free-running quantum, when pulse 1 is out,
-    then intervals count from it.
+    """At any phase of the free-running quantum at the start, intervals are counted from pulse 1
+    (P104-BCK-03).
     """
     lab = await Lab.start(dut, INIT_A)
     for wait in range(0, 34, 3):
@@ -102,7 +101,9 @@ async def p104_bck_03_phase_restart(dut):
 
 @directed("P104-BCK-04", "P104-INT-01", "P104-INI-01", "P104-TIM-03", builds=(F16, F25, F100))
 async def p104_bck_04_external_edges(dut):
-    """Given external clocks with any duty and jitter, when moves run, then pulses keep to their own edges."""
+    """With external clocks of any duty cycle and jitter, every pulse follows its own clock edge
+    (P104-BCK-04).
+    """
     lab = await Lab.start(dut, EXTERNAL)
     rng = lab.bench.rng
     delays = set()
@@ -131,8 +132,8 @@ async def p104_bck_04_external_edges(dut):
     uncompared="P104-BCK-05 lets intervals of less than 16 clk grow by whole periods",
 )
 async def p104_bck_05_too_fast_clock(dut):
-    """Given clocks of 4 to 15 clk at rate 0, when moves run,
-    then count, phases and results hold, nothing is early.
+    """With an external clock period of 4 to 15 cycles at rate 0, count, phases and results are right,
+    and no interval is too short (P104-BCK-05).
     """
     lab = await Lab.start(dut, (0x1A, 3, 0, 4))
     for period in (4, 5, 7, 9, 12, 15):
@@ -164,9 +165,7 @@ async def p104_bck_05_too_fast_clock(dut):
 
 @directed("P104-INT-03", "P104-INT-04", builds=(F16, F25))
 async def p104_int_03_vsel_low_external(dut):
-    """Given vsel = L and steady or changing external clocks, when moves run,
-    then each pulse is where INT-03 has it.
-    """
+    """With vsel = L and constant or changing external clocks, each pulse is where P104-INT-03 states."""
     lab = await Lab.start(dut, EXTERNAL, vsel=0)
     rng = lab.bench.rng
     us = lab.cfg.us
@@ -200,7 +199,9 @@ async def p104_int_03_vsel_low_external(dut):
 
 @directed("P104-INT-04", "P104-EX-08", builds=(F16, F100))
 async def p104_int_04_steady_consequences(dut):
-    """Given steady clocks up to 7.5 us and from 9 us on, when vsel = L, then +7.5 us or nothing is added."""
+    """With vsel = L, constant external periods up to 7.5 us add 7.5 us to an interval, periods from 9
+    us on add nothing (P104-INT-04).
+    """
     lab = await Lab.start(dut, EXTERNAL, vsel=0)
     us = lab.cfg.us
     for micros in (2, 4, 7.5, 8, 9, 10):
@@ -219,8 +220,8 @@ async def p104_int_04_steady_consequences(dut):
 
 @directed("P104-INT-05", "P104-BAD-17", "P104-TIM-05", builds=(F16, F11, F100))
 async def p104_int_05_no_speed_limit(dut):
-    """Given RH = 0, when a ramp and commands meet top speed,
-    then every interval holds and commands are served.
+    """With RH = 0, every interval of a ramp is exact at top speed, and commands are executed
+    (P104-INT-05).
     """
     lab = await Lab.start(dut, (0x0A, 7, 0, 9))
     await lab.go(0x43, 200)
@@ -235,7 +236,7 @@ async def p104_int_05_no_speed_limit(dut):
 
 @directed("P104-TIM-03", "P104-BAD-13", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", "P104-FDC-03")
 async def p104_tim_03_waiting_for_the_clock(dut):
-    """Given no external clock, when operations start, then they wait in START, and all stop causes work."""
+    """Without an external clock, operations wait in START, and all stop causes act (P104-TIM-03)."""
     lab = await Lab.start(dut, EXTERNAL)
     causes = {"l1_n": 0x90, "alm_n": 0xA0, "cnp_n": 0x80}
     for code, rate in ((0x44, 9), (0x45, 9), (0x47, 9), (0x43, None), (0x46, None)):
@@ -270,9 +271,7 @@ async def p104_tim_03_waiting_for_the_clock(dut):
 
 @directed("P104-TIM-03", "P104-BCK-04", builds=(F16, F100))
 async def p104_tim_03_first_edge(dut):
-    """Given single clock edges around W after the start, when pulse 1 is due,
-    then the first edge at or after counts.
-    """
+    """The first external edge at W after the start, or later, makes pulse 1 (P104-TIM-03)."""
     lab = await Lab.start(dut, EXTERNAL)
     w = lab.cfg.w
     for offset in (-20, -8, 0, 8, 20):
@@ -280,7 +279,7 @@ async def p104_tim_03_first_edge(dut):
         lab.since = lab.bench.now
         await lab.host.write(0, 0)
         fell = await lab.bench.edge("hold", 0) if lab.bench.level("hold") else lab.bench.falls("hold")[-1]
-        # An edge given at t is effective 2 to 3 clk later; pins 1 clk after that.
+        # An edge driven at t is effective 2 to 3 cycles later, its pins 1 cycle after that.
         at = fell + w - 3 + offset
         await lab.bench.until(at)
         await lab.ticks(1, 4)
@@ -301,7 +300,9 @@ async def p104_tim_03_first_edge(dut):
 
 @directed("P104-BCK-04", "P104-BAD-13")
 async def p104_bck_04_clock_stops_and_resumes(dut):
-    """Given a clock that stops for 50 us in mid-interval, when it resumes, then no edge is lost or added."""
+    """If the external clock stops for 50 us in an interval, no edge is lost or added when it resumes
+    (P104-BCK-04).
+    """
     lab = await Lab.start(dut, EXTERNAL)
     for stop_after in (3, 12, 20, 21):
         gaps = [32] * stop_after + [800] + [32] * 200

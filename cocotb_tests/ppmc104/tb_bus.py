@@ -1,4 +1,6 @@
-"""Bus cycles, ports, synchronisers and reset (P104-BUS, P104-PORT-02..04, P104-TIM-01, P104-BAD-08/09/18)."""
+"""Bus accesses, ports, synchronisers and reset (P104-BUS, P104-PORT-02..04, P104-TIM-01,
+P104-BAD-08/09/18).
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,7 @@ from .lab import PINS_LATEST, Lab
 
 
 async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
-    """One host cycle that ignores clk: levels on, hold `ps`, strobes off, `gap_ps` of rest."""
+    """Make one host access that is asynchronous to clk: levels for `ps`, then strobes off for `gap_ps`."""
     lab.bench.set_between_edges(**levels)
     await Timer(ps, "ps")
     lab.bench.set_between_edges(cs_n=1, wr_n=1, rd_n=1)
@@ -21,14 +23,16 @@ async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
 
 
 def off_edge(lab: Lab, part: int) -> int:
-    """Even number of ps of the given eighth of a clk, a little off so that no edge of clk is met."""
+    """Return an even number of ps of the given eighths of a cycle, with a small offset that avoids the
+    edges of `clk`.
+    """
     return lab.bench.period * part // 16 * 2 + 2 * (lab.bench.period // 64)
 
 
 @directed("P104-BUS-01", "P104-GEN-01")
 async def p104_bus_01_register_map(dut):
-    """Given all combinations of cs_n, a0 and strobes, when used,
-    then only the selected register is touched.
+    """For all combinations of cs_n, a0 and strobes, only the selected register is accessed
+    (P104-BUS-01).
     """
     lab = await Lab.start(dut, None)
     bench, host = lab.bench, lab.host
@@ -56,7 +60,7 @@ async def p104_bus_01_register_map(dut):
 
 @directed("P104-BUS-02", "P104-BAD-08")
 async def p104_bus_02_overlapping_strobes(dut):
-    """Given a write that a read strobe interrupts, when both are low, then the byte so far is stored once."""
+    """If a read strobe interrupts a write, the byte sampled before is stored once (P104-BUS-02)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     since = bench.set(a0=COMMAND, d_i=0x86, cs_n=0, wr_n=0)
@@ -85,9 +89,7 @@ async def p104_bus_02_overlapping_strobes(dut):
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
-    """Given the shortest legal strobes at any phase, when bytes go in and out,
-    then none is lost or damaged.
-    """
+    """With the shortest legal strobes at any phase, no byte is lost or corrupted (P104-BUS-03)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     clk = bench.period
@@ -95,13 +97,13 @@ async def p104_bus_03_shortest_strobes(dut):
     for part in range(8):
         await bench.align()
         await Timer(off_edge(lab, part), "ps")
-        # Two writes back to back: the newer one may replace the older, but must be there.
+        # Two writes back to back: the newer byte may replace the older one, but must be stored.
         await strobe(lab, short, short, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
         await strobe(lab, short, 14 * clk, a0=1, d_i=0xC1, cs_n=0, wr_n=0)
         lab.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 0)
         await strobe(lab, short, 14 * clk, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
         lab.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 1)
-        # Garbage on d_i and a0 until 1 clk + 10 ns before the end of a longer strobe.
+        # Invalid levels of d_i and a0 until 1 cycle + 10 ns before the end of a longer strobe.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(3 * clk, "ps")
         await strobe(lab, short, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
@@ -120,8 +122,8 @@ async def p104_bus_03_shortest_strobes(dut):
 
 @directed("P104-BUS-05")
 async def p104_bus_05_snapshot(dut):
-    """Given read strobes of 3 to 60 clk, when the state changes meanwhile,
-    then d_o is one frozen snapshot.
+    """During a read strobe of 3 to 60 cycles, d_o is one stable snapshot, even if the state changes
+    (P104-BUS-05).
     """
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
@@ -151,8 +153,8 @@ async def p104_bus_05_snapshot(dut):
 
 @directed("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18", builds=(F16, F100))
 async def p104_bus_06_last_sample_counts(dut):
-    """Given d_i and a0 that change every clk, when WS ends,
-    then the last sample is the byte, at one latency.
+    """If d_i and a0 change every cycle, the last sample of the write strobe is the byte, always with
+    the same latency (P104-BUS-06).
     """
     lab = await Lab.start(dut, None)
     bench = lab.bench
@@ -179,7 +181,9 @@ async def p104_bus_06_last_sample_counts(dut):
 
 @directed("P104-BUS-07", "P104-HSK-03")
 async def p104_bus_07_no_invisible_byte(dut):
-    """Given a write, when status is read 1 to 16 clk later, then it shows IBF or the whole effect."""
+    """A status read 1 to 16 cycles after a write returns IBF = 1 or the complete effect of the write
+    (P104-BUS-07).
+    """
     lab = await Lab.start(dut, INIT_A)
     cases = ((0x87, {0x80}), (0x86, {0x10}), (0x81, {0x01}), (0x42, {0x04}), (0x44, {0x40}))
     for code, final in cases:
@@ -204,9 +208,7 @@ async def p104_bus_07_no_invisible_byte(dut):
 @rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P104-PORT-02", builds=(F16, F50))
 async def p104_port_02_registers_only(dut):
-    """Given short glitches between clk edges, when all outputs are watched,
-    then only rising edges move them.
-    """
+    """During short glitches between clk edges, outputs change only on rising edges (P104-PORT-02)."""
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
     rising = (int(get_sim_time("ps")) + bench.half) % bench.period
@@ -242,7 +244,9 @@ async def p104_port_02_registers_only(dut):
 
 @directed("P104-PORT-03", "P104-PORT-01", "P104-PHS-02", "P104-PAR-01", builds=(F16, F50))
 async def p104_port_03_reset(dut):
-    """Given bus traffic in reset, when it is released, then nothing was stored and edge 4 takes a byte."""
+    """Bytes written during reset are not stored; the write sampled on edge 4 after the release is
+    accepted (P104-PORT-03).
+    """
     lab = await Lab.start(dut, INIT_A)
     bench = lab.bench
     await lab.host.run("c C1 c 86 d 0F c 81")
@@ -273,7 +277,7 @@ async def p104_port_03_reset(dut):
 
 @directed("P104-PORT-04")
 async def p104_port_04_tied_inputs(dut):
-    """Given unused inputs tied as told, with clock at 0 or 1, when moves run, then nothing disturbs them."""
+    """With unused inputs tied as documented, and clock at 0 or 1, moves run undisturbed (P104-PORT-04)."""
     lab = await Lab.start(dut, INIT_A)
     for clock in (0, 1):
         lab.bench.set(clock=clock)
@@ -286,8 +290,8 @@ async def p104_port_04_tied_inputs(dut):
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BAD-09")
 async def p104_bad_09_too_short_strobes(dut):
-    """Given strobes and gaps below the limits at any phase, when bytes are written,
-    then each is whole or absent.
+    """With strobes and gaps below the limits, at any phase, each byte is stored completely or not at
+    all (P104-BAD-09).
     """
     lab = await Lab.start(dut, None)
     bench = lab.bench
@@ -296,7 +300,7 @@ async def p104_bad_09_too_short_strobes(dut):
         for part in range(8):
             await bench.clocks(4)
             await Timer(off_edge(lab, part), "ps")
-            # Complementary nibbles: half a byte of each would be a third value on auxo.
+            # The nibbles are complementary: half a byte of each would be a third value on auxo.
             await strobe(lab, length // 2 * 2, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
             status = await lab.host.status()
             lab.check("P104-BAD-09", f"status {status:#x} is one of 0x00, 0x10", status in (0x00, 0x10), True)

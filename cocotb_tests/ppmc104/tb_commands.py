@@ -1,4 +1,4 @@
-"""Code map, don't-care bits, the accept/reject table of every state (P104-CMD, P104-FSM), operation
+"""Code map, don't-care bits, response to each command in each state (P104-CMD, P104-FSM), operation
 starts (P104-OPR).
 """
 
@@ -19,8 +19,8 @@ PARAMETERS = {0x42: 0, 0x43: 3, 0x44: 4, 0x45: 1, 0x46: 0, 0x47: 1, 0xC3: 3, 0xC
 
 @directed("P104-CMD-01", "P104-CMD-03", "P104-OPR-03")
 async def p104_cmd_01_all_codes_ready(dut):
-    """Given an initialised core, when each of the 256 codes comes,
-    then its parameter count or effect follows.
+    """After initialisation, each of the 256 codes sets its parameter count or has its effect
+    (P104-CMD-01).
     """
     lab = await Lab.start(dut, INIT_A)
     expected = {"undefined": 0x80, "stop": 0x80, "init": 0x40, "switching": 0x20, "aux": 0x10, "on": 0x00}
@@ -44,7 +44,9 @@ async def p104_cmd_01_all_codes_ready(dut):
 
 @directed("P104-CMD-04", "P104-CMD-03", "P104-AUX-05", "P104-OPR-12", "P104-RD-01", "P104-INI-04")
 async def p104_cmd_04_all_codes_busy(dut):
-    """Given a running move, when each of the 256 codes comes, then only the BUSY list is executed."""
+    """During a move, only the commands that BUSY allows are executed, out of all 256 codes
+    (P104-CMD-04).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 10, rate=255)
     for code in range(256):
@@ -67,9 +69,7 @@ async def p104_cmd_04_all_codes_busy(dut):
 
 @directed("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
 async def p104_cmd_04_stop_codes_busy(dut):
-    """Given running moves with and without I, when any code of the two stops comes,
-    then it stops, INT as asked.
-    """
+    """Every code of the two stops ends a move; I of the move determines INT (P104-CMD-04)."""
     lab = await Lab.start(dut, INIT_A)
     for code in (c for c in range(0x40, 0x80) if c & 7 < 2):
         masked = bool(code & 0x20)
@@ -83,8 +83,8 @@ async def p104_cmd_04_stop_codes_busy(dut):
 
 @directed("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
 async def p104_cmd_02_bits_of_operations(dut):
-    """Given every operation with X, I, D in all values, when it runs,
-    then dir is D, INT is not I, X is nothing.
+    """For every operation with all values of X, I and D, dir is D, INT is NOT I, and X is ignored
+    (P104-CMD-02).
     """
     lab = await Lab.start(dut, INIT_A)
     for base in OPERATIONS:
@@ -108,7 +108,7 @@ async def p104_cmd_02_bits_of_operations(dut):
 
 @directed("P104-CMD-02", "P104-CMD-03", "P104-AUX-04")
 async def p104_cmd_02_bits_of_others(dut):
-    """Given bits 5..3 set in AUX and Excitation OFF codes, when sent, then they are ignored."""
+    """Bits 5..3 of the AUX and Excitation OFF codes are ignored (P104-CMD-02)."""
     lab = await Lab.start(dut, INIT_A)
     for bits in range(8):
         for low, level in ((1, 0), (2, 1)):
@@ -125,7 +125,7 @@ async def p104_cmd_02_bits_of_others(dut):
 
 
 async def reactions(lab: Lab, state: str) -> dict[str, int]:
-    """Status that each command class must give in `state` (P104-FSM-01), stops apart."""
+    """Return the status that each command class, except stops, must set in `state` (P104-FSM-01)."""
     moving = state in MOVING
     busy = BUSY if moving else 0
     table = {f"{code:02X}": 0x80 | busy for code in UNDEFINED}
@@ -140,8 +140,8 @@ async def reactions(lab: Lab, state: str) -> dict[str, int]:
 
 @directed("P104-FSM-01", "P104-CMD-04", "P104-BAD-12", "P104-BAD-21", "P104-BAD-02")
 async def p104_fsm_01_table(dut):
-    """Given each state, when each command class and stray data come,
-    then the reaction is that of the table.
+    """In each state, the response to each command class and to unexpected data is that of the table
+    (P104-FSM-01).
     """
     lab = await Lab.start(dut, None)
     for state in ("UNINIT", "READY", *MOVING):
@@ -164,7 +164,9 @@ async def p104_fsm_01_table(dut):
 
 @directed("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
 async def p104_fsm_01_stops(dut):
-    """Given each state, when the two stops come, then stop, flag, error or nothing as the table says."""
+    """In each state, a stop command ends the motion, sets the flag, returns an error or has no effect, as
+    the table states (P104-FSM-01).
+    """
     lab = await Lab.start(dut, None)
     for state in ("UNINIT", "READY"):
         for code in (0x40, 0x41):
@@ -200,7 +202,9 @@ async def p104_fsm_01_stops(dut):
 
 @directed("P104-FSM-01", "P104-OPR-12", "P104-BAD-12", "P104-CMD-04")
 async def p104_fsm_01_parameters_of_refused_operations(dut):
-    """Given a move, when a second operation with its parameters comes, then error 1, error 6s and no harm."""
+    """During a move, a second operation returns error 1, its parameters error 6, and the move is not
+    affected (P104-FSM-01).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 8, rate=99)
     await lab.pulse(1)
@@ -212,7 +216,9 @@ async def p104_fsm_01_parameters_of_refused_operations(dut):
 
 @directed("P104-FSM-03", "P104-AUX-02")
 async def p104_fsm_03_parameter_across_the_end(dut):
-    """Given 0x86 taken in a move, when its data comes after the end, then it is still the parameter."""
+    """If 0x86 is accepted during a move and its data byte is sent after the end, the byte is still its
+    parameter (P104-FSM-03).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 2, rate=99)
     lab.check("P104-FSM-03", "status of 0x86", await lab.host.command(0x86), 0x14)

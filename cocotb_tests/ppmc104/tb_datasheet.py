@@ -1,4 +1,7 @@
-"""Processing times of the old chip, TIMING = "DATASHEET" (P104-DS). All times: -0/+16 clk of CYC(16·us)."""
+"""Processing times of the old chip, TIMING = "DATASHEET" (P104-DS).
+
+All times: CYC(16·us), -0/+16 cycles.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +15,8 @@ from .sheet import PIN, TOLERANCE, US, Sheet
 
 @directed("P104-DS-01", "P104-INI-07", builds=(D16, D11))
 async def p104_ds_01_phase_outputs(dut):
-    """Given the first init, when its last byte is stored,
-    then s shows index 0 44 us later; a re-init leaves it.
+    """After the last byte of the first initialisation, s has pattern 0 44 us later; a re-initialisation
+    does not change it (P104-DS-01).
     """
     lab = await Sheet.start(dut, None)
     await lab.host.send(0x0A, [9, 4, 4])
@@ -32,8 +35,8 @@ async def p104_ds_01_phase_outputs(dut):
 
 @directed("P104-DS-02", "P104-INI-08", "P104-HSK-01", builds=(D16, D25X8))
 async def p104_ds_02_init_time(dut):
-    """Given PA 4 and 104, when an init runs, then the mailbox opens after 264000 + 209·(PA - 4),
-    then chopping.
+    """For PA 4 and 104, the mailbox opens 264000 + 209·(PA - 4) crystal cycles after the
+    initialisation, then chopping starts (P104-DS-02).
     """
     lab = await Sheet.start(dut, None)
     for pa in (4, 104):
@@ -51,8 +54,8 @@ async def p104_ds_02_init_time(dut):
 
 @directed("P104-DS-02", "P104-DS-13", "P104-INI-06", builds=(D16,))
 async def p104_ds_13_no_time_for_the_rest(dut):
-    """Given a rejected init, reads, 0x84 and errors, when more bytes follow,
-    then all are taken as in FAST.
+    """After a rejected initialisation, reads, 0x84 and errors, further bytes are accepted as in FAST
+    (P104-DS-13).
     """
     lab = await Sheet.start(dut, None)
     got = []
@@ -80,8 +83,8 @@ async def p104_ds_13_no_time_for_the_rest(dut):
 
 @directed("P104-DS-03", "P104-DS-04", "P104-DS-05", "P104-TIM-04", builds=(D16, D11))
 async def p104_ds_03_start_times(dut):
-    """Given every operation, when its last byte is stored,
-    then BUSY, hold, dir, s and pulse 1 keep their times.
+    """For every operation, BUSY, hold, dir, s and pulse 1 occur at their times after the last byte
+    (P104-DS-03, P104-DS-04, P104-DS-05).
     """
     lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
     for code, n, rate, busy, first in (
@@ -128,8 +131,8 @@ async def p104_ds_03_start_times(dut):
 
 @directed("P104-BCK-02", "P104-DS-03", builds=(D16,))
 async def p104_ds_03_clock_of_the_c_event(dut):
-    """Given csel and vsel that change between the last byte of an operation and BUSY,
-    then those of before count.
+    """If csel and vsel change between the last byte of an operation and BUSY, the previous levels apply
+    (P104-DS-03).
     """
     lab = await Sheet.start(dut, (0x0A, 9, 4, 4))
     for csel, vsel, interval in ((1, 1, 3200), (0, 1, 12_800), (1, 0, 3320)):
@@ -148,7 +151,9 @@ async def p104_ds_03_clock_of_the_c_event(dut):
 
 @directed("P104-DS-05", builds=(D16,))
 async def p104_ds_05_long_triangles(dut):
-    """Given PA = 300, when D is 599, 600, 300, then only below 2·PA pulse 1 waits in proportion to N."""
+    """With PA = 300, the delay of pulse 1 is proportional to N only for D below 2·PA: tried with
+    D = 599, 600, 300 (P104-DS-05).
+    """
     lab = await Sheet.start(dut, (0x0A, 40, 9, 300))
     for n, first in ((600, 3200 + 123 * 600 // 16), (601, 3200), (301, 3200 + 123 * 301 // 16)):
         event = await lab.event(0x43, n)
@@ -159,8 +164,8 @@ async def p104_ds_05_long_triangles(dut):
 
 @directed("P104-DS-03", "P104-HSK-01", builds=(D16,))
 async def p104_ds_03_closed_until_busy(dut):
-    """Given a start, when AUX ON waits for it,
-    then it is taken once BUSY has risen, and the chopper is off then.
+    """AUX ON that waits for a start is accepted when BUSY has risen; the chopper is off then
+    (P104-DS-03).
     """
     lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
     for code, n, rate, busy in ((0x44, 3, 99, 27), (0x43, 9, None, 112)):
@@ -177,7 +182,7 @@ async def p104_ds_03_closed_until_busy(dut):
 
 @directed("P104-DS-06", "P104-SW-02", builds=(D16, D25X8))
 async def p104_ds_06_single_step(dut):
-    """Given 0x42, when it runs, then the pulse is at 86 us, INT, chopper and mailbox at 112 us."""
+    """The pulse of 0x42 occurs at 86 us; INT, chopper and mailbox follow at 112 us (P104-DS-06)."""
     lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
     event = await lab.event(0x42)
     fall = await lab.pulse(1)
@@ -194,7 +199,9 @@ async def p104_ds_06_single_step(dut):
 
 @directed("P104-DS-07", "P104-END-01", "P104-SW-02", "P104-DS-09", builds=(D16, D11))
 async def p104_ds_07_normal_end(dut):
-    """Given complete moves, when the last pulse falls, then INT 26 us and the mailbox 156 us after it."""
+    """After the last pulse of a complete move, INT follows 26 us later and the mailbox opens 156 us
+    later (P104-DS-07).
+    """
     lab = await Sheet.start(dut, (0x2A, 9, 4, 4))
     for code, n, rate in ((0x44, 3, 99), (0x43, 9, None), (0xC3, 12, None)):
         await lab.host.command(0xC2)
@@ -213,8 +220,8 @@ async def p104_ds_07_normal_end(dut):
 
 @directed("P104-DS-08", "P104-DS-14", "P104-END-02", builds=(D16, D11))
 async def p104_ds_08_immediate_end(dut):
-    """Given 0x40, ALM and 0x41 at constant speed, when they end a move,
-    then INT 26 or 200 us after the decision, mailbox 156 or 200 us.
+    """After 0x40, ALM, or 0x41 at constant speed, INT follows the decision by 26 or 200 us, and the
+    mailbox opens 156 or 200 us after it (P104-DS-08).
     """
     lab = await Sheet.start(dut, INIT_A)
     for code, n, rate, quiet, closed in (
@@ -259,8 +266,8 @@ async def p104_ds_08_immediate_end(dut):
 
 @directed("P104-DS-08", "P104-LIM-07", "P104-DS-03", builds=(D16,))
 async def p104_ds_08_cause_at_start(dut):
-    """Given ALM low at the start, when moves start,
-    then BUSY rises at its time and ends 26 or 200 us later.
+    """With ALM low at the start, BUSY rises at its time, and the operation ends 26 or 200 us later
+    (P104-DS-08).
     """
     lab = await Sheet.start(dut, INIT_A)
     lab.bench.set(alm_n=0)

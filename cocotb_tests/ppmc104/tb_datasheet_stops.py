@@ -13,10 +13,10 @@ from .sheet import TOLERANCE, US, Sheet
 
 @directed("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02", builds=(D16, D11))
 async def p104_ds_10_decelerating_stop(dut):
-    """Given 0x41 in I(4), when the flag comes 17 us later,
-    then I(4) or I(5) is the last up; INT 200 us after the end.
+    """The flag of 0x41 in I(4) is set 17 us later: I(4) or I(5) is the last interval of the
+    acceleration; INT follows the end by 200 us (P104-DS-10).
     """
-    # Slow enough that no interval closes the mailbox by itself (P104-DS-12).
+    # Slow enough that no interval closes the mailbox (P104-DS-12).
     ramp = (60, 30, 10)
     lab = await Sheet.start(dut, (0x0A, *ramp))
     fourth = lab.cfg.quanta(8 * (rates(ramp, [3])[0] + 1))
@@ -42,9 +42,9 @@ async def p104_ds_10_decelerating_stop(dut):
 
 @directed("P104-DS-10", "P104-FDC-01", "P104-LIM-04", builds=(D16,))
 async def p104_ds_10_slow_down_limit(dut):
-    """Given L3 for 10 clk in START, ACC and HIGH, when 12 or 17 us have passed, then the flag is set."""
+    """L3 low for 10 cycles in START, ACC or HIGH sets the flag 12 or 17 us later (P104-DS-10)."""
     lab = await Sheet.start(dut, INIT_B)
-    # j: interval in which L3 falls; its length and the delay of the flag in clk at 16 MHz.
+    # j: interval in which L3 falls; its length and the delay of the flag, in cycles at 16 MHz.
     for j, length, delay in ((4, 480, 192), (13, 320, 272)):
         for early in (40, -40):
             await lab.event(0x43, 200)
@@ -66,12 +66,12 @@ async def p104_ds_10_slow_down_limit(dut):
 
 @directed("P104-DS-10", "P104-END-05", "P104-FDC-05", builds=(D16,))
 async def p104_ds_10_flag_too_late(dut):
-    """Given 0x41 or L3 just before natural deceleration or the end, when the flag is due,
-    then it has no effect, not on the next operation either.
+    """If the flag of 0x41 or L3 would be set only after the natural deceleration or the end began, it
+    has no effect, on this and on the next operation (P104-DS-10).
     """
     lab = await Sheet.start(dut, INIT_B)
     for cause in ("41", "l3_n", "none"):
-        # N = 8: natural deceleration begins at pulse 5, I(4) is 480 clk. N = 2: I(1) is 640 clk.
+        # N = 8: natural deceleration begins at pulse 5, I(4) is 480 cycles. N = 2: I(1) is 640 cycles.
         for n, j, length in ((8, 4, 480), (2, 1, 640)):
             await lab.event(0x43, n)
             fall = await lab.pulse(j)
@@ -90,8 +90,8 @@ async def p104_ds_10_flag_too_late(dut):
 
 @directed("P104-DS-11", "P104-AUX-01", "P104-AUX-02", "P104-AUX-05", builds=(D16, D11))
 async def p104_ds_11_aux_times(dut):
-    """Given AUX ON/OFF, auxiliary output and 0xC0, when stored,
-    then pins move 14 or 18 us later, closed till then.
+    """AUX ON/OFF, auxiliary output and 0xC0 change their pins 14 or 18 us after the write; until then
+    the mailbox is closed (P104-DS-11).
     """
     lab = await Sheet.start(dut, (0x02, 9, 4, 4))
     for code, pin in ((0xC1, "aux_n"), (0xC2, "aux_n")):
@@ -119,7 +119,9 @@ async def p104_ds_11_aux_times(dut):
 
 @directed("P104-DS-12", "P104-STP-01", builds=(D16,))
 async def p104_ds_12_speed_limit(dut):
-    """Given intervals below and at 148 q and 100 q, when C1 comes, then it waits or is taken."""
+    """C1 waits during intervals below 148 q (phase mode) or 100 q (POUT mode) and is accepted in longer
+    ones (P104-DS-12).
+    """
     lab = await Sheet.start(dut, None)
     # 144 q and 152 q in phase mode, 96 q and 104 q in POUT mode, 142 q and 150 q with vsel = L.
     for rate, code, vsel, open_ in (
@@ -148,14 +150,15 @@ async def p104_ds_12_speed_limit(dut):
 
 @directed("P104-DS-12", "P104-LIM-01", "P104-STP-04", builds=(D16,))
 async def p104_ds_12_ends_with_the_fast_part(dut):
-    """Given a fast plateau, when C1 waits,
-    then the first slow interval takes it; 0x41 and limits act at once.
+    """C1 that waits during a fast plateau is accepted in the first slow interval; 0x41 and limits act
+    immediately (P104-DS-12).
     """
     lab = await Sheet.start(dut, INIT_B)
     await lab.event(0x43, 60)
     await lab.pulse(15, 40)
     await lab.host.command(0xC1, poll=False)
-    # Rates going down: 9,10,10,11,12,12,14,15,17,19; 17 is 144 q, 19 is 160 q: the last interval, I(59).
+    # Rates while decelerating: 9,10,10,11,12,12,14,15,17,19; 17 is 144 q, 19 is 160 q: the last interval,
+    # I(59).
     await lab.pulse(58, 100)
     lab.check("P104-DS-12", "IBF in I(58), 144 q", await lab.host.status() & IBF, IBF)
     await lab.pulse(59, 60)
@@ -168,7 +171,7 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
     await lab.host.command(0x41, poll=False)
     await lab.bench.clocks(20)
     lab.check("P104-DS-12", "0x41 is taken", await lab.host.status() & IBF, 0)
-    # The flag comes 17 us = 272 clk later, in the same 320 clk interval.
+    # The flag is set 17 us = 272 cycles later, in the same interval of 320 cycles.
     await lab.result("P104-DS-12", 26, 0xC3, 173)
     await lab.rest()
     await lab.event(0x44, 100, 9)
@@ -179,8 +182,8 @@ async def p104_ds_12_ends_with_the_fast_part(dut):
 
 @directed("P104-DS-04", "P104-DS-05", "P104-DS-12", "P104-TIM-03", builds=(D16,))
 async def p104_ds_04_external_clock(dut):
-    """Given an external clock, when moves start,
-    then pulse 1 is the first edge after 194 or 200 us; no speed limit.
+    """With an external clock, pulse 1 is the first edge after 194 or 200 us, and no speed limit applies
+    (P104-DS-04, P104-DS-05, P104-DS-12).
     """
     lab = await Sheet.start(dut, (0x1A, 9, 4, 4))
     for code, n, rate, first in ((0x44, 8, 0, 194), (0x43, 14, None, 200)):

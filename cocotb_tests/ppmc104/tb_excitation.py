@@ -12,8 +12,8 @@ A_VALUES = (9, 4, 4)
 
 @directed("P104-PHS-01", "P104-PHS-06", "P104-OPR-05", "P104-EX-09", builds=(F16, F50))
 async def p104_phs_01_lists_in_motion(dut):
-    """Given all motors and logics, when moves cross the wrap both ways,
-    then each pulse takes the next row.
+    """For all motors and logics, each pulse selects the next row of the list, also across its wrap in
+    both directions (P104-PHS-01).
     """
     lab = await Lab.start(dut, None)
     for name, code in STEP_CODES.items():
@@ -35,7 +35,7 @@ async def p104_phs_01_lists_in_motion(dut):
 
 @directed("P104-PHS-06", "P104-PHS-01")
 async def p104_phs_06_half_step_alignment(dut):
-    """Given half-step motors, when every second step is compared, then it is the full-step list."""
+    """Every second half step is a row of the full-step list (P104-PHS-06)."""
     lab = await Lab.start(dut, None)
     for phases in (3, 4, 5):
         await lab.host.command(0xC0)
@@ -53,7 +53,9 @@ async def p104_phs_06_half_step_alignment(dut):
 
 @directed("P104-PHS-02", "P104-PHS-03", "P104-PAR-01", builds=(F16, F50))
 async def p104_phs_02_idle_level(dut):
-    """Given PHASE_IDLE 1 or 0, when nothing was initialised, then s has that level through all commands."""
+    """Until the first initialisation, s has the level PHASE_IDLE, regardless of any command
+    (P104-PHS-02).
+    """
     lab = await Lab.start(dut, None)
     idle = 0x1F if lab.cfg.phase_idle else 0
     lab.check("P104-PHS-02", "s", lab.bench.level("s"), idle)
@@ -66,7 +68,7 @@ async def p104_phs_02_idle_level(dut):
 
 @directed("P104-PHS-04", "P104-STP-01", "P104-END-02")
 async def p104_phs_04_held_at_every_stop(dut):
-    """Given stops by 0x40, 0x41, L1, ALM, CNP, when the motor rests, then its pattern stays on."""
+    """After a stop by 0x40, 0x41, L1, ALM or CNP, the pattern stays on (P104-PHS-04)."""
     lab = await Lab.start(dut, INIT_A)
     for stop in ("40", "41", "l1_n", "alm_n", "cnp_n"):
         await lab.go(0x47, None, 9)
@@ -86,8 +88,8 @@ async def p104_phs_04_held_at_every_stop(dut):
 
 @directed("P104-SW-01", "P104-SW-04", "P104-SW-06", "P104-GEN-04", builds=(F16, F8, F11, F25, F50))
 async def p104_sw_06_accuracy(dut):
-    """Given each core clock, when the chopper runs 12 periods,
-    then phases are in a quantum and nothing drifts.
+    """For each core clock, 12 periods of the chopper have phases within one quantum and no drift
+    (P104-SW-06).
     """
     lab = await Lab.start(dut, (0x2E, *A_VALUES))
     quantum = 4 * lab.cfg.clk_hz / lab.cfg.xtal_hz
@@ -126,8 +128,8 @@ async def p104_sw_06_accuracy(dut):
 
 @directed("P104-SW-01", "P104-SW-02", "P104-PHS-01")
 async def p104_sw_01_off_phase_levels(dut):
-    """Given every motor and logic with S = 1, when it rests,
-    then OFF is all five at the off level, no gap.
+    """With S = 1, an OFF phase drives all five pins of each motor and logic to the off level, without
+    intermediate levels (P104-SW-01).
     """
     lab = await Lab.start(dut, None)
     for name, code in STEP_CODES.items():
@@ -143,8 +145,8 @@ async def p104_sw_01_off_phase_levels(dut):
 
 @directed("P104-SW-02", "P104-SW-03", "P104-SW-04", builds=(F16, F25))
 async def p104_sw_02_start_and_stop(dut):
-    """Given S = 1, when moves run,
-    then the pattern is full from the start edge and ON is whole after BUSY falls.
+    """With S = 1, the pattern is full from the start of a motion on, and a complete ON phase follows
+    the fall of BUSY (P104-SW-02).
     """
     lab = await Lab.start(dut, (0x2A, *A_VALUES))
     us, w = lab.cfg.us, lab.cfg.w
@@ -166,8 +168,8 @@ async def p104_sw_02_start_and_stop(dut):
 
 @directed("P104-SW-05")
 async def p104_sw_05_sampled_at_phase_starts(dut):
-    """Given parameters, when vsel turns within a phase,
-    then that phase keeps its length, the next has the new.
+    """When parameters or vsel change within a phase, this phase keeps its length and the next one has
+    the new length (P104-SW-05).
     """
     lab = await Lab.start(dut, (0x2A, *A_VALUES))
     await lab.host.send(0x84, [5, 5])
@@ -188,9 +190,7 @@ async def p104_sw_05_sampled_at_phase_starts(dut):
 
 @directed("P104-SW-07", "P104-SW-01", "P104-SW-03")
 async def p104_sw_07_others_do_not_see_it(dut):
-    """Given a chopping motor, when it rests,
-    then pout_n, dir, hold, 0x82 are still; 0xC0 ends the chopping.
-    """
+    """Chopping at standstill does not change pout_n, dir, hold and 0x82; 0xC0 ends it (P104-SW-07)."""
     lab = await Lab.start(dut, (0x2A, *A_VALUES))
     await lab.move(0x4A)
     await lab.finish()

@@ -1,4 +1,6 @@
-"""Fast external clocks against the formula, thresholds of their period (P104-BCK-05, -TIM-05, -INT-03)."""
+"""Fast external clocks compared with the formula, thresholds of their period (P104-BCK-05, -TIM-05,
+-INT-03).
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ from .tb_baseclock import EXTERNAL, carried
 
 @directed("P104-BCK-05", "P104-TIM-05", "P104-BAD-14", builds=(F16, F8))
 async def p104_bck_05_first_deceleration_interval(dut):
-    """Given edges 8 clk apart, when a move turns round, then the pulse is cut, the interval exact."""
+    """With edges 8 cycles apart, the low time at the deceleration point is cut and the interval is
+    exact (P104-BCK-05).
+    """
     ramp = (255, 1, 4)
     lab = await Lab.start(dut, (0x1A, *ramp))
     moves = await ExtMoves.of(lab, ramp, "l3_n")
@@ -32,8 +36,8 @@ async def p104_bck_05_first_deceleration_interval(dut):
     uncompared=TOO_MANY,
 )
 async def p104_bck_05_sweep(dut):
-    """Given edges 4 to 17 clk apart and RH 0 to 4,
-    when moves turn round anywhere, then all is as the formula says.
+    """With edges 4 to 17 cycles apart, RH 0 to 4, and any deceleration point, pulses follow the formula
+    (P104-BCK-05).
     """
     lab = await Lab.start(dut, EXTERNAL)
     moves = await ExtMoves.of(lab, INIT_A[1:], "l3_n")
@@ -47,7 +51,9 @@ async def p104_bck_05_sweep(dut):
 
 @directed("P104-TIM-05", builds=(F16, F8, F25))
 async def p104_tim_05_brisk_threshold(dut):
-    """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
+    """At rate 0 the high time of the clock cuts the low time only for periods below CYC(128): tried
+    with CYC(128) - 1, 0, + 1 cycles (P104-TIM-05).
+    """
     lab = await Lab.start(dut, EXTERNAL)
     moves = await ExtMoves.of(lab, INIT_A[1:], "l3_n")
     brisk = lab.cfg.cyc(BRISK)
@@ -58,7 +64,9 @@ async def p104_tim_05_brisk_threshold(dut):
 
 @directed("P104-INT-03", builds=(F16, F8, F25))
 async def p104_int_03_long_threshold(dut):
-    """Given vsel = L and periods of H - 1, 0, + 1 clk, then only above it the extra time is left away."""
+    """With vsel = L, the extra time is omitted only if the clock period exceeds H (H - 1, H, H + 1
+    cycles and mixed).
+    """
     lab = await Lab.start(dut, EXTERNAL, vsel=0)
     h = (272 * lab.cfg.clk_hz // lab.cfg.xtal_hz + 1) // 2
     for gaps in ([h - 1] * 40, [h] * 40, [h + 1] * 40, [h, h + 1, h - 1, h] * 10):

@@ -13,9 +13,7 @@ LIMITS = {0: "l3_n", 1: "l4_n"}
 
 @directed("P104-EX-04", "P104-FDC-02", "P104-FDC-03")
 async def p104_ex_04_stop_in_each_phase(dut):
-    """Given EX-04, when 0x41 or L3 acts in acceleration, I(1), plateau, START,
-    then the printed figures come.
-    """
+    """0x41 or L3 in acceleration, I(1), plateau or START leads to the values of P104-EX-04."""
     lab = await Lab.start(dut, INIT_B)
     cases = ((4, 8, [19, 17, 15, 14, 15, 17, 19], 0x3DF), (1, 2, [19], 0x3E5))
     for j, count, expected, rest in cases:
@@ -43,8 +41,8 @@ async def p104_ex_04_stop_in_each_phase(dut):
 
 @directed("P104-FDC-01", "P104-FDC-02", "P104-LIM-04", "P104-END-03", "P104-END-04", builds=(F16, F100))
 async def p104_fdc_01_limit_in_each_interval(dut):
-    """Given CW and CCW phase moves, when the slow-down limit falls in each interval,
-    then the ramp is mirrored.
+    """The slow-down limit of the direction, in each interval of a phase-mode move, mirrors the ramp
+    (P104-FDC-01).
     """
     lab = await Lab.start(dut, INIT_B)
     for direction in (0, 1):
@@ -63,8 +61,8 @@ async def p104_fdc_01_limit_in_each_interval(dut):
 
 @directed("P104-FDC-01", "P104-STP-04", "P104-GEN-07")
 async def p104_fdc_01_running_interval_unaltered(dut):
-    """Given one interval, when the limit falls anywhere in it,
-    then that interval and the rest are the same.
+    """A slow-down limit anywhere in an interval does not change this interval; the remaining ones are
+    always the same (P104-FDC-01).
     """
     lab = await Lab.start(dut, INIT_B)
     for delay in (1, 2, 3, 79, 80, 81, 300, 470):
@@ -80,7 +78,7 @@ async def p104_fdc_01_running_interval_unaltered(dut):
 
 @directed("P104-FDC-03", "P104-LIM-04", "P104-EX-04")
 async def p104_fdc_03_flag_in_start(dut):
-    """Given START, when 0x41 or the limit comes before pulse 1, then exactly one pulse is output."""
+    """With 0x41 or the slow-down limit in START, exactly one pulse is output (P104-FDC-03)."""
     lab = await Lab.start(dut, INIT_B)
     for code, n in ((0x43, 50), (0x46, None), (0xC3, 50), (0x43, 1)):
         await lab.go(code, n)
@@ -96,8 +94,8 @@ async def p104_fdc_03_flag_in_start(dut):
 
 @directed("P104-FDC-04", "P104-BAD-20", "P104-LIM-04")
 async def p104_fdc_04_never_withdrawn(dut):
-    """Given a flagged motion, when the limit chatters or is released,
-    then the deceleration goes on unchanged.
+    """After the flag is set, a bouncing or released limit does not change the deceleration
+    (P104-FDC-04).
     """
     lab = await Lab.start(dut, INIT_B)
     await lab.go(0x43, 200)
@@ -113,10 +111,13 @@ async def p104_fdc_04_never_withdrawn(dut):
 
 @directed("P104-FDC-05", "P104-END-05", "P104-PRO-04")
 async def p104_fdc_05_complete_all_the_same(dut):
-    """Given N equal to the mirrored ramp, when 0x41 or L3 is taken, then the motion counts as complete."""
+    """With N equal to the length of the mirrored ramp, 0x41 or L3 is accepted and the motion is still
+    complete (P104-FDC-05).
+    """
     lab = await Lab.start(dut, INIT_B)
     for j in (1, 4, 10):
-        # Forced at index j - 1: 2j pulses. Natural deceleration of N = 2j begins later, at the next pulse.
+        # Forced at index j - 1: 2j pulses. Natural deceleration of N = 2j begins later, at the next
+        # pulse.
         for stop in ("41", "l3"):
             await lab.go(0x43, 2 * j)
             await lab.pulse(j, 20)
@@ -130,8 +131,8 @@ async def p104_fdc_05_complete_all_the_same(dut):
 
 @directed("P104-FDC-06", "P104-LIM-01", builds=(F16, F25))
 async def p104_fdc_06_latency(dut):
-    """Given a slow-down limit 4 clk before a pulse event, when it falls,
-    then that event counts down already.
+    """A slow-down limit that falls 4 cycles before a pulse event already makes this event decelerate
+    (P104-FDC-06).
     """
     lab = await Lab.start(dut, INIT_B)
     fifth = lab.cfg.quanta(8 * (20 + 18 + 16 + 15))
@@ -147,7 +148,7 @@ async def p104_fdc_06_latency(dut):
         count = len(lab.pulses)
         outcomes.append(count)
         lab.check("P104-FDC-06", "8 pulses in time, 10 too late", count in (8, 10), True)
-        # The pin shows pulse events at most 2 clk after they happen.
+        # The pin shows pulse events at most 2 cycles after they happen.
         if before >= 4 + 2:
             lab.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
         await lab.result("P104-FDC-06", count, 0x8B, 200 - count - 1)
@@ -157,8 +158,8 @@ async def p104_fdc_06_latency(dut):
 
 @directed("P104-FDC-06", "P104-STP-03")
 async def p104_fdc_06_latency_of_the_command(dut):
-    """Given 0x41 around a pulse event, when its C-event is 4 clk before,
-    then that event counts down already.
+    """0x41 with its C-event 4 cycles before a pulse event already makes this event decelerate
+    (P104-FDC-06).
     """
     lab = await Lab.start(dut, INIT_B)
     fifth = 32 * (20 + 18 + 16 + 15)
@@ -171,7 +172,8 @@ async def p104_fdc_06_latency_of_the_command(dut):
         await lab.idle()
         count = len(lab.pulses)
         outcomes.append(count)
-        # Edge 0 is `before` clk early; the C-event comes 2 to 10 clk after it, the pin 2 after the event.
+        # Edge 0 is `before` cycles early; the C-event follows it by 2 to 10 cycles, the pin follows the
+        # event by 2.
         if before >= 10 + 4 + 2:
             lab.check("P104-FDC-06", f"pulses, {before} clk before", count, 8)
         await lab.result("P104-FDC-06", count, 0xC3, 200 - count - 1)

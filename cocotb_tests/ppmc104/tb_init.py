@@ -12,15 +12,13 @@ ALL_PINS = 0x1F
 
 
 def off_level(code: int) -> int:
-    """Level of the five pins with no winding on."""
+    """Return the level of the five pins with all windings off."""
     return 0 if code & 8 else ALL_PINS
 
 
 @directed("P104-INI-01", "P104-PHS-01", "P104-PHS-03", "P104-INI-05")
 async def p104_ini_01_code_bits(dut):
-    """Given all 48 codes, when each initialises,
-    then motor type, method, logic, clock and chopping are its bits.
-    """
+    """The bits of all 48 codes select motor type, method, logic, clock and chopping (P104-INI-01)."""
     lab = await Lab.start(dut, None)
     for code in (c for c in range(0x40) if c & 3):
         table = steps(f"{(code & 3) + 2} {'half' if code & 4 else 'full'}", bool(code & 8))
@@ -50,8 +48,8 @@ async def p104_ini_01_code_bits(dut):
 
 @directed("P104-INI-05", "P104-INI-07", "P104-TIM-01", "P104-INI-02")
 async def p104_ini_07_pattern_at_the_last_byte(dut):
-    """Given the longest table, when the 4th byte is taken,
-    then s shows index 0 at once, and no byte earlier.
+    """With the longest table, s has pattern 0 as soon as the 4th byte is accepted, and not before
+    (P104-INI-07).
     """
     lab = await Lab.start(dut, None)
     await lab.host.send(0x0A, [255, 0, 11220 & 0xFF])
@@ -68,7 +66,9 @@ async def p104_ini_07_pattern_at_the_last_byte(dut):
 
 @directed("P104-INI-06", "P104-BAD-10", "P104-ERR-02", "P104-PHS-02", builds=(F16, F50))
 async def p104_ini_06_rejected(dut):
-    """Given an illegal init, when it is rejected, then an unset core stays unset and a set one keeps all."""
+    """A rejected initialisation leaves an uninitialised core uninitialised and changes nothing in an
+    initialised one (P104-INI-06).
+    """
     lab = await Lab.start(dut, None)
     idle = lab.bench.part.reset_levels(lab.cfg.params)["s"]
     await lab.host.init(0x0F, 4, 5, 4)
@@ -90,9 +90,7 @@ async def p104_ini_06_rejected(dut):
 
 @directed("P104-INI-04", "P104-INI-09", "P104-INI-05")
 async def p104_ini_09_reinit(dut):
-    """Given an initialised core, when rates, ramp and clock source are set anew,
-    then the next moves use them.
-    """
+    """After a re-initialisation, the next moves use the new rates, ramp and clock source (P104-INI-09)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x43, 6)
     for code, rl, rh, pa in ((0x0A, 20, 6, 7), (0x0A, 3, 3, 100), (0x0E, 12, 0, 5)):
@@ -116,8 +114,8 @@ async def p104_ini_09_reinit(dut):
 
 @directed("P104-INI-05", "P104-PHS-03", "P104-PHS-04", "P104-PHS-05", "P104-AUX-04")
 async def p104_ini_05_index_kept(dut):
-    """Given a motor at index 3, when it is re-initialised,
-    then index and pattern stay; after 0xC0 it is index 0.
+    """A re-initialisation keeps index and pattern; after 0xC0 an initialisation begins with index 0
+    (P104-INI-05).
     """
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x44, 3, rate=5)
@@ -145,8 +143,8 @@ async def p104_ini_05_index_kept(dut):
 
 @directed("P104-INI-08", "P104-SW-02", "P104-SW-03")
 async def p104_ini_08_chopping_and_completion(dut):
-    """Given S = 1, when re-inits run, then chopping goes on with the old S until completion,
-    then starts with ON.
+    """During a re-initialisation chopping continues with the old S until completion; with S = 1 it
+    restarts with an ON phase (P104-INI-08).
     """
     lab = await Lab.start(dut, None)
     on, off = 0b00011, 0
@@ -155,7 +153,7 @@ async def p104_ini_08_chopping_and_completion(dut):
     await lab.host.command(0xC1, poll=False)
     completed = await lab.bench.edge("aux_n", 0)
     first_off = await lab.bench.edge("s", off)
-    # The mailbox opens at completion; aux_n shows it within 10 clk.
+    # The mailbox opens at completion; aux_n follows within 10 cycles.
     lab.window("P104-INI-08", "completion to the first OFF phase", first_off - completed, 1040 - 10, 1040 + 6)
     lab.check("P104-INI-08", "edges of s before", [v for _, v in lab.bench.edges("s")], [on, off])
     before = set()
@@ -186,8 +184,8 @@ async def p104_ini_08_chopping_and_completion(dut):
 
 @directed("P104-INI-10", "P104-AUX-04", "P104-AUX-06")
 async def p104_ini_10_leaves_the_rest(dut):
-    """Given pins and registers in use, when init and Excitation OFF come,
-    then all but excitation is unchanged.
+    """Initialisation and Excitation OFF change only the excitation: pins and registers in use keep
+    their values (P104-INI-10).
     """
     lab = await Lab.start(dut, INIT_B)
     await lab.host.run("c C1 c 86 d 05 c 84 d 01 d 02")
@@ -216,7 +214,7 @@ async def p104_ini_10_leaves_the_rest(dut):
 
 @directed("P104-AUX-06", "P104-PHS-02", builds=(F16, F16X1))
 async def p104_aux_06_off_before_init(dut):
-    """Given a core that was never initialised, when 0xC0 comes, then nothing visible changes."""
+    """0xC0 before the first initialisation has no visible effect (P104-AUX-06)."""
     lab = await Lab.start(dut, None)
     lab.check("P104-AUX-06", "status", await lab.host.command(0xC0), 0x00)
     await lab.bench.clocks(20)

@@ -1,6 +1,4 @@
-"""Limit, alarm and origin inputs (P104-LIM): the table of what ends or slows each operation,
-priorities, timing.
-"""
+"""Limit, alarm and origin inputs (P104-LIM): their effect on each operation, priorities, timing."""
 
 from __future__ import annotations
 
@@ -29,7 +27,9 @@ OPERATIONS = (
 
 
 def effect(code: int, pin: str) -> str:
-    """What an active pin does to an operation in HIGH or at constant speed: end, slow or nothing."""
+    """Return the effect of an active pin on an operation in HIGH or at constant speed: "end", "slow" or
+    "".
+    """
     ccw = code >> 3 & 1
     if pin == "alm_n" or pin == ("l1_n", "l2_n")[ccw] or (pin == "cnp_n" and code & 7 == 7):
         return "end"
@@ -39,7 +39,7 @@ def effect(code: int, pin: str) -> str:
 
 
 def bit(pin: str) -> int:
-    """Finish bit of a pin."""
+    """Return the finish bit of a pin."""
     return {"alm_n": 0x20, "cnp_n": 0}.get(pin, 0x10 if pin in ("l1_n", "l2_n") else 0x08)
 
 
@@ -54,8 +54,8 @@ def bit(pin: str) -> int:
     builds=(F16, F50),
 )
 async def p104_lim_02_matrix_in_motion(dut):
-    """Given every operation CW and CCW, when each input falls on the plateau,
-    then it ends, slows or nothing.
+    """Each input that falls on the plateau of each operation, CW and CCW, ends it, decelerates it or
+    has no effect (P104-LIM-02).
     """
     lab = await Lab.start(dut, INIT_A)
     for base, n, rate in OPERATIONS[1:]:
@@ -95,8 +95,8 @@ async def p104_lim_02_matrix_in_motion(dut):
     builds=(F16, F50),
 )
 async def p104_lim_07_matrix_at_start(dut):
-    """Given each input low at the start, when every operation starts,
-    then no pulse, one pulse, or a whole move.
+    """With each input low at the start, each operation outputs no pulse, one pulse or all pulses, as
+    the rules state (P104-LIM-07).
     """
     lab = await Lab.start(dut, INIT_A)
     for base, n, rate in OPERATIONS:
@@ -128,7 +128,9 @@ async def p104_lim_07_matrix_at_start(dut):
 
 @directed("P104-LIM-03", "P104-LIM-05", "P104-LIM-09", "P104-END-02", "P104-BAD-20")
 async def p104_lim_03_every_phase(dut):
-    """Given START, ACC, HIGH, DEC, CONST, when ALM or the hard limit falls, then the motion ends there."""
+    """ALM or the hard limit of the direction ends a motion immediately in START, ACC, HIGH, DEC and
+    CONST (P104-LIM-03, P104-LIM-05).
+    """
     lab = await Lab.start(dut, None)
     states = {"START ramp": 0, "ACC": 2, "HIGH": PLATEAU, "DEC": PLATEAU, "DEC natural": 6}
     states |= {"START constant": 0, "CONST": 2}
@@ -148,9 +150,7 @@ async def p104_lim_03_every_phase(dut):
 
 @directed("P104-LIM-04", "P104-FDC-01", "P104-FDC-04")
 async def p104_lim_04_per_state(dut):
-    """Given each state of ramp moves in phase and POUT mode, when L3 is seen for 3 clk,
-    then it acts as listed.
-    """
+    """L3 sampled for 3 cycles acts in the states that P104-LIM-04 lists, in phase mode and in POUT mode."""
     lab = await Lab.start(dut, None)
     for code in (0x43, 0x46, 0xC3, 0xC6):
         for state, flags in (
@@ -181,7 +181,7 @@ async def p104_lim_04_per_state(dut):
 
 @directed("P104-LIM-04", "P104-PRO-06", "P104-EX-05")
 async def p104_lim_04_pout_mode_plateau(dut):
-    """Given POUT mode and L3 from any interval on, when the plateau is reached, then it acts from there."""
+    """In POUT mode, L3 that is low from any interval on acts when the plateau is reached (P104-LIM-04)."""
     lab = await Lab.start(dut, INIT_B)
     for j in (1, 5, 9, 10, 11, 12, 15):
         await lab.go(0xC3, 60)
@@ -193,7 +193,7 @@ async def p104_lim_04_pout_mode_plateau(dut):
         which = forced(1000, 10, at)
         lab.check_train("P104-LIM-04", rates(INIT_B[1:], which))
         await lab.result("P104-LIM-04", len(which) + 1, 0x8B, 60 - len(which) - 2)
-    # HIGH begins with pulse 11, I(10) lasts 320 clk. A level that is gone before is lost, else it acts.
+    # HIGH begins with pulse 11, I(10) lasts 320 cycles. A level that ends before HIGH has no effect.
     for release, pulses, finish in ((314, 60, 0x83), (326, 22, 0x8B)):
         await lab.go(0xC3, 60)
         await lab.pulse(2, 60)
@@ -205,7 +205,7 @@ async def p104_lim_04_pout_mode_plateau(dut):
 
 @directed("P104-LIM-01", "P104-GEN-07", builds=(F16, F100))
 async def p104_lim_01_two_clk_levels(dut):
-    """Given levels of 2 clk at every phase of an interval, when they end, then they were seen, each once."""
+    """Levels of 2 cycles at every phase of an interval act, each exactly once (P104-LIM-01)."""
     lab = await Lab.start(dut, INIT_A)
     for pin, bits in (("l1_n", 0x94), ("alm_n", 0xA4)):
         for delay in (1, 2, 17, lab.cfg.w - 1, lab.cfg.w, lab.cfg.w + 9):
@@ -213,7 +213,7 @@ async def p104_lim_01_two_clk_levels(dut):
             await lab.pulse(3, delay)
             await lab.bench.pulse_pin(pin, 0, 2)
             await lab.result("P104-LIM-01", 3, bits, 26)
-    # In START as well, and nothing of a level that went away before the start.
+    # This also holds in START; a level that ended before the start has no effect.
     await lab.bench.pulse_pin("l1_n", 0, 8)
     await lab.bench.clocks(2)
     await lab.go(0x44, 3, 9)
@@ -225,8 +225,8 @@ async def p104_lim_01_two_clk_levels(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-LIM-01")
 async def p104_lim_09_priority_at_a_pulse(dut):
-    """Given a pulse event that is due, when ALM falls at each clk around it,
-    then one side or the other, no third.
+    """If ALM falls in any cycle around a pulse event, either the pulse or the alarm has priority,
+    without other results (P104-LIM-09).
     """
     lab = await Lab.start(dut, INIT_A)
     outcomes = []
@@ -239,7 +239,7 @@ async def p104_lim_09_priority_at_a_pulse(dut):
         lab.bench.set(alm_n=1)
         count = len(lab.pulses)
         outcomes.append(count)
-        # Pulse 4 is the last: once it is out the move is complete.
+        # Pulse 4 is the last: when it was output, the move is complete.
         await lab.result("P104-LIM-09", count, 0x84 if count == 4 else 0xA4, 0)
         if before >= 6:
             lab.check("P104-LIM-09", f"pulses, ALM {before} clk before", count, 3)
@@ -249,8 +249,8 @@ async def p104_lim_09_priority_at_a_pulse(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-FDC-01", "P104-STP-04")
 async def p104_lim_09_two_requests_on_one_edge(dut):
-    """Given 0x41 and L3 some clk apart, when both ask,
-    then the first sets its bit, on one edge both bits, no error.
+    """Of 0x41 and L3 some cycles apart, the first sets its bit; on the same edge both bits are set,
+    without an error (P104-LIM-09).
     """
     lab = await Lab.start(dut, INIT_B)
     kinds = []
@@ -281,7 +281,9 @@ async def p104_lim_09_two_requests_on_one_edge(dut):
 
 @directed("P104-LIM-09", "P104-END-04")
 async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
-    """Given every operation, up, at the top and down, when L1 and ALM fall on one edge, then both bits."""
+    """If L1 and ALM fall on the same edge, both bits are set: in each operation, while accelerating, at
+    the top, while decelerating (P104-LIM-09).
+    """
     lab = await Lab.start(dut, INIT_A)
     await two_causes(lab, "P104-LIM-09", ("l1_n", "alm_n"))
     lab.bench.set(l1_n=0, alm_n=0)
@@ -291,7 +293,9 @@ async def p104_lim_09_limit_and_alarm_on_one_edge(dut):
 
 @directed("P104-LIM-09", "P104-LIM-04", "P104-LIM-06", "P104-END-04")
 async def p104_lim_09_causes_on_the_external_clock(dut):
-    """Given vsel = L and an external clock, when L3, CNP, or L1 and ALM fall, then as on an internal one."""
+    """With vsel = L and an external clock, L3, CNP, and L1 with ALM act as with an internal clock
+    (P104-LIM-09).
+    """
     lab = await Lab.start(dut, (0x1A, 9, 4, 4), vsel=0)
     period = lab.cfg.us(4)
     lab.bench.external_clock(repeat(period), high=period // 2)
@@ -307,8 +311,8 @@ async def p104_lim_09_causes_on_the_external_clock(dut):
 
 @directed("P104-LIM-09", "P104-END-04", "P104-STP-03")
 async def p104_lim_09_stop_command_and_hard_limit(dut):
-    """Given a stop command and L1 some clk apart in a ramped move, when both come on one edge,
-    then 0x40 sets its bit beside that of the limit, 0x41 comes too late for one.
+    """If a stop command and L1 act on the same edge of a ramped move, 0x40 sets its bit in addition to
+    that of the limit; 0x41 is too late for its bit (P104-LIM-09).
     """
     lab = await Lab.start(dut, INIT_B)
     kinds = {}
@@ -335,9 +339,7 @@ async def p104_lim_09_stop_command_and_hard_limit(dut):
 
 @directed("P104-LIM-10", "P104-RD-05")
 async def p104_lim_10_nothing_at_rest(dut):
-    """Given a core at rest, when all inputs toggle,
-    then no output moves and later moves know nothing of it.
-    """
+    """At rest, toggling inputs change no output and do not affect later moves (P104-LIM-10)."""
     lab = await Lab.start(dut, INIT_A)
     since = lab.bench.now
     for _ in range(60):

@@ -1,4 +1,4 @@
-"""Steep ramps, whose rates are looked up while an interval runs: every edge against the golden model."""
+"""Steep ramps, whose rates are looked up during an interval: every edge compared with the golden model."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from .bench import PPMC104
 
 @directed("P104-DS-12", builds=(D16,))
 async def p104_ds_12_opens_in_a_steep_deceleration(dut):
-    """Given DATASHEET and steep ramps, when a byte waits, then it is taken as soon as it may."""
+    """In DATASHEET with steep ramps, a byte that waits is accepted as soon as the rules allow
+    (P104-DS-12).
+    """
     bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     await host.init(0x0A, 120, 3, 12)
@@ -26,7 +28,9 @@ async def p104_ds_12_opens_in_a_steep_deceleration(dut):
 
 @directed("P104-TIM-05", "P104-BCK-04", builds=(F16, F8))
 async def p104_tim_05_external_cuts_on_steep_ramps(dut):
-    """Given external clocks with short high times, when ramps jump, then every low time is right."""
+    """With external clocks of short high times, every low time of a ramp that skips rates is right
+    (P104-TIM-05).
+    """
     bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     for slow, fast, steps, period, high in (

@@ -1,4 +1,4 @@
-"""Plays the sessions of docs/ppmc104/examples.md on the core: every byte must be the printed one."""
+"""Runs the sessions of docs/ppmc104/examples.md on the core: every byte must be the printed one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ async def begin(dut, first: bool = True) -> tuple[Side, HostBus]:
 
 @directed()
 async def manual_examples(dut):
-    """All chapters, each after a reset."""
+    """The examples of the manual, each group after a reset, produce the printed bytes."""
     bench, host = await begin(dut)  # 1
     start = bench.now
     two = blocks(2)

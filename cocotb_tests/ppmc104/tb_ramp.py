@@ -12,7 +12,7 @@ from .lab import Lab
 
 
 async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:
-    """Run a trapezoid with a short plateau over the whole table and check every pulse."""
+    """Run a trapezoidal profile with a short plateau through the complete table and check every pulse."""
     n = 2 * ramp[2] + 4
     await lab.init(0x0A, *ramp)
     await lab.move(code, n)
@@ -21,7 +21,7 @@ async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int 
 
 @directed("P104-RMP-01", "P104-RMP-02", builds=(F8, F16))
 async def p104_rmp_01_corner_ramps(dut):
-    """Given ramps at the corners of the legal values, when the whole table runs, then every rate is exact."""
+    """For ramps at the limits of the legal values, every rate of the table is exact (P104-RMP-01)."""
     lab = await Lab.start(dut, None)
     for ramp in (
         (255, 0, 4),
@@ -37,7 +37,7 @@ async def p104_rmp_01_corner_ramps(dut):
 
 @directed("P104-RMP-01", "P104-RMP-02", "P104-PRO-01")
 async def p104_rmp_01_random_ramps(dut):
-    """Given random ramps, when the whole table runs, then every rate is exact."""
+    """For random ramps, every rate of the table is exact (P104-RMP-01)."""
     lab = await Lab.start(dut, None)
     for _ in range(24):
         rl = lab.bench.rng.choice((3, 9, 20, 41, 64, 90))
@@ -47,7 +47,9 @@ async def p104_rmp_01_random_ramps(dut):
 
 @directed("P104-RMP-01", "P104-RMP-04", "P104-RMP-05", "P104-PRO-02", builds=(F8,))
 async def p104_rmp_04_longest_ramp(dut):
-    """Given RL 255, RH 0, PA 11220, when 22444 pulses run, then the widest figures come out exact."""
+    """With RL 255, RH 0 and PA 11220, 22444 pulses are exact: the largest values of the computation
+    (P104-RMP-04).
+    """
     lab = await Lab.start(dut, None)
     ramp = (255, 0, 11220)
     await lab.init(0x0A, *ramp)
@@ -59,7 +61,7 @@ async def p104_rmp_04_longest_ramp(dut):
 
 @directed("P104-RMP-02", "P104-RMP-05")
 async def p104_rmp_02_thresholds(dut):
-    """Given the threshold form, when its first index of each rate is compared with a run, then both agree."""
+    """The first index of each rate, computed by thresholds, is that of a move (P104-RMP-02)."""
     lab = await Lab.start(dut, None)
     for rl, rh, pa in ((9, 4, 4), (90, 81, 40), (30, 2, 33), (12, 0, 77)):
         await lab.init(0x0A, rl, rh, pa)
@@ -73,7 +75,7 @@ async def p104_rmp_02_thresholds(dut):
 
 
 def half_cases() -> list[tuple[int, int, int]]:
-    """Small ramps in which x(k) is exactly n + 1/2 for some k: the ones where rounding shows."""
+    """Return small ramps in which x(k) is exactly n + 1/2 for some k: they make the rounding visible."""
     found = []
     for rl in range(2, 12):
         for rh in range(rl):
@@ -90,7 +92,7 @@ def half_cases() -> list[tuple[int, int, int]]:
 
 @directed("P104-RMP-03", "P104-RMP-01")
 async def p104_rmp_03_exact_halves(dut):
-    """Given ramps with x(k) exactly on a half, when they run, then the half is rounded up."""
+    """In ramps with x(k) exactly on a half, the half is rounded up (P104-RMP-03)."""
     lab = await Lab.start(dut, None)
     cases = half_cases()
     lab.check("P104-RMP-03", "the example of the rule is among them", (4, 0, 8) in cases, True)
@@ -101,9 +103,7 @@ async def p104_rmp_03_exact_halves(dut):
 
 @directed("P104-PRO-01", "P104-PRO-02", "P104-PRO-03", "P104-PRO-04", "P104-EX-02", builds=(F16, F100))
 async def p104_pro_01_all_lengths(dut):
-    """Given a ramp of 6, when N goes from 1 to 24 in both modes,
-    then triangles and trapezoids are symmetric.
-    """
+    """With a ramp of 6, the profiles for N = 1 to 24 are symmetric in both modes (P104-PRO-01)."""
     lab = await Lab.start(dut, (0x0A, 30, 3, 6))
     ramp = (30, 3, 6)
     for n in range(1, 25):
@@ -115,7 +115,9 @@ async def p104_pro_01_all_lengths(dut):
 
 @directed("P104-PRO-02", "P104-PRO-03", "P104-EX-02")
 async def p104_pro_03_shapes_in_full(dut):
-    """Given init A, when N = 3, 6, 7, 10, 11 run, then the index lists written out in the rules come out."""
+    """With initialisation A, N = 2, 3, 6, 7, 9, 10, 11 lead to the index lists that the rules print
+    (P104-PRO-03).
+    """
     lab = await Lab.start(dut, INIT_A)
     lists = {2: [0], 3: [0, 0], 6: [0, 1, 2, 1, 0], 7: [0, 1, 2, 2, 1, 0], 9: [0, 1, 2, 3, 3, 2, 1, 0]}
     lists |= {10: [0, 1, 2, 3, 4, 3, 2, 1, 0], 11: [0, 1, 2, 3, 4, 4, 3, 2, 1, 0]}
@@ -127,8 +129,8 @@ async def p104_pro_03_shapes_in_full(dut):
 
 @directed("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
 async def p104_pro_04_forced_meets_the_end(dut):
-    """Given N near the mirrored ramp, when deceleration is forced,
-    then the move ends by index or by count.
+    """With N near the length of the mirrored ramp, a forced deceleration ends by index or by count
+    (P104-PRO-04).
     """
     lab = await Lab.start(dut, INIT_B)
     ramp = INIT_B[1:]
@@ -153,7 +155,7 @@ async def p104_pro_04_forced_meets_the_end(dut):
 
 @directed("P104-PRO-05", "P104-STP-04")
 async def p104_pro_05_natural_deceleration_begins(dut):
-    """Given several N, when 0x41 comes in each interval, then error 7 starts exactly where PRO-05 says."""
+    """For several N, 0x41 returns error 7 from exactly the interval on that P104-PRO-05 states."""
     lab = await Lab.start(dut, INIT_A)
     for n in (5, 8, 10, 12):
         running = indices(n, 4)
@@ -173,8 +175,8 @@ async def p104_pro_05_natural_deceleration_begins(dut):
 
 @directed("P104-PRO-06", "P104-LIM-04")
 async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
-    """Given POUT mode and L3 low, when N is 2·PA+1 and 2·PA+2,
-    then only the longer one has a HIGH to act in.
+    """In POUT mode with L3 low, L3 acts in a move of 2·PA+2 pulses, but not in one of 2·PA+1
+    (P104-PRO-06).
     """
     lab = await Lab.start(dut, INIT_A)
     lab.bench.set(l3_n=0)
@@ -191,9 +193,7 @@ async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
 
 @directed("P104-EX-01", "P104-EX-07", "P104-EX-11", "P104-INT-02")
 async def p104_ex_07_worked_examples(dut):
-    """Given the examples with vsel = L and with RL = RH, when they run,
-    then the printed intervals come out.
-    """
+    """The examples with vsel = L and with RL = RH have the printed intervals (P104-EX-07)."""
     lab = await Lab.start(dut, INIT_A, vsel=0)
     await lab.move(0x43, 14)
     expected = [440, 376, 312, 312, 280, 280, 280, 280, 280, 312, 312, 376, 440]
@@ -210,7 +210,7 @@ async def p104_ex_07_worked_examples(dut):
 
 @directed("P104-EX-03", builds=(F8,))
 async def p104_ex_03_slow_base_clock(dut):
-    """Given EX-03 with csel = L, when the start of it runs, then every interval is four times as long."""
+    """With csel = L, every interval at the start of EX-03 is four times as long (P104-EX-03)."""
     lab = await Lab.start(dut, (0x0A, 199, 49, 100), csel=0)
     lab.check(
         "P104-EX-03",

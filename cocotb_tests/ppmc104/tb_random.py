@@ -1,4 +1,4 @@
-"""Random hosts, compared with the golden model edge by edge, and noise that the core must survive."""
+"""Constrained-random hosts, compared with the golden model edge by edge, and noise on all pins."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from .bench import PPMC104
     least=10,
 )
 async def random_host(dut: Any, seed: int) -> None:
-    """Given a random host, when it has played its list, then all outputs changed as in the golden model."""
+    """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
     side = await start_bench(dut, PPMC104, **plan.pins)
     note(side, describe(plan.actions))
@@ -50,7 +50,7 @@ async def random_host(dut: Any, seed: int) -> None:
     uncompared=UNCOMPARED,
 )
 async def random_chaos(dut: Any, seed: int) -> None:
-    """Given noise on all input pins, when it ends, then 0x40, 0xC0 and an initialisation recover the core."""
+    """After noise on all input pins, 0x40, 0xC0 and an initialisation make the core work again."""
     bench = await Bench.start(dut, PPMC104, seed=seed)
     noise = make_noise(bench)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
@@ -58,7 +58,7 @@ async def random_chaos(dut: Any, seed: int) -> None:
     host = HostBus(bench, timeout=bench.config.us(200_000))
     for _ in range(4):
         await host.poll(IBF, 0)
-        # In DATASHEET timing an operation taken just now raises BUSY up to 112 us later.
+        # In DATASHEET timing, an operation that was just accepted raises BUSY up to 112 us later.
         await bench.clocks(bench.config.us(300))
         if not await host.poll(IBF, 0) & BUSY:
             break

@@ -11,14 +11,18 @@ READS = (0x80, 0x81, 0x82, 0x83, 0x85)
 
 
 def output_signals(s: int, hold: int, direction: int) -> int:
-    """Byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, HOLD, DIR (P104-RD-06)."""
+    """Return the byte of 0x82 for these pin levels: S1 in bit 7 down to S5 in bit 3, HOLD, DIR
+    (P104-RD-06).
+    """
     bits = sum((s >> i & 1) << (7 - i) for i in range(5))
     return bits | hold << 2 | direction << 1
 
 
 @directed("P104-RD-01", "P104-AUX-03")
 async def p104_rd_01_when_allowed(dut):
-    """Given reads and 0x84 before init, after it and in a move, when sent, then only BUSY forbids them."""
+    """Reads and 0x84 are rejected only while BUSY = 1, and accepted before and after initialisation
+    (P104-RD-01).
+    """
     lab = await Lab.start(dut, None)
     for phase in range(3):
         if phase == 1:
@@ -39,9 +43,7 @@ async def p104_rd_01_when_allowed(dut):
 
 @directed("P104-RD-02", "P104-RD-05", "P104-LIM-10")
 async def p104_rd_02_sampled_at_the_c_event(dut):
-    """Given pins that change after the command, when the byte is read later,
-    then it holds the earlier levels.
-    """
+    """A byte that is read later holds the pin levels at the time of its command (P104-RD-02)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.host.command(0x81)
     lab.bench.set(alm_n=0, l1_n=0)
@@ -57,8 +59,8 @@ async def p104_rd_02_sampled_at_the_c_event(dut):
 
 @directed("P104-RD-05", "P104-RD-08", "P104-LIM-10")
 async def p104_rd_05_input_bits(dut):
-    """Given every single input and random mixtures, when 0x81 and 0x85 are read,
-    then each bit is its own pin.
+    """For single inputs and random combinations, each bit of 0x81 and 0x85 is its own pin (P104-RD-05,
+    P104-RD-08).
     """
     lab = await Lab.start(dut, None)
     place = {"cnp_n": 7, "alm_n": 6, "l1_n": 3, "l2_n": 2, "l3_n": 1, "l4_n": 0}
@@ -77,9 +79,7 @@ async def p104_rd_05_input_bits(dut):
 
 @directed("P104-RD-06", "P104-SW-07")
 async def p104_rd_06_output_bits(dut):
-    """Given all patterns, both logics, hold and dir, when 0x82 is read,
-    then its bits are the un-chopped pins.
-    """
+    """For all patterns, both logics, hold and dir, 0x82 returns the unchopped pin levels (P104-RD-06)."""
     lab = await Lab.start(dut, None)
     for name, code in STEP_CODES.items():
         for positive in (True, False):
@@ -89,7 +89,7 @@ async def p104_rd_06_output_bits(dut):
                 ccw = positive
                 await lab.move(0x5A if ccw else 0x52)
                 pattern = table[-i % len(table) if ccw else i % len(table)]
-                # Both chopper phases: the byte does not tell them apart.
+                # The byte is the same in both phases of the chopper.
                 for _ in range(2):
                     expected = output_signals(pattern, 0, int(ccw))
                     lab.check("P104-RD-06", f"{name}, step {i}", await lab.host.fetch(0x82), [expected])
@@ -106,7 +106,9 @@ async def p104_rd_06_output_bits(dut):
 
 @directed("P104-RD-03", "P104-RD-04", "P104-END-07", builds=(F16, F25))
 async def p104_rd_04_read_finish_status(dut):
-    """Given an INT, when 0x80 is taken, then it rises without a data read, and bit 7 is there just once."""
+    """When 0x80 is accepted, INT is released without a data read, and bit 7 is set in one read only
+    (P104-RD-04).
+    """
     lab = await Lab.start(dut, INIT_A)
     lab.check("P104-RD-03", "before any operation", await lab.finish(), 0x00)
     for code, rate, finish in ((0x42, None, 0x02), (0x43, None, 0x03), (0x44, 3, 0x04)):
@@ -125,7 +127,9 @@ async def p104_rd_04_read_finish_status(dut):
 
 @directed("P104-RD-07", "P104-END-06", "P104-EX-10")
 async def p104_rd_07_remaining_resumes(dut):
-    """Given a stopped move, when the rest is read and sent back, then both parts make the whole count."""
+    """If the remaining count of a stopped move is sent back, both parts have the complete number of
+    pulses (P104-RD-07).
+    """
     lab = await Lab.start(dut, INIT_A)
     lab.check("P104-RD-07", "after reset", await lab.remaining(), 0)
     for stop_at in (1, 5, 19):
@@ -142,7 +146,9 @@ async def p104_rd_07_remaining_resumes(dut):
 
 @directed("P104-AUX-01", "P104-CMD-02", builds=(F16, F50))
 async def p104_aux_01_aux_pin(dut):
-    """Given UNINIT, READY, init and Excitation OFF, when AUX ON and OFF come, then only they move aux_n."""
+    """Before and after initialisation and Excitation OFF, only AUX ON and AUX OFF change aux_n
+    (P104-AUX-01).
+    """
     lab = await Lab.start(dut, None)
     for phase in range(3):
         for code, level in ((0xC1, 0), (0xC1, 0), (0xC2, 1), (0xC2, 1), (0xC1, 0)):
@@ -159,7 +165,9 @@ async def p104_aux_01_aux_pin(dut):
 
 @directed("P104-AUX-02")
 async def p104_aux_02_all_values(dut):
-    """Given all 256 data bytes, when each follows 0x86, then auxo is the inverted low nibble, in one edge."""
+    """For all 256 data bytes of 0x86, auxo is the inverted low nibble, changed on one edge
+    (P104-AUX-02).
+    """
     lab = await Lab.start(dut, None)
     for byte in range(256):
         before, since = lab.bench.level("auxo"), lab.bench.now
@@ -172,8 +180,8 @@ async def p104_aux_02_all_values(dut):
 
 @directed("P104-AUX-03", "P104-SW-05", "P104-SW-04")
 async def p104_aux_03_switching_parameters(dut):
-    """Given 0x84 before init and while chopping, when sent,
-    then both values act together, from a phase boundary.
+    """0x84, before initialisation and while chopping, changes both times together at a phase boundary
+    (P104-AUX-03).
     """
     lab = await Lab.start(dut, None)
     await lab.host.send(0x84, [0, 255])
@@ -197,7 +205,9 @@ async def p104_aux_03_switching_parameters(dut):
 
 @directed("P104-AUX-04", "P104-AUX-06", "P104-PHS-05", "P104-END-08")
 async def p104_aux_04_excitation_off(dut):
-    """Given a chopping motor, when 0xC0 comes in ON or OFF, then all pins go off and stay; hold runs on."""
+    """0xC0 in an ON or OFF phase switches all pins off permanently; the hold timer continues
+    (P104-AUX-04).
+    """
     lab = await Lab.start(dut, None)
     for code, off in ((0x2A, 0), (0x22, 0x1F)):
         for phase in (0, 1):
@@ -218,7 +228,9 @@ async def p104_aux_04_excitation_off(dut):
 
 @directed("P104-HSK-05", "P104-BUS-03")
 async def p104_hsk_05_reads_one_sample_apart(dut):
-    """Given three bytes, when one edge alone samples the pause between two strobes, then no byte is lost."""
+    """If only one edge samples the pause between two read strobes, none of three bytes is lost
+    (P104-HSK-05).
+    """
     lab = await Lab.start(dut)
     host = lab.host
     for strobe in (4, 5, 7):

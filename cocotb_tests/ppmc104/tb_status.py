@@ -13,7 +13,9 @@ LONGEST_BUILD = (0x0A, 255, 0, 11220)
 
 @directed("P104-STA-01", "P104-STA-02", "P104-STA-03", "P104-STA-04", "P104-STA-05", "P104-GEN-01")
 async def p104_sta_01_status_bits(dut):
-    """Given bytes, reads and a motion, when status is read, then each bit shows its own condition only."""
+    """Each bit of the status has its own condition only: tried with bytes, reads and a motion
+    (P104-STA-01).
+    """
     lab = await Lab.start(dut, None)
     host, check = lab.host, lab.check
     check("P104-STA-07", "status after reset", await host.status(), 0x00)
@@ -46,7 +48,9 @@ async def p104_sta_01_status_bits(dut):
 
 @directed("P104-STA-06", "P104-ERR-00", "P104-ERR-03", "P104-STA-05")
 async def p104_sta_06_errors_replace(dut):
-    """Given every error number in turn, when bytes follow, then the field is that of the last byte taken."""
+    """After each error number in turn, ERR and NUM are those of the last byte that was accepted
+    (P104-STA-06).
+    """
     lab = await Lab.start(dut, None)
     got = await lab.statuses(
         "c 00 c 42 d 00 c 40 c 0A d 09 d 04 d C0 d FF d 00 c 0A d 04 d 09 d 04 d 00 c 86 d 00"
@@ -92,8 +96,8 @@ async def p104_sta_06_errors_replace(dut):
 
 @directed("P104-ERR-01")
 async def p104_err_01_check_order(dut):
-    """Given commands with several faults, when checked,
-    then the order is undefined, stop at rest, BUSY, init, 7.
+    """Commands with several faults are checked in this order: undefined, stop at rest, BUSY, not
+    initialised, error 7 (P104-ERR-01).
     """
     lab = await Lab.start(dut, None)
     for code, status in ((0xC4, 0x80), (0x00, 0x80), (0x40, 0x80), (0x46, 0xA0), (0xC6, 0xA0)):
@@ -115,7 +119,9 @@ async def p104_err_01_check_order(dut):
 
 @directed("P104-ERR-02", "P104-INI-03")
 async def p104_err_02_init_checks(dut):
-    """Given illegal values, when the 4th byte is taken, then error 4 goes before 5, and not earlier."""
+    """Illegal initialisation values are checked with the 4th byte, not before; error 4 has priority
+    over 5 (P104-ERR-02).
+    """
     lab = await Lab.start(dut, None)
     cases = {(5, 6, 100): 0xD0, (0, 255, 11220): 0xD0, (9, 4, 3): 0xD0, (9, 4, 0): 0xD0, (9, 4, 11221): 0xC0}
     cases |= {(9, 4, 0xFFFF): 0xC0, (5, 6, 11221): 0xC0, (5, 6, 3): 0xD0, (255, 255, 4): 0, (0, 0, 11220): 0}
@@ -127,7 +133,9 @@ async def p104_err_02_init_checks(dut):
 
 @directed("P104-ERR-03", "P104-BAD-01", "P104-BAD-02")
 async def p104_err_03_faulty_bytes_are_harmless(dut):
-    """Given a motion with INT pending, when faulty bytes rain, then pulses, INT, outputs and queue stay."""
+    """During a motion with INT pending, faulty bytes do not change pulses, INT, outputs and the output
+    queue (P104-ERR-03).
+    """
     lab = await Lab.start(dut, INIT_B)
     await lab.move(0x42)
     await lab.host.command(0x83)
@@ -157,8 +165,8 @@ async def p104_err_03_faulty_bytes_are_harmless(dut):
 
 @directed("P104-HSK-01", "P104-HSK-04", "P104-INI-07", "P104-FSM-02", "P104-BAD-06")
 async def p104_hsk_04_table_build_window(dut):
-    """Given the longest ramp table, when bytes come in its window,
-    then they wait, and only the newest is taken.
+    """During the build of the longest ramp table, bytes wait and only the newest is accepted
+    (P104-HSK-04).
     """
     lab = await Lab.start(dut, None)
     last = 0
@@ -183,12 +191,12 @@ async def p104_hsk_04_table_build_window(dut):
 
 @directed("P104-HSK-02", "P104-BAD-06", builds=(F16, F100))
 async def p104_hsk_02_replacement(dut):
-    """Given two writes 2 to 16 clk apart, when they meet a C-event,
-    then the second is kept and none is doubled.
+    """Of two writes 2 to 16 cycles apart, around a C-event, the second is kept and none is executed
+    twice (P104-HSK-02).
     """
     lab = await Lab.start(dut, None)
-    # Gap and strobe of the second write; its edge 0 is their sum after that of the first. From 8 clk on the
-    # first byte was taken for sure: its C-event is at most 8 clk after its write event.
+    # Gap and strobe of the second write; its edge 0 is their sum after that of the first. From 8 cycles
+    # on the first byte was certainly accepted: its C-event is at most 8 cycles after its write event.
     spacings = [(1, 1), (1, 2), *((gap, 2) for gap in range(2, 15))]
     sure = next(i for i, pair in enumerate(spacings) if sum(pair) == C_EVENT_LATEST - WRITE_EVENT)
     first_seen = []
@@ -203,7 +211,7 @@ async def p104_hsk_02_replacement(dut):
     lab.check("P104-HSK-01", "first byte taken", set(first_seen[sure:]), {1})
     outcomes = []
     for gap, strobe in spacings:
-        # A command, then data: the flag that goes with the byte is replaced too.
+        # A command, then data: the command/data flag of the byte is replaced, too.
         await lab.host.command(0x84)
         await lab.host.write(COMMAND, 0x86, gap=gap)
         await lab.host.write(DATA, 0x0F, strobe=strobe)
@@ -217,7 +225,9 @@ async def p104_hsk_02_replacement(dut):
 
 @directed("P104-HSK-02", "P104-DS-02", builds=(D16,))
 async def p104_hsk_02_replacement_when_closed(dut):
-    """Given a closed mailbox, when command and data bytes replace each other, then only the last counts."""
+    """While the mailbox is closed, command and data bytes replace each other, and only the last is
+    accepted (P104-HSK-02).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 2, rate=50)
     last = await lab.pulse(2)
@@ -233,7 +243,9 @@ async def p104_hsk_02_replacement_when_closed(dut):
 
 @directed("P104-HSK-03", "P104-GEN-07", "P104-OPR-01", builds=(F16, F100))
 async def p104_hsk_03_all_on_one_edge(dut):
-    """Given the OFF phase of the chopper, when a CCW step starts, then hold, dir and s move on one edge."""
+    """When a CCW step starts in an OFF phase of the chopper, hold, dir and s change on the same edge
+    (P104-HSK-03).
+    """
     lab = await Lab.start(dut, (0x2A, 9, 4, 4))
     await lab.bench.edge("s", 0)
     await lab.bench.clocks(20)
@@ -265,7 +277,9 @@ async def p104_hsk_03_all_on_one_edge(dut):
 
 @directed("P104-HSK-05", "P104-STA-02", "P104-RD-07", builds=(F16, F100))
 async def p104_hsk_05_output_queue(dut):
-    """Given a 3-byte read, when data reads follow at any distance, then OBF goes, comes and never lies."""
+    """After a 3-byte read, data reads at any distance return the bytes, and OBF is 0 or 1 as documented
+    (P104-HSK-05).
+    """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x45, rate=9)
     await lab.pulse(2, 50)
@@ -280,7 +294,7 @@ async def p104_hsk_05_output_queue(dut):
                 got.append(await lab.host.read(DATA, strobe=length, gap=gap))
                 soon = await lab.host.read(1)
                 if gap >= 7:
-                    # 2 clk to the clearing edge, 4 more to the next byte.
+                    # 2 cycles to the clearing edge, 4 more to the next byte.
                     lab.check("P104-HSK-05", "OBF 8 clk after the read", soon & OBF, int(len(got) < 3))
             lab.check("P104-HSK-05", f"bytes, gap {gap}, strobe {length}", got, [0xFD, 0xFF, 0xFF])
             lab.check("P104-HSK-05", "OBF after the third byte", await lab.host.status() & OBF, 0)
@@ -293,7 +307,7 @@ async def p104_hsk_05_output_queue(dut):
 
 @directed("P104-HSK-06", "P104-BAD-07")
 async def p104_hsk_06_empty_read(dut):
-    """Given OBF = 0, when the data register is read, then the last byte comes and nothing changes."""
+    """With OBF = 0, a data read returns the last byte again and has no effect (P104-HSK-06)."""
     lab = await Lab.start(dut, INIT_A)
     lab.check("P104-HSK-06", "before any byte", await lab.host.read(DATA), 0x00)
     await lab.host.fetch(0x81)
@@ -307,7 +321,7 @@ async def p104_hsk_06_empty_read(dut):
 
 @directed("P104-HSK-07", "P104-BAD-03", "P104-BAD-04", "P104-INI-02")
 async def p104_hsk_07_cancel(dut):
-    """Given half-entered commands, when any command comes, then they are dropped and it is judged alone."""
+    """Any command cancels an incomplete command and is then checked as usual (P104-HSK-07)."""
     lab = await Lab.start(dut, INIT_A)
     await lab.host.send(0x43, [0x09])
     await lab.bench.clocks(40_000)
@@ -338,8 +352,8 @@ async def p104_hsk_07_cancel(dut):
 
 @directed("P104-HSK-08", "P104-BAD-22")
 async def p104_hsk_08_queue_stays(dut):
-    """Given unread bytes, when other commands and motions run,
-    then only an executed read command replaces them.
+    """Unread bytes stay in the queue during other commands and motions, until another read command is
+    executed (P104-HSK-08).
     """
     lab = await Lab.start(dut, INIT_A)
     await lab.move(0x44, 2, rate=9)

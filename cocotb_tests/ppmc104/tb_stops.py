@@ -12,8 +12,8 @@ ALL = 1 << 24
 
 @directed("P104-STP-01", "P104-END-02", "P104-PHS-04", "P104-TIM-01", builds=(F16, F100))
 async def p104_stp_01_immediate(dut):
-    """Given every kind of move, when 0x40 comes high or low in a pulse,
-    then it ends there, energised, bit 6.
+    """0x40 during the high or low time of a pulse ends each kind of move there, with bit 6, and the
+    phases stay energised (P104-STP-01).
     """
     lab = await Lab.start(dut, INIT_A)
     w = lab.cfg.w
@@ -43,8 +43,8 @@ async def p104_stp_01_immediate(dut):
 
 @directed("P104-STP-01", "P104-LIM-09")
 async def p104_stp_01_no_pulse_after_the_c_event(dut):
-    """Given a pulse that is due, when 0x40 comes at each clk around it,
-    then the pulse is out or it is not left over.
+    """With 0x40 in each cycle around a pulse event, no pulse is output after the C-event, and the
+    remaining count is right (P104-STP-01).
     """
     lab = await Lab.start(dut, INIT_A)
     seen = set()
@@ -66,8 +66,8 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
 
 @directed("P104-STP-02", "P104-STP-06", "P104-ERR-01")
 async def p104_stp_02_at_rest(dut):
-    """Given a core at rest, fresh, initialised or after a move, when a stop comes,
-    then error 0 and no effect.
+    """A stop at rest returns error 0 and has no effect: before and after initialisation, and after a
+    move (P104-STP-02).
     """
     lab = await Lab.start(dut, None)
     for phase in range(4):
@@ -96,8 +96,8 @@ async def p104_stp_02_at_rest(dut):
     builds=(F16, F8),
 )
 async def p104_stp_03_decelerating(dut):
-    """Given 0x43 and 0x46 in phase and POUT mode, when 0x41 comes in any interval,
-    then the ramp is mirrored.
+    """0x41 in any interval of 0x43 and 0x46 mirrors the ramp, in phase mode and in POUT mode
+    (P104-STP-03).
     """
     lab = await Lab.start(dut, INIT_B)
     ramp = INIT_B[1:]
@@ -118,7 +118,7 @@ async def p104_stp_03_decelerating(dut):
 
 @directed("P104-STP-05", "P104-OPR-09", "P104-OPR-11", "P104-OPR-08")
 async def p104_stp_05_decelerating_at_constant_speed(dut):
-    """Given 0x42, 0x44, 0x45, 0x47, when 0x41 comes, then it acts like 0x40, without an error."""
+    """During 0x42, 0x44, 0x45 and 0x47, 0x41 acts like 0x40, without an error (P104-STP-05)."""
     lab = await Lab.start(dut, INIT_A)
     for code, n, rate in ((0x44, 300, 30), (0x45, None, 30), (0x47, None, 30)):
         await lab.go(code, n, rate)
@@ -132,15 +132,13 @@ async def p104_stp_05_decelerating_at_constant_speed(dut):
 
 
 def await_end(lab: Lab) -> int:
-    """Edge of the last fall of int_n."""
+    """Return the edge of the last fall of int_n."""
     return lab.bench.falls("int_n")[-1]
 
 
 @directed("P104-STP-07", "P104-END-07")
 async def p104_stp_07_mask_is_of_the_operation(dut):
-    """Given moves with I = 0 and 1, when each stop comes with either bit 4,
-    then INT follows the move's bit.
-    """
+    """After a stop, INT follows bit I of the move; bit 4 of the stop is ignored (P104-STP-07)."""
     lab = await Lab.start(dut, INIT_A)
     for operation in (0x45, 0x55, 0x46, 0x56):
         for stop in (0x40, 0x50, 0x41, 0x51):
@@ -155,7 +153,7 @@ async def p104_stp_07_mask_is_of_the_operation(dut):
 
 @directed("P104-STP-08", "P104-END-05", "P104-END-01")
 async def p104_stp_08_in_fin(dut):
-    """Given the low time of the last pulse, when stops come, then no effect on a complete or stopped move."""
+    """In the low time of the last pulse, stops do not affect a complete or stopped move (P104-STP-08)."""
     lab = await Lab.start(dut, INIT_A)
     for code, rate, decel in ((0x43, None, 0xF4), (0x44, 9, 0x04), (0xC3, None, 0xF4)):
         for stop, status in ((0x40, 0x04), (0x41, decel)):
@@ -179,7 +177,9 @@ async def p104_stp_08_in_fin(dut):
 
 @directed("P104-OPR-02", "P104-OPR-03", "P104-GEN-05", "P104-END-06")
 async def p104_opr_02_counts(dut):
-    """Given D over all three bytes, when the move is stopped early, then the rest tells the whole count."""
+    """If a move is stopped early, the remaining count shows that all three bytes of D were used
+    (P104-OPR-02).
+    """
     lab = await Lab.start(dut, INIT_A)
     for d in (0x000001, 0x000100, 0x010000, 0x123456, 0x800000, 0xFFFFFF):
         for code, rate in ((0x43, None), (0x44, 9)):
@@ -203,8 +203,8 @@ async def p104_opr_02_counts(dut):
 
 @directed("P104-OPR-04", "P104-OPR-08", "P104-INT-01", "P104-INT-05", "P104-BAD-17")
 async def p104_opr_04_all_rates(dut):
-    """Given every rate byte 0..255, when 3 pulses run at it,
-    then intervals and low times keep to the formula.
+    """For every rate byte 0..255, the intervals and low times of 3 pulses follow the formula
+    (P104-OPR-04).
     """
     lab = await Lab.start(dut, INIT_A)
     for r in range(256):
@@ -215,8 +215,8 @@ async def p104_opr_04_all_rates(dut):
 
 @directed("P104-OPR-05", "P104-EX-09", "P104-TIM-04", "P104-PHS-01")
 async def p104_opr_05_phase_and_pout_mode(dut):
-    """Given a 5-phase half-step motor, when phase and POUT moves run both ways,
-    then only phase mode moves s.
+    """Only phase mode changes s: tried with a 5-phase half-step motor and moves in both directions
+    (P104-OPR-05).
     """
     lab = await Lab.start(dut, (0x0F, 9, 4, 4))
     since = lab.bench.now
@@ -237,7 +237,7 @@ async def p104_opr_05_phase_and_pout_mode(dut):
 
 @directed("P104-OPR-05", "P104-SW-03")
 async def p104_opr_05_pout_mode_unchopped(dut):
-    """Given S = 1, when a POUT move runs, then the pattern stays on all through it."""
+    """With S = 1, the pattern stays on during the complete POUT-mode move (P104-OPR-05)."""
     lab = await Lab.start(dut, (0x2A, 9, 4, 4))
     await lab.bench.edge("s", 0)
     await lab.go(0xC3, 30)
@@ -249,7 +249,7 @@ async def p104_opr_05_pout_mode_unchopped(dut):
 
 @directed("P104-OPR-06", "P104-TIM-02", "P104-TIM-05", builds=(F16, F8, F100))
 async def p104_opr_06_single_step(dut):
-    """Given any csel, vsel, clock source and ramp, when single steps run, then all look the same."""
+    """Single steps are the same for any csel, vsel, clock source and ramp (P104-OPR-06)."""
     lab = await Lab.start(dut, (0x0A, 255, 200, 4))
     for external in (False, True):
         if external:
@@ -269,8 +269,8 @@ async def p104_opr_06_single_step(dut):
 
 @directed("P104-OPR-11", "P104-LIM-06", "P104-END-06")
 async def p104_opr_11_origin_search(dut):
-    """Given 0x47 CW and CCW, when CNP falls at once or between pulses,
-    then it ends, no cause bit, rest kept.
+    """CNP, at the start or between pulses, ends 0x47 CW and CCW without a cause bit and keeps the
+    remaining count (P104-OPR-11).
     """
     lab = await Lab.start(dut, INIT_A)
     for code in (0x47, 0x4F):
@@ -286,8 +286,8 @@ async def p104_opr_11_origin_search(dut):
 
 @directed("P104-OPR-01", "P104-RD-07", "P104-RD-03")
 async def p104_opr_01_status_of_old_move_replaced(dut):
-    """Given a stopped move, when a complete one follows,
-    then no cause bit and no rest of the old one is left.
+    """A complete move after a stopped one has no cause bit and no remaining count of the old move
+    (P104-OPR-01).
     """
     lab = await Lab.start(dut, INIT_A)
     for stop_first in (True, False, True):

@@ -22,8 +22,8 @@ OPERATIONS += ((0x47, None, 9), (0xC3, 6, None), (0xC6, None, None))
     builds=(F16, F8, F11, F25, F50, F100),
 )
 async def p104_tim_02_start(dut):
-    """Given every operation, when it starts CCW,
-    then hold and dir move together, pulse 1 W..W+2 clk later with s.
+    """At the CCW start of every operation, hold and dir change together; pulse 1 and s follow W..W+2
+    cycles later (P104-TIM-02).
     """
     lab = await Lab.start(dut, INIT_A)
     w = lab.cfg.w
@@ -46,8 +46,8 @@ async def p104_tim_02_start(dut):
 
 @directed("P104-TIM-05", "P104-TIM-04", builds=(F16, F25))
 async def p104_tim_05_external_low_times(dut):
-    """Given external clocks and vsel = H, when rates 0..9 run,
-    then low times are W or cut at their clock edge.
+    """With external clocks and vsel = H, low times at rates 0..9 are W or end at their clock edge
+    (P104-TIM-05).
     """
     lab = await Lab.start(dut, (0x1A, 9, 4, 4))
     w, us = lab.cfg.w, lab.cfg.us
@@ -68,7 +68,7 @@ async def p104_tim_05_external_low_times(dut):
 
 @directed("P104-TIM-05", "P104-INT-03", builds=(F16, F25))
 async def p104_tim_05_vsel_low(dut):
-    """Given vsel = L, when any rate runs on any clock, then every low time is W."""
+    """With vsel = L, every low time is W, for any rate and clock (P104-TIM-05)."""
     lab = await Lab.start(dut, (0x1A, 9, 4, 4), vsel=0)
     for period in (lab.cfg.us(1), lab.cfg.us(4), lab.cfg.us(12)):
         for rate in (0, 1, 3):
@@ -89,9 +89,7 @@ async def p104_tim_05_vsel_low(dut):
 
 @directed("P104-TIM-05", "P104-END-02", "P104-LIM-03", builds=(F16, F11))
 async def p104_tim_05_end_in_the_low_time(dut):
-    """Given short and long low times, when a limit hits at each clk of one,
-    then its length stays as begun.
-    """
+    """A limit in any cycle of a low time, short or long, does not change its length (P104-TIM-05)."""
     lab = await Lab.start(dut, INIT_A)
     for rate in (0, 1, 2, 9):
         expected = lab.cfg.cyc(16 * (rate + 1)) if rate <= 2 else lab.cfg.w
@@ -114,7 +112,9 @@ async def p104_tim_05_end_in_the_low_time(dut):
 
 @directed("P104-TIM-05", "P104-END-03", "P104-FDC-02")
 async def p104_tim_05_last_pulse_of_a_deceleration(dut):
-    """Given top speed at both ends of the ramp, when deceleration is forced, then the last low time is W."""
+    """With high rates at both ends of the ramp, the last low time of a forced deceleration is W
+    (P104-TIM-05).
+    """
     lab = await Lab.start(dut, (0x0A, 1, 0, 6))
     for j in (2, 5, 9):
         await lab.go(0x43, 200)
@@ -131,8 +131,8 @@ async def p104_tim_05_last_pulse_of_a_deceleration(dut):
 
 @directed("P104-TIM-06", "P104-PHS-07", "P104-STP-01")
 async def p104_tim_06_dir(dut):
-    """Given moves CW and CCW with stops and refused commands, when dir is watched,
-    then only starts change it.
+    """Only the start of a move changes dir: tried with moves CW and CCW, stops and rejected commands
+    (P104-TIM-06).
     """
     lab = await Lab.start(dut, INIT_B)
     levels, starts = [], []
@@ -154,8 +154,8 @@ async def p104_tim_06_dir(dut):
 
 @directed("P104-END-01", "P104-TIM-05", "P104-RD-07", builds=(F16, F25, F100))
 async def p104_end_01_normal_end(dut):
-    """Given all counted moves, when the last pulse rises,
-    then BUSY, INT, finish status, rest come in 4 clk.
+    """At the end of each counted move, BUSY, INT, finish status and remaining count follow the last
+    rise by at most 4 cycles (P104-END-01).
     """
     lab = await Lab.start(dut, INIT_A)
     for code, n, rate in ((0x42, None, None), (0x43, 9, None), (0x44, 3, 0), (0x44, 3, 30), (0xC3, 9, None)):
@@ -172,7 +172,7 @@ async def p104_end_01_normal_end(dut):
 
 @directed("P104-END-01", "P104-END-05", "P104-LIM-01", "P104-LIM-09")
 async def p104_end_05_too_late(dut):
-    """Given all causes, when they come after pulse event N, then they leave no trace."""
+    """Causes that occur after pulse event N have no effect (P104-END-05)."""
     lab = await Lab.start(dut, INIT_A)
     for pin in ("l1_n", "l3_n", "alm_n", "cnp_n"):
         for delay in (2, 30, 76):
@@ -187,8 +187,8 @@ async def p104_end_05_too_late(dut):
 
 @directed("P104-END-02", "P104-LIM-01", "P104-LIM-03", "P104-LIM-05", "P104-LIM-06", builds=(F16, F100))
 async def p104_end_02_reaction_time(dut):
-    """Given a pulse at H and at L, when each cause comes,
-    then the end is 8 clk after it or 4 after the rise.
+    """A cause ends the motion within 8 cycles if pout_n is high, else within 4 cycles of its rise
+    (P104-END-02).
     """
     lab = await Lab.start(dut, INIT_A)
     w = lab.cfg.w
@@ -210,9 +210,7 @@ async def p104_end_02_reaction_time(dut):
 
 @directed("P104-END-04", "P104-LIM-09", "P104-BAD-15")
 async def p104_end_04_cause_bits(dut):
-    """Given mixtures of causes at the decision and before, when a move ends,
-    then exactly their bits are set.
-    """
+    """With combinations of causes at the decision and before, exactly their bits are set (P104-END-04)."""
     lab = await Lab.start(dut, INIT_B)
     for pins, bits in (
         ({"l1_n": 0, "alm_n": 0}, 0x30),
@@ -243,7 +241,7 @@ async def p104_end_04_cause_bits(dut):
     await lab.idle()
     lab.bench.set(alm_n=1)
     await lab.result("P104-END-04", 7, 0xE3, 92)
-    # A slow-down limit that is gone again has left its bit 3; 0x40 on the flagged move adds bit 6.
+    # A slow-down limit that was released has set bit 3; 0x40 on the flagged move adds bit 6.
     await lab.go(0x43, 100)
     await lab.pulse(5, 100)
     await lab.bench.pulse_pin("l3_n", 0, 5)
@@ -254,8 +252,8 @@ async def p104_end_04_cause_bits(dut):
 
 @directed("P104-END-06", "P104-END-05", "P104-RD-07")
 async def p104_end_06_one_left_or_none(dut):
-    """Given moves that end one pulse short or complete, when status and rest are read,
-    then the bits tell which.
+    """The cause bits distinguish a move that ended one pulse early from a complete one; both have a
+    remaining count of 0 (P104-END-06).
     """
     lab = await Lab.start(dut, INIT_A)
     await lab.go(0x44, 4, rate=9)
@@ -273,9 +271,7 @@ async def p104_end_06_one_left_or_none(dut):
 
 @directed("P104-END-07", "P104-CMD-02")
 async def p104_end_07_int(dut):
-    """Given operations with I = 0 and 1 in any order, when INT is pending,
-    then only 0x80 or reset releases it.
-    """
+    """With I = 0 and 1 in any order, only 0x80 or reset releases a pending INT (P104-END-07)."""
     lab = await Lab.start(dut, INIT_A)
     expected = 1
     for code in (0x52, 0x52, 0x42, 0x52, 0x42, 0x42):
@@ -299,8 +295,8 @@ async def p104_end_07_int(dut):
 
 @directed("P104-END-08", "P104-DS-09", "P104-LIM-07", builds=(F8, F11))
 async def p104_end_08_hold(dut):
-    """Given a masked zero-pulse move and a normal one, when BUSY has fallen,
-    then hold rises 34.0 ms later.
+    """hold rises 34.0 ms after BUSY falls: after a masked move without a pulse, and after a normal one
+    (P104-END-08).
     """
     lab = await Lab.start(dut, INIT_A)
     us = lab.cfg.us
@@ -318,9 +314,7 @@ async def p104_end_08_hold(dut):
 
 @directed("P104-END-08", "P104-OPR-01", builds=(F8,))
 async def p104_end_08_hold_restarts(dut):
-    """Given a second operation before 34 ms are over, when both rest,
-    then hold counts from the second end.
-    """
+    """If a second operation starts within 34 ms, hold is timed from the second end (P104-END-08)."""
     lab = await Lab.start(dut, INIT_A)
     us = lab.cfg.us
     await lab.go(0x42)

@@ -1,4 +1,4 @@
-"""Directed part tests of the PPMC-104: one pytest item a cocotb test and build configuration."""
+"""Directed tests of the PPMC-104: one pytest item per cocotb test and build configuration."""
 
 from __future__ import annotations
 
@@ -52,5 +52,7 @@ def test_ppmc104(item, sim_options):
 
 @verifies("P104-PAR-01")
 def test_p104_par_01_ranges():
-    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    """The elaboration accepts each parameter at its bounds and rejects the values just outside
+    (P104-PAR-01).
+    """
     check_ranges("P104-PAR-01", part_design("ppmc104", F16), RANGES)

@@ -1,6 +1,6 @@
-"""Random hosts against the golden model: a fixed list of seeds; `--seed N` plays seed N only.
+"""Random hosts against the golden model: a fixed list of seeds; `--seed N` runs seed N only.
 
-`python -m scripts.measure.soak --seed S --count N` plays as many others as you like.
+`python -m scripts.measure.soak --seed S --count N` runs any number of other seeds.
 """
 
 from __future__ import annotations
@@ -46,17 +46,17 @@ pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_ite
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """The scenarios of some seeds: every output edge equals the golden model's."""
+    """For the scenarios of some seeds, every output edge equals that of the golden model."""
     random_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """Noise on all pins, then recovery by the documented sequence."""
+    """After noise on all pins, the documented sequence makes the core work again."""
     chaos_item.run(item, seeds, sim_options)
 
 
 def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
-    """Given a run whose golden model has another crystal than the RTL, then a few bytes show it."""
+    """If the golden model has another crystal than the RTL, a failing run is reduced to a few bytes."""
 
     async def run(bench: ModelBench) -> None:
         host = HostBus(bench)
@@ -82,7 +82,9 @@ def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """Same seed, same list; the fixed seeds together use every action kind and every build."""
+    """The same seed yields the same list; the fixed seeds together use every kind of action and every
+    build.
+    """
     assert scenario(5) == scenario(5) != scenario(6)
     assert random_item.complete and len(SEEDS) >= 200
     assert chaos_item.complete

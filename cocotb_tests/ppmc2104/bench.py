@@ -1,4 +1,4 @@
-"""The PPMC-2104 on a bench: its two bus styles. Pins and levels are those of the golden model."""
+"""Test bench of the PPMC-2104: its two bus styles. Pins and levels are those of the golden model."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ STROBES_WRS_RDS = BusStyle(
     read_on={"cs_n": 0, "ds_wrs_n": 1, "rw_rds_n": 0},
     read_off={"cs_n": 1, "rw_rds_n": 1},
 )
-# R/W* keeps its level after the strobe, as a processor's does until its next access.
+# R/W* keeps its level after the strobe, as with a processor until its next access.
 STROBES_DS_RW = BusStyle(
     write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 0},
     write_off={"cs_n": 1, "ds_wrs_n": 1},
@@ -22,7 +22,7 @@ STROBES_DS_RW = BusStyle(
 PPMC2104 = Part.of_model(
     "ppmc2104",
     codes,
-    more={"clk_o": (1, 0)},  # never stops and depends on nothing: no business of the model
+    more={"clk_o": (1, 0)},  # runs freely and depends on no input, so it is not in the model
     styles=(STROBES_WRS_RDS, STROBES_DS_RW),
     style_pin="busc",
     clock="extck",

@@ -1,5 +1,7 @@
-"""What the sheet crosses: operation, cause, phase, clock; error and state; bus style and access. Counted in
-the golden model."""
+"""Coverage crosses of the manual, counted in the golden model.
+
+Operation, cause, phase and clock; error and state; bus style and access.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `make demo PART=ppmc2104` plays: a straight line of two axes, then each on its own way."""
+"""The stimulus of `make demo PART=ppmc2104`: a straight line of two axes, then separate moves."""
 
 from __future__ import annotations
 
@@ -11,22 +11,25 @@ from cocotb_tests.harness.sessions import Story
 
 from .bench import PPMC2104
 
-# Axis 1: 4-phase motor, full step; axis 2: half step. Both with the internal clock, switched at rest.
+# Axis 1: 4-phase motor, full step; axis 2: half step. Both with the internal clock, switched at
+# standstill.
 SETTINGS = {1: (0x12, 127, 39, 200), 2: (0x36, 255, 79, 100)}  # code, RL, RH, PA
 PULSES = {1: 1000, 2: 500}
-CW, CCW = 0x43, 0x6B  # ramped moves: axis 1 clockwise, axis 2 the other way
+CW, CCW = 0x43, 0x6B  # ramped moves: axis 1 clockwise, axis 2 counterclockwise
 CONTINUOUS, HIGH_SPEED = 0x45, 0x66  # axis 1 until its limit, axis 2 until its slow-down limit
 RATE = 49  # 10 kpps
 PULSES_TO_LIMIT, PULSES_TO_SLOW_DOWN = {1: 150}, {2: 130}
 BUSY = {1: 0x04, 2: 0x08}
 CMND = 0x30
-INTERRUPT_LATENCY = 2400  # clk, 150 us: a busy host; both axes have ended by then
-BETWEEN_AXES = 320  # clk, 20 us: what it does with the answers of one
+INTERRUPT_LATENCY = 2400  # cycles, 150 us: a busy host; both axes have ended by then
+BETWEEN_AXES = 320  # cycles, 20 us: the host processes the answers of one axis
 LONG = 4_000_000
 
 
 async def serve(host: HostBus, pending: set[int]) -> None:
-    """Wait for the interrupt; read end status and remaining pulses of each axis of `pending` at rest."""
+    """Wait for the interrupt; read end status and remaining pulses of each axis of `pending` that is at
+    rest.
+    """
     bench = host.bench
     if bench.level("int_n"):
         await bench.edge("int_n", 0, timeout=LONG)
@@ -42,7 +45,9 @@ async def serve(host: HostBus, pending: set[int]) -> None:
 
 @cocotb.test()
 async def demo_two_axes(dut: Any) -> None:
-    """Given a reset chip, when a host moves both axes by RUN and then apart, then all of it is recorded."""
+    """A host that starts both axes by RUN and then moves them separately is recorded from reset to the
+    end.
+    """
     bench = await Bench.start(dut, PPMC2104, run=0b00)
     host = HostBus(bench)
     story = Story(bench)

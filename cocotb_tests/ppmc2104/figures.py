@@ -1,4 +1,4 @@
-"""Expected figures of the PPMC-2104AFP part tests: its settings and codes."""
+"""Expected values for the PPMC-2104AFP tests: its settings and codes."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ Init = tuple[int, int, int, int]
 
 # Code, RL, RH, PA: 4-phase, 2-phase excitation, internal base clock.
 INIT_A: Init = (0x02, 9, 4, 4)
-# The acceptance table's set-up, ramp "B" of P2104-EX-01.
+# Settings of the acceptance table, ramp "B" of P2104-EX-01.
 INIT_B: Init = (0x02, 0x63, 0x13, 0x0A)
-# External base clock with a short ramp of small rates, for tests that clock by hand.
+# External base clock with a short ramp of small rates, for tests that control each clock edge.
 INIT_EXT: Init = (0x0A, 2, 0, 4)
 
 # Setting codes of each step list (E and MM), axis 1, internal clock, no switching.
@@ -20,14 +20,15 @@ OBF, IBF, BUSY1, BUSY2, CMND1, CMND2, ERROR = 0x01, 0x02, 0x04, 0x08, 0x10, 0x20
 
 ALL = 1 << 24
 
-# Clk of the ramp-table build that no rule allows to be passed (P2104-HSK-05).
+# Maximum duration of the ramp-table build in cycles (P2104-HSK-05).
 BUILD_LATEST = 40_000
 
 
 def slowed(ramp: Ramp, n: int, j: int) -> list[int]:
-    """Rates of all intervals when deceleration is asked for in I(j), j >= 1 (P2104-FDC-02/03).
+    """Return the rates of all intervals when deceleration is requested in I(j), j >= 1
+    (P2104-FDC-02/03).
 
-    At the start-up rate it ends there: I(j) is the running interval and does not complete.
+    At the start-up rate the motion ends there: I(j) is the running interval and does not complete.
     """
     rl, _, pa = ramp
     which = forced(n, pa, j)
@@ -37,7 +38,7 @@ def slowed(ramp: Ramp, n: int, j: int) -> list[int]:
 
 
 def kind_of(code: int) -> str:
-    """What a code is, from the code map alone (P2104-CMD-01)."""
+    """Return the kind of a code; it follows from the code map alone (P2104-CMD-01)."""
     group, low = code >> 6, code & 7
     if group == 0:
         return "setting" if code & 3 else "undefined"
@@ -60,5 +61,5 @@ OPERATIONS = frozenset({"step", "ramp", "constant", "rate", "high"})
 
 
 def axis_of(code: int) -> int:
-    """Axis a code is charged to when it is faulty by itself (P2104-ERR-01)."""
+    """Return the axis whose error register gets the error of a faulty code (P2104-ERR-01)."""
     return 1 if kind_of(code) in ("auxout", "auxin") else (code >> 5 & 1) + 1

@@ -1,4 +1,4 @@
-"""What `make test-gates` runs of the PPMC-2104, and what it leaves out and why."""
+"""Tests that `make test-gates` runs for the PPMC-2104, and the tests that it omits, with the reason."""
 
 from __future__ import annotations
 

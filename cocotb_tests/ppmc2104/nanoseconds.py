@@ -1,4 +1,4 @@
-"""A host that knows nothing of clk: accesses by the nanoseconds of the old chip's bus timing."""
+"""A host that is asynchronous to clk: accesses with the bus timing of the old chip in nanoseconds."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from .lab import Lab
 # Limits of the old chip in ns (P2104-BUS-20).
 WIDTH, DATA_SETUP, DATA_HOLD, ADDRESS_SETUP, ADDRESS_HOLD = 120, 80, 10, 20, 5
 ACCESS, RELEASE = 100, 90
-# Starts of an access, in sixteenths of a clk.
+# Starts of an access, in sixteenths of a cycle.
 PHASES = range(16)
 
 
 def ps(ns: float) -> int:
-    """Even number of ps, as the simulator's time steps want it."""
+    """Return an even number of ps, as the time steps of the simulator require."""
     return int(ns * 500) * 2
 
 
 class SlowBus:
-    """Accesses with the times given; other than in `HostBus` every pin moves when it moves."""
+    """Accesses with the given times; unlike in `HostBus`, each pin changes at its own time."""
 
     def __init__(self, lab: Lab) -> None:
         self.lab = lab
@@ -29,21 +29,23 @@ class SlowBus:
 
     @property
     def style(self) -> BusStyle:
-        """Meaning of the strobe pins at present."""
+        """Present meaning of the strobe pins."""
         return self.lab.host.style
 
     async def wait(self, ns: float) -> None:
-        """Let so many ns pass."""
+        """Wait for this number of ns."""
         if ps(ns) > 0:
             await Timer(ps(ns), "ps")
 
     async def phase(self, sixteenth: int) -> None:
-        """Go to that sixteenth of a clk; no edge of clk lies exactly there."""
+        """Wait until that sixteenth of a cycle; no edge of `clk` is exactly there."""
         await self.bench.align()
         await Timer(self.bench.period * sixteenth // 32 * 2 + 2 * (self.bench.period // 128), "ps")
 
     async def _open(self, register: int, on: dict[str, int]) -> dict[str, int]:
-        """Chip select, address and R/W* first; returns what is left of the strobe: the strobe itself."""
+        """Drive chip select, address and R/W* first; return the strobe itself, which is still to be
+        driven.
+        """
         strobe = {pin: 0 for pin in ("ds_wrs_n", "rw_rds_n") if on[pin] == 0}
         if self.bench.pins["busc"]:
             strobe = {"ds_wrs_n": 0}
@@ -55,9 +57,10 @@ class SlowBus:
     async def write(
         self, register: int, byte: int, width: float = WIDTH, setup: float = DATA_SETUP, rest: float = 0
     ) -> int:
-        """One write: `width` of the strobe, d_i right from `setup` before its end; `rest` afterwards.
+        """Make one write with a strobe of `width`; d_i is valid from `setup` before its end; then wait
+        `rest`.
 
-        Returns the edge that samples the end of the strobe first.
+        Return the first edge that samples the end of the strobe.
         """
         bench = self.bench
         bench.set_between_edges(d_i=byte ^ 0xFF)
@@ -82,9 +85,9 @@ class SlowBus:
         access: float = ACCESS,
         release: float = RELEASE,
     ) -> list[tuple[int, int]]:
-        """One read; returns (d_oe, d_o) after the access time and at the end of the strobe.
+        """Make one read; return (d_oe, d_o) after the access time and at the end of the strobe.
 
-        Checks that the bus is free `release` after the strobe, then lets `rest` pass.
+        Check that the bus is released `release` after the strobe, then wait `rest`.
         """
         bench = self.bench
         strobe = await self._open(register, dict(self.style.read_on))

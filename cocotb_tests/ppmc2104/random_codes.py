@@ -1,4 +1,6 @@
-"""Instructions with their data for the random hosts of the PPMC-2104AFP: mostly legal and quick ones."""
+"""Instructions with their data for the random hosts of the PPMC-2104AFP: mostly legal and of short
+duration.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ Instruction = tuple[int, list[int]]
 
 
 class Codes:
-    """external: whether each axis has an external clock that runs."""
+    """Generator of instructions. `external`: whether each axis has a running external clock."""
 
     def __init__(self, rng: random.Random, datasheet: bool, external: tuple[bool, bool]) -> None:
         self.rng = rng
@@ -31,7 +33,7 @@ class Codes:
         self.external = external
 
     def setting(self, axis: int, wrong: float) -> Instruction:
-        """Initial setting; with probability `wrong` one that may be refused."""
+        """Return an initial setting; with probability `wrong` one that may be rejected."""
         rng = self.rng
         external = self.external[axis - 1] and rng.random() < 0.8
         code = rng.choice((1, 2, 3)) | rng.getrandbits(1) << 2 | external << 3 | rng.getrandbits(1) << 4
@@ -41,10 +43,10 @@ class Codes:
         return code | (axis - 1) << 5, [rl, rh, pa & 0xFF, pa >> 8]
 
     def _ramp(self, lowest: int) -> tuple[int, int, int]:
-        """Legal (RL, RH, PA), mostly small and quick ones."""
+        """Return a legal (RL, RH, PA); most are small and build quickly."""
         rng = self.rng
         kind = rng.random()
-        if self.datasheet and kind < 0.8:  # around the rate limits
+        if self.datasheet and kind < 0.8:  # near the rate limits
             rh = rng.choice((0x0B, 0x0C, 0x11, 0x12, 0x18, 0x19, 0x22, 0x23))
             return rh + rng.randint(2, 20), rh, rng.choice((4, 5, 8))
         if kind < 0.65:
@@ -59,7 +61,9 @@ class Codes:
         return rng.choice(((255, 1, 4), (255, 1, 11220), (255, 253, 11220), (3, 1, 4), (40, 1, 1000)))
 
     def operation(self, axis: int) -> Instruction:
-        """An operation with short moves and small rates; now and then too few or too many data bytes."""
+        """Return an operation with short moves and small rates, sometimes with too few or too many data
+        bytes.
+        """
         rng = self.rng
         code = rng.choice(OPERATIONS) | rng.getrandbits(1) << 3 | (rng.random() < 0.3) << 4 | (axis - 1) << 5
         d = rng.choice(COUNTS) - 1

@@ -1,8 +1,9 @@
-"""Random hosts for the PPMC-2104AFP: a seed becomes a plain list of actions, before the simulation starts.
+"""Constrained-random hosts for the PPMC-2104AFP: a seed becomes a list of actions before the simulation
+starts.
 
-`scenario(seed)` is pure: same seed, same configuration and same actions. `random_player` carries the list
-out on a bench; the actions are those of `common.player` and ("finish", [axes], clk). What the instructions
-and their data look like: `random_codes`.
+`scenario(seed)` is a pure function: the same seed yields the same configuration and the same actions.
+`random_player` executes the list on a test bench; the actions are those of `common.player` and
+("finish", [axes], cycles). `random_codes` creates the instructions and their data.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.harness.random_host import HostWriter
 from cocotb_tests.ppmc2104.random_codes import KNOWN_CODES, Codes
 
-# The builds of the random tests with their weights; DATASHEET runs are few because they are long.
+# The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [(F16, 30), (F8, 12), (F11, 16), (F25, 10), (F50, 10), (F100, 8)]
 DATASHEET_WEIGHTS: list[tuple[Config, int]] = [(D16, 7), (D11, 4), (D25X8, 3)]
 
@@ -23,12 +24,12 @@ READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x86, 1), (0x86, 1))
 
 
 def scenario(seed: int) -> Scenario:
-    """The scenario of a seed (any int)."""
+    """Return the scenario of a seed (any int)."""
     return _Writer(seed).make()
 
 
 class _Writer(HostWriter):
-    """Builds one scenario; every random decision comes from one generator in one order."""
+    """Builds one scenario; one generator makes all random decisions in one order."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("ppmc2104", seed, WEIGHTS, DATASHEET_WEIGHTS, external=(0.25, 0.25))
@@ -60,7 +61,7 @@ class _Writer(HostWriter):
                 self.add("fetch", base | code, count)
         self.add("wait", rng.choice((50, 3_000)))
         if rng.random() < 0.05 and self.config.clk_hz <= 16_000_000:
-            self.add("wait", self.config.cyc(2048 * 26))  # let the hold timers run out
+            self.add("wait", self.config.cyc(2048 * 26))  # the hold timers expire
         return Scenario(
             self.seed, self.config, self.first_pins(), self.actions, self.clocks(),
             rng.random() < 0.5, self.limit_clk,
@@ -74,7 +75,7 @@ class _Writer(HostWriter):
         return pins
 
     def clocks(self) -> tuple[ExternalClock, ExternalClock]:
-        """Clock programmes; steady, jittering, stopping ones."""
+        """Return the waveforms of the external clocks: constant, with jitter, or stopping."""
         one, two = (
             random_clock(self.rng, self.scale, CLOCK_PERIODS) if external else ExternalClock()
             for external in self.externals
@@ -85,7 +86,7 @@ class _Writer(HostWriter):
         return self.rng.choice((1, 2))
 
     def near(self) -> int:
-        """Mostly the axis started last."""
+        """Return the axis started last in most cases, else any axis."""
         return self.moving if self.rng.random() < 0.75 else self.axis()
 
     def switch(self, axis: int) -> str:
@@ -98,7 +99,7 @@ class _Writer(HostWriter):
         self.set_up.add(axis)
         code, data = self.codes.setting(axis, wrong=0.08 if first else 0.3)
         self.told(code, data, 0.8)
-        if rng.random() < 0.3:  # bytes that meet the table build
+        if rng.random() < 0.3:  # bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))
@@ -126,7 +127,7 @@ class _Writer(HostWriter):
             self.setting(axis)
 
     def half_instruction(self) -> None:
-        """Data bytes are missing when the next code comes: often a stop of a running axis."""
+        """Omit the last data byte before the next code, which is often a stop of a running axis."""
         code, data = self.codes.operation(self.axis())
         self.blind([(1, code), *((0, byte) for byte in data[:-1])])
         if self.rng.random() < 0.6:
@@ -155,7 +156,7 @@ class _Writer(HostWriter):
         self.ended([axis] if rng.random() < 0.4 else [1, 2])
 
     def pair(self) -> None:
-        """Both axes at once, let go by RUN or one right after the other."""
+        """Start both axes, released by RUN or one directly after the other."""
         rng = self.rng
         gated = rng.random() < 0.6
         if gated:
@@ -189,7 +190,7 @@ class _Writer(HostWriter):
             self.release()
 
     def release(self) -> None:
-        """All switches inactive, both axes may run."""
+        """Release all switches and let both axes run."""
         self.add("pins", {**dict.fromkeys(SWITCHES, 3), "run": 3})
 
     def disturbances(self, most: int = 5) -> None:
@@ -197,7 +198,7 @@ class _Writer(HostWriter):
             self.disturb()
 
     def disturb(self) -> None:
-        """Something that happens during a motion."""
+        """Add an action that happens during a motion."""
         rng = self.rng
         self.add("wait", self.clk(1, 4_000))
         rng.choices(
@@ -238,7 +239,9 @@ class _Writer(HostWriter):
         return rng.getrandbits(1), rng.getrandbits(8)
 
     def bad_strobes(self) -> None:
-        """Both strobes together, a strobe cut by cs_n, a strobe that turns round (P2104-BAD-11..13)."""
+        """Add both strobes together, a strobe cut by cs_n, or a strobe that changes direction
+        (P2104-BAD-11..13).
+        """
         rng = self.rng
         byte, reg = rng.choice((0xC1, 0xD1, 0x87, 0xA7, 0x80, 0x11)), rng.getrandbits(1)
         on = {"cs_n": 0, "a0": reg, "d_i": byte}

@@ -1,4 +1,4 @@
-"""Noise on every input pin of the PPMC-2104AFP; the style of the bus stays."""
+"""Noise on every input pin of the PPMC-2104AFP except the selection of the bus style."""
 
 from __future__ import annotations
 
@@ -29,5 +29,5 @@ CODES = (*_ONE_AXIS, *(code | 0x20 for code in _ONE_AXIS), 0xC1, 0xC2)
 
 
 def noise(bench: Bench) -> Noise:
-    """The noise of this bench's seed."""
+    """Return the noise for the seed of this test bench."""
     return Noise(bench, STROBES, CODES, still=("busc",))

@@ -1,7 +1,7 @@
 """Two runs of one axis: a plan for axis 2, and traffic to axis 1 that fits between its accesses.
 
-A plan is pure, made from a seed. Times are clk after the beginning of a slot; every slot begins with an
-operation of axis 2.
+A plan is a pure function of a seed. Times are cycles after the beginning of a slot; every slot begins
+with an operation of axis 2.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from cocotb_tests.ppmc2104.random_codes import Codes
 from cocotb_tests.ppmc2104.random_host import SWITCHES
 
 SLOT = 24_000
-# An instruction of axis 2 is in long before that; the switches and stops come later.
+# An instruction of axis 2 is complete long before this time; switches and stops follow later.
 FIRST_EVENT = 400
 
 Write = tuple[int, int]
@@ -23,7 +23,7 @@ Event = tuple[int, str, int]
 
 @dataclass(frozen=True)
 class Slot:
-    """One operation of axis 2: its bytes, pin changes and stops (clk, pin or "code", level or code)."""
+    """One operation of axis 2: its bytes, pin changes and stops (cycles, pin or "code", level or code)."""
 
     writes: tuple[Write, ...]
     events: tuple[Event, ...]
@@ -31,7 +31,9 @@ class Slot:
 
 @dataclass(frozen=True)
 class Pair:
-    """Build, bus style, setting of axis 2, slots; `period` of extck[2] in clk, 0 for the internal clock."""
+    """Build, bus style, setting of axis 2, slots; `period` of extck[2] in cycles, 0 for the internal
+    clock.
+    """
 
     config: Config
     busc: int
@@ -45,7 +47,7 @@ def _writes(code: int, data: list[int]) -> tuple[Write, ...]:
 
 
 def pair(seed: int) -> Pair:
-    """The plan of a seed."""
+    """Return the plan of a seed."""
     rng = random.Random(f"ppmc2104 pair {seed}")
     external = rng.random() < 0.3
     codes = Codes(rng, False, (False, external))
@@ -66,7 +68,7 @@ def pair(seed: int) -> Pair:
 
 
 def traffic(seed: int, count: int) -> list[list[Write] | tuple[str, int]]:
-    """Instructions with all their data bytes, and pin changes, for axis 1."""
+    """Return instructions with all their data bytes, and pin changes, for axis 1."""
     rng = random.Random(f"ppmc2104 traffic {seed}")
     codes = Codes(rng, False, (False, False))
     made: list[list[Write] | tuple[str, int]] = [list(_writes(*codes.setting(1, wrong=0)))]

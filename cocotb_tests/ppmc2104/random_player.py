@@ -1,4 +1,4 @@
-"""Carries out the action list of `random_host` on a bench."""
+"""Player for the action lists of `random_host` on a test bench."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ BUSY = {1: 0x04, 2: 0x08}
 class HostPlayer(Player):
     """Plays one scenario: `await HostPlayer(bench, scenario).run()`.
 
-    Adds ("finish", axes, clk): poll until BUSY of these axes is 0; after clk give up and stop them.
+    Adds ("finish", axes, cycles): poll until BUSY of these axes is 0; after this number of cycles stop
+    them.
     """
 
     async def _finish(self, axes: list[int], clk: int) -> None:

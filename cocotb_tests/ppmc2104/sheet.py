@@ -8,10 +8,10 @@ from cocotb_tests.harness import IBF
 
 from .lab import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
 
-# Clk by which a documented time may be exceeded, and a pin may follow the inside.
+# Cycles by which a documented time may be exceeded, and by which a pin may follow the internal event.
 TOLERANCE = 16
 PIN = 2
-# Clk that pass between the fall of a status bit and the end of the read that shows it, at most.
+# Maximum cycles from the fall of a status bit to the end of the read that returns it.
 READ = 12
 # Default ON phase in units of 2 quanta.
 ON = 0x53
@@ -23,7 +23,11 @@ REGULAR, SETTING, CONSTANT = 35, 71_000, 38
 def detection(processing: int, first: int, second: int, period: int = 0) -> int:
     """Return T_max of the data sheet (2.6), the longest time to detect a limit, in us.
 
-    processing: Ti; first, second: T1, T2 of the axes in us; period: of the pulses in us, 0: no pulses.
+    Args:
+        processing: Ti in us.
+        first: T1 of the first axis in us.
+        second: T2 of the second axis in us.
+        period: period of the pulses in us; 0: no pulses.
     """
     cycle = REGULAR + processing
     interrupts = ceil(cycle / (period - (first + second))) if period else 0
@@ -31,15 +35,17 @@ def detection(processing: int, first: int, second: int, period: int = 0) -> int:
 
 
 def after(lab: Lab, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:
-    """Edge `got` is so many us, and `extra` clk, after the C-event of the byte with that edge 0."""
+    """Check that edge `got` is `micros` us plus `extra` cycles after the C-event of the byte with that
+    edge 0.
+    """
     nominal = lab.cfg.us(micros) + extra
     lab.window(rule, what, got - edge0, WRITE_EVENT + nominal, C_EVENT_LATEST + nominal + TOLERANCE + PIN)
 
 
 async def opens(lab: Lab, rule: str, edge0: int, micros: int) -> None:
-    """A byte written now waits until the window of so many us since the C-event is over."""
+    """Check that a byte written now waits until `micros` us have passed since the C-event."""
     nominal = edge0 + WRITE_EVENT + lab.cfg.us(micros)
-    # An undefined code: it is refused and has no window of its own.
+    # An undefined code: it is rejected and has no processing window.
     await lab.host.command(0x87, poll=False)
     await lab.bench.until(max(lab.bench.now, nominal - 60))
     while lab.bench.now < nominal - 2:
@@ -52,7 +58,7 @@ async def opens(lab: Lab, rule: str, edge0: int, micros: int) -> None:
 
 
 async def last_byte(axis: Axis, code: int, *data: int) -> int:
-    """Send an instruction; returns edge 0 of its last byte, without waiting for it to be taken."""
+    """Send an instruction; return edge 0 of its last byte without waiting for its C-event."""
     axis.since = axis.bench.now
     if not data:
         return await axis.command(code, poll=False)
@@ -61,10 +67,10 @@ async def last_byte(axis: Axis, code: int, *data: int) -> int:
 
 
 async def rest(lab: Lab) -> None:
-    """Wait until no window is open and both axes are at rest; then take errors and interrupts away."""
+    """Wait until no window is open and both axes are at rest; then clear errors and interrupts."""
     await lab.host.poll(IBF | 0x3C, 0)
     for axis in lab.axes:
         await axis.finish()
         await axis.error()
-    # The windows of those reads.
+    # The windows of these reads.
     await lab.bench.clocks(lab.cfg.us(60))

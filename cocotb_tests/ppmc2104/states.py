@@ -1,6 +1,7 @@
 """Puts an axis into each state of P2104-FSM-01 and keeps it there.
 
-Where the state lies in a motion, the external clock stands still, so that it lasts as long as a test needs.
+If the state is part of a motion, the external clock is stopped, so that the state lasts as long as a
+test needs.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 from .figures import INIT_EXT
 from .lab import Axis
 
-# After pulse PA + 1 of the ramp of INIT_EXT the plateau runs.
+# After pulse PA + 1 of the ramp of INIT_EXT the motion is on the plateau.
 PLATEAU = INIT_EXT[3] + 1
 NATURAL = 8
 
@@ -20,9 +21,9 @@ MOVING = ("RUNWAIT", *RAMP, "DEC", "DEC natural", "START flagged", *STEADY)
 
 
 async def enter(axis: Axis, state: str, ccw: int = 0) -> None:
-    """Bring an axis without a setting in force into a state.
+    """Bring an axis without a setting into a state.
 
-    INITP is the build of a long table; FIN lasts for the low time of the last pulse only.
+    INITP is the build of a long table; FIN lasts only for the low time of the last pulse.
     """
     if state == "INITIAL":
         return
@@ -63,7 +64,7 @@ async def enter(axis: Axis, state: str, ccw: int = 0) -> None:
 
 
 async def leave(axis: Axis) -> None:
-    """From any state back to the one after reset, errors and interrupts taken away."""
+    """Return from any state to the state after reset; clear errors and interrupts."""
     host = axis.host
     await axis.command(0x40)
     await axis.idle()

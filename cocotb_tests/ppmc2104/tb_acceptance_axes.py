@@ -17,7 +17,9 @@ US = 16
 
 @directed("AC-45", "P2104-OPR-02", "P2104-TIM-02", "P2104-STA-04", "P2104-BAD-21")
 async def p2104_ac_45_run(dut: Any) -> None:
-    """Given run L, when a move is accepted, then it waits; run H starts it, later changes do nothing."""
+    """With run low, an accepted move waits; run high starts it, and later changes of run have no effect
+    (AC-45).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
@@ -37,7 +39,9 @@ async def p2104_ac_45_run(dut: Any) -> None:
 
 @directed("AC-46", "P2104-STP-01", "P2104-END-07", "P2104-FSM-01")
 async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
-    """Given RUN wait, when 40 comes, then no pulse, C3, D is left, hold after 3.2 ms."""
+    """In RUN wait, 40 ends the move without a pulse: end status C3, D remains, hold rises after 3.2 ms
+    (AC-46).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
@@ -54,7 +58,7 @@ async def p2104_ac_46_stop_in_run_wait(dut: Any) -> None:
 
 @directed("AC-47", "P2104-LIM-03", "P2104-LIM-07")
 async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
-    """Given an origin search in RUN wait, when ORG, then BL falls, then only BL ends it."""
+    """In RUN wait of an origin search, ORG has no effect, and BL ends it (AC-47)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
@@ -68,7 +72,7 @@ async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
 
 @directed("AC-48", "P2104-LIM-07")
 async def p2104_ac_48_origin_when_run_comes(dut: Any) -> None:
-    """Given an origin search in RUN wait on the origin, when run comes, then it ends with no pulse."""
+    """An origin search that waits for run on the origin ends without a pulse when run rises (AC-48)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
@@ -81,7 +85,7 @@ async def p2104_ac_48_origin_when_run_comes(dut: Any) -> None:
 
 @directed("AC-49", "P2104-LIM-05", "P2104-FDC-01", "P2104-FDC-04")
 async def p2104_ac_49_slow_down_limit_in_run_wait(dut: Any) -> None:
-    """Given RUN wait, when FHL is low for 10 clk, then run gives one pulse."""
+    """If FHL is low for 10 cycles in RUN wait, run starts a motion of one pulse (AC-49)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
@@ -95,7 +99,7 @@ async def p2104_ac_49_slow_down_limit_in_run_wait(dut: Any) -> None:
 
 @directed("AC-50", "P2104-TIM-02", "P2104-OPR-10", "P2104-BCK-05")
 async def p2104_ac_50_both_axes_together(dut: Any) -> None:
-    """Given both axes in RUN wait, when run rises for both, then pulse 1 is on one edge."""
+    """When run rises for both waiting axes, their pulses 1 are on the same edge (AC-50)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     lab.bench.set(run=0)
@@ -112,7 +116,7 @@ async def p2104_ac_50_both_axes_together(dut: Any) -> None:
 
 @directed("AC-51", "P2104-LIM-07", "P2104-OPR-06", "P2104-END-05")
 async def p2104_ac_51_origin(dut: Any) -> None:
-    """Given an origin search, when ORG falls, then it ends without a cause bit."""
+    """ORG ends an origin search without a cause bit (AC-51)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x47, rate=0x31)
@@ -124,7 +128,7 @@ async def p2104_ac_51_origin(dut: Any) -> None:
 
 @directed("AC-52", "P2104-OPR-08", "P2104-CMD-02")
 async def p2104_ac_52_pout_mode(dut: Any) -> None:
-    """Given POUT mode, when C3 and C6 run, then pulses as ever and s1_n stands still."""
+    """In POUT mode, C3 and C6 output the usual pulses, and s1_n does not change (AC-52)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.move(0xC3, 25)
@@ -138,7 +142,7 @@ async def p2104_ac_52_pout_mode(dut: Any) -> None:
 
 @directed("AC-53", "P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-EX-11", "P2104-INI-01")
 async def p2104_ac_53_step_lists(dut: Any) -> None:
-    """Given each motor type, when stepped CW, then CCW, then the lists of section 6.1 both ways."""
+    """Steps of each motor type follow the lists of section 6.1, CW and CCW (AC-53)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         for name, code in STEP_CODES.items():
@@ -158,7 +162,9 @@ async def p2104_ac_53_step_lists(dut: Any) -> None:
 
 @directed("AC-54", "P2104-SW-02", "P2104-SW-03", "P2104-SW-04", "P2104-SW-05", "P2104-INI-07")
 async def p2104_ac_54_switching(dut: Any) -> None:
-    """Given S = 1, when the axis is at rest, then it chops as told, and moves with the full pattern."""
+    """With S = 1, the axis chops at standstill with the documented times and moves with the full
+    pattern (AC-54).
+    """
     lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(0x12, *INIT_B[1:])
@@ -194,7 +200,7 @@ async def p2104_ac_54_switching(dut: Any) -> None:
 
 @directed("AC-55", "P2104-END-07", "P2104-AUX-05", "P2104-HLD-01")
 async def p2104_ac_55_hold_delay(dut: Any) -> None:
-    """Given n = 18h, 00, FF, when a step ends, then hold after 3.2, 0.128, 32.768 ms."""
+    """With n = 18h, 00, FF, hold rises 3.2, 0.128, 32.768 ms after a step (AC-55)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for n, clocks in ((None, 51_200), (0x00, 2_048), (0xFF, 524_288)):
@@ -215,7 +221,7 @@ async def p2104_ac_55_hold_delay(dut: Any) -> None:
 
 @directed("AC-56", "P2104-AUX-02", "P2104-AUX-03")
 async def p2104_ac_56_auxiliary(dut: Any) -> None:
-    """Given all states, when C1 D1 E1 F1 and C2 come, then pins follow and are read."""
+    """In all states, C1, D1, E1 and F1 set the output pins and C2 reads the input pins (AC-56)."""
     lab = await Lab.start(dut)
     for state in ("initial", "moving"):
         for code, level in ((0xC1, 3), (0xD1, 2), (0xE1, 1), (0xF1, 0)):
@@ -236,7 +242,7 @@ async def p2104_ac_56_auxiliary(dut: Any) -> None:
 
 @directed("AC-57", "P2104-AUX-01", "P2104-PHS-02", "P2104-PHS-03")
 async def p2104_ac_57_excitation_off(dut: Any) -> None:
-    """Given a stepped axis, when C0, then another setting comes, then off, error 4, index 0 of the new."""
+    """C0 switches the phases off and leads to error 4; a new setting begins with its index 0 (AC-57)."""
     lab = await Lab.start(dut)
     await lab.run(B1)
     axis = lab.x1
@@ -259,7 +265,7 @@ async def p2104_ac_57_excitation_off(dut: Any) -> None:
 
 @directed("AC-58", "P2104-INI-05")
 async def p2104_ac_58_setting_again(dut: Any) -> None:
-    """Given axis 1 set up, when 1F sets another ramp, then only the ramp changes."""
+    """A second setting of axis 1 with 1F changes only the ramp (AC-58)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.init(0x1F, 9, 4, 4)
@@ -273,7 +279,9 @@ async def p2104_ac_58_setting_again(dut: Any) -> None:
 
 @directed("AC-59", "P2104-BCK-04", "P2104-TIM-03", "P2104-BAD-18")
 async def p2104_ac_59_external_clock(dut: Any) -> None:
-    """Given 250 kHz on extck, when rate 9 runs, then 640 clk; without edges it waits for 40."""
+    """With 250 kHz on extck, rate 9 has intervals of 640 cycles; without edges the axis waits until 40
+    (AC-59).
+    """
     lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(0x0A, *INIT_B[1:])
@@ -293,7 +301,9 @@ async def p2104_ac_59_external_clock(dut: Any) -> None:
 
 @directed("AC-60", "P2104-EX-14", "P2104-TIM-05")
 async def p2104_ac_60_external_clock_of_1_mhz(dut: Any) -> None:
-    """Given 1 MHz on extck, when rate 0 runs, then 16 clk, low 8, the last one 80."""
+    """With 1 MHz on extck, rate 0 has intervals of 16 cycles and low times of 8, the last one of 80
+    (AC-60).
+    """
     lab = await Lab.start(dut)
     axis = lab.x1
     await axis.init(0x0A, *INIT_B[1:])
@@ -308,7 +318,7 @@ async def p2104_ac_60_external_clock_of_1_mhz(dut: Any) -> None:
 
 @directed("AC-61", "P2104-HSK-07", "P2104-BAD-10", "P2104-BAD-25")
 async def p2104_ac_61_unread_answer(dut: Any) -> None:
-    """Given two unread bytes, when a step runs, then they stay; 80 replaces them."""
+    """Two unread bytes stay during a step; 80 replaces them (AC-61)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x43, 1000)
@@ -325,7 +335,7 @@ async def p2104_ac_61_unread_answer(dut: Any) -> None:
 
 @directed("AC-62", "P2104-HSK-04", "P2104-HSK-05", "P2104-STA-05")
 async def p2104_ac_62_what_waits(dut: Any) -> None:
-    """Given the table of axis 1 being built, when F1, 72, 42 come, then only 42 waits."""
+    """While the table of axis 1 is built, F1 and 72 are accepted and only 42 waits (AC-62)."""
     lab = await Lab.start(dut)
     first, second = lab.axes
     await lab.ready(2, INIT_B)
@@ -347,7 +357,7 @@ async def p2104_ac_62_what_waits(dut: Any) -> None:
 
 @directed("AC-63", "P2104-HSK-02", "P2104-BAD-08")
 async def p2104_ac_63_written_over(dut: Any) -> None:
-    """Given 42 waiting, when 52 is written over it, then one pulse and no interrupt."""
+    """If 52 replaces a waiting 42, one pulse and no interrupt follow (AC-63)."""
     lab = await Lab.start(dut)
     axis = lab.x1
     await lab.run(B1)

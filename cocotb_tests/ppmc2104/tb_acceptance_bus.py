@@ -16,7 +16,9 @@ from .tb_acceptance_moves import AC_09
 
 @directed("AC-64", "P2104-BCK-03", "P2104-EX-12", "P2104-GEN-04", builds=(F11,))
 async def p2104_ac_64_no_drift(dut: Any) -> None:
-    """Given CLK_HZ = 11 059 200, when rate 1 runs, then fall t + 1 comes ceil(44.2368 t) clk after fall 1."""
+    """With CLK_HZ = 11 059 200 and rate 1, fall t + 1 occurs ceil(44.2368 t) cycles after fall 1
+    (AC-64).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     pulses = await axis.move(0x44, 1001, 1)
@@ -29,7 +31,7 @@ async def p2104_ac_64_no_drift(dut: Any) -> None:
 
 @directed("AC-65", "P2104-GEN-03", "P2104-GEN-04", builds=(F16X8,))
 async def p2104_ac_65_crystal_of_8_mhz(dut: Any) -> None:
-    """Given XTAL_HZ = 8 MHz, when AC-09 and a step run, then all times are doubled."""
+    """With XTAL_HZ = 8 MHz, all times of AC-09 and of a step are doubled (AC-65)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.move(0x43, 25)
@@ -44,7 +46,7 @@ async def p2104_ac_65_crystal_of_8_mhz(dut: Any) -> None:
 @rtl_only("clk_o is not in the model: it never stops and depends on nothing")
 @directed("AC-66", "P2104-PORT-06", builds=(F16, F48, F11, F8, F100, F16X8))
 async def p2104_ac_66_clk_o(dut: Any) -> None:
-    """Given each clock, when clk_o is watched from the reset on, then toggle t comes at CYC(2 t)."""
+    """For each clock, toggle t of clk_o occurs CYC(2 t) after reset (AC-66)."""
     lab = await Lab.start(dut)
     bench = lab.bench
     await bench.reset(settle=0)
@@ -65,7 +67,7 @@ async def p2104_ac_66_clk_o(dut: Any) -> None:
 
 @directed("AC-77", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-13")
 async def p2104_ac_77_strobes_together(dut: Any) -> None:
-    """Given both strobes low, then no access; given cs_n rising first, then the byte is stored."""
+    """Both strobes low make no access; if cs_n rises first, the byte is stored (AC-77)."""
     lab = await Lab.start(dut)
     bench = lab.bench
     bench.set(a0=1, d_i=0xF1, cs_n=0, ds_wrs_n=0, rw_rds_n=0)
@@ -86,7 +88,7 @@ async def p2104_ac_77_strobes_together(dut: Any) -> None:
 
 @directed("AC-78", "P2104-BAD-23", "P2104-PORT-03", "P2104-AUX-06", "P2104-HLD-01")
 async def p2104_ac_78_reset_in_motion(dut: Any) -> None:
-    """Given both axes moving, when rst_n falls between two edges, then everything is as after power-on."""
+    """If rst_n falls between two edges while both axes move, all is as after power-on (AC-78)."""
     lab = await Lab.start(dut)
     bench = lab.bench
     axes = await lab.both(INIT_B)
@@ -119,7 +121,9 @@ async def p2104_ac_78_reset_in_motion(dut: Any) -> None:
 
 @directed("AC-79", "P2104-BUS-08", "P2104-BUS-09", "P2104-HSK-06", "P2104-BAD-09", "P2104-STA-02")
 async def p2104_ac_79_three_bytes(dut: Any) -> None:
-    """Given 83 after a stopped move, when it is read with 2-clk strobes, then low, mid, high, then stale."""
+    """After 83 of a stopped move, 2-cycle strobes read the low, middle and high byte, then the last
+    byte again (AC-79).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x43, 0x0A0B0C + 5)
@@ -141,7 +145,9 @@ async def p2104_ac_79_three_bytes(dut: Any) -> None:
 
 @directed("AC-80", "P2104-OPR-06", "P2104-EX-10")
 async def p2104_ac_80_thousand_pulses(dut: Any) -> None:
-    """Given constant speed, when FL falls after 1000 pulses, then 95 and 16 776 215 left."""
+    """At constant speed, FL after 1000 pulses leads to end status 95 and 16 776 215 remaining pulses
+    (AC-80).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x45, rate=0x31)
@@ -154,7 +160,7 @@ async def p2104_ac_80_thousand_pulses(dut: Any) -> None:
 
 @directed("AC-81", "P2104-RD-04", "P2104-LIM-10")
 async def p2104_ac_81_control_input(dut: Any) -> None:
-    """Given one input at a time, when 81 reads, then its bit is 0; the other axis does not show."""
+    """81 returns 0 in the bit of an active input of its axis and ignores the other axis (AC-81)."""
     lab = await Lab.start(dut)
     answers = {"org_n": 0x4F, "alm_n": 0x8F, "fl_n": 0xC7, "fhl_n": 0xCB, "bl_n": 0xCD, "bhl_n": 0xCE}
     for axis in lab.axes:
@@ -171,7 +177,7 @@ async def p2104_ac_81_control_input(dut: Any) -> None:
 
 @directed("AC-82", "P2104-STP-07", "P2104-ERR-02")
 async def p2104_ac_82_stop_in_a_data_wait(dut: Any) -> None:
-    """Given axis 1 moving and axis 2 in a data wait, when 40 comes, then axis 1 stops, error 3."""
+    """If axis 2 waits for data, 40 stops the moving axis 1 and sets error 3 (AC-82)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await first.go(0x45, rate=0x31)
@@ -191,7 +197,7 @@ async def p2104_ac_82_stop_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-83", "P2104-STP-07", "P2104-EX-03")
 async def p2104_ac_83_deceleration_stop_in_a_data_wait(dut: Any) -> None:
-    """Given axis 1 on its ramp and axis 2 in a data wait, when 41 comes, then axis 1 decelerates."""
+    """If axis 2 waits for data, 41 decelerates axis 1 on its ramp (AC-83)."""
     lab = await Lab.start(dut)
     first, _ = await lab.both(INIT_B)
     await first.go(0x43, 1000)
@@ -204,7 +210,9 @@ async def p2104_ac_83_deceleration_stop_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-84", "P2104-ERR-02", "P2104-FSM-05")
 async def p2104_ac_84_refused_stop_in_a_data_wait(dut: Any) -> None:
-    """Given constant speed and a data wait, when 41 comes, then error 8; 40 at rest then gives 3, not 6."""
+    """During constant speed and a data wait, 41 sets error 8; 40 at rest then sets error 3, not 6
+    (AC-84).
+    """
     lab = await Lab.start(dut)
     first, _ = await lab.both(INIT_B)
     await first.running(0x31)
@@ -217,7 +225,7 @@ async def p2104_ac_84_refused_stop_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-85", "P2104-HSK-04", "P2104-STP-04")
 async def p2104_ac_85_stops_do_not_wait(dut: Any) -> None:
-    """Given the table of axis 1 being built, when stops come, then they are taken at once."""
+    """While the table of axis 1 is built, stops are accepted immediately (AC-85)."""
     lab = await Lab.start(dut)
     first, second = lab.axes
     await lab.ready(2, INIT_B)

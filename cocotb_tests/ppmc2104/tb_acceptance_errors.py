@@ -16,12 +16,14 @@ EX_03 = {5: [99, 53, 41, 34, 30, 34, 41, 53, 99], 2: [99, 53, 99], 1: []}
 
 
 def clk(rates: list[int]) -> list[int]:
-    """Intervals of rates on the 500 kHz base clock."""
+    """Return the intervals in cycles for rates on the 500 kHz base clock."""
     return [32 * (rate + 1) for rate in rates]
 
 
 async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
-    """A move of n pulses and a stop code 100 clk after pulse j; returns the status after the code."""
+    """Start a move of n pulses and send a stop code 100 cycles after pulse j; return the status after
+    the code.
+    """
     await axis.go(0x43, n)
     await axis.pulse(j, 100)
     return await axis.command(code)
@@ -29,7 +31,7 @@ async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
 
 @directed("AC-22", "P2104-ERR-06", "P2104-STA-06")
 async def p2104_ac_22_error_bit(dut: Any) -> None:
-    """Given errors of both axes, when they are read in turn, then ERROR falls with the second."""
+    """With errors of both axes, ERROR is cleared by the second of the two reads (AC-22)."""
     lab = await Lab.start(dut)
     got = await lab.run("c 87 c A7 s e1 s e2 s e2")
     lab.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
@@ -37,14 +39,16 @@ async def p2104_ac_22_error_bit(dut: Any) -> None:
 
 @directed("AC-23", "P2104-ERR-01", "P2104-ERR-02")
 async def p2104_ac_23_data_without_need(dut: Any) -> None:
-    """Given a data byte nobody wants, when both registers are read, then error 2 is on axis 1."""
+    """An unexpected data byte sets error 2 on axis 1 (AC-23)."""
     lab = await Lab.start(dut)
     lab.check("AC-23", "e2, e1", await lab.run("d 55 e2 e1"), [0, 2])
 
 
 @directed("AC-24", "P2104-ERR-02", "P2104-BAD-04")
 async def p2104_ac_24_code_in_a_data_wait(dut: Any) -> None:
-    """Given an unfinished operation of axis 1, when a step of axis 2 comes, then both are dropped."""
+    """During an incomplete operation of axis 1, a step of axis 2 sets error 3 on axis 2, and both
+    instructions are dropped (AC-24).
+    """
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     since = lab.bench.now
@@ -57,7 +61,7 @@ async def p2104_ac_24_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-25", "P2104-ERR-01")
 async def p2104_ac_25_axisless_code_in_a_data_wait(dut: Any) -> None:
-    """Given an unfinished operation, when C2 comes, then error 3 on axis 1, and nothing is answered."""
+    """During an incomplete operation, C2 sets error 3 on axis 1 and returns no answer (AC-25)."""
     lab = await Lab.start(dut)
     await lab.run(B1)
     await lab.x1.ready()
@@ -72,14 +76,16 @@ async def p2104_ac_25_axisless_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("AC-26", "P2104-BAD-06")
 async def p2104_ac_26_not_set_up(dut: Any) -> None:
-    """Given axis 2 not set up, when 63 and a data byte come, then error 4 there and error 2 on axis 1."""
+    """If axis 2 has no setting, 63 sets error 4 on it, and its data byte sets error 2 on axis 1 (AC-26)."""
     lab = await Lab.start(dut)
     lab.check("AC-26", "e2, e1", await lab.run("c 63 d 01 e2 e1"), [4, 2])
 
 
 @directed("AC-27", "P2104-FSM-01", "P2104-AUX-02", "P2104-AUX-03", "P2104-RD-08")
 async def p2104_ac_27_busy(dut: Any) -> None:
-    """Given a slow operation, when what is not allowed then comes, then error 5, and the motion goes on."""
+    """During an operation, instructions that are not allowed set error 5, and the motion continues
+    (AC-27).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x44, 256, 0xFF)
@@ -97,7 +103,7 @@ async def p2104_ac_27_busy(dut: Any) -> None:
 
 @directed("AC-28", "P2104-STP-04")
 async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
-    """Given axis 1 at rest and axis 2 not set up, when stops come, then errors 6, 6, 4."""
+    """Stops set error 6 on axis 1 at rest and error 4 on axis 2 without a setting (AC-28)."""
     lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     lab.check("AC-28", "errors", await lab.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])
@@ -105,7 +111,7 @@ async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
 
 @directed("AC-29", "P2104-LIM-06", "P2104-ERR-05")
 async def p2104_ac_29_limit_refuses(dut: Any) -> None:
-    """Given the CW limit, when CW operations come, then error 7; the other direction moves."""
+    """On the CW limit, CW operations set error 7, and the other direction moves (AC-29)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(fl_n=0)
@@ -122,7 +128,9 @@ async def p2104_ac_29_limit_refuses(dut: Any) -> None:
 
 @directed("AC-30", "P2104-LIM-06", "P2104-LIM-02")
 async def p2104_ac_30_what_refuses(dut: Any) -> None:
-    """Given one input at a time, when axis 1 starts CW, then only ALM, and ORG for 47, refuse it."""
+    """Of all inputs, only ALM, and ORG for 47, reject the start of axis 1 CW: tried one at a time
+    (AC-30).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for pin, code, n, rate, error in (
@@ -144,7 +152,7 @@ async def p2104_ac_30_what_refuses(dut: Any) -> None:
 
 @directed("AC-31", "P2104-STP-03", "P2104-PRO-05")
 async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
-    """Given constant speed, RUN wait, natural deceleration, when 41 comes, then error 8 and no effect."""
+    """41 during constant speed, RUN wait or natural deceleration sets error 8 and has no effect (AC-31)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.running()
@@ -165,7 +173,7 @@ async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
 
 @directed("AC-32", "P2104-INI-02", "P2104-INI-03", "P2104-BAD-16")
 async def p2104_ac_32_setting_values(dut: Any) -> None:
-    """Given values at and beyond their limits, when they are set, then errors 9, 10 or none."""
+    """Setting values at and beyond their limits set error 9, error 10 or no error (AC-32)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     bad = ((5, 4, 100, 9), (5, 6, 100, 9), (5, 0, 100, 9), (9, 4, 3, 9), (5, 4, 3, 9))
@@ -181,7 +189,7 @@ async def p2104_ac_32_setting_values(dut: Any) -> None:
 
 @directed("AC-33", "P2104-OPR-07", "P2104-INI-01")
 async def p2104_ac_33_rate_zero(dut: Any) -> None:
-    """Given rate 00, when the base clock is internal, then error 9; with the external one it runs."""
+    """Rate 00 sets error 9 with the internal base clock and runs with the external one (AC-33)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.refused("AC-33", "45 00", 9, 0x45, 0)
@@ -197,7 +205,7 @@ async def p2104_ac_33_rate_zero(dut: Any) -> None:
 
 @directed("AC-34", "P2104-AUX-04", "P2104-BAD-16")
 async def p2104_ac_34_switching_values(dut: Any) -> None:
-    """Given switching values around 40, when they are set, then error 11 below it."""
+    """Switching values below 40 set error 11 (AC-34)."""
     lab = await Lab.start(dut)
     got = await lab.run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1")
     lab.check("AC-34", "errors", got, [11, 11, 0])
@@ -205,7 +213,9 @@ async def p2104_ac_34_switching_values(dut: Any) -> None:
 
 @directed("AC-35", "P2104-EX-03", "P2104-STP-02", "P2104-FDC-02", "P2104-FDC-03", "P2104-END-03")
 async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
-    """Given ramp B, when 41 comes in I(5), I(2), I(1), then 10, 4, 1 pulses and their remains."""
+    """With ramp B, 41 in I(5), I(2), I(1) leads to 10, 4, 1 pulses and the documented remaining pulses
+    (AC-35).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for j, pulses, low in ((5, 10, 0xDD), (2, 4, 0xE3), (1, 1, 0xE6)):
@@ -217,7 +227,7 @@ async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
 
 @directed("AC-36", "P2104-EX-05", "P2104-FDC-05", "P2104-PRO-04", "P2104-END-06")
 async def p2104_ac_36_around_the_peak(dut: Any) -> None:
-    """Given triangles of 10 and 11 pulses, when 41 comes around the peak, then as EX-05 has it."""
+    """In triangular profiles of 10 and 11 pulses, 41 around the peak acts as EX-05 states (AC-36)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for n, j, pulses, finish, left, error in (
@@ -240,7 +250,7 @@ async def p2104_ac_36_around_the_peak(dut: Any) -> None:
 
 @directed("AC-37", "P2104-EX-06", "P2104-FDC-02")
 async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
-    """Given a ramp that begins flat, when 41 comes on its flat piece, then the axis stops at once."""
+    """If the ramp begins flat, 41 on the flat part stops the axis immediately (AC-37)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, (0x02, 14, 12, 16))
     for j, pulses, left in ((3, 3, [0xE4, 3, 0]), (5, 10, [0xDD, 3, 0])):
@@ -254,7 +264,7 @@ async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
 
 @directed("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
 async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
-    """Given the plateau, when FHL is low for 10 clk, twice, then 31 pulses; BHL does nothing."""
+    """On the plateau, FHL low for 10 cycles, twice, leads to 31 pulses; BHL has no effect (AC-38)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):
@@ -276,7 +286,7 @@ async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
 
 @directed("AC-39", "P2104-FDC-04", "P2104-LIM-05", "P2104-OPR-05", "P2104-OPR-09")
 async def p2104_ac_39_started_on_the_slow_down_limit(dut: Any) -> None:
-    """Given FHL active, when 43, C3, 46 start, then one pulse each."""
+    """With FHL active, 43, C3 and 46 output one pulse each (AC-39)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(fhl_n=0)
@@ -293,7 +303,7 @@ async def p2104_ac_39_started_on_the_slow_down_limit(dut: Any) -> None:
 
 @directed("AC-40", "P2104-FDC-04", "P2104-FDC-05", "P2104-END-05")
 async def p2104_ac_40_complete_all_the_same(dut: Any) -> None:
-    """Given FHL active, when one pulse is asked for, then it is complete and has no cause bit."""
+    """With FHL active, an operation of one pulse is complete and has no cause bit (AC-40)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(fhl_n=0)
@@ -303,7 +313,7 @@ async def p2104_ac_40_complete_all_the_same(dut: Any) -> None:
 
 @directed("AC-41", "P2104-EX-09", "P2104-END-06", "P2104-STP-01")
 async def p2104_ac_41_immediate_stop(dut: Any) -> None:
-    """Given N = 1000, when 40 comes in I(7), then 7 pulses; what is left completes the move."""
+    """With N = 1000, 40 in I(7) leads to 7 pulses; the remaining pulses complete the move (AC-41)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await asked_in(axis, 7, 0x40)
@@ -317,7 +327,7 @@ async def p2104_ac_41_immediate_stop(dut: Any) -> None:
 
 @directed("AC-42", "P2104-LIM-03", "P2104-END-02", "P2104-OPR-06")
 async def p2104_ac_42_limit(dut: Any) -> None:
-    """Given constant speed CW, when FL falls, then it ends there within 8 clk; BL does nothing."""
+    """At constant speed CW, FL ends the motion within 8 cycles; BL has no effect (AC-42)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x45, rate=0x31)
@@ -333,7 +343,7 @@ async def p2104_ac_42_limit(dut: Any) -> None:
 
 @directed("AC-43", "P2104-END-04", "P2104-LIM-04")
 async def p2104_ac_43_several_causes(dut: Any) -> None:
-    """Given a forced deceleration or a plateau, when limit and alarm come, then all bits show."""
+    """A limit and an alarm during a forced deceleration or a plateau set all their bits (AC-43)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for slow, pins, finish in (
@@ -353,7 +363,7 @@ async def p2104_ac_43_several_causes(dut: Any) -> None:
 
 @directed("AC-44", "P2104-END-05", "P2104-LIM-09")
 async def p2104_ac_44_alarm_after_the_last_pulse(dut: Any) -> None:
-    """Given a step, when ALM falls while pout_n is low, then the step is complete."""
+    """If ALM falls while pout_n of a step is low, the step is complete (AC-44)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x42)

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-01 to AC-21: stimulus and figures as the acceptance table gives them."""
+"""Black-box acceptance checks AC-01 to AC-21: stimulus and values as in the acceptance table."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ EX_02 = {2: 3200, 3: 6400, 4: 8128, 10: 15_776, 11: 16_768, 20: 23_776, 21: 24_4
 
 @directed("AC-01", "P2104-PORT-01", "P2104-PORT-03", "P2104-STA-07", "P2104-GEN-01", "P2104-GEN-02")
 async def p2104_ac_01_reset_levels(dut: Any) -> None:
-    """Given a reset, when it ends, then all outputs, status and data register have their reset values."""
+    """After reset, all outputs, the status and the data register have their reset values (AC-01)."""
     lab = await Lab.start(dut)
     expected = {"int_n": 1, "pout_n": 3, "dir": 0, "hold": 3, "s1_n": 0x1F, "s2_n": 0x1F, "auxo": 3}
     lab.check("AC-01", "outputs", lab.outputs(), expected)
@@ -39,7 +39,7 @@ async def p2104_ac_01_reset_levels(dut: Any) -> None:
 
 @directed("AC-02", "P2104-RD-01", "P2104-RD-04", "P2104-RD-05", "P2104-RD-06", "P2104-RD-07", "P2104-PHS-02")
 async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
-    """Given a core after reset, when both axes are read, then the reset values come."""
+    """After reset, reads of both axes return the reset values (AC-02)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         reads = [await axis.fetch(code) for code in (0x80, 0x81, 0x82)]
@@ -50,7 +50,7 @@ async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
 async def p2104_ac_03_write_times_of_the_sheet(dut: Any) -> None:
-    """Given 120 ns strobes with 80 ns of data, when written at any phase in both styles, then they act."""
+    """Writes with 120 ns strobes and 80 ns of data act at any phase, in both styles (AC-03)."""
     lab = await Lab.start(dut)
     bus = SlowBus(lab)
     for busc in (0, 1):
@@ -67,7 +67,7 @@ async def p2104_ac_03_write_times_of_the_sheet(dut: Any) -> None:
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
 async def p2104_ac_04_read_times_of_the_sheet(dut: Any) -> None:
-    """Given 120 ns read strobes, when status is read, then it is there from 100 ns to the end."""
+    """With 120 ns read strobes, the status is valid from 100 ns to the end (AC-04)."""
     lab = await Lab.start(dut)
     bus = SlowBus(lab)
     await lab.host.command(0x87)
@@ -82,7 +82,7 @@ async def p2104_ac_04_read_times_of_the_sheet(dut: Any) -> None:
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-05", "P2104-BUS-07", "P2104-STA-03")
 async def p2104_ac_05_no_invisible_write(dut: Any) -> None:
-    """Given a data byte nobody wants, when status is read 75 ns later, then IBF or ERROR is 1."""
+    """If status is read 75 ns after an unexpected data byte, IBF or ERROR is 1 (AC-05)."""
     lab = await Lab.start(dut)
     bus = SlowBus(lab)
     for busc in (0, 1):
@@ -97,7 +97,7 @@ async def p2104_ac_05_no_invisible_write(dut: Any) -> None:
 
 @directed("AC-06", "P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-04", "P2104-ERR-01", "P2104-BAD-01")
 async def p2104_ac_06_all_codes(dut: Any) -> None:
-    """Given a reset before each of the 256 codes, in both styles, when it is sent, then its errors."""
+    """Each of the 256 codes, sent after a reset in both styles, sets the documented errors (AC-06)."""
     lab = await Lab.start(dut)
     counts = {"undefined": 0, "initial": 0, "data": 0, "free": 0}
     for number in range(512):
@@ -125,7 +125,7 @@ async def p2104_ac_06_all_codes(dut: Any) -> None:
 
 @directed("AC-07", "P2104-STA-05", "P2104-HSK-05")
 async def p2104_ac_07_cmnd(dut: Any) -> None:
-    """Given a setting, when its bytes go in and the table is built, then CMND of its axis is 1."""
+    """From the first byte of a setting until its table is built, CMND of its axis is 1 (AC-07)."""
     lab = await Lab.start(dut)
     for code, cmnd in (("02", 0x10), ("22", 0x20)):
         got = await lab.statuses(f"c {code} d 63 d 13 d 0A d 00")
@@ -137,7 +137,7 @@ async def p2104_ac_07_cmnd(dut: Any) -> None:
 
 @directed("AC-08", "P2104-INI-04", "P2104-RD-05")
 async def p2104_ac_08_first_pattern(dut: Any) -> None:
-    """Given a setting for axis 1, when it is taken, then s1_n shows index 0, s2_n nothing."""
+    """When the setting of axis 1 is accepted, s1_n has pattern 0 and s2_n is off (AC-08)."""
     lab = await Lab.start(dut)
     await lab.run(B1)
     lab.check("AC-08", "s1_n, s2_n", [axis.phases_now for axis in lab.axes], [0b11100, 0b11111])
@@ -147,7 +147,7 @@ async def p2104_ac_08_first_pattern(dut: Any) -> None:
 
 @directed("AC-09", "P2104-EX-01", "P2104-PRO-02", "P2104-GEN-05")
 async def p2104_ac_09_trapezoid(dut: Any) -> None:
-    """Given ramp B, when 25 pulses are asked for, then the trapezoid of EX-01 comes out."""
+    """With ramp B, 25 pulses have the trapezoidal profile of EX-01 (AC-09)."""
     lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     await lab.run("c 43 d 18 d 00 d 00")
@@ -162,7 +162,7 @@ async def p2104_ac_09_trapezoid(dut: Any) -> None:
 
 @directed("AC-10", "P2104-EX-02", "P2104-PRO-03", "P2104-PRO-01")
 async def p2104_ac_10_triangles(dut: Any) -> None:
-    """Given ramp B, when D is 0 to 21, then pulse counts, intervals and sums of EX-02 come out."""
+    """With ramp B and D = 0 to 21, pulse counts, intervals and sums are those of EX-02 (AC-10)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for d in (0, 1, 2, 3, 9, 10, 19, 20, 21):
@@ -175,7 +175,7 @@ async def p2104_ac_10_triangles(dut: Any) -> None:
 
 @directed("AC-11", "P2104-RMP-03", "P2104-EX-07")
 async def p2104_ac_11_half_rounds_up(dut: Any) -> None:
-    """Given RL 3, RH 1, PA 25, when 60 pulses run, then the exact half at index 13 is rounded up."""
+    """With RL 3, RH 1, PA 25, the exact half at index 13 is rounded up (AC-11)."""
     lab = await Lab.start(dut)
     await lab.run("c 02 d 03 d 01 d 19 d 00 c 43 d 3B d 00 d 00")
     await lab.x1.idle()
@@ -186,9 +186,9 @@ async def p2104_ac_11_half_rounds_up(dut: Any) -> None:
 
 @directed("AC-12", "P2104-EX-15", "P2104-RMP-04", builds=(F8,))
 async def p2104_ac_12_largest_ramp(dut: Any) -> None:
-    """Given RL 255, RH 18, PA 11220, when 30 000 pulses run, then they last 30 002 080 periods of 16 MHz.
+    """With RL 255, RH 18, PA 11220, 30 000 pulses last 30 002 080 periods of 16 MHz.
 
-    At 8 MHz a clk is two of them: the same figures in half the clk.
+    At 8 MHz one cycle is two of these periods: the same values in half the number of cycles (AC-12).
     """
     lab = await Lab.start(dut)
     await lab.run("c 02 d FF d 12 d D4 d 2B c 43 d 2F d 75 d 00")
@@ -201,7 +201,9 @@ async def p2104_ac_12_largest_ramp(dut: Any) -> None:
 
 @directed("AC-13", "P2104-TIM-01", "P2104-TIM-04", "P2104-TIM-05")
 async def p2104_ac_13_first_pulse_and_phases(dut: Any) -> None:
-    """Given AC-09, when it runs, then pulse 1 is 80 to 82 clk after hold, and s1_n moves with each pulse."""
+    """In AC-09, pulse 1 occurs 80 to 82 cycles after hold falls, and s1_n changes with each pulse
+    (AC-13).
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_B):
         pulses = await axis.move(0x43, 25)
@@ -215,7 +217,9 @@ async def p2104_ac_13_first_pulse_and_phases(dut: Any) -> None:
 
 @directed("AC-14", "P2104-EX-13", "P2104-TIM-05")
 async def p2104_ac_14_low_times(dut: Any) -> None:
-    """Given rates 1, 2, 3, when they run, then low times are half the interval where it is short."""
+    """At rates 1 and 2 the low time is half the interval, because the interval is short; at rate 3 it
+    is 80 cycles (AC-14).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for rate, interval, low in ((1, 64, 32), (2, 96, 48), (3, 128, 80)):
@@ -226,7 +230,9 @@ async def p2104_ac_14_low_times(dut: Any) -> None:
 
 @directed("AC-15", "P2104-EX-08", "P2104-BCK-01", "P2104-BCK-02", "P2104-INTV-01")
 async def p2104_ac_15_csel(dut: Any) -> None:
-    """Given rate 49, when csel is 1, 0, or falls in motion, then 1600, 6400, 1600 clk."""
+    """At rate 49, intervals are 1600 cycles with csel = 1, 6400 with csel = 0, and stay 1600 if csel
+    falls during the motion (AC-15).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for csel, later, interval in ((1, 1, 1600), (0, 0, 6400), (1, 0, 1600)):
@@ -241,7 +247,9 @@ async def p2104_ac_15_csel(dut: Any) -> None:
 
 @directed("AC-16", "P2104-END-01", "P2104-RD-03", "P2104-INT-05")
 async def p2104_ac_16_end_interrupt(dut: Any) -> None:
-    """Given a single step, when it ends, then int_n falls, 80 is answered 82 and releases it, then 02."""
+    """At the end of a step int_n falls; 80 returns 82 and releases it, and a second read returns 02
+    (AC-16).
+    """
     lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     await lab.run("c 42")
@@ -255,7 +263,9 @@ async def p2104_ac_16_end_interrupt(dut: Any) -> None:
 
 @directed("AC-17", "P2104-CMD-02")
 async def p2104_ac_17_no_interrupt(dut: Any) -> None:
-    """Given I = 1, when a step ends, then int_n stays H and the end status is new all the same."""
+    """With I = 1, int_n stays high at the end of a step, and the end status is still marked as new
+    (AC-17).
+    """
     lab = await Lab.start(dut)
     await lab.ready(1, INIT_B)
     await lab.run("c 52")
@@ -266,7 +276,7 @@ async def p2104_ac_17_no_interrupt(dut: Any) -> None:
 
 @directed("AC-18", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
 async def p2104_ac_18_two_causes(dut: Any) -> None:
-    """Given ends of both axes, when they are read in turn, then int_n is H for 5 us between them."""
+    """Between the end-status reads of both axes, int_n is high for 5 us (AC-18)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await lab.run("c 42 c 62")
@@ -285,7 +295,7 @@ async def p2104_ac_18_two_causes(dut: Any) -> None:
 
 @directed("AC-19", "P2104-INT-01", "P2104-INT-02", "P2104-INT-03")
 async def p2104_ac_19_four_causes(dut: Any) -> None:
-    """Given ends and errors of both axes, when all four are read, then four releases follow."""
+    """With ends and errors of both axes, four reads release int_n four times (AC-19)."""
     lab = await Lab.start(dut, errint_n=0)
     first, second = await lab.both(INIT_B)
     await lab.run("c 42 c 62")
@@ -305,7 +315,7 @@ async def p2104_ac_19_four_causes(dut: Any) -> None:
 
 @directed("AC-20", "P2104-INT-04")
 async def p2104_ac_20_only_its_own_read(dut: Any) -> None:
-    """Given an error of axis 1 only, when other registers are read, then int_n does not move."""
+    """With an error of axis 1 only, reads of other registers do not change int_n (AC-20)."""
     lab = await Lab.start(dut, errint_n=0)
     await lab.run("c 87")
     since = lab.bench.now
@@ -320,7 +330,9 @@ async def p2104_ac_20_only_its_own_read(dut: Any) -> None:
 
 @directed("AC-21", "P2104-INT-01", "P2104-INT-02", "P2104-LIM-08")
 async def p2104_ac_21_errint(dut: Any) -> None:
-    """Given errint_n H, then L, when an error comes, then only the second lowers int_n, for good."""
+    """An error with errint_n high does not assert int_n, not even later; an error with errint_n low
+    asserts it permanently (AC-21).
+    """
     lab = await Lab.start(dut)
     await lab.run("c 87")
     lab.bench.set(errint_n=0)

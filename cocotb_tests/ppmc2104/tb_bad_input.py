@@ -1,4 +1,4 @@
-"""Input no host should give (P2104-BAD), and the way back from it."""
+"""Invalid input (P2104-BAD), and the recovery from it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
 
 @directed("P2104-BAD-01", "P2104-BAD-02", "P2104-BAD-03", "P2104-BAD-05", "P2104-ERR-03")
 async def p2104_bad_03_bytes_at_random(dut: Any) -> None:
-    """Given 600 random bytes without operations, when they go in, then registers as reckoned, pins still."""
+    """After 600 random bytes without operations, the registers are as computed, and no pin has changed
+    (P2104-BAD-03).
+    """
     lab = await Lab.start(dut)
     rng = lab.bench.rng
     await lab.both(INIT_A)
@@ -52,7 +54,9 @@ async def p2104_bad_03_bytes_at_random(dut: Any) -> None:
 
 @directed("P2104-BAD-16", "P2104-BAD-20", "P2104-BAD-21", "P2104-BAD-22", "P2104-FDC-01")
 async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
-    """Given inputs that do not matter toggling, when a ramp runs, then no effect; limits act once."""
+    """Inputs that are not evaluated have no effect on a ramp when they toggle; a bouncing limit acts
+    once (P2104-BAD-22).
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         rng = lab.bench.rng
@@ -70,7 +74,7 @@ async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
         axis.set(run=1, csel=1, bl_n=1, bhl_n=1, org_n=1)
         lab.bench.set(errint_n=1)
         await axis.result("P2104-BAD-20", 40, 0x83, 0)
-        # Chattering slow-down limit: the first level flags.
+        # Bouncing slow-down limit: the first level sets the flag.
         await axis.go(0x43, 40)
         await axis.pulse(8, 20)
         for _ in range(30):
@@ -87,7 +91,9 @@ async def p2104_bad_22_chattering_inputs(dut: Any) -> None:
 
 @directed("P2104-BAD-23", "P2104-PORT-03", "P2104-END-06", builds=(F16, F11))
 async def p2104_bad_23_reset_anywhere(dut: Any) -> None:
-    """Given motions, chopping, a data wait, an answer, when rst_n falls between edges, then as new."""
+    """A reset between two edges during motions, chopping, a data wait and an answer restores the reset
+    state (P2104-BAD-23).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     for round_number in range(8):
@@ -121,9 +127,9 @@ async def p2104_bad_23_reset_anywhere(dut: Any) -> None:
     uncompared="the bus style changes inside strobes, which no rule fixes",
 )
 async def p2104_bad_26_recovery(dut: Any) -> None:
-    """Given noise on all pins, when it ends, then a code, 40, C0, a setting bring both axes back.
+    """After noise on all pins, a code, 40, C0 and a setting make both axes work again (P2104-BAD-26).
 
-    Not compared: the noise switches the bus style inside strobes.
+    Not compared with the model: the noise switches the bus style inside strobes.
     """
     lab = await Lab.start(dut)
     bench, rng = lab.bench, lab.bench.rng
@@ -136,7 +142,7 @@ async def p2104_bad_26_recovery(dut: Any) -> None:
         bench.set(**bench.part.inputs)
         await bench.clocks(8)
         await lab.host.poll(IBF, 0, timeout=lab.cfg.us(200_000))
-        # Any code ends a data wait; the next one is executed and replaces what is left in the output queue.
+        # Any code ends a data wait; the next one is executed and replaces the rest of the output queue.
         for _ in range(2):
             await lab.host.command(0x86)
             await lab.host.poll(CMND1, 0)

@@ -1,4 +1,4 @@
-"""Bus cycles in both styles (P2104-BUS), bad cycles (P2104-BAD-08…15)."""
+"""Bus accesses in both styles (P2104-BUS), invalid accesses (P2104-BAD-08…15)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ IDLE = {"cs_n": 1, "ds_wrs_n": 1, "rw_rds_n": 1}
 
 
 def strobes(busc: int, cs_n: int, ds_wrs_n: int, rw_rds_n: int) -> tuple[bool, bool]:
-    """Write and read strobe of P2104-BUS-01/02."""
+    """Return the write and read strobe of P2104-BUS-01/02."""
     chosen, first, second = not cs_n, not ds_wrs_n, bool(rw_rds_n)
     if busc:
         return chosen and first and not second, chosen and first and second
@@ -25,7 +25,9 @@ def strobes(busc: int, cs_n: int, ds_wrs_n: int, rw_rds_n: int) -> tuple[bool, b
 
 @directed("P2104-BUS-01", "P2104-BUS-02", "P2104-BUS-03", "P2104-BUS-04")
 async def p2104_bus_01_all_combinations(dut: Any) -> None:
-    """Given both styles, when every combination of pins stands for 8 clk, then it is what its style says."""
+    """Every combination of pins, stable for 8 cycles, acts as its bus style states (P2104-BUS-01,
+    P2104-BUS-02).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     for busc, a0, cs_n, ds, rw in product(STYLES, (0, 1), (0, 1), (0, 1), (0, 1)):
@@ -42,7 +44,7 @@ async def p2104_bus_01_all_combinations(dut: Any) -> None:
         lab.check("P2104-BUS-01", f"d_oe, {what}", [v for _, v in bench.edges("d_oe", since)], [1, 0] * read)
         if read:
             lab.check("P2104-BUS-03", f"register, {what}", got, (1, 0x01 if a0 else 0xCF))
-        # A data byte that nobody wants is error 2, the code D1 lowers AUXO0.
+        # An unexpected data byte sets error 2; the code D1 drives AUXO0 low.
         status = OBF if not (read and not a0) else 0
         status |= 0x80 if write and not a0 else 0
         lab.check("P2104-BUS-03", f"status after {what}", await lab.host.status(), status)
@@ -51,7 +53,7 @@ async def p2104_bus_01_all_combinations(dut: Any) -> None:
 
 @directed("P2104-BUS-04")
 async def p2104_bus_04_style_changes(dut: Any) -> None:
-    """Given busc changing with the strobes off, when 3 clk have passed, then the new style is spoken."""
+    """If busc changes with the strobes off, the new style is effective 3 cycles later (P2104-BUS-04)."""
     lab = await Lab.start(dut)
     for i in range(8):
         lab.bench.set(busc=(i + 1) & 1, rw_rds_n=1)
@@ -67,7 +69,9 @@ async def p2104_bus_04_style_changes(dut: Any) -> None:
 
 @directed("P2104-BUS-05", "P2104-GEN-06", "P2104-HSK-03", "P2104-BAD-12", "P2104-BAD-13", builds=(F16, F100))
 async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
-    """Given d_i and a0 that change each clk, when WS ends in any way, then the last sample is the byte."""
+    """If d_i and a0 change every cycle, the last sample of the write strobe is the byte, whichever pin
+    ends it (P2104-BUS-05).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     latencies = set()
@@ -97,7 +101,9 @@ async def p2104_bus_05_last_sample_counts(dut: Any) -> None:
 
 @directed("P2104-BUS-06", "P2104-BUS-22", "P2104-GEN-07", builds=(F16, F100))
 async def p2104_bus_06_read_edges(dut: Any) -> None:
-    """Given reads of 1 to 60 clk, when the state changes meanwhile, then d_oe and d_o keep to their edges."""
+    """In reads of 1 to 60 cycles, d_oe and d_o change on their edges only, even if the state changes
+    (P2104-BUS-06).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     bench = lab.bench
@@ -124,7 +130,9 @@ async def p2104_bus_06_read_edges(dut: Any) -> None:
 
 @directed("P2104-BUS-07", "P2104-HSK-03", "P2104-HSK-01")
 async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
-    """Given a write, when status is read 1 to 14 clk later, then it shows IBF or the whole effect."""
+    """A status read 1 to 14 cycles after a write returns IBF = 1 or the complete effect of the write
+    (P2104-BUS-07).
+    """
     lab = await Lab.start(dut)
     await lab.both(INIT_A)
     cases = ((0x87, 0x80), (0xA7, 0x80), (0x81, 0x01), (0x42, 0x04), (0x62, 0x08), (0x44, 0x10), (0x65, 0x20))
@@ -140,7 +148,7 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
             if not status & IBF:
                 lab.check("P2104-BUS-07", f"status {gap} clk after {code:#x}", status, final)
             await lab.bench.clocks(20)
-            # Back to rest: end a data wait or a motion, take errors, interrupt and answer away.
+            # Return to rest: end a data wait or a motion; clear errors, interrupt and answer.
             for axis in lab.axes:
                 await axis.command(0x40)
                 await axis.idle()
@@ -151,7 +159,7 @@ async def p2104_bus_07_no_invisible_byte(dut: Any) -> None:
 
 @directed("P2104-BUS-08", "P2104-HSK-06")
 async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
-    """Given an answer, when it is read, then no later status shows its OBF, from 1 clk on."""
+    """After an answer was read, no later status returns its OBF, from 1 cycle on (P2104-BUS-08)."""
     lab = await Lab.start(dut)
     for busc, length, gap in product(STYLES, (1, 2, 3, 5), range(1, 6)):
         await lab.style(busc)
@@ -164,7 +172,7 @@ async def p2104_bus_08_obf_of_a_read_byte(dut: Any) -> None:
 
 @directed("P2104-BUS-08", "P2104-HSK-07", "P2104-BAD-10")
 async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
-    """Given a read instruction taken around a data read, when both meet, then its answer is never lost."""
+    """If a read instruction is accepted around a data read, its answer is never lost (P2104-BUS-08)."""
     lab = await Lab.start(dut)
     seen = set()
     for busc, length, gap in product(STYLES, (1, 2, 4, 7), range(1, 14)):
@@ -184,7 +192,7 @@ async def p2104_bus_08_answer_during_a_read(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-05", builds=(F8, F11, F16, F48, F100))
 async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
-    """Given strobes, data and gaps of T + 10 ns, reads of T + 20 ns, when used, then none is lost."""
+    """With strobes, data and gaps of T + 10 ns and reads of T + 20 ns, no byte is lost (P2104-BUS-20)."""
     lab = await Lab.start(dut)
     bus = SlowBus(lab)
     period = lab.bench.period / 1000
@@ -193,7 +201,7 @@ async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
         await lab.style(busc)
         what = f"busc {busc}, phase {phase}/16"
         await bus.phase(phase)
-        # The newer of two writes may replace the older one, but is there.
+        # The newer of two writes may replace the older one, but must be stored.
         await bus.write(COMMAND, 0xC1, width=short, setup=short, rest=max(0, short - 35))
         await bus.write(COMMAND, 0xF1, width=short, setup=short, rest=14 * period)
         lab.check("P2104-BUS-20", f"auxo, {what}", lab.bench.level("auxo"), 0b00)
@@ -208,7 +216,7 @@ async def p2104_bus_20_shortest_cycles(dut: Any) -> None:
 
 @directed("P2104-BUS-23", "P2104-BUS-03", "P2104-BUS-09", "P2104-BAD-09")
 async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
-    """Given strobes and gaps of 2 clk, when a host works by them, then every byte goes in and out."""
+    """With strobes and gaps of 2 cycles, every byte is transferred in both directions (P2104-BUS-23)."""
     lab = await Lab.start(dut)
     lab.host.read_strobe = 2
     for busc in STYLES:
@@ -225,7 +233,9 @@ async def p2104_bus_23_two_clk_cycles(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P2104-BUS-10", "P2104-BAD-14", builds=(F16, F48))
 async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
-    """Given strobes shorter than a clk at any phase, when bytes are written, then each is whole or absent."""
+    """With strobes shorter than a cycle, at any phase, each byte is stored completely or not at all
+    (P2104-BUS-10).
+    """
     lab = await Lab.start(dut)
     bench, bus = lab.bench, SlowBus(lab)
     clk = bench.period / 1000
@@ -256,7 +266,9 @@ async def p2104_bus_10_too_short_strobes(dut: Any) -> None:
 
 @directed("P2104-BAD-12", "P2104-BUS-05", "P2104-BUS-06")
 async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
-    """Given DS* low, when R/W* or a0 change, then a write before is stored, a read shows its first a0."""
+    """If R/W* or a0 change while DS* is low, the preceding write is stored, and a read returns the
+    register of its first a0 (P2104-BAD-12).
+    """
     lab = await Lab.start(dut, busc=1)
     bench = lab.bench
     await lab.host.command(0x81)
@@ -270,7 +282,7 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
         await bench.clocks(10)
         lab.check("P2104-BAD-12", "auxo", bench.level("auxo"), 0b10)
         await lab.host.command(0xC1)
-        # The other way round: a read of the data register, then a write of data.
+        # The reverse: a read of the data register, then a write of data.
         first = bench.set(cs_n=0, ds_wrs_n=0, rw_rds_n=1, a0=DATA)
         await bench.clocks(3)
         bench.set(a0=STATUS)
@@ -291,7 +303,9 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
     "P2104-BAD-15", "P2104-BUS-04", uncompared="the bus style changes inside strobes, which no rule fixes"
 )
 async def p2104_bad_15_style_changes_in_a_strobe(dut: Any) -> None:
-    """Given busc changing in a strobe, when it is over, then whatever it was, later ones are normal."""
+    """If busc changes during a strobe, any result is allowed, but later accesses are normal
+    (P2104-BAD-15).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     for busc, at, write in product(STYLES, range(0, 5), (True, False)):

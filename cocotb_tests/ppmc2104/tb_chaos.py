@@ -1,4 +1,4 @@
-"""Noise on all pins, which the core must survive."""
+"""Noise on all pins, from which the core must recover."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ RAMP = (0x33, 0x25, 4)
     uncompared=UNCOMPARED,
 )
 async def p2104_random_chaos(dut: Any, seed: int) -> None:
-    """Given noise on all pins, when it ends, then stops, Excitation OFF and a setting recover both axes."""
+    """After noise on all pins, stops, Excitation OFF and a setting make both axes work again."""
     bench = await Bench.start(dut, PPMC2104, seed=seed, busc=seed & 1)
     din = noise(bench)
     await din.make(bench.rng.choice((2_000, 10_000, 40_000)))
@@ -34,7 +34,7 @@ async def p2104_random_chaos(dut: Any, seed: int) -> None:
     host = HostBus(bench, timeout=bench.config.us(200_000))
     at_rest = IBF | BUSY1 | BUSY2 | CMND1 | CMND2
     for _ in range(6):
-        # The first code may only end a wait for data, so both stops come again until nothing moves.
+        # The first code may only end a data wait, so both stops are repeated until both axes are at rest.
         for code in (0x40, 0x60):
             await host.command(code)
         await bench.clocks(bench.config.us(1_000))

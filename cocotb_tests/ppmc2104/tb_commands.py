@@ -36,7 +36,7 @@ ROWS = {
     "read3": 0x83,
     "error": 0x86,
     "off": 0xC0,
-    "auxout": 0xE1,  # bit 5 is not an axis here
+    "auxout": 0xE1,  # bit 5 does not select an axis here
     "auxin": 0xC2,
     "switching": 0x84,
     "delay": 0x85,
@@ -47,7 +47,7 @@ STOPS = ("immediate stop", "deceleration stop")
 
 
 def reaction(row: str, state: str) -> int | str:
-    """P2104-FSM-01: error number, "waits", or 0 for executed."""
+    """Return the response of P2104-FSM-01: error number, "waits", or 0 for executed."""
     if row in ALWAYS:
         return ALWAYS[row]
     if row in STOPS:
@@ -64,7 +64,7 @@ def reaction(row: str, state: str) -> int | str:
 
 
 async def react(lab: Lab, axis: Axis, row: str, state: str) -> None:
-    """One cell of the table, the axis in that state."""
+    """Check one cell of the table; the axis is in that state."""
     code = ROWS[row] | axis.axis_bit * (row not in ("auxout", "auxin"))
     wanted = reaction(row, state)
     what = f"{row} ({code:#x}) in {state}, axis {axis.n}"
@@ -90,7 +90,7 @@ async def react(lab: Lab, axis: Axis, row: str, state: str) -> None:
 
 
 async def table(lab: Lab, axis: Axis, states: tuple[str, ...]) -> None:
-    """All rows of the table in these columns."""
+    """Check all rows of the table in these columns."""
     for state, row in product(states, ROWS):
         await enter(axis, state)
         await react(lab, axis, row, state)
@@ -99,7 +99,9 @@ async def table(lab: Lab, axis: Axis, states: tuple[str, ...]) -> None:
 
 @directed("P2104-FSM-01", "P2104-ERR-04", "P2104-FSM-02", "P2104-FSM-04", "P2104-HSK-04")
 async def p2104_fsm_01_at_rest(dut: Any) -> None:
-    """Given INITIAL, INITP, NORMAL, when every instruction comes, then as the table says."""
+    """In INITIAL, INITP and NORMAL, the response to every instruction is that of the table
+    (P2104-FSM-01).
+    """
     lab = await Lab.start(dut)
     for axis in lab.axes:
         await table(lab, axis, RESTING)
@@ -107,21 +109,25 @@ async def p2104_fsm_01_at_rest(dut: Any) -> None:
 
 @directed("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-03", "P2104-CMD-04")
 async def p2104_fsm_01_moving_axis_1(dut: Any) -> None:
-    """Given every state of a moving axis 1, when every instruction comes, then as the table says."""
+    """In every state of a moving axis 1, the response to every instruction is that of the table
+    (P2104-FSM-01).
+    """
     lab = await Lab.start(dut)
     await table(lab, lab.x1, MOVING)
 
 
 @directed("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-02")
 async def p2104_fsm_01_moving_axis_2(dut: Any) -> None:
-    """Given every state of a moving axis 2, when every instruction comes, then as the table says."""
+    """In every state of a moving axis 2, the response to every instruction is that of the table
+    (P2104-FSM-01).
+    """
     lab = await Lab.start(dut)
     await table(lab, lab.x2, MOVING)
 
 
 @directed("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
 async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
-    """Given one axis in any state, when the other one is addressed, then the other's state decides."""
+    """With one axis in any state, the state of the addressed axis decides (P2104-FSM-02)."""
     lab = await Lab.start(dut)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
         for state in ("INITIAL", "RUNWAIT", "ACC", "DEC", "CONST"):
@@ -141,7 +147,9 @@ async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
 
 @directed("P2104-FSM-01", "P2104-ERR-01", "P2104-ERR-02", "P2104-FSM-05", "P2104-STP-07", "P2104-BAD-04")
 async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
-    """Given data outstanding for either axis, when any code comes, then error 3, dropped; stops act."""
+    """While data of either axis is expected, any code sets error 3 and drops the instruction; stops act
+    (P2104-FSM-01).
+    """
     lab = await Lab.start(dut)
     for waiting, axis in product(lab.axes, lab.axes):
         states = ("INITIAL", "NORMAL", *MOVING) if waiting is not axis else ("INITIAL", "NORMAL")
@@ -160,7 +168,7 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
                 await lab.bench.clocks(lab.cfg.w + 12)
                 busy = (await lab.host.status()) & axis.busy
                 stopped = state not in MOVING or row == "immediate stop"
-                # Before pulse 1 a deceleration stop is remembered and the axis still waits for the clock.
+                # Before pulse 1 a deceleration stop is stored, and the axis still waits for the clock.
                 lab.check("P2104-FSM-05", f"BUSY after {what}", busy, 0 if stopped else axis.busy)
                 if row == "deceleration stop" and state in RAMP:
                     await axis.command(0x41)
@@ -174,7 +182,9 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
 
 @directed("P2104-CMD-01", "P2104-CMD-03", "P2104-ERR-01", "P2104-ERR-03", "P2104-BAD-01")
 async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
-    """Given axis 1 waiting for its clock and axis 2 set up, when all codes come, then decode comes first."""
+    """With axis 1 waiting for its clock and axis 2 set up, all codes are decoded before any other check
+    (P2104-CMD-01).
+    """
     lab = await Lab.start(dut)
     first, second = lab.axes
     await first.init(*INIT_EXT)
@@ -215,7 +225,7 @@ async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
 
 @directed("P2104-CMD-02", "P2104-OPR-08", "P2104-CMD-03")
 async def p2104_cmd_02_operation_bits(dut: Any) -> None:
-    """Given I, D, P and the axis bit, when every operation runs, then each bit does its own."""
+    """I, D, P and the axis bit of every operation each have only their own effect (P2104-CMD-02)."""
     lab = await Lab.start(dut)
     axes = await lab.both(INIT_A)
     for axis, (code, n, rate) in product(
@@ -248,7 +258,7 @@ async def p2104_cmd_02_operation_bits(dut: Any) -> None:
 
 @directed("P2104-CMD-04", "P2104-ERR-05", "P2104-HSK-08", "P2104-BAD-03", "P2104-STA-05")
 async def p2104_cmd_04_data_bytes(dut: Any) -> None:
-    """Given each instruction with data, when its bytes come slowly, then CMND till the last, no time-out."""
+    """CMND is 1 until the last data byte of an instruction, and there is no time-out (P2104-CMD-04)."""
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for code, data in (
@@ -279,7 +289,9 @@ async def p2104_cmd_04_data_bytes(dut: Any) -> None:
 
 @directed("P2104-ERR-02", "P2104-HSK-08", "P2104-CMD-04")
 async def p2104_err_02_abandoned_instructions(dut: Any) -> None:
-    """Given each instruction abandoned at each byte, when a code ends it, then nothing of it is in force."""
+    """If a code ends an incomplete instruction at any byte, nothing of this instruction is effective
+    (P2104-ERR-02).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     cases = ((0x02, [20, 10, 9, 0]), (0x43, [5, 0, 0]), (0x44, [9, 3, 0, 0]), (0x47, [9]), (0x84, [64, 64]))
@@ -299,7 +311,7 @@ async def p2104_err_02_abandoned_instructions(dut: Any) -> None:
 
 @directed("P2104-ERR-05", "P2104-LIM-06", "P2104-OPR-07")
 async def p2104_err_05_order_of_checks(dut: Any) -> None:
-    """Given several faults at a last byte, when it comes, then the first of the order is reported."""
+    """Of several faults at a last byte, the first in the order of checks is reported (P2104-ERR-05)."""
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         axis.set(alm_n=0)
@@ -316,7 +328,7 @@ async def p2104_err_05_order_of_checks(dut: Any) -> None:
 
 @directed("P2104-ERR-03", "P2104-BAD-05", "P2104-BAD-06", "P2104-BAD-07", "P2104-BAD-02", "P2104-FSM-01")
 async def p2104_err_03_faults_in_motion(dut: Any) -> None:
-    """Given both axes moving, when faulty bytes come, then registers change and nothing else."""
+    """While both axes move, faulty bytes change only the error registers (P2104-ERR-03)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     await first.go(0x44, 60, 39)
@@ -339,7 +351,7 @@ async def p2104_err_03_faults_in_motion(dut: Any) -> None:
     first.check_train("P2104-ERR-03", [39] * 59)
     second.check_train("P2104-ERR-03", [29] * 59)
     lab.check("P2104-ERR-03", "80, A0", await lab.run("c 80 r c A0 r"), [0x84, 0x84])
-    # More bytes than an instruction has: it runs, the rest are error 2.
+    # More bytes than the instruction has: it runs, the rest set error 2.
     first.since = lab.bench.now
     await lab.run("c 44 d 09 d 02 d 00 d 00 d 00 d 7F")
     lab.check("P2104-BAD-05", "errors", await lab.errors(), (2, 0))
@@ -348,7 +360,7 @@ async def p2104_err_03_faults_in_motion(dut: Any) -> None:
 
 @directed("P2104-ERR-01", "P2104-ERR-06", "P2104-RD-07", "P2104-STA-06")
 async def p2104_err_06_registers(dut: Any) -> None:
-    """Given errors on both axes, when newer ones come, then each register has its newest and clears alone."""
+    """Each error register holds its newest error and is cleared separately (P2104-ERR-06)."""
     lab = await Lab.start(dut)
     got = await lab.run("c 87 c 40 s c A7 c 42 c 84 d 00 d 00 s e1 s e1 s e2 s")
     expected = [0x80, 0x80, 11, 0x80, 0, 0x80, 1, 0x00]

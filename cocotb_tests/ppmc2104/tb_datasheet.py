@@ -16,7 +16,9 @@ BOTH = (D16, D11)
 
 @directed("AC-73", "P2104-DS-01", "P2104-INI-07", "P2104-STA-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ac_73_setting(dut: Any) -> None:
-    """Given a setting with S = 1, when taken, then phases at once, CMND for 71 ms, then chopping."""
+    """A setting with S = 1 drives the phases immediately, sets CMND for 71 ms, and then starts the
+    chopping (AC-73).
+    """
     lab = await Lab.start(dut)
     axis = lab.x1
     edge0 = await last_byte(axis, 0x12, *INIT_B[1:], 0)
@@ -35,7 +37,7 @@ async def p2104_ac_73_setting(dut: Any) -> None:
     low, high = nominal + 2 + q(2 * ON) - q(1) - 1, nominal + 10 + q(2 * ON) + q(1) + 1 + TOLERANCE + PIN
     lab.window("P2104-DS-01", "last byte to the first OFF", off - edge0, low, high)
     lab.check("AC-73", "CMND afterwards", await lab.host.status() & axis.cmnd, 0)
-    # F1 was taken at the end of the window and acts at the end of its own.
+    # F1 was accepted at the end of the window and acts at the end of its own window.
     auxo = lab.bench.edges("auxo", edge0)
     if not auxo:
         await lab.bench.edge("auxo")
@@ -58,7 +60,7 @@ async def p2104_ac_73_setting(dut: Any) -> None:
     builds=BOTH,
 )
 async def p2104_ac_71_starts(dut: Any) -> None:
-    """Given each operation, when accepted, then BUSY at once and pulse 1 W after its window."""
+    """For each accepted operation, BUSY is set immediately, and pulse 1 follows its window by W (AC-71)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for code, data, micros in (
@@ -91,7 +93,7 @@ async def p2104_ac_71_starts(dut: Any) -> None:
 
 @directed("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", builds=(D16,))
 async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
-    """Given run H and L in the window, when it ends, then only the level then counts."""
+    """If run changes in the window, only its level at the end applies (P2104-DS-14)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     w = lab.cfg.w
@@ -113,7 +115,7 @@ async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
     axis.set(run=1)
     after(lab, "P2104-DS-14", "pulse 1", await axis.pulse(1), edge0, 103, w)
     await rest(lab)
-    # Start refusal looks at the live level, without a window.
+    # The start check uses the present level, without a window.
     axis.set(alm_n=0)
     await lab.bench.clocks(4)
     edge0 = await last_byte(axis, 0x42)
@@ -126,7 +128,9 @@ async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
 
 @directed("AC-72", "P2104-DS-02", "P2104-DS-12", "P2104-HSK-01", builds=BOTH)
 async def p2104_ac_72_immediate_stop(dut: Any) -> None:
-    """Given a motion, when 40 is taken, then pulses are cut, the end comes 400 us later, bytes wait."""
+    """When 40 is accepted, no further pulse is output, the end follows 400 us later, and bytes wait
+    (AC-72).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x44, 1000, 0x63)
@@ -139,7 +143,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     lab.check("AC-72", "status just before", await lab.host.status() & (IBF | axis.busy), IBF | axis.busy)
     end = await axis.ended()
     after(lab, "AC-72", "end", end, edge0, 400)
-    # BUSY fell on the edge before int_n at the latest; D1 is taken then.
+    # BUSY fell on the edge before int_n at the latest; D1 is accepted then.
     lab.check("AC-72", "BUSY", await lab.host.status() & axis.busy, 0)
     aux = await lab.bench.edge("auxo")
     lab.window("AC-72", "auxo after the end", aux - end, lab.cfg.us(40) - 4, lab.cfg.us(40) + TOLERANCE + 8)
@@ -148,7 +152,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     lab.window("P2104-DS-02", "hold after the end", hold - end, delay - 4, delay + 16 + 4)
     await axis.result("AC-72", 10, 0xC4, 989)
     await rest(lab)
-    # In FIN: closed for 400 us, but the normal end is not delayed and has no bit.
+    # In FIN: closed for 400 us, but the normal end is not delayed and sets no bit.
     await axis.go(0x42)
     fall = await axis.pulse(1, 4)
     edge0 = await axis.command(0x40, poll=False)
@@ -160,7 +164,9 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
 
 @directed("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", builds=(D16,))
 async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
-    """Given 41, when its 32 us are over, then the flag acts, at RL at once, and too late not at all."""
+    """The flag of 41 is set after 32 us: at RL it ends the motion immediately, and if it is too late it
+    has no effect (P2104-DS-03).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     edge0 = 0
@@ -171,7 +177,7 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await axis.pulse(j, plus)
         edge0 = await axis.command(0x41, poll=False)
 
-    # I(6) has index 5 and lasts 896 clk: the flag is set in I(6), or 512 clk later in I(7).
+    # I(6) has index 5 and lasts 896 cycles: the flag is set in I(6), or 512 cycles later in I(7).
     for plus, flagged in ((100, 6), (600, 7)):
         await ask(6, plus)
         await opens(lab, "P2104-DS-03", edge0, 32)
@@ -179,17 +185,18 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await axis.result("P2104-DS-03", len(wanted) + 1, 0xC3, 98 - len(wanted))
         axis.check_train("P2104-DS-03", wanted)
         await rest(lab)
-    # In I(1), at the rate RL: it ends with the window.
+    # In I(1), at the rate RL: the motion ends with the window.
     await ask(1, 100)
     end = await axis.ended()
     after(lab, "P2104-DS-03", "end at RL", end, edge0, 32)
     await axis.result("P2104-DS-03", 1, 0xC3, 98)
     await rest(lab)
-    # Asked for in acceleration, due in natural deceleration (from pulse 6 of 10 on): nothing, no bit.
+    # Requested while accelerating, effective in natural deceleration (from pulse 6 of 10 on): no effect,
+    # no bit.
     await ask(5, 992 - 300, n=10)
     await axis.result("P2104-DS-03", 10, 0x83, 0)
     axis.check_train("P2104-DS-03", rates(INIT_B[1:], [0, 1, 2, 3, 4, 3, 2, 1, 0]))
-    # Refused: no window.
+    # Rejected: no window.
     await rest(lab)
     await axis.go(0x45, rate=0x63)
     await axis.pulse(1, 200)
@@ -200,7 +207,9 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
 
 @directed("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", builds=BOTH)
 async def p2104_ac_74_reads(dut: Any) -> None:
-    """Given each read instruction, when taken, then OBF at the end of its window, with the values of then."""
+    """OBF of each read instruction is set at the end of its window, and the values are those of this
+    time (AC-74).
+    """
     lab = await Lab.start(dut)
     lab.bench.set(errint_n=0)
     await lab.run("c 87")
@@ -230,7 +239,7 @@ async def p2104_ac_74_reads(dut: Any) -> None:
 
 @directed("P2104-DS-11", "P2104-DS-12", "P2104-DS-13", "P2104-AUX-05", "P2104-AUX-04", builds=(D16,))
 async def p2104_ds_11_auxiliary(dut: Any) -> None:
-    """Given C0, D1, 84, 85, when taken, then they act at the end of their windows."""
+    """C0, D1, 84 and 85 act at the end of their windows (P2104-DS-11, P2104-DS-12, P2104-DS-13)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, (0x12, *INIT_A[1:]))
     edge0 = await last_byte(axis, 0x84, 0x40, 0x40)
@@ -238,7 +247,7 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
     await lab.bench.clocks(3_000)
     spans = {span for _, span in axis.stretches(lab.bench.now - 2_500)}
     lab.check("P2104-DS-13", "switching times", spans, {512})
-    # The value is in force at the end of the window: a timer started in it has the old one.
+    # The value is effective at the end of the window: a timer started during the window uses the old one.
     edge0 = await last_byte(axis, 0x85, 0x00)
     await opens(lab, "P2104-DS-13", edge0, 32)
     await lab.host.command(0xE1)
@@ -263,7 +272,7 @@ async def p2104_ds_11_auxiliary(dut: Any) -> None:
 
 @directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ds_15_as_fast(dut: Any) -> None:
-    """Given complete moves, when they run and end, then pulses, ends, hold and release as in FAST."""
+    """The pulses, ends, hold and release of complete moves are as in FAST (P2104-DS-15)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(2, INIT_B)
     await axis.go(0x43, 30)

@@ -24,13 +24,13 @@ LIMITS = {
 
 
 def rate_error(kind: str, csel: int, rate: int, operating: bool) -> int:
-    """Errors 12 and 13 of P2104-DS-30."""
+    """Return error 12 or 13 of P2104-DS-30, or 0."""
     single, double = LIMITS[kind, csel]
     return 12 if rate < single else 13 if operating and rate < double else 0
 
 
 async def tried(lab: Lab, axis: Axis, code: int, error: int, rate: int | None = None, note: str = "") -> None:
-    """Start an operation; it must give that error and no BUSY, or run."""
+    """Start an operation and check that it sets that error without BUSY, or that it runs."""
     data = [] if rate is None else [rate]
     data += [99, 0, 0] if code & 7 in (3, 4) else []
     await last_byte(axis, code, *data)
@@ -47,7 +47,7 @@ async def tried(lab: Lab, axis: Axis, code: int, error: int, rate: int | None = 
 
 @directed("AC-67", "P2104-DS-30", "P2104-DS-35", "P2104-ERR-05", builds=(D16, D11))
 async def p2104_ac_67_rate_bytes(dut: Any) -> None:
-    """Given axis 2 not set up, when rates around the limits start, then error 12 below them."""
+    """If axis 2 has no setting, rates below the limits set error 12 (AC-67)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     for csel in (1, 0):
@@ -59,7 +59,7 @@ async def p2104_ac_67_rate_bytes(dut: Any) -> None:
                 error = rate_error(kind, csel, rate, False)
                 lab.check("AC-67", "figures", error, 12 if rate < limit else 0)
                 await tried(lab, axis, code, error, rate, f", csel {csel}")
-    # Order: rate 00 is error 9, a rate error comes before the guard's.
+    # Order: rate 00 is error 9; a rate error has priority over an active input.
     axis.set(alm_n=0)
     await lab.bench.clocks(4)
     for rate, error in ((0x00, 9), (0x03, 12), (0x04, 7)):
@@ -68,7 +68,9 @@ async def p2104_ac_67_rate_bytes(dut: Any) -> None:
 
 @directed("AC-68", "AC-69", "P2104-DS-30", "P2104-DS-31", "P2104-DS-32", "P2104-DS-33", builds=(D16,))
 async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
-    """Given RH and rates around the limits, when axis 2 is idle or operating, then errors 12, 13 or none."""
+    """With RH and rates around the limits, errors are 12, 13 or 0, depending on whether axis 2 is idle
+    or operating (AC-68, AC-69).
+    """
     lab = await Lab.start(dut)
     axis, other = lab.axes
     for rh, level, cases in (
@@ -79,7 +81,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
         (0x03, 0, ((0xC3, 0), (0x43, 12))),
     ):
         axis.set(csel=level)
-        # The setting itself is never refused for its rate.
+        # The setting itself is never rejected for its rate.
         await axis.init(0x02, 0x63, rh, 10)
         lab.check("P2104-DS-33", f"error of the setting, RH {rh:#x}", await axis.error(), 0)
         for code, error in cases:
@@ -104,7 +106,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
         await axis.init(0x02, 0x63, rh, 10)
         await tried(lab, axis, 0xC3, error, note=f", RH {rh:#x}, csel {level}, axis 2 in RUN wait")
         await tried(lab, axis, 0x43, 13, note=f", RH {rh:#x}, csel {level}, axis 2 in RUN wait")
-    # The slow newcomer beside a fast runner is accepted, and the fast one goes on.
+    # A slow operation is accepted while the other axis is fast, and the fast one continues.
     await other.command(0x40)
     await rest(lab)
     other.set(run=1)
@@ -122,7 +124,7 @@ async def p2104_ac_68_ramps_and_two_axes(dut: Any) -> None:
 
 @directed("AC-70", "P2104-DS-31", "P2104-DS-33", "P2104-DS-36", builds=(D16,))
 async def p2104_ac_70_switching_counts(dut: Any) -> None:
-    """Given axis 2 at rest with S = 1, when axis 1 starts, then the limit of two axes counts."""
+    """If axis 2 is at rest with S = 1, axis 1 has the rate limit of two axes (AC-70)."""
     lab = await Lab.start(dut)
     axis, other = await lab.ready(1, INIT_B), lab.x2
     await other.init(0x12, *INIT_B[1:])
@@ -134,7 +136,7 @@ async def p2104_ac_70_switching_counts(dut: Any) -> None:
     await axis.init(0x0A, *INIT_B[1:])
     clock = lab.bench.external_clock(repeat(20), axis.clock, high=10)
     await tried(lab, axis, 0x45, 0, 0x00, ", external clock")
-    # Faster than the silicon could: nothing locks up.
+    # Faster than the old chip: the core does not lock up.
     await axis.go(0x44, 50, 0)
     await axis.result("P2104-DS-36", 50, 0x84, 0)
     clock.cancel()
@@ -142,7 +144,7 @@ async def p2104_ac_70_switching_counts(dut: Any) -> None:
 
 @directed("AC-70", "P2104-DS-34", "P2104-INTV-01", builds=(F16,))
 async def p2104_ac_70_no_limits_in_fast(dut: Any) -> None:
-    """Given FAST and both axes, one of them switching, when rate 01 starts, then it runs."""
+    """In FAST, rate 01 runs on both axes, one of which has S = 1 (AC-70)."""
     lab = await Lab.start(dut)
     axis, other = lab.axes
     await axis.init(*INIT_B)
@@ -157,7 +159,9 @@ async def p2104_ac_70_no_limits_in_fast(dut: Any) -> None:
 
 @directed("AC-75", "P2104-DS-20", "P2104-DS-23", "P2104-LIM-01", builds=(D16, D11))
 async def p2104_ac_75_polled_limits(dut: Any) -> None:
-    """Given levels of 10 us at 7 offsets, when they are polled, then some are missed; 36 us never are."""
+    """Limit levels of 10 us, at 7 offsets, are sometimes missed by the polling; levels of 36 us never
+    are (AC-75).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     us = lab.cfg.us
@@ -182,7 +186,7 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
             lab.window("AC-75", "pin to the end", end - stamp, 2, us(35) + 8)
             lab.check("AC-75", "end status", await axis.finish(), finish)
             await lab.bench.clocks(us(50))
-    # While a window is open nothing is looked at; 35 us after it the level is seen.
+    # While a window is open no input is sampled; the level is detected at most 35 us after its end.
     await axis.go(0x45, rate=0xFF)
     await axis.pulse(1, 300)
     edge0 = await lab.host.command(0xC1, poll=False)
@@ -190,7 +194,7 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
     end = await axis.ended()
     lab.window("P2104-DS-20", "pin to the end, 40 us window", end - stamp, us(40 + 35) - 20, us(40 + 35) + 30)
     axis.set(fl_n=1)
-    # The slow-down limit alike: in 43 it flags at a tick.
+    # The same holds for the slow-down limit: in 43 it sets the flag at a polling tick.
     await rest(lab)
     await axis.go(0x43, 1000)
     await axis.pulse(30, 100)
@@ -202,7 +206,9 @@ async def p2104_ac_75_polled_limits(dut: Any) -> None:
 
 @directed("AC-76", "P2104-DS-21", "P2104-LIM-07", builds=(D16,))
 async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
-    """Given an origin search, when ORG is low between two falls, then nothing; across one, the end."""
+    """In an origin search, ORG that is low between two falls has no effect; ORG low at a fall ends it
+    (AC-76).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x47, rate=0x31)
@@ -212,7 +218,7 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
     await axis.blip("org_n", 200)
     await axis.result("AC-76", 9, 0x87)
     lab.check("AC-76", "83", await axis.fetch(0x83, 3), [0xF6, 0xFF, 0xFF])
-    # Pulse 1 included; in RUN wait it is not looked at.
+    # Pulse 1 included; in RUN wait ORG is not sampled.
     axis.set(run=0)
     await axis.go(0x47, rate=0x31)
     await lab.bench.clocks(lab.cfg.us(40))
@@ -226,7 +232,9 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
 
 @directed("P2104-DS-01", "P2104-DS-14", "P2104-HSK-04", "P2104-STP-07", builds=(D16,))
 async def p2104_ds_01_window_for_both_axes(dut: Any) -> None:
-    """Given axis 2 moving, when axis 1 is set, then bytes for axis 2 wait as well, a stop too."""
+    """While axis 1 processes its setting, bytes for the moving axis 2 wait as well, including a stop
+    (P2104-DS-01).
+    """
     lab = await Lab.start(dut)
     axis, other = lab.axes
     await other.init(*INIT_B)

@@ -15,7 +15,9 @@ from .lab import Lab
     "P2104-END-01", "P2104-END-07", "P2104-END-08", "P2104-SW-02", "P2104-INT-05", builds=(F16, F11, F48)
 )
 async def p2104_end_01_normal_end(dut: Any) -> None:
-    """Given complete moves of a chopping axis, when the last pulse rises, then all ends on one edge."""
+    """After the last rise of a complete move of a chopping axis, all consequences of the end are on one
+    edge (P2104-END-01).
+    """
     lab = await Lab.start(dut)
     q = lab.cfg.quanta
     for axis in lab.axes:
@@ -44,7 +46,7 @@ async def p2104_end_01_normal_end(dut: Any) -> None:
 
 @directed("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", builds=(F16, F48))
 async def p2104_end_02_pulse_finishes(dut: Any) -> None:
-    """Given an immediate end anywhere in the low time, when it comes, then the pulse has its whole width."""
+    """An immediate end anywhere in the low time does not shorten the pulse (P2104-END-02)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     w = lab.cfg.w
@@ -65,7 +67,7 @@ async def p2104_end_02_pulse_finishes(dut: Any) -> None:
 
 @directed("P2104-END-07", "P2104-HLD-01", "P2104-HLD-02", "P2104-OPR-01")
 async def p2104_end_07_hold(dut: Any) -> None:
-    """Given a hold timer of 256 us, when all kinds of codes come, then only moves restart it."""
+    """Of all codes, only moves restart the hold timer (256 us) (P2104-END-07, P2104-HLD-02)."""
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         await axis.send(0x85, [1])
@@ -84,7 +86,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
             await axis.fetch(code)
         await lab.bench.clocks(100)
         lab.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
-        # An operation of no pulses moves hold as any other.
+        # An operation without pulses changes hold like any other.
         axis.set(run=0)
         await axis.go(0x42)
         await axis.command(0x40)
@@ -93,7 +95,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
         hold = await lab.bench.edge(axis.pin("hold"), 1)
         lab.window("P2104-END-07", "zero pulses: hold", hold - end, 4_096 - 60, 4_120)
         axis.set(run=1)
-        # Accepted just before the timer ends: hold stays L.
+        # Accepted just before the timer expires: hold stays low.
         await axis.move(0x42)
         rise = lab.bench.rises(axis.pout, axis.since)[-1]
         await lab.bench.until(rise + 4_096 - 10)

@@ -1,4 +1,4 @@
-"""Phases and switching at rest (P2104-PHS, P2104-SW)."""
+"""Phases and switching at standstill (P2104-PHS, P2104-SW)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ FULL, OFF = 0b11100, 0b11111
 
 @directed("P2104-PHS-01", "P2104-PHS-04", "P2104-PHS-05", "P2104-TIM-04", "P2104-EX-11")
 async def p2104_phs_01_lists_in_motion(dut: Any) -> None:
-    """Given each motor type, when ramps run both ways, then one row of its list a pulse, on its edge."""
+    """For each motor type, each pulse of a ramp selects the next row of the list on its edge, in both
+    directions (P2104-PHS-01).
+    """
     lab = await Lab.start(dut)
     for axis, (name, code) in product(lab.axes, STEP_CODES.items()):
         await axis.init(code, *INIT_A[1:])
@@ -37,7 +39,9 @@ async def p2104_phs_01_lists_in_motion(dut: Any) -> None:
 
 @directed("P2104-PHS-02", "P2104-PHS-03", "P2104-PHS-04", "P2104-AUX-01")
 async def p2104_phs_02_off_until_set(dut: Any) -> None:
-    """Given no setting in force, when all else comes, then all phases H; POUT mode keeps the pattern."""
+    """Without a setting, all phases stay high during any instruction; POUT mode keeps the pattern
+    (P2104-PHS-02, P2104-PHS-04).
+    """
     lab = await Lab.start(dut)
     for axis in lab.axes:
         for _ in range(2):
@@ -65,7 +69,9 @@ async def p2104_phs_02_off_until_set(dut: Any) -> None:
 
 @directed("P2104-SW-01", "P2104-SW-04", "P2104-SW-05", "P2104-AUX-06", "P2104-GEN-04", builds=(F16, F11, F48))
 async def p2104_sw_04_times(dut: Any) -> None:
-    """Given default and set times, when both axes chop for long, then each phase ± 1 quantum, no drift."""
+    """With default and programmed times, each chopper phase of both axes is within 1 quantum, without
+    drift (P2104-SW-04).
+    """
     lab = await Lab.start(dut)
     q = lab.cfg.quanta
     for times in ((0x53, 0xA6), (0x40, 0x41), (0xFF, 0x40)):
@@ -90,7 +96,9 @@ async def p2104_sw_04_times(dut: Any) -> None:
 
 @directed("P2104-SW-01", "P2104-SW-02", "P2104-SW-03", "P2104-OPR-08", "P2104-END-08", builds=(F16, F11))
 async def p2104_sw_03_motions(dut: Any) -> None:
-    """Given a chopping axis, when it starts in either phase and ends, then full pattern, then a whole ON."""
+    """When a chopping axis starts in either phase, it moves with the full pattern; a complete ON phase
+    follows the end (P2104-SW-03).
+    """
     lab = await Lab.start(dut)
     q, w = lab.cfg.quanta, lab.cfg.w
     for axis, (code, n, rate) in product(
@@ -135,7 +143,9 @@ async def p2104_sw_03_motions(dut: Any) -> None:
 
 @directed("P2104-SW-02", "P2104-INI-07", "P2104-SW-01")
 async def p2104_sw_02_at_completion(dut: Any) -> None:
-    """Given a setting with S = 1, when its table is ready, then an ON phase begins, not earlier."""
+    """After a setting with S = 1, the first ON phase begins when the table is ready, not before
+    (P2104-SW-02).
+    """
     lab = await Lab.start(dut)
     for axis, rl in product(lab.axes, (9, 200)):
         await axis.command(0xC0)

@@ -1,4 +1,6 @@
-"""Fast external clocks against the formula, the threshold of their period (P2104-BCK-04, P2104-TIM-05)."""
+"""Fast external clocks compared with the formula, the threshold of their period (P2104-BCK-04,
+P2104-TIM-05).
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,8 @@ EXTERNAL = (0x0A, 9, 4, 4)
     "P2104-BCK-04", "P2104-TIM-05", "P2104-FDC-01", "P2104-BAD-19", builds=(F16, F8), uncompared=TOO_MANY
 )
 async def p2104_bck_04_sweep(dut: Any) -> None:
-    """Given edges 4 to 17 clk apart and RH 0 to 4,
-    when axes turn round anywhere, then all is as the formula says.
+    """With edges 4 to 17 cycles apart, RH 0 to 4, and any deceleration point, pulses follow the formula
+    (P2104-BCK-04).
     """
     lab = await Lab.start(dut)
     rng = lab.bench.rng
@@ -34,7 +36,9 @@ async def p2104_bck_04_sweep(dut: Any) -> None:
 
 @directed("P2104-TIM-05", builds=(F16, F8, F48))
 async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
-    """Given periods of CYC(128) - 1, 0, + 1 clk at rate 0, then only below the high time cuts it."""
+    """At rate 0 the high time of the clock cuts the low time only for periods below CYC(128): tried
+    with CYC(128) - 1, 0, + 1 cycles (P2104-TIM-05).
+    """
     lab = await Lab.start(dut)
     brisk = lab.cfg.cyc(BRISK)
     for axis in await lab.both(EXTERNAL):

@@ -1,4 +1,6 @@
-"""The same host work for axis 2 with and without traffic to axis 1: the same waveform of axis 2."""
+"""The same instructions for axis 2 with and without traffic to axis 1: the waveforms of axis 2 are
+equal.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +14,12 @@ from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 from .bench import PPMC2104
 
 WAVES = ("pout_n[2]", "dir[2]", "hold[2]", "s2_n")
-# Table build of axis 2, longest legal one; an instruction of axis 1 with all its bytes.
+# Table build of axis 2, longest legal one; an instruction of axis 1 with all its bytes. Both in cycles.
 READY, INSTRUCTION = 40_000, 80
 
 
 class Run:
-    """One of the two runs, from a reset on."""
+    """One of the two runs, starting with a reset."""
 
     def __init__(self, bench: Side, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
         self.bench = bench
@@ -26,7 +28,7 @@ class Run:
         self.beside = beside
 
     async def play(self) -> dict[str, list[tuple[int, int]]]:
-        """Edges of axis 2, counted from the reset."""
+        """Run the plan; return the edges of axis 2, counted from the reset."""
         bench, plan = self.bench, self.plan
         await bench.align()
         bench.set(**{**PPMC2104.inputs, "busc": plan.busc})
@@ -55,7 +57,7 @@ class Run:
             await self.host.write(reg, byte, gap=8)
 
     async def fill(self, until: int) -> None:
-        """Traffic to axis 1 as long as it fits, then wait for the edge."""
+        """Send traffic to axis 1 while it fits, then wait for the edge."""
         bench = self.bench
         while bench.now + INSTRUCTION + 70 < until:
             thing = next(self.beside, None)
@@ -73,7 +75,9 @@ class Run:
 
 @random_test("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05", least=1)
 async def p2104_axis_2_alone_and_beside_axis_1(dut: Any, seed: int) -> None:
-    """Given a host for axis 2, when axis 1 gets traffic between, then axis 2 shows the same edges."""
+    """Traffic to axis 1 between the accesses to axis 2 does not change the edges of axis 2
+    (P2104-OPR-10).
+    """
     plan = pair(seed)
     bench = await start_bench(dut, PPMC2104, busc=plan.busc)
     alone = await Run(bench, plan, iter(())).play()

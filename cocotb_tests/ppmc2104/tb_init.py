@@ -17,7 +17,7 @@ FULL, OFF = 0b11100, 0b11111
 
 @directed("P2104-INI-01", "P2104-INI-04", "P2104-PHS-01", "P2104-PHS-03")
 async def p2104_ini_01_all_codes(dut: Any) -> None:
-    """Given all 24 bit combinations, when set in INITIAL, then motor type, E, C, S are those of the code."""
+    """In INITIAL, all 24 bit combinations of the code set motor type, E, C and S (P2104-INI-01)."""
     lab = await Lab.start(dut)
     types = {1: "3", 2: "4", 3: "5"}
     for axis, chop, external, half, mm in product(lab.axes, (0, 1), (0, 1), (0, 1), (1, 2, 3)):
@@ -25,7 +25,7 @@ async def p2104_ini_01_all_codes(dut: Any) -> None:
             continue
         code = chop << 4 | external << 3 | half << 2 | mm
         await axis.init(code, 9, 4, 4)
-        # Long phases, so that the pattern is seen between their edges.
+        # Long phases, so that the pattern is sampled between their edges.
         patterns = steps(f"{types[mm]} {'half' if half else 'full'}", positive=False)
         what = f"{code:#x}, axis {axis.n}"
         since = lab.bench.now
@@ -50,7 +50,9 @@ async def p2104_ini_01_all_codes(dut: Any) -> None:
 
 @directed("P2104-INI-02", "P2104-INI-03", "P2104-BAD-16", "P2104-INI-05")
 async def p2104_ini_03_refused_settings(dut: Any) -> None:
-    """Given values out of range, when set in INITIAL or NORMAL, then the error of their order, no change."""
+    """In INITIAL and NORMAL, values out of range set the first error in the order of checks and change
+    nothing (P2104-INI-03).
+    """
     lab = await Lab.start(dut)
     cases = (
         ((0x02, 9, 0, 4), 9),
@@ -78,7 +80,7 @@ async def p2104_ini_03_refused_settings(dut: Any) -> None:
                 lab.check("P2104-INI-03", "phases", lab.bench.edges(axis.phases, since), [])
                 await axis.refused("P2104-INI-03", "42: still INITIAL", 4, 0x42)
             await axis.command(0xC0)
-        # In NORMAL the stored clock source decides, not the C of the code.
+        # In NORMAL the stored clock source decides, not C of the code.
         await axis.init(*INIT_A)
         await axis.init(0x0A, 9, 0, 4)
         lab.check("P2104-INI-03", "RH = 0, C = 1, internal in force", await axis.error(), 9)
@@ -94,7 +96,9 @@ async def p2104_ini_03_refused_settings(dut: Any) -> None:
 
 @directed("P2104-INI-05", "P2104-PHS-03", "P2104-INI-06", "P2104-SW-01", "P2104-HLD-02")
 async def p2104_ini_05_again_without_off(dut: Any) -> None:
-    """Given a chopping axis, when it is set again, then index, pattern and chopping go on undisturbed."""
+    """When a chopping axis is set again, index, pattern and chopping continue undisturbed
+    (P2104-INI-05).
+    """
     lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.init(0x16, *INIT_A[1:])
@@ -122,7 +126,7 @@ async def p2104_ini_05_again_without_off(dut: Any) -> None:
 
 @directed("P2104-INI-06", "P2104-AUX-01", "P2104-HLD-02", "P2104-INT-02")
 async def p2104_ini_06_what_stays(dut: Any) -> None:
-    """Given results, delays, an error and an interrupt, when C0 and a setting come, then all of them stay."""
+    """C0 and a setting do not change results, delays, an error and an interrupt (P2104-INI-06)."""
     lab = await Lab.start(dut, errint_n=0)
     axis, other = await lab.both(INIT_A)
     await lab.host.command(0xF1)
@@ -154,7 +158,9 @@ async def p2104_ini_06_what_stays(dut: Any) -> None:
 
 @directed("P2104-AUX-01", "P2104-PHS-02", "P2104-SW-03")
 async def p2104_aux_01_excitation_off(dut: Any) -> None:
-    """Given either phase of chopping, when C0 comes, then all pins H for good, and the axis is INITIAL."""
+    """C0 in either phase of chopping switches all pins high permanently, and the axis is INITIAL
+    (P2104-AUX-01).
+    """
     lab = await Lab.start(dut)
     for axis, pattern in product(lab.axes, (FULL, OFF)):
         await axis.init(0x12, *INIT_A[1:])
@@ -173,7 +179,9 @@ async def p2104_aux_01_excitation_off(dut: Any) -> None:
 
 @directed("P2104-STP-01", "P2104-END-02", "P2104-END-04", "P2104-STP-06", "P2104-STP-05")
 async def p2104_stp_01_every_state(dut: Any) -> None:
-    """Given every state of either axis, when 40 comes, then it ends there; its I bit decides about int_n."""
+    """In every state of either axis, 40 ends the operation; bit I of the operation determines int_n
+    (P2104-STP-01).
+    """
     lab = await Lab.start(dut)
     done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2, "FIN": 1, "FIN ramp": 1}
     totals = {"DEC natural": 8, "FIN": 1, "FIN ramp": 1}
@@ -205,7 +213,7 @@ async def p2104_stp_01_every_state(dut: Any) -> None:
 
 @directed("P2104-STP-01", "P2104-STP-02", "P2104-CMD-03", "P2104-STP-03")
 async def p2104_stp_02_ignored_bits(dut: Any) -> None:
-    """Given bits 3 and 4 of the stop codes, when they are 1, then the stops are the same."""
+    """Bits 3 and 4 of the stop codes are ignored (P2104-STP-01, P2104-STP-02)."""
     lab = await Lab.start(dut)
     for axis, extra in product(await lab.both(INIT_A), (0x00, 0x08, 0x10, 0x18)):
         await axis.go(0x43, 1000)
@@ -221,7 +229,9 @@ async def p2104_stp_02_ignored_bits(dut: Any) -> None:
 
 @directed("P2104-STP-01", "P2104-LIM-09", "P2104-GEN-07", "P2104-TIM-04")
 async def p2104_stp_01_around_a_pulse(dut: Any) -> None:
-    """Given a pulse event that is due, when 40 comes at each clk around it, then it is or is not output."""
+    """With 40 in each cycle around a pulse event, the pulse is either output or not, without other
+    results (P2104-STP-01).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     seen = []
@@ -243,7 +253,9 @@ async def p2104_stp_01_around_a_pulse(dut: Any) -> None:
 
 @directed("P2104-AUX-02", "P2104-AUX-03", "P2104-FSM-01")
 async def p2104_aux_02_pins(dut: Any) -> None:
-    """Given AUXI levels and codes, when executed in any order, then inverted pins and read bits."""
+    """In any order of the codes, AUXO has the inverted bits, and a read returns the AUXI levels
+    (P2104-AUX-02, P2104-AUX-03).
+    """
     lab = await Lab.start(dut)
     rng = lab.bench.rng
     for _ in range(40):
@@ -260,7 +272,9 @@ async def p2104_aux_02_pins(dut: Any) -> None:
 
 @directed("P2104-AUX-04", "P2104-AUX-06", "P2104-SW-04", "P2104-SW-05", "P2104-BAD-16")
 async def p2104_aux_04_switching_times(dut: Any) -> None:
-    """Given times set before and after the setting, when the axes chop, then each by its own."""
+    """Each axis chops with its own times, whether they were sent before or after its setting
+    (P2104-AUX-04).
+    """
     lab = await Lab.start(dut)
     await lab.x2.send(0x84, [0x40, 0xFF])
     for axis, on, off in ((lab.x1, 0x53, 0xA6), (lab.x2, 0x40, 0xFF)):
@@ -275,7 +289,7 @@ async def p2104_aux_04_switching_times(dut: Any) -> None:
     since = lab.bench.now
     await lab.bench.clocks(5_000)
     lab.check("P2104-AUX-04", "old times stay", set(axis.stretches(since)), {(FULL, 664), (OFF, 1_328)})
-    # The new times act from the next phase on.
+    # The new times apply from the next phase on.
     on = await lab.bench.edge(axis.phases, FULL)
     await axis.send(0x84, [0x90, 0x48])
     await lab.bench.clocks(4_000)
@@ -285,7 +299,7 @@ async def p2104_aux_04_switching_times(dut: Any) -> None:
 
 @directed("P2104-AUX-05", "P2104-AUX-06", "P2104-END-07", "P2104-HLD-01")
 async def p2104_aux_05_running_timer(dut: Any) -> None:
-    """Given a running hold timer, when 85 changes the delay, then only the next one is changed."""
+    """If 85 changes the delay while the hold timer runs, only the next delay changes (P2104-AUX-05)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await second.send(0x85, [0x07])
@@ -309,7 +323,7 @@ async def p2104_aux_05_running_timer(dut: Any) -> None:
 
 @directed("P2104-HSK-04", "P2104-FSM-01")
 async def p2104_hsk_04_excitation_off_waits_for_the_table(dut: Any) -> None:
-    """Given a table that is being built, when Excitation OFF is sent, then it waits and the phases stay."""
+    """Excitation OFF during a table build waits, and the phases do not change (P2104-HSK-04)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.host.init(0x02 | axis.axis_bit, 200, 4, 4)

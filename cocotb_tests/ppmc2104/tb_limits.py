@@ -1,4 +1,4 @@
-"""Limit, slow-down, alarm and origin inputs (P2104-LIM), what ends or slows each operation."""
+"""Limit, slow-down, alarm and origin inputs (P2104-LIM): their effect on each operation."""
 
 from __future__ import annotations
 
@@ -28,7 +28,9 @@ OPERATIONS = (
 
 
 def effect(code: int, pin: str, waiting: bool = False) -> str:
-    """What an active pin does to an operation under way: end, slow or nothing (table of chapter 7)."""
+    """Return the effect of an active pin on a running operation: "end", "slow" or "" (table of chapter
+    7).
+    """
     ccw = code >> 3 & 1
     if pin in ("alm_n", ("fl_n", "bl_n")[ccw]):
         return "end"
@@ -38,12 +40,14 @@ def effect(code: int, pin: str, waiting: bool = False) -> str:
 
 
 def bit(pin: str) -> int:
-    """End-status bit of a pin."""
+    """Return the end-status bit of a pin."""
     return {"alm_n": 0x20, "org_n": 0}.get(pin, 0x10 if pin in ("fl_n", "bl_n") else 0x08)
 
 
 async def matrix_in_motion(lab: Lab, axis_number: int) -> None:
-    """Every operation both ways, every input falling on the plateau, those of the other axis active."""
+    """Check every operation in both directions with every input falling on the plateau; the inputs of
+    the other axis are active.
+    """
     axis, other = lab.axes[axis_number - 1], lab.axes[2 - axis_number]
     await axis.init(*INIT_A)
     other.set(**dict.fromkeys(PINS, 0))
@@ -73,21 +77,27 @@ async def matrix_in_motion(lab: Lab, axis_number: int) -> None:
 
 @directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07", builds=(F16, F48))
 async def p2104_lim_02_matrix_axis_1(dut: Any) -> None:
-    """Given every operation of axis 1, when each input falls on the plateau, then end, slow or nothing."""
+    """Each input that falls on the plateau of each operation of axis 1 ends it, decelerates it or has
+    no effect (P2104-LIM-02).
+    """
     lab = await Lab.start(dut)
     await matrix_in_motion(lab, 1)
 
 
 @directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07")
 async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
-    """Given every operation of axis 2, when each input falls on the plateau, then end, slow or nothing."""
+    """Each input that falls on the plateau of each operation of axis 2 ends it, decelerates it or has
+    no effect (P2104-LIM-02).
+    """
     lab = await Lab.start(dut)
     await matrix_in_motion(lab, 2)
 
 
 @directed("P2104-LIM-09", "P2104-END-04")
 async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
-    """Given every operation, up, at the top, down, held by RUN, when FL and ALM fall at once, then both."""
+    """If FL and ALM fall on the same edge, both bits are set: while accelerating, at the top, while
+    decelerating, and in RUN wait (P2104-LIM-09).
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         pins = (axis.pin("fl_n"), axis.pin("alm_n"))
@@ -102,10 +112,12 @@ async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
 
 @directed("P2104-LIM-06", "P2104-LIM-05", "P2104-OPR-06", "P2104-BAD-17")
 async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
-    """Given each input low at the start, when every operation starts, then error 7, one pulse, or all."""
+    """With each input low at the start, each operation sets error 7, outputs one pulse, or outputs all
+    pulses (P2104-LIM-06).
+    """
     lab = await Lab.start(dut, errint_n=0)
     for axis in await lab.both(INIT_A):
-        # A finished move first: its results must survive every refusal.
+        # A finished move first: its results must stay after every rejected start.
         await axis.go(0x44, 10, 9)
         await axis.pulse(3, 100)
         await axis.halt()
@@ -149,7 +161,9 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
 
 @directed("P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-07", "P2104-LIM-05", "P2104-OPR-02")
 async def p2104_lim_03_matrix_in_run_wait(dut: Any) -> None:
-    """Given RUN wait, when each input is low for 3 clk, then end with no pulse, remembered, or nothing."""
+    """In RUN wait, each input low for 3 cycles ends the operation without a pulse, is stored, or has no
+    effect (P2104-LIM-03, P2104-LIM-05).
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for (base, n, rate), ccw, pin in product(OPERATIONS, (0, 8), PINS):
@@ -176,7 +190,9 @@ async def p2104_lim_03_matrix_in_run_wait(dut: Any) -> None:
 
 @directed("P2104-LIM-03", "P2104-LIM-04", "P2104-END-02", "P2104-LIM-09", "P2104-END-04")
 async def p2104_lim_03_every_state(dut: Any) -> None:
-    """Given every state of a moving axis, when limit or alarm falls, then it ends there within 8 clk."""
+    """In every state of a moving axis, limit or alarm ends the operation within 8 cycles (P2104-LIM-03,
+    P2104-LIM-04).
+    """
     lab = await Lab.start(dut)
     done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2}
     for state, ccw, pin in product(MOVING, (0, 1), ("limit", "alm_n")):
@@ -199,7 +215,9 @@ async def p2104_lim_03_every_state(dut: Any) -> None:
 
 @directed("P2104-LIM-05", "P2104-FDC-01", "P2104-PRO-05", "P2104-FSM-03")
 async def p2104_lim_05_every_state(dut: Any) -> None:
-    """Given every state, when the slow-down limit is low for 3 clk, then it flags in four of them only."""
+    """A 3-cycle slow-down pulse sets the flag only in RUNWAIT, START, ACC and HIGH; all moving states
+    except FIN are tried (P2104-LIM-05).
+    """
     lab = await Lab.start(dut)
     for state, ccw in product(MOVING, (0, 1)):
         axis = lab.axes[1 - ccw]
@@ -219,7 +237,7 @@ async def p2104_lim_05_every_state(dut: Any) -> None:
 
 @directed("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", builds=(F16, F100))
 async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
-    """Given levels of 2 clk at every phase of an interval, when they end, then they were seen, each once."""
+    """Levels of 2 cycles at every phase of an interval act, each exactly once (P2104-LIM-01)."""
     lab = await Lab.start(dut)
     for axis, (pin, bits, code) in product(
         await lab.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
@@ -229,7 +247,7 @@ async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
             await axis.pulse(3, delay)
             await axis.blip(pin, 2)
             await axis.result("P2104-LIM-01", 3, bits, 26)
-        # Nothing of a level that went away before the start; in START it ends the operation.
+        # A level that ended before the start has no effect; in START it ends the operation.
         await axis.blip(pin, 8)
         await lab.bench.clocks(4)
         await axis.go(code, 3, 9)
@@ -242,7 +260,9 @@ async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-END-05", "P2104-LIM-01")
 async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
-    """Given the last pulse event due, when each cause falls at each clk around it, then before or after."""
+    """If a cause falls in any cycle around the last pulse event, either the pulse or the cause has
+    priority, without other results (P2104-LIM-09).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_A)
     for pin, code in (("alm_n", 0x44), ("fl_n", 0x44), ("bl_n", 0x4C)):
@@ -256,13 +276,13 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
             axis.set(**{pin: 1})
             count = len(axis.pulses)
             outcomes.append(count)
-            # Pulse 4 is the last: once it is out the move is complete.
+            # Pulse 4 is the last: when it was output, the move is complete.
             await axis.result("P2104-LIM-09", count, 0x84 if count == 4 else 0x84 | bit(pin), 0)
             if before >= 4:
                 lab.check("P2104-LIM-09", f"pulses, {pin} {before} clk before", count, 3)
         lab.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
         lab.check("P2104-LIM-09", "both sides were met", set(outcomes), {3, 4})
-    # At the end of START: the START transition is suppressed, too.
+    # At the end of START: the pulse at this transition is suppressed, too.
     counts = []
     for after in range(lab.cfg.w - 6, lab.cfg.w + 10):
         edge0 = await axis.go(0x42, poll=False)
@@ -277,7 +297,9 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
 
 @directed("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
 async def p2104_lim_10_nothing_at_rest(dut: Any) -> None:
-    """Given both axes at rest, when all inputs toggle, then no output moves and later moves know nothing."""
+    """With both axes at rest, toggling inputs change no output and do not affect later moves
+    (P2104-LIM-10).
+    """
     lab = await Lab.start(dut)
     axes = await lab.both(INIT_A)
     since = lab.bench.now

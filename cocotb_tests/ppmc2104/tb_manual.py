@@ -1,6 +1,6 @@
-"""Plays the sessions of docs/ppmc2104/examples.md on the core: every byte must be the printed one.
+"""Runs the sessions of docs/ppmc2104/examples.md on the core: every byte must be the printed one.
 
-The figures in the page's text (pulses, clk, levels) are checked beside them.
+The values in the text of the page (pulses, cycles, levels) are checked, too.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ BUSY = 0x0C
 
 
 async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Side, HostBus]:
-    """A bench after reset, with example 1 played if `ready`."""
+    """Return a test bench after reset; with `ready`, example 1 was run."""
     bench = await start_bench(dut, PPMC2104, **pins)
     host = HostBus(bench)
     if ready:
@@ -27,7 +27,7 @@ async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Side, HostBu
 
 
 def axis(bench: Side, name: str, n: int, since: int) -> list[int]:
-    """Pulses of an axis; `name` of the example for the message."""
+    """Return the pulses of an axis; `name` is the example for the message."""
     pulses = bench.pulses(since, f"pout_n[{n}]")
     assert pulses, f"{name}: axis {n} made no pulse"
     return pulses

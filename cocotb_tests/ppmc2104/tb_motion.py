@@ -17,7 +17,9 @@ CLOCKS = (F8, F11, F16, F16X8, F48, F100)
 
 @directed("P2104-OPR-01", "P2104-TIM-01", "P2104-TIM-06", "P2104-SW-03", "P2104-STA-04", builds=CLOCKS)
 async def p2104_tim_01_starts(dut: Any) -> None:
-    """Given each operation, when accepted with run H, then pulse 1 is W to W + 2 clk after hold and dir."""
+    """For each operation accepted with run high, pulse 1 follows hold and dir by W to W + 2 cycles
+    (P2104-TIM-01).
+    """
     lab = await Lab.start(dut)
     w = lab.cfg.w
     for axis in await lab.both(INIT_A):
@@ -58,7 +60,9 @@ async def p2104_tim_01_starts(dut: Any) -> None:
 
 @directed("P2104-OPR-02", "P2104-TIM-02", "P2104-BAD-21", builds=(F16, F11, F100))
 async def p2104_tim_02_run(dut: Any) -> None:
-    """Given RUN wait, when run rises, also for 2 clk only, then pulse 1 is W to W + 6 clk after it."""
+    """In RUN wait, a rise of run, even for only 2 cycles, leads to pulse 1 after W to W + 6 cycles
+    (P2104-TIM-02).
+    """
     lab = await Lab.start(dut)
     w = lab.cfg.w
     for axis, (code, n, rate) in product(
@@ -75,7 +79,7 @@ async def p2104_tim_02_run(dut: Any) -> None:
             lab.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} clk", first - rise, w, w + 6)
             await axis.result("P2104-OPR-02", n or 1, 0x80 | code & 7, 0)
         axis.set(run=1)
-    # run falling at each clk around the acceptance: RUN wait or START, nothing between.
+    # run falling in each cycle around the acceptance: either RUN wait or START, without other results.
     axis = lab.x1
     for lead in range(-2, 12):
         axis.set(run=1)
@@ -100,7 +104,9 @@ async def p2104_tim_02_run(dut: Any) -> None:
 
 @directed("P2104-TIM-02", "P2104-OPR-10", builds=(F11, F48))
 async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
-    """Given both axes in RUN wait, when both runs rise at any phase of the quantum, then one edge."""
+    """If both runs rise at any phase of the quantum, both axes in RUN wait output pulse 1 on one edge
+    (P2104-TIM-02).
+    """
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     for shift in range(5):
@@ -118,7 +124,9 @@ async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
 
 @directed("P2104-BCK-01", "P2104-BCK-03", "P2104-INTV-01", "P2104-TIM-05", "P2104-GEN-04", builds=CLOCKS)
 async def p2104_bck_01_intervals(dut: Any) -> None:
-    """Given each core clock, crystal and csel, when moves run, then every pulse is where the sums put it."""
+    """For each core clock, crystal and csel, every pulse is at the accumulated time of its intervals
+    (P2104-BCK-01, P2104-INTV-01).
+    """
     lab = await Lab.start(dut)
     for axis, csel in product(await lab.both((0x02, 30, 3, 9)), (1, 0)):
         axis.set(csel=csel)
@@ -138,7 +146,9 @@ async def p2104_bck_01_intervals(dut: Any) -> None:
 
 @directed("P2104-BCK-02", "P2104-BAD-20", "P2104-BCK-05", "P2104-LIM-08")
 async def p2104_bck_02_csel_latched(dut: Any) -> None:
-    """Given csel toggling in motion, when both axes move, then only their own level at the start counts."""
+    """If csel toggles during motions of both axes, only the level of the axis's own pin at the start applies
+    (P2104-BCK-02).
+    """
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     for one, two in product((0, 1), (0, 1)):
@@ -160,7 +170,9 @@ async def p2104_bck_02_csel_latched(dut: Any) -> None:
     "P2104-BCK-04", "P2104-BCK-05", "P2104-TIM-03", "P2104-TIM-05", "P2104-GEN-07", builds=(F16, F11, F100)
 )
 async def p2104_bck_04_external_by_hand(dut: Any) -> None:
-    """Given both axes on clocks of their own, when they move, then each pulse belongs to its own edge."""
+    """With separate external clocks, each pulse of both axes follows an edge of its own clock
+    (P2104-BCK-04, P2104-BCK-05).
+    """
     lab = await Lab.start(dut)
     first, second = await lab.both((0x0A, 5, 2, 4))
     for axis, other in ((first, second), (second, first)):
@@ -186,7 +198,7 @@ async def p2104_bck_04_external_by_hand(dut: Any) -> None:
 
 @directed("P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19")
 async def p2104_tim_05_external_low_times(dut: Any) -> None:
-    """Given fast external clocks, when rates are small, then low times are cut where the rule says."""
+    """With fast external clocks and small rates, low times are cut where the rule states (P2104-TIM-05)."""
     lab = await Lab.start(dut)
     axis = lab.x2
     await axis.init(*INIT_EXT)
@@ -223,9 +235,9 @@ async def p2104_tim_05_external_low_times(dut: Any) -> None:
     uncompared="P2104-BAD-19: edges of a clock that is too fast are missed",
 )
 async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
-    """Given 4 clk a period, and faster than the core, when an axis runs, then counts and reads are right.
+    """With an external period of 4 cycles, and faster ones, counts and reads are right (P2104-BAD-19).
 
-    Not compared: how many edges are missed is left open.
+    Not compared with the model: the number of missed edges is not specified.
     """
     lab = await Lab.start(dut)
     axis = lab.x1
@@ -247,7 +259,9 @@ async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
 
 @directed("P2104-BAD-18", "P2104-TIM-03", "P2104-OPR-04", "P2104-OPR-10")
 async def p2104_bad_18_clock_stopped(dut: Any) -> None:
-    """Given no external clock, when an axis starts, then it waits; stop and switches end it."""
+    """Without an external clock a started axis waits; a stop or a switch ends the operation
+    (P2104-BAD-18).
+    """
     lab = await Lab.start(dut)
     first, second = lab.axes
     await first.init(*INIT_EXT)
@@ -274,7 +288,8 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
             if cause:
                 first.set(**{cause: 1})
             await second.finish()
-    # A deceleration stop sets its flag, which acts with the next edges; at RL it ends at once.
+    # A deceleration stop sets its flag, which acts with the next edges; at RL it ends the motion
+    # immediately.
     await first.go(0x43, 100)
     await first.tick_until(3)
     await first.command(0x41)
@@ -291,7 +306,9 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
 
 @directed("P2104-OPR-03", "P2104-OPR-05", "P2104-OPR-06", "P2104-RD-06", "P2104-END-06", "P2104-EX-10")
 async def p2104_opr_03_pulse_counts(dut: Any) -> None:
-    """Given each operation, when it is stopped after three pulses, then N shows in the remaining pulses."""
+    """If an operation is stopped after three pulses, the remaining pulses depend on N of this operation
+    (P2104-OPR-03).
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for code, data, total in (
@@ -318,7 +335,7 @@ async def p2104_opr_03_pulse_counts(dut: Any) -> None:
 
 @directed("P2104-OPR-07", "P2104-ERR-05", "P2104-INTV-01")
 async def p2104_opr_07_rate_bytes(dut: Any) -> None:
-    """Given rates 00 and FF, when set with either clock, then 00 only with the external one."""
+    """Rate 00 is accepted only with the external clock, rate FF with either clock (P2104-OPR-07)."""
     lab = await Lab.start(dut)
     axis = await lab.ready(2, INIT_A)
     for code, data in ((0x44, [0, 2, 0, 0]), (0x45, [0]), (0x47, [0])):
@@ -340,7 +357,7 @@ async def p2104_opr_07_rate_bytes(dut: Any) -> None:
 
 @directed("P2104-OPR-10", "P2104-BCK-05", "P2104-INT-01", builds=(F16, F11))
 async def p2104_opr_10_independent_axes(dut: Any) -> None:
-    """Given one axis on a long ramp, when the other does all it can, then the ramp is not disturbed."""
+    """Any activity of the other axis does not disturb a long ramp (P2104-OPR-10)."""
     lab = await Lab.start(dut)
     for axis, other in (lab.axes, lab.axes[::-1]):
         await axis.init(0x02, 40, 3, 20)

@@ -15,13 +15,14 @@ from .sheet import CONSTANT, REGULAR, SETTING, detection, last_byte, rest
 KPPS_10, KPPS_20 = 49, 24
 """Rates at 500 kHz."""
 OFFSETS = (0, 9, 18, 27, 34)
-"""us after a fixed moment at which the limit becomes active, across a polling cycle."""
+"""Delay in us from a fixed time to the limit, across a polling cycle."""
 
 
 async def limit(lab: Lab, axis: Axis, longest: int, own: int) -> int:
     """Hold the CW limit low until the operation ends; return the time in cycles.
 
-    It ends within `longest` us, the bound of the data sheet, and within `own` us, that of P2104-DS-20.
+    Check that it ends within `longest` us, the bound of the data sheet, and within `own` us, that of
+    P2104-DS-20.
     """
     us = lab.cfg.us
     stamp = axis.set(fl_n=0)
@@ -35,7 +36,9 @@ async def limit(lab: Lab, axis: Axis, longest: int, own: int) -> int:
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
-    """No pulses, the other axis is being set: an axis in RUN wait detects its limit within 71 035 us."""
+    """Without pulses, while the other axis processes its setting, an axis in RUN wait detects its limit
+    within 71 035 us.
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     axis.set(run=0)
@@ -43,7 +46,7 @@ async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
     await rest_of_window(lab)
     await last_byte(lab.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
     took = await limit(lab, axis, detection(SETTING, 0, 0), SETTING + REGULAR)
-    # No tick while the setting is processed, so nearly the whole time passes.
+    # No polling tick while the setting is processed, so nearly all of the time passes.
     lab.window(
         "P2104-DS-20", "limit in the window", took, lab.cfg.us(SETTING), lab.cfg.us(SETTING + REGULAR) + 8
     )
@@ -52,14 +55,14 @@ async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
 
 
 async def rest_of_window(lab: Lab) -> None:
-    """Let the window of the instruction sent last pass."""
+    """Wait until the window of the last instruction is over."""
     await lab.bench.clocks(lab.cfg.us(150))
 
 
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> None:
-    """One axis at constant 10 kpps detects its limit within 73 us, at any moment of the polling cycle."""
+    """One axis at constant 10 kpps detects its limit within 73 us, at any time of the polling cycle."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x45, rate=KPPS_10)
@@ -72,7 +75,9 @@ async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> 
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) -> None:
-    """With both axes at constant 10 kpps each detects its limit within 187 us; the other one runs on."""
+    """With both axes at constant 10 kpps, each detects its limit within 187 us; the other axis
+    continues.
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_B):
         await axis.go(0x45, rate=KPPS_10)
@@ -91,7 +96,7 @@ async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) ->
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
 async def p2104_polling_example_4_setting_beside_20_kpps(dut: Any) -> None:
-    """At 20 kpps, while the other axis is being set, the limit is detected within 295 995 us."""
+    """At 20 kpps, while the other axis processes its setting, the limit is detected within 295 995 us."""
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     await axis.go(0x45, rate=KPPS_20)

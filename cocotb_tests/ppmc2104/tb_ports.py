@@ -18,7 +18,7 @@ from .lab import Lab
 @rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P2104-PORT-02", "P2104-GEN-08", builds=(F16, F48))
 async def p2104_port_02_registers_only(dut: Any) -> None:
-    """Given glitches between clk edges, when all outputs are watched, then only rising edges move them."""
+    """During glitches between clk edges, outputs change only on rising edges (P2104-PORT-02)."""
     lab = await Lab.start(dut)
     first, _ = await lab.both(INIT_A)
     bench = lab.bench
@@ -57,7 +57,7 @@ async def p2104_port_02_registers_only(dut: Any) -> None:
 
 @directed("P2104-PORT-02", "P2104-LIM-01", builds=(F16, F100))
 async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
-    """Given limit, alarm and run pins, when they act, then all after the same two stages, on both axes."""
+    """Limit, alarm and run pins of both axes act with the same delay of two stages (P2104-PORT-02)."""
     lab = await Lab.start(dut)
     times: dict[str, set[int]] = {}
     for axis in await lab.both(INIT_A):
@@ -83,7 +83,9 @@ async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
 
 @directed("P2104-PORT-03", "P2104-PORT-01", "P2104-PHS-02", "P2104-PAR-01", builds=(F16, F16X8, F48, D16))
 async def p2104_port_03_reset(dut: Any) -> None:
-    """Given bus traffic in reset, when it is released, then nothing was stored and edge 4 takes a byte."""
+    """Bytes written during reset are not stored; the write sampled on edge 4 after the release is
+    accepted (P2104-PORT-03).
+    """
     lab = await Lab.start(dut)
     bench = lab.bench
     if not lab.cfg.datasheet:
@@ -113,7 +115,9 @@ async def p2104_port_03_reset(dut: Any) -> None:
 
 @directed("P2104-PORT-04", "P2104-BAD-20", "P2104-LIM-08")
 async def p2104_port_04_tied_inputs(dut: Any) -> None:
-    """Given extck and auxi tied to 0 or 1, when both axes move by the crystal, then nothing disturbs them."""
+    """With extck and auxi tied to 0 or 1, both axes move undisturbed on the crystal clock
+    (P2104-PORT-04).
+    """
     lab = await Lab.start(dut)
     axes = await lab.both(INIT_A)
     for level in (0, 3):

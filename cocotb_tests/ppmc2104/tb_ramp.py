@@ -24,7 +24,7 @@ RAMPS = (
 
 
 def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
-    """thr(r) of P2104-RMP-02."""
+    """Return thr(r) of P2104-RMP-02."""
     a, b = (rl + 1) ** 2, (rh + 1) ** 2
     return {
         r: pa * b * (4 * a - (2 * r + 1) ** 2) // ((a - b) * (2 * r + 1) ** 2) + 1
@@ -34,7 +34,9 @@ def thresholds(rl: int, rh: int, pa: int) -> dict[int, int]:
 
 @directed("P2104-RMP-01", "P2104-RMP-02", "P2104-RMP-03", "P2104-RMP-05", "P2104-EX-01", "P2104-EX-06")
 async def p2104_rmp_01_every_index(dut: Any) -> None:
-    """Given ramps of many shapes, when a move climbs them, then each rate is the exact one, by both forms."""
+    """For ramps of many shapes, each rate of a move is exact, computed by both forms of the rule
+    (P2104-RMP-01, P2104-RMP-02).
+    """
     lab = await Lab.start(dut)
     for number, ramp in enumerate(RAMPS):
         axis = lab.axes[number & 1]
@@ -66,7 +68,7 @@ async def p2104_rmp_01_every_index(dut: Any) -> None:
 
 @directed("P2104-RMP-01", "P2104-RMP-02", "P2104-EX-15", "P2104-RMP-04")
 async def p2104_rmp_02_long_ramp_up(dut: Any) -> None:
-    """Given the largest ramp, when 120 pulses climb it, then each rate is the exact one."""
+    """For the largest ramp, the rates of the first 120 pulses are exact (P2104-RMP-01, P2104-EX-15)."""
     lab = await Lab.start(dut)
     axis = lab.x2
     ramp = (255, 18, 11_220)
@@ -84,7 +86,9 @@ async def p2104_rmp_02_long_ramp_up(dut: Any) -> None:
     "P2104-PRO-01", "P2104-PRO-02", "P2104-PRO-03", "P2104-PRO-06", "P2104-OPR-05", builds=(F16, F11, F48)
 )
 async def p2104_pro_01_every_length(dut: Any) -> None:
-    """Given PA = 4, when N is 1 to 14, then triangles odd and even, and trapezoids from 2 PA + 2 on."""
+    """With PA = 4 and N = 1 to 14, profiles are triangular, odd and even, and trapezoidal from 2 PA + 2
+    on (P2104-PRO-01).
+    """
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         for n in range(1, 15):
@@ -96,7 +100,7 @@ async def p2104_pro_01_every_length(dut: Any) -> None:
 
 
 async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> None:
-    """A move of n pulses in which deceleration is asked for so many clk after pulse j."""
+    """Start a move of n pulses and request a deceleration `plus` cycles after pulse j."""
     await axis.go(code, n)
     await axis.pulse(j, plus)
     if how == "stop":
@@ -115,7 +119,7 @@ async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> N
     "P2104-OPR-09",
 )
 async def p2104_fdc_02_every_interval(dut: Any) -> None:
-    """Given N = 14 and 9, when deceleration is asked for in each interval, then as ruled."""
+    """With N = 14 and 9, a deceleration request in each interval acts as the rules state (P2104-FDC-02)."""
     lab = await Lab.start(dut)
     for axis, (code, pin, n) in product(
         await lab.both(INIT_A),
@@ -123,7 +127,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
     ):
         for j in range(1, n):
             await asked(axis, pin, n, j, 40, code)
-            # Natural deceleration: from the first interval that is below what acceleration would give.
+            # Natural deceleration: from the first interval with a lower index than an acceleration would
+            # have.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
             wanted = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
@@ -137,7 +142,9 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
 
 @directed("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
 async def p2104_fdc_02_flat_start(dut: Any) -> None:
-    """Given a ramp with four flat indices, when asked in each interval, then at once while the rate is RL."""
+    """In a ramp with four flat indices, a request ends the motion immediately while the rate is RL
+    (P2104-FDC-02).
+    """
     lab = await Lab.start(dut)
     ramp = (14, 12, 16)
     for axis, how in ((lab.x1, "stop"), (lab.x2, "fhl_n")):
@@ -149,7 +156,7 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
             lab.check("P2104-FDC-02", "figures", len(wanted) + 1, j if j <= 4 else 2 * j)
             await axis.result(f"P2104-FDC-02 I({j})", len(wanted) + 1, 0x83 | bit, 60 - len(wanted) - 2)
             axis.check_train("P2104-FDC-02", wanted)
-        # In the flat piece on the way down the flag is set already: it runs to its end.
+        # In the flat part while decelerating, the flag is already set: the deceleration runs to its end.
         await asked(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)
         await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
@@ -158,7 +165,7 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
 
 @directed("P2104-FDC-01", "P2104-FDC-04", "P2104-LIM-05", "P2104-FSM-03", "P2104-STP-02", "P2104-BAD-22")
 async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
-    """Given START or RUN wait, when deceleration is asked for, then exactly one pulse comes."""
+    """A deceleration request in START or RUN wait leads to exactly one pulse (P2104-FDC-04)."""
     lab = await Lab.start(dut)
     for axis, code in product(await lab.both(INIT_A), (0x43, 0x4B, 0xC3, 0x46, 0xCE)):
         pin = "bhl_n" if code & 8 else "fhl_n"
@@ -170,7 +177,7 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
         await axis.command(0x41)
         lab.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
         await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
-        # START by the pin, also in RUN wait, gone and back again.
+        # START by the pin, also in RUN wait, released and active again.
         for waiting in (False, True):
             axis.set(run=0 if waiting else 1)
             await axis.go(code, n, poll=False)
@@ -187,14 +194,16 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
 
 @directed("P2104-FDC-06", "P2104-LIM-09", "P2104-FDC-01", "P2104-GEN-07", builds=(F16, F11))
 async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
-    """Given a pulse event that is due, when FHL falls at each clk around it, then 4 clk before it counts."""
+    """If FHL falls in any cycle around a pulse event, it acts on this event if it is at least 4 cycles
+    earlier (P2104-FDC-06).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(1, INIT_B)
     counts = []
     due = lab.cfg.quanta(8 * 42)
     for before in range(9, -7, -1):
         await axis.go(0x43, 1000)
-        # I(3) has index 2, rate 41; the plateau is far.
+        # I(3) has index 2, rate 41, far from the plateau.
         third = await axis.pulse(3)
         offset = lab.cfg.quanta(8 * (100 + 54 + 42)) - lab.cfg.quanta(8 * (100 + 54))
         await lab.bench.until(third + offset - before)
@@ -213,7 +222,9 @@ async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
 async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
-    """Given 41 and FHL some clk apart, when both ask, then the first sets its bit, on one edge both."""
+    """Of 41 and FHL some cycles apart, the first sets its bit; on the same edge both bits are set
+    (P2104-LIM-09).
+    """
     lab = await Lab.start(dut)
     axis = await lab.ready(2, INIT_B)
     kinds = []
@@ -241,7 +252,7 @@ async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
 
 @directed("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", builds=(F16, F11))
 async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
-    """Given both axes at 250 kpps by the internal clock, then at 500 kpps by EXTCK, then all is exact."""
+    """Both axes are exact at 250 kpps on the internal clock and at 500 kpps on EXTCK (P2104-INTV-01)."""
     lab = await Lab.start(dut)
     fast = (0x02, 40, 1, 25)
     first, second = await lab.both(fast)
@@ -264,5 +275,6 @@ async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
         await lab.bench.clocks(16)
     for axis in lab.axes:
         await axis.idle()
-        # Pulse 1 has its full width: the clock stood before it, no period is known yet (P2104-TIM-05).
+        # Pulse 1 has its full width: the clock was stopped before it, so no period is known yet
+        # (P2104-TIM-05).
         lab.check("P2104-INTV-01", "intervals at 32 clk an edge", axis.intervals[1:], [32] * 198)

@@ -1,4 +1,4 @@
-"""Random hosts, compared with the golden model edge by edge."""
+"""Constrained-random hosts, compared with the golden model edge by edge."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from .bench import PPMC2104
     least=10,
 )
 async def p2104_random_host(dut: Any, seed: int) -> None:
-    """Given a random host, when it has played its list, then all outputs changed as in the golden model."""
+    """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
     side = await start_bench(dut, PPMC2104, **plan.pins)
     note(side, describe(plan.actions))

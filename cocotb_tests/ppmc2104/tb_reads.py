@@ -15,7 +15,9 @@ CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3
 
 @directed("P2104-RD-01", "P2104-RD-02", "P2104-RD-03", "P2104-END-04", "P2104-END-05")
 async def p2104_rd_01_end_status(dut: Any) -> None:
-    """Given each operation ended by each cause, when 80 is read twice, then its bits, then bit 7 gone."""
+    """After each operation and cause of its end, the first 80 returns its bits with bit 7, the second
+    without bit 7 (P2104-RD-01).
+    """
     lab = await Lab.start(dut)
     for axis, (code, low) in product(await lab.both(INIT_A), CODES):
         for cause, bits in (("", 0x00), ("40", 0x40), ("fl_n", 0x10), ("alm_n", 0x20), ("fhl_n", 0x08)):
@@ -42,7 +44,7 @@ async def p2104_rd_01_end_status(dut: Any) -> None:
 
 @directed("P2104-RD-04", "P2104-RD-08", "P2104-LIM-10")
 async def p2104_rd_04_all_levels(dut: Any) -> None:
-    """Given all levels of the twelve switches, when both axes are read, then each shows its own."""
+    """For all levels of the twelve switches, a read returns the switches of its own axis (P2104-RD-04)."""
     lab = await Lab.start(dut)
     order = ("org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
     places = (7, 6, 3, 2, 1, 0)
@@ -58,7 +60,7 @@ async def p2104_rd_04_all_levels(dut: Any) -> None:
 
 @directed("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
 async def p2104_rd_05_output_signal(dut: Any) -> None:
-    """Given patterns, directions, hold levels, when 82 reads, then the levels, S1 in bit 7."""
+    """82 returns the levels of patterns, direction and hold, with S1 in bit 7 (P2104-RD-05)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         for code in STEP_CODES.values():
@@ -82,7 +84,9 @@ async def p2104_rd_05_output_signal(dut: Any) -> None:
 
 @directed("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
 async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
-    """Given stopped moves, when 83 is read while the other axis moves, then max(m - 1, 0), to be resumed."""
+    """83 of a stopped move, read while the other axis moves, returns max(m - 1, 0); a new move with it
+    completes the count (P2104-RD-06).
+    """
     lab = await Lab.start(dut)
     axis, other = await lab.both(INIT_A)
     await other.running(200)
@@ -110,7 +114,9 @@ async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
 
 @directed("P2104-RD-07", "P2104-INT-02", "P2104-INT-04", "P2104-ERR-06")
 async def p2104_rd_07_error_code_read(dut: Any) -> None:
-    """Given errors in every state, when 86 and A6 are read, then own register and interrupt are cleared."""
+    """In every state, 86 and A6 clear only the error register and the interrupt of their own axis
+    (P2104-RD-07).
+    """
     lab = await Lab.start(dut, errint_n=0)
     first, second = await lab.both(INIT_A)
     await first.go(0x45, rate=255)
@@ -127,7 +133,9 @@ async def p2104_rd_07_error_code_read(dut: Any) -> None:
 
 @directed("P2104-INT-03", "P2104-INT-05", "P2104-INT-01", builds=(F16, F11, F48, F100))
 async def p2104_int_03_release_window(dut: Any) -> None:
-    """Given causes around a release, when they come in it, then int_n is H for W, and L again at its end."""
+    """A cause that occurs during a release does not shorten it: int_n is high for W and low again after
+    it (P2104-INT-03).
+    """
     lab = await Lab.start(dut)
     w = lab.cfg.w
     axis = await lab.ready(1, INIT_A)
@@ -138,12 +146,12 @@ async def p2104_int_03_release_window(dut: Any) -> None:
         await lab.bench.clocks(20)
         since = lab.bench.now
         await lab.x2.command(0x86)
-        # END1 is left: L again after the window.
+        # END1 is left: int_n is low again after the window.
         await lab.bench.clocks(2 * w)
         (up, one), (down, zero) = lab.bench.edges("int_n", since)
         lab.check("P2104-INT-03", "levels", (one, zero), (1, 0))
         lab.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
-        # Released for good, then a new cause so many clk after the release.
+        # Released completely, then a new cause `delay` cycles after the release.
         edge0 = await lab.host.command(0x80, poll=False)
         await lab.bench.until(edge0 + delay)
         cause = await lab.host.write(1, 0x87)
@@ -161,7 +169,7 @@ async def p2104_int_03_release_window(dut: Any) -> None:
 
 @directed("P2104-INT-03")
 async def p2104_int_03_windows_restart(dut: Any) -> None:
-    """Given four causes, when two are read within 5 us, then the second release restarts the window."""
+    """If two of four causes are read within 5 us, the second release restarts the window (P2104-INT-03)."""
     lab = await Lab.start(dut, errint_n=0)
     await lab.both(INIT_A)
     await lab.run("c 87 c A7")
@@ -183,7 +191,7 @@ async def p2104_int_03_windows_restart(dut: Any) -> None:
 
 @directed("P2104-INT-01", "P2104-INT-02", "P2104-BAD-24", "P2104-AUX-01", "P2104-BAD-20")
 async def p2104_int_02_what_does_not_clear(dut: Any) -> None:
-    """Given a pending END1, when all but 80 happens, then int_n stays L and operations go on."""
+    """A pending END1 is cleared by 80 only: int_n stays low, and operations continue (P2104-INT-02)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     await first.move(0x42)
@@ -206,7 +214,7 @@ async def p2104_int_02_what_does_not_clear(dut: Any) -> None:
 
 @directed("P2104-INT-01", "P2104-LIM-08", "P2104-BAD-20")
 async def p2104_int_01_errint_when_it_happens(dut: Any) -> None:
-    """Given errint_n falling and rising around an error, when it is charged, then the level then counts."""
+    """The level of errint_n at the time of the error decides whether it asserts int_n (P2104-INT-01)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         outcomes = []
@@ -227,7 +235,7 @@ async def p2104_int_01_errint_when_it_happens(dut: Any) -> None:
 
 @directed("P2104-INT-01", "P2104-CMD-02", "P2104-STP-06", "P2104-LIM-03")
 async def p2104_int_01_every_end(dut: Any) -> None:
-    """Given I = 0 or 1, when operations end in every way, then int_n falls for I = 0 only."""
+    """For any kind of end, int_n falls only with I = 0 (P2104-INT-01)."""
     lab = await Lab.start(dut)
     for axis, masked in product(await lab.both(INIT_A), (0, 0x10)):
         for how in ("itself", "40", "41", "alm_n", "fl_n", "fhl_n", "run wait"):

@@ -18,7 +18,7 @@ LARGEST = (0x02, 255, 1, 0x2BD4)
 
 @directed("P2104-STA-01", "P2104-STA-04", "P2104-STA-05", "P2104-STA-07")
 async def p2104_sta_01_every_bit(dut: Any) -> None:
-    """Given each state of each axis, when status is read, then BUSY and CMND of that axis alone show it."""
+    """In each state of each axis, only BUSY and CMND of this axis indicate it (P2104-STA-01)."""
     lab = await Lab.start(dut)
     for axis, state in product(lab.axes, (*RESTING, *MOVING)):
         await enter(axis, state)
@@ -34,7 +34,7 @@ async def p2104_sta_01_every_bit(dut: Any) -> None:
 
 @directed("P2104-STA-01", "P2104-STA-06", "P2104-STA-02")
 async def p2104_sta_01_all_at_once(dut: Any) -> None:
-    """Given both axes busy, a data wait, an error and an answer, when status is read, then all bits show."""
+    """Both axes busy, a data wait, an error and an answer set all status bits together (P2104-STA-01)."""
     lab = await Lab.start(dut)
     for axis in await lab.both(INIT_A):
         await axis.go(0x45, rate=255)
@@ -52,7 +52,7 @@ async def p2104_sta_01_all_at_once(dut: Any) -> None:
 
 @directed("P2104-STA-05")
 async def p2104_sta_05_cmnd(dut: Any) -> None:
-    """Given data waits, tables and everything else, when status is read, then CMND is 1 for those only."""
+    """CMND is 1 only during data waits and table builds (P2104-STA-05)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         for code, data in ((0x84, [0x40, 0x50]), (0x85, [0]), (0x02, [9, 4, 4, 0])):
@@ -71,14 +71,16 @@ async def p2104_sta_05_cmnd(dut: Any) -> None:
         await axis.go(0x42)
         lab.check("P2104-STA-05", "CMND in a motion", await lab.host.status() & 0x30, 0)
         await axis.idle()
-        # A refused setting and a refused operation leave nothing outstanding.
+        # After a rejected setting or operation, no data is expected.
         lab.check("P2104-STA-05", "refused", await axis.send(0x02, [4, 4, 4, 0]) & 0xB0, ERROR)
         await axis.error()
 
 
 @directed("P2104-STA-07", "P2104-STA-02", "P2104-STA-03")
 async def p2104_sta_07_reading_changes_nothing(dut: Any) -> None:
-    """Given an answer, an error and an interrupt, when status is read 100 times, then all stay."""
+    """Reading the status 100 times changes neither an answer nor an error nor an interrupt
+    (P2104-STA-07).
+    """
     lab = await Lab.start(dut)
     lab.bench.set(errint_n=0)
     await lab.run("c 81 c 87")
@@ -91,7 +93,9 @@ async def p2104_sta_07_reading_changes_nothing(dut: Any) -> None:
 
 @directed("P2104-HSK-02", "P2104-BAD-08", "P2104-HSK-01")
 async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
-    """Given two codes so many clk apart, when both are written, then the newer always acts, no half byte."""
+    """Of two codes written at any distance, the newer one always acts, and never a mixture
+    (P2104-HSK-02).
+    """
     lab = await Lab.start(dut)
     outcomes = []
     for gap in range(1, 12):
@@ -100,7 +104,7 @@ async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
         one, two = await lab.errors()
         lab.check("P2104-HSK-02", f"newer code, gap {gap}", two, 1)
         outcomes.append(one)
-        # Data over a code: the flag goes with the byte.
+        # Data over a code: the command/data flag is replaced with the byte.
         await lab.host.write(COMMAND, 0x40, strobe=1, gap=gap)
         await lab.host.write(DATA, 0x40, strobe=1, gap=16)
         one, two = await lab.errors()
@@ -111,7 +115,7 @@ async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
 
 @directed("P2104-HSK-02", "P2104-HSK-04", "P2104-STP-07")
 async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
-    """Given a step waiting for its table, when another byte is written over it, then that is taken."""
+    """A byte written over a step that waits for its table is accepted instead (P2104-HSK-02)."""
     lab = await Lab.start(dut)
     first, second = lab.axes
     await second.init(*INIT_A)
@@ -138,7 +142,7 @@ async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
 
 @directed("P2104-HSK-03", "P2104-OPR-01", "P2104-GEN-06", builds=(F16, F11))
 async def p2104_hsk_03_one_edge(dut: Any) -> None:
-    """Given a chopping axis, when a CCW move starts, then hold, dir and phases change on one edge."""
+    """When a CCW move of a chopping axis starts, hold, dir and phases change on one edge (P2104-HSK-03)."""
     lab = await Lab.start(dut)
     for axis in lab.axes:
         await axis.init(0x12, *INIT_A[1:])
@@ -157,14 +161,16 @@ async def p2104_hsk_03_one_edge(dut: Any) -> None:
             lab.check("P2104-HSK-03", f"edges of {code:#x}: {places}", len(set(places.values())), 1)
             lab.window("P2104-HSK-03", "edge 0 to pins", places["phases"] - edge0, 2, 12)
             await axis.idle()
-            # hold rises again, so that the next move shows its fall.
+            # hold rises again, so that the next move makes it fall.
             await lab.bench.level_is(axis.pin("hold"), 1)
             await axis.finish()
 
 
 @directed("P2104-HSK-04", "P2104-HSK-03")
 async def p2104_hsk_04_what_waits(dut: Any) -> None:
-    """Given the table of one axis being built, when any code comes, then only three kinds for it wait."""
+    """While the table of one axis is built, only settings, operations and Excitation OFF for this axis
+    wait (P2104-HSK-04).
+    """
     lab = await Lab.start(dut)
     waits = (0x02, 0x42, 0x43, 0x44, 0x45, 0x46, 0x47, 0xC3, 0xC6, 0xC0)
     taken = (0x40, 0x41, 0x80, 0x81, 0x82, 0x83, 0x84, 0x85, 0x86, 0x87, 0xC1, 0xC2)
@@ -183,7 +189,7 @@ async def p2104_hsk_04_what_waits(dut: Any) -> None:
             if waiting and code in (0x46, 0xC6):
                 await lab.host.poll(IBF, 0)
                 lab.check("P2104-HSK-04", "taken afterwards", await lab.host.status() & axis.busy, axis.busy)
-            # A stop ends a data wait and a motion alike.
+            # A stop ends a data wait as well as a motion.
             for each in lab.axes:
                 await each.command(0x40)
                 await each.idle()
@@ -197,7 +203,9 @@ async def p2104_hsk_04_what_waits(dut: Any) -> None:
 
 @directed("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
 async def p2104_hsk_04_data_wait_beside_a_table(dut: Any) -> None:
-    """Given a table being built and a data wait, when a code comes that would wait for it, then error 3."""
+    """During a table build and a data wait, a code that would wait for the table sets error 3
+    (P2104-HSK-04).
+    """
     lab = await Lab.start(dut)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
         for code in (0x42, 0x45, 0x02, 0xC0):
@@ -213,7 +221,9 @@ async def p2104_hsk_04_data_wait_beside_a_table(dut: Any) -> None:
 
 @directed("P2104-HSK-05", "P2104-RMP-04")
 async def p2104_hsk_05_longest_tables(dut: Any) -> None:
-    """Given the largest tables for both axes at once, when built, then within 40 000 and 80 000 clk."""
+    """The largest tables of both axes, requested together, are built within 40 000 and 80 000 cycles
+    (P2104-HSK-05).
+    """
     lab = await Lab.start(dut)
     first, second = lab.axes
     starts, ends = [], []
@@ -233,7 +243,9 @@ async def p2104_hsk_05_longest_tables(dut: Any) -> None:
 
 @directed("P2104-HSK-05", "P2104-OPR-10", "P2104-INI-06")
 async def p2104_hsk_05_beside_a_motion(dut: Any) -> None:
-    """Given an axis on its ramp, when the table of the other is built, then its train is undisturbed."""
+    """The build of a table does not disturb the pulse train of the other axis on its ramp
+    (P2104-HSK-05).
+    """
     lab = await Lab.start(dut)
     for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
         await axis.init(0x02, 60, 1, 40)
@@ -248,7 +260,9 @@ async def p2104_hsk_05_beside_a_motion(dut: Any) -> None:
 
 @directed("P2104-HSK-06", "P2104-HSK-07", "P2104-BAD-25", "P2104-BAD-10", "P2104-RD-06")
 async def p2104_hsk_07_answers_stay(dut: Any) -> None:
-    """Given an unread answer, when all but reads are executed, then it stays; a read replaces it."""
+    """An unread answer stays until a read instruction is executed; other instructions do not change it
+    (P2104-HSK-07).
+    """
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_B)
     for axis, other in ((first, second), (second, first)):
@@ -268,7 +282,7 @@ async def p2104_hsk_07_answers_stay(dut: Any) -> None:
         lab.check("P2104-HSK-07", "OBF", await lab.host.status() & OBF, OBF)
         lab.check("P2104-HSK-07", "the rest", await lab.run("rr"), [0x01, 0x03])
         lab.check("P2104-HSK-07", "OBF after it", await lab.host.status() & OBF, 0)
-        # A refused read does not replace an answer, an executed one of either axis does.
+        # A rejected read does not replace an answer; an executed one of either axis does.
         bit = axis.axis_bit
         for code, answer in ((0xC2, 0x00), (0xA1, 0xCF), (0x81, 0xCF), (0x80 | bit, 0xC5), (0x86 | bit, 5)):
             await axis.command(0x83)
@@ -289,7 +303,7 @@ async def p2104_hsk_07_answers_stay(dut: Any) -> None:
 
 @directed("P2104-HSK-08", "P2104-BAD-03")
 async def p2104_hsk_08_no_time_out(dut: Any) -> None:
-    """Given two of three data bytes, when 10 ms pass, then the third starts the move."""
+    """After two of three data bytes and a delay of 10 ms, the third byte starts the move (P2104-HSK-08)."""
     lab = await Lab.start(dut)
     first, second = await lab.both(INIT_A)
     await first.send(0x43, [8, 0])
@@ -298,7 +312,7 @@ async def p2104_hsk_08_no_time_out(dut: Any) -> None:
     first.since = lab.bench.now
     await lab.host.data(0)
     await first.result("P2104-HSK-08", 9, 0x83, 0)
-    # One wait for both axes together: a code of the other ends it.
+    # There is one data wait for both axes: a code of the other axis ends it.
     await first.send(0x43, [8, 0])
     await second.command(0x44)
     lab.check("P2104-HSK-08", "status", await lab.host.status(), ERROR)

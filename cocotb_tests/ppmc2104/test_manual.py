@@ -1,4 +1,4 @@
-"""The manual's sessions on the PPMC-2104: one pytest item a chapter."""
+"""The sessions of the manual on the PPMC-2104: one pytest item per chapter."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Directed part tests of the PPMC-2104AFP: one pytest item a cocotb test and build configuration."""
+"""Directed tests of the PPMC-2104AFP: one pytest item per cocotb test and build configuration."""
 
 from __future__ import annotations
 
@@ -50,13 +50,15 @@ def test_ppmc2104(item, sim_options):
 
 @verifies("P2104-PAR-01")
 def test_p2104_par_01_ranges():
-    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    """The elaboration accepts each parameter at its bounds and rejects the values just outside
+    (P2104-PAR-01).
+    """
     check_ranges("P2104-PAR-01", part_design("ppmc2104", F16), RANGES)
 
 
 @verifies("P2104-PORT-01", "P2104-PORT-05", "P2104-GEN-02")
 def test_p2104_port_05_ports():
-    """Given the top module, when its ports are listed, then those of the table and no others."""
+    """The top module has exactly the ports of the table (P2104-PORT-01, P2104-PORT-05)."""
     wanted = {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
     for direction, names in (("input", PPMC2104.inputs), ("output", PPMC2104.outputs)):
         for name in names:

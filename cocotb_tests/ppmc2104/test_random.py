@@ -1,6 +1,6 @@
 """Random hosts against the golden model, axis 2 with and without axis 1, noise: fixed lists of seeds.
 
-`--seed N` plays seed N only. `make soak PART=ppmc2104` plays as many others as you like.
+`--seed N` runs seed N only. `make soak PART=ppmc2104` runs any number of other seeds.
 """
 
 from __future__ import annotations
@@ -39,22 +39,24 @@ pytest_generate_tests = generating(
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """The scenarios of some seeds: every output edge equals the golden model's."""
+    """For the scenarios of some seeds, every output edge equals that of the golden model."""
     random_item.run(item, seeds, sim_options)
 
 
 def test_independent_axes(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """Axis 2 shows the same edges whatever axis 1 is told."""
+    """The edges of axis 2 do not depend on instructions to axis 1."""
     pair_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """Noise on all pins, then recovery by the documented sequence."""
+    """After noise on all pins, the documented sequence makes the core work again."""
     chaos_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """Same seed, same list; the fixed seeds together use every action kind and every build."""
+    """The same seed yields the same list; the fixed seeds together use every kind of action and every
+    build.
+    """
     assert scenario(5) == scenario(5) != scenario(6)
     assert pair(5) == pair(5) != pair(6)
     assert random_item.complete and pair_item.complete and chaos_item.complete

@@ -1,1 +1,1 @@
-"""Simulations of what the parts with one axis share, rtl/single."""
+"""Simulations of rtl/single, the blocks of the parts with one axis."""

@@ -1,4 +1,4 @@
-"""Contracts of what the parts with one axis share: ppmc_command, ppmc_setup, ppmc_finish, ppmc_pace."""
+"""Contracts of the blocks of the parts with one axis: ppmc_command, ppmc_setup, ppmc_finish, ppmc_pace."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KINDS = "undefined init halt decel operation read switching aux_out exc_off aux_
 ACTIONS = "init start halt decel exc_off aux_on aux_off aux_out switching read".split()
 HARMLESS = ("aux_out", "exc_off", "aux_on", "aux_off")
 STOPS = ("halt", "decel")
-# Code byte, what it is, bytes that follow.
+# Code byte, its kind, number of bytes that follow.
 CODES = [
     (0x1A, "init", 4),
     (0x08, "undefined", 0),
@@ -35,7 +35,8 @@ PACE_PORTS = (
     " act_o:10 code_o:8 params_o:32 base_o:3 initialised_i building_i steps_i:{steps} home_o ready_o ramp_i"
     " single_i stop_i pulse_i last_i final_i go_o linger_o"
 )
-# Name: clock, crystal, bits of PA, its least and its largest value, forced decelerations and triangles timed.
+# Name: clock, crystal, bits of PA, its minimum and maximum, whether forced decelerations and triangular
+# profiles are timed.
 PACES = {
     "sister": (16_000_000, 16_000_000, 14, 4, 11_220, 1),
     "plain": (11_059_200, 16_000_000, 16, 0, 65_535, 0),
@@ -87,12 +88,14 @@ BLOCKS = {
 
 
 def action(*names: str) -> int:
-    """Packed action_t with these bits set."""
+    """Return a packed action_t with these bits set."""
     return sum(1 << len(ACTIONS) - 1 - ACTIONS.index(name) for name in names)
 
 
 def judge_code(kind: str, params: int, state: dict[str, int]) -> tuple[int | None, int]:
-    """(error number or None, action) of a code, by the tables of P104-ERR-01 and of the J105 STMC."""
+    """Return (error number or None, action) of a code, by the tables of P104-ERR-01 and of the J105
+    STMC.
+    """
     stop, busy = kind in STOPS, state["busy_i"]
     if kind == "undefined" or (stop and not busy):
         return 0, 0
@@ -110,7 +113,7 @@ def judge_code(kind: str, params: int, state: dict[str, int]) -> tuple[int | Non
 
 @cocotb.test()
 async def command_random(dut):
-    """Given random codes, data and states, then status, actions and parameters are those of the tables."""
+    """For random codes, data and states, status, actions and parameters are those of the tables."""
     rand = rng()
     u = Unit(dut, "command", BLOCKS, "take_o act_o")
     await u.reset()
@@ -125,7 +128,7 @@ async def command_random(dut):
         state = {name: rand.randrange(2) for name in ("busy_i", "ramp_i", "decelerating_i", "initialised_i")}
         state["busy_i"] &= rand.randrange(2)
         if wanted and kind != "aux_out":
-            state["busy_i"] = 0  # nothing else collects parameters while a motion runs
+            state["busy_i"] = 0  # no other command collects parameters during a motion
         decoded = KINDS.index(new_kind) << 3 | params
         gate = {"open_i": rand.random() < 0.8, "stops_only_i": rand.random() < 0.2}
         state["judged_i"] = rand.random() < 0.8
@@ -167,7 +170,7 @@ async def command_random(dut):
 @cocotb.test()
 @cocotb.parametrize(idle=[0, 1])
 async def setup_frozen(dut, idle):
-    """Given initialisations, then the first one sets all, later ones all but what is frozen until off_i."""
+    """The first initialisation sets everything; later ones do not change the frozen bits until off_i."""
     rand = rng()
     u = Unit(dut, f"setup{idle}", BLOCKS, "setup_o initialised_o")
     await u.reset()
@@ -197,7 +200,7 @@ async def setup_frozen(dut, idle):
 @cocotb.test()
 @cocotb.parametrize(fresh=[0, 1])
 async def finish_answers(dut, fresh):
-    """Given motions and reads at random, then status, answers and interrupt are those of the rules."""
+    """For random motions and reads, status, answers and interrupt are those of the rules."""
     rand = rng()
     u = Unit(dut, f"finish{fresh}", BLOCKS, "answer_o int_no")
     await u.reset()
@@ -231,7 +234,10 @@ async def finish_answers(dut, fresh):
 
 
 async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
-    """Clk edges until act_o says what takes effect; closed: the mailbox is until then."""
+    """Return the clock edges until act_o outputs an action.
+
+    With `closed`, check that the mailbox is closed until then.
+    """
     for took in range(5_000):
         if (await u.settle())[0]:
             return took
@@ -243,7 +249,7 @@ async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
 
 @cocotb.test()
 async def pace_fast(dut):
-    """Given FAST, then actions pass at once; an initialisation is complete with its table."""
+    """In FAST, actions pass in the same cycle; an initialisation is complete with its table."""
     u = Unit(dut, "fast", BLOCKS, "act_o open_o go_o linger_o home_o ready_o")
     await u.reset()
     for name in ACTIONS:
@@ -261,18 +267,18 @@ async def pace_fast(dut):
 @cocotb.test()
 @cocotb.parametrize(name=list(PACES))
 async def pace_datasheet(dut, name):
-    """Given DATASHEET, then start, first pulse, end and opening of the mailbox come at their times."""
+    """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their times."""
     clk, xtal, bits, low, high, timed = PACES[name]
     u = Unit(dut, f"pace_{name}", BLOCKS, "act_o open_o go_o linger_o home_o ready_o", Unit.FREE)
     await u.reset()
 
     def cyc(microseconds: float) -> int:
-        """Clk of a time at 16 MHz, which scales with the crystal."""
+        """Return the cycles of a time at 16 MHz; it scales with the crystal."""
         return ceil(round(microseconds * 16) * clk / xtal)
 
     steps = low + 3
     await u.clk(act_i=action("init"), params_i=steps << 16, initialised_i=0)
-    # A clk later the command unit shows them a byte lower, with the byte at hand behind them.
+    # One cycle later the command unit outputs them a byte lower, followed by the present byte.
     await u.clk(act_i=0, params_i=0xA5 << 24 | steps << 8)
     await u.settle(params_i=0)
     same("phases", await u.run_until("home_o", 1), cyc(44) - 1)
@@ -292,7 +298,7 @@ async def pace_datasheet(dut, name):
         ramp, single = op in (3, 6), op == 2
         for end in ("normal", "stop", "short"):
             if end == "short" and not ramp:
-                continue  # nothing else ends with a pulse before its count
+                continue  # only a ramp ends with a pulse before its count
             await u.clk(
                 act_i=action("start"),
                 code_i=0x40 | op,

@@ -1,4 +1,4 @@
-"""Unit tests of the blocks of rtl/single, one simulation each."""
+"""Unit tests of the blocks of rtl/single, one simulation per test."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Part tests of the STMC core and of its board, run inside the simulator and under pytest."""
+"""Tests of the STMC core and of its board, run in the simulator and under pytest."""

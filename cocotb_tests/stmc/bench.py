@@ -1,4 +1,7 @@
-"""The STMC core and the J105 board on a bench: what their pins mean. Levels are the golden models'."""
+"""Test bench of the STMC core and the J105 board: the meaning of their pins.
+
+Levels are those of the golden models.
+"""
 
 from __future__ import annotations
 

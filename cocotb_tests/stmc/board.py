@@ -1,4 +1,4 @@
-"""The board `j105_stmc` as the tests see it: its design, a lab on an ISA bus."""
+"""The board `j105_stmc` for the tests: its design, and a lab on an ISA bus."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ OTHER = Config(
 
 
 def design(config: Config) -> Design:
-    """The board with its core."""
+    """Return the design of the board with its core."""
     ports = ("clk", "rst_n", *J105_STMC.inputs, *J105_STMC.outputs)
     return Design(
         "j105_stmc", sources(part("j105_stmc")), include_dirs(), J105_STMC.params(config), ports=ports
@@ -41,7 +41,7 @@ def design(config: Config) -> Design:
 
 
 class BoardLab(Lab):
-    """A `Lab` whose host speaks ISA; `master` is the bus."""
+    """A `Lab` with an ISA host; `master` is the bus."""
 
     def __init__(self, bench: Bench) -> None:
         self.master = IsaMaster(bench)
@@ -50,13 +50,13 @@ class BoardLab(Lab):
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = None, clock: int = 0, **pins: int) -> BoardLab:
-        """Reset with input levels `pins`; the board makes the clock of its core itself."""
+        """Reset with the input levels `pins`; the board itself makes the clock of its core."""
         bench = await start_bench(dut, J105_STMC, **pins)
         assert isinstance(bench, Bench)
         return cls(bench)
 
     async def ended(self, timeout: int = 1_000_000) -> int:
-        """Edge on which the last `go` let irq rise; waits for it."""
+        """Wait for the end of the last `go` and return the edge on which irq rises."""
         if rises := self.bench.rises("irq", self.since):
             await self.bench.align()
             return rises[0]

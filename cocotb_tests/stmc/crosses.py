@@ -1,4 +1,7 @@
-"""What the sheet crosses: operation, cause, phase, clock; error and state. Counted in the golden model."""
+"""Coverage crosses of the manual: operation, cause, phase and clock; error and state.
+
+They are counted in the golden model.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""What `make demo PART=stmc` plays on the board's ISA bus: an old program that moves, finds its limit, its
-reference point, and rests."""
+"""The stimulus of `make demo PART=stmc` on the ISA bus of the board: an old program that moves, runs to
+its limit and to its reference point, and then holds.
+"""
 
 from __future__ import annotations
 
@@ -15,15 +16,15 @@ from openppmc.check.records import steps
 from .bench import J105_STMC
 
 BASE = 0x3B0
-# 4-phase motor, full step, positive logic for the driver on the board, 48.675 kHz, chopped at rest.
+# 4-phase motor, full step, positive logic for the driver on the board, 48.675 kHz, chopped at standstill.
 INIT = 0x3A
 SLOW, FAST, RAMP = 50, 10, 60  # 973.5 to 4867.5 steps/s within 60 steps
 MOVE, TO_LIMIT, TO_REFERENCE = 0x43, 0x46, 0x4F  # the last one counter-clockwise
 STEPS = 300
-STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170  # of TO_LIMIT: L3 closes, then L1
+STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170  # of TO_LIMIT: L3 becomes active, then L1
 DIVISOR = 25  # 1947 steps/s
 STEPS_TO_REFERENCE = 40
-INTERRUPT_LATENCY = 800  # clk, 50 us: a PC of its time was not faster
+INTERRUPT_LATENCY = 800  # cycles, 50 us: the time that a PC of that time needed
 LONG = 4_000_000
 
 
@@ -39,7 +40,7 @@ async def results(host: IsaHost) -> None:
 
 
 async def step(bench: Bench, n: int, since: int) -> int:
-    """Edge of the n-th step from `since` on; waits for it."""
+    """Wait for the n-th step from `since` on and return its edge."""
     seen = [(since, bench.level("drv"))]
     while len(steps([*seen, *bench.edges("drv", since)])) < n:
         await bench.edge("drv", timeout=LONG)
@@ -49,7 +50,7 @@ async def step(bench: Bench, n: int, since: int) -> int:
 
 @cocotb.test()
 async def demo_board(dut: Any) -> None:
-    """Given a board just powered up, when the host's program runs on the bus, then all of it is recorded."""
+    """The program of a host on the bus is recorded from power-up to the end."""
     bench = await Bench.start(dut, J105_STMC)
     host = IsaHost(IsaMaster(bench), BASE)
     story = Story(bench)
@@ -59,7 +60,7 @@ async def demo_board(dut: Any) -> None:
     with story.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
-        # The table build keeps this one in the buffer: IBF tells when the board is ready.
+        # The table build keeps this command in the buffer: IBF indicates when the board is ready.
         await host.fetch(0x82)
         await bench.clocks(8000)
     with story.chapter("move", f"{STEPS} steps with ramps"):

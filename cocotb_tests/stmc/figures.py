@@ -1,4 +1,4 @@
-"""Expected figures of the STMC tests: formulas of their own, written from the rules. Gaps are in ticks."""
+"""Expected values for the STMC tests: separate formulas, written from the rules. Gaps are in ticks."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ Ramp = tuple[int, int, int]
 Init = tuple[int, int, int, int]
 
 A: Ramp = (20, 5, 8)
-# The acceptance table's set-up: external clock; INTERNAL is the same without.
+# Setting of the acceptance table: external clock; INTERNAL is the same with the internal clock.
 STANDARD: Init = (0x1A, *A)
 INTERNAL: Init = (0x0A, *A)
 # Crystal periods of a tick of the internal clock, and from the start of a motion to step 0.
 TICK, T0 = 1280, 80
 ALL = 1 << 24
 MOST = ALL - 1
-# Period of the external clock of most tests, in clk.
+# Period of the external clock of most tests, in cycles.
 EXT = 16
 
 OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
 
-# Builds that only this part has; each one costs a build, so every test uses as few as it can.
+# Builds for this part only; each one takes time to build, so every test uses as few as possible.
 F10 = Config("f10m", clk_hz=10_000_000)
 F12 = Config("f12m", clk_hz=12_345_678)
 F8X20 = Config("f8x20", clk_hz=8_000_000, xtal_hz=20_000_000)
@@ -49,13 +49,15 @@ STEPS = {
 
 
 def steps(code: int) -> list[int]:
-    """Pin vectors of the excitation table chosen by an initialisation code, polarity included."""
+    """Return the pin vectors of the excitation table selected by an initialisation code, with its
+    polarity.
+    """
     mask = 0 if code & 8 else 0x1F
     return [int(word, 2) ^ mask for word in STEPS[code & 7].split()]
 
 
 def divisor(ramp: Ramp, k: int) -> int:
-    """x(k) of STMC-RMP-01: the smallest integer r with 4*Y < (2r+1)^2."""
+    """Return x(k) of STMC-RMP-01: the smallest integer r with 4*Y < (2r+1)^2."""
     d1, d2, pa = ramp
     if pa == 0 or d1 == d2:
         return d2
@@ -66,19 +68,19 @@ def divisor(ramp: Ramp, k: int) -> int:
 
 
 def levels(n: int, ramp: Ramp) -> list[int]:
-    """v(i) of every gap of an undisturbed move of n steps (STMC-MOV-02)."""
+    """Return v(i) of every gap of an undisturbed move of n steps (STMC-MOV-02)."""
     d1, d2, pa = ramp
     top = 0 if d1 == d2 else pa
     return [min(i, n - 2 - i, top) for i in range(n - 1)]
 
 
 def gaps(n: int, ramp: Ramp = A) -> list[int]:
-    """Gaps of an undisturbed move of n steps with acceleration and deceleration."""
+    """Return the gaps of an undisturbed move of n steps with acceleration and deceleration."""
     return [divisor(ramp, v) for v in levels(n, ramp)]
 
 
 def slowed(n: int, i: int, ramp: Ramp = A) -> list[int]:
-    """Gaps of a move of n steps with a deceleration request in gap i (STMC-DEC-01, -03, -04)."""
+    """Return the gaps of a move of n steps with a deceleration request in gap i (STMC-DEC-01, -03, -04)."""
     d1, d2, pa = ramp
     v = min(i, 0 if d1 == d2 else pa)
     if n - 1 - i <= v:
@@ -89,5 +91,5 @@ def slowed(n: int, i: int, ramp: Ramp = A) -> list[int]:
 
 
 def internal_offsets(config: Config, ticks: list[int]) -> list[int]:
-    """clk from step 0 to every step on the internal clock (STMC-CLK-01)."""
+    """Return the cycles from step 0 to every step on the internal clock (STMC-CLK-01)."""
     return [config.cyc(TICK * n) for n in accumulate(ticks, initial=0)]

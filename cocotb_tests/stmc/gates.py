@@ -1,4 +1,6 @@
-"""What `make test-gates` runs of the J105 STMC and its board, and what it leaves out and why."""
+"""Tests that `make test-gates` runs for the J105 STMC and its board, and the tests that it omits, with
+the reason.
+"""
 
 from __future__ import annotations
 

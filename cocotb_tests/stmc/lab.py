@@ -1,8 +1,8 @@
-"""`Lab`: an STMC core on the bench with its host.
+"""`Lab`: an STMC core on the test bench with its host.
 
 @directed("AC-05", "STMC-MOV-02")
 async def stmc_ac_05_trapezoid(dut):
-    "Given ..., when ..., then ..."
+    "A move of 20 steps has the gaps of W1 (AC-05)."
     lab = await Lab.start(dut, STANDARD, clock=16)
     await lab.move(0x43, 20)
     lab.train("AC-05", gaps(20))
@@ -21,20 +21,23 @@ from cocotb_tests.harness.side import TIMEOUT
 from .bench import STMC
 from .figures import EXT, STANDARD, TICK, Init, internal_offsets
 
-# Windows of the rules, in clk, counted from edge 0 of a host write (STMC-BUS-12, -13).
+# Limits of the rules in cycles, counted from edge 0 of a host write (STMC-BUS-12, -13).
 WRITE_EVENT = 2
 C_EVENT_LATEST = 12
 PINS_LATEST = 14
-# BUSY may fall so late after the last step or the deciding cause (STMC-MOT-08).
+# Maximum cycles from the last step, or from the deciding cause, to the fall of BUSY (STMC-MOT-08).
 END_LATEST = 8
-# No test waits for a motion of more crystal periods.
+# Crystal periods of the longest motion that a test waits for.
 LONGEST = 200 * TICK
-# A table is built in at most so many clk (STMC-INI-07).
+# Maximum duration of a table build in cycles (STMC-INI-07).
 BUILD_LATEST = 40_000
 
 
 class Lab(Drive):
-    """Bench plus host. `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = still."""
+    """Test bench and host.
+
+    `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = stopped.
+    """
 
     def __init__(self, bench: Side, host: HostBus | None = None, clock: str = "ext_clk") -> None:
         limit = max(TIMEOUT, bench.config.cyc(LONGEST))
@@ -44,9 +47,10 @@ class Lab(Drive):
 
     @classmethod
     async def start(cls, dut: Any, init: Init | None = STANDARD, clock: int = EXT, **pins: int) -> Lab:
-        """Reset with input levels `pins`, then an initialisation (None: the core is as reset leaves it).
+        """Reset with the input levels `pins`, then initialise (None: the core stays in its reset
+        state).
 
-        clock: period of `ext_clk` in clk from the reset on, 0 = it stands still.
+        Args: clock: period of `ext_clk` in cycles from the reset on, 0 = stopped.
         """
         lab = cls(await start_bench(dut, STMC, **pins))
         if clock:
@@ -56,7 +60,7 @@ class Lab(Drive):
         return lab
 
     def run_clock(self, period: int) -> Any:
-        """Let `ext_clk` run evenly; returns the task."""
+        """Start `ext_clk` with a constant period; return the task."""
         self.period = period
         return self.bench.external_clock(repeat(period), high=period // 2)
 
@@ -64,17 +68,17 @@ class Lab(Drive):
 
     @property
     def inputs_code(self) -> int:
-        """Read inputs."""
+        """Code of the read of the inputs."""
         return 0x82 if self.sheet else 0x81
 
     @property
     def outputs_code(self) -> int:
-        """Read outputs."""
+        """Code of the read of the outputs."""
         return 0x83 if self.sheet else 0x82
 
     @property
     def remaining_code(self) -> int:
-        """Read remaining steps."""
+        """Code of the read of the remaining steps."""
         return 0x84 if self.sheet else 0x83
 
     async def init(self, code: int, d1: int, d2: int, pa: int) -> None:
@@ -83,7 +87,7 @@ class Lab(Drive):
         await self.ready()
 
     async def ready(self) -> int:
-        """Wait until bytes are taken again; the finish status that is read for it."""
+        """Wait until bytes are accepted again; return the finish status that is read for this purpose."""
         limit = 1_300_000 if self.cfg.datasheet else BUILD_LATEST + 200
         if self.cfg.datasheet:
             limit = self.cfg.cyc(264_000 + 209 * 65_535) + 1_000
@@ -92,29 +96,29 @@ class Lab(Drive):
         return await self.host.read_data()
 
     async def halt(self) -> None:
-        """Command 0, the end of motion, its interrupt taken away."""
+        """Send command 0, wait for the end of the motion and clear its interrupt."""
         await self.command(0x40)
         await self.idle()
         await self.finish()
 
     async def inputs(self) -> int:
-        """Read inputs."""
+        """Read the inputs."""
         return (await self.fetch(self.inputs_code))[0]
 
     async def out(self) -> int:
-        """Read outputs."""
+        """Read the outputs."""
         return (await self.fetch(self.outputs_code))[0]
 
     async def remaining(self) -> int:
-        """Remaining steps."""
+        """Read the remaining steps."""
         low, middle, high = await self.fetch(self.remaining_code, 3)
         return low | middle << 8 | high << 16
 
     async def move(self, code: int, n: int | None = None, rate: int | None = None) -> list[int]:
-        """`go`, then wait for the end; returns the steps. `rate` is the divisor."""
+        """Call `go`, wait for the end and return the steps. `rate` is the divisor."""
         await self.go(code, n, rate)
         if self.cfg.datasheet:
-            # BUSY rises long after IBF has fallen (STMC-DS-01), but no byte is taken in between.
+            # BUSY rises long after IBF has fallen (STMC-DS-01), but no byte is accepted in between.
             await self.host.poll(BUSY, BUSY, self.cfg.us(150), dense=1000)
         await self.idle()
         return self.pulses
@@ -123,16 +127,16 @@ class Lab(Drive):
 
     @property
     def pulses(self) -> list[int]:
-        """Edges of the steps since the last `go` (chopper off, or on in tests that do not look at this)."""
+        """Edges of the steps since the last `go`; valid without chopping."""
         return [t for t, _ in self.bench.edges("s", self.since)]
 
     @property
     def patterns(self) -> list[int]:
-        """Levels that `s` took since the last `go`."""
+        """Levels of `s` since the last `go`."""
         return [level for _, level in self.bench.edges("s", self.since)]
 
     async def pulse(self, n: int, plus: int = 0) -> int:
-        """Wait for the n-th step of the last `go` and `plus` clk more; returns the edge of the step."""
+        """Wait for the n-th step of the last `go`, then `plus` cycles; return the edge of the step."""
         while len(self.pulses) < n:
             await self.bench.edge("s", timeout=TIMEOUT)
         await self.bench.align()
@@ -142,11 +146,11 @@ class Lab(Drive):
         return step
 
     async def in_gap(self, i: int, plus: int = 30) -> int:
-        """Wait until gap i runs since `plus` clk; returns the edge of step i."""
+        """Wait until `plus` cycles after the begin of gap i; return the edge of step i."""
         return await self.pulse(i + 1, plus)
 
     def train(self, rule: str, ticks: Sequence[int]) -> None:
-        """The steps of the last `go` lie exactly where gaps of so many ticks put them."""
+        """Check that the steps of the last `go` are exactly at gaps of `ticks`."""
         steps = self.pulses
         self.check(rule, "number of steps", len(steps), len(ticks) + 1)
         if self.period:
@@ -159,13 +163,13 @@ class Lab(Drive):
     async def outcome(
         self, rule: str, steps: int, finish: int, remaining: int, ticks: Sequence[int] | None = None
     ) -> None:
-        """Wait for the end; the steps made, FIN, REM, and the gaps."""
+        """Wait for the end; check the number of steps, FIN, REM, and the gaps."""
         await self.result(rule, steps, finish, remaining)
         if ticks is not None:
             self.train(rule, ticks)
 
     async def tick_until(self, pulses: int, limit: int = 2000) -> None:
-        """Clock by hand until the last `go` has made so many steps."""
+        """Make single clock edges until the last `go` has made this number of steps."""
         for _ in range(limit):
             if len(self.pulses) >= pulses:
                 break
@@ -175,7 +179,7 @@ class Lab(Drive):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """Drive input pins; returns the stamp."""
+        """Drive input pins and return the stamp."""
         return self.bench.set(**levels)
 
     async def pins(self, **levels: int) -> None:
@@ -185,15 +189,15 @@ class Lab(Drive):
         await self.bench.clocks(4)
 
     async def blip(self, pin: str, clocks: int = 4) -> int:
-        """A switch at its other level for some clk; returns the first stamp."""
+        """Drive a switch to its other level for some cycles; return the first stamp."""
         return await self.bench.pulse_pin(pin, 1 - self.bench.pin(pin), clocks)
 
     def quiet(self, rule: str, since: int) -> None:
-        """No step, no hold, no interrupt since that edge."""
+        """Check that no step, no change of hold and no interrupt occurred since that edge."""
         moved = {name: edges for name in ("s", "hold", "int_n") if (edges := self.bench.edges(name, since))}
         self.check(rule, f"edges of outputs since {since}", moved, {})
 
     async def reset(self) -> None:
-        """Reset, until bytes are taken again."""
+        """Reset and wait until bytes are accepted."""
         await self.bench.reset()
         await self.bench.clocks(6)

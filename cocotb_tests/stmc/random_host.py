@@ -1,7 +1,8 @@
-"""Random hosts for the STMC core: a seed becomes a plain list of actions, before the simulation starts.
+"""Constrained-random hosts for the STMC core: a seed becomes a list of actions before the simulation
+starts.
 
-`scenario(seed)` is pure. The actions are those of `common.player` and ("finish", clk). Gaps last 64 clk and
-more, where every rule holds to the clk (STMC-CLK-04).
+`scenario(seed)` is a pure function. The actions are those of `common.player` and ("finish", cycles).
+Gaps last at least 64 cycles, so that every rule holds exactly (STMC-CLK-04).
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from cocotb_tests.harness.random_host import HostWriter
 
 from .figures import F8X20, F12, F200, ODD, SHEET, SWITCHES
 
-# The builds of the random tests with their weights; DATASHEET runs are few because they are long.
+# The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [
     (F16, 34), (F12, 14), (F8X20, 14), (ODD, 14), (SHEET, 16), (F200, 4),
 ]  # fmt: skip
@@ -31,12 +32,12 @@ READS = ((0x80, 1), (0x81, 1), (0x82, 1), (0x83, 3), (0x84, 3))
 
 
 def scenario(seed: int) -> Scenario:
-    """The scenario of a seed (any int)."""
+    """Return the scenario of a seed (any int)."""
     return _Writer(seed).make()
 
 
 class _Writer(HostWriter):
-    """Builds one scenario. `least`: smallest divisor, so that gaps are long enough for the clock."""
+    """Builds one scenario. `least` is the smallest divisor for which gaps are long enough for the clock."""
 
     def __init__(self, seed: int) -> None:
         super().__init__("stmc", seed, WEIGHTS, DATASHEET_WEIGHTS, external=(0.75,))
@@ -62,14 +63,14 @@ class _Writer(HostWriter):
             self.add("fetch", code, count)
         self.add("wait", rng.choice((50, 3_000)))
         if rng.random() < 0.05 and self.config.clk_hz <= 16_000_000:
-            self.add("wait", self.config.cyc(546_000))  # let the hold timer run out
+            self.add("wait", self.config.cyc(546_000))  # the hold timer expires
         pins = {rng.choice(SWITCHES): 0} if rng.random() < 0.15 else {}
         return Scenario(
             self.seed, self.config, pins, self.actions, (self.clock(),), rng.random() < 0.5, self.limit_clk
         )
 
     def clock(self) -> ExternalClock:
-        """Programme of the clock pin, if this host uses it; periods in clk."""
+        """Return the waveform of the clock pin, if this host uses it; periods are in cycles."""
         if not self.external:
             return ExternalClock()
         near = (20, 24, 33, 40, 64) if self.fast else (70, 80, 100, 128, 320)
@@ -78,14 +79,14 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ commands without motion
 
     def ramp(self) -> tuple[int, int, int]:
-        """Legal (D1, D2, PA), mostly small and quick ones."""
+        """Return a legal (D1, D2, PA); most are small and build quickly."""
         rng, least = self.rng, self.least
         kind = rng.random()
         slow = (5, 6, 10, 13, 20, 26) if self.external else (1, 2, 3, 4, 6)
         if kind < 0.6:
             d1 = rng.choice(slow)
             return d1, rng.randint(min(least, d1), d1), rng.choice((1, 2, 3, 4, 4, 5, 6, 8, 10, 15))
-        if kind < 0.7:  # flat by either reason
+        if kind < 0.7:  # flat for either reason
             d1 = rng.choice(slow)
             return (d1, d1, rng.choice((0, 1, 50))) if rng.random() < 0.5 else (d1, min(least, d1), 0)
         if kind < 0.8:  # a flat start: several levels at D1
@@ -104,7 +105,7 @@ class _Writer(HostWriter):
         code = rng.choice(INIT_CODES)
         code = code | 0x10 if self.external and rng.random() < 0.9 else code & ~0x10
         self.told(code, [d1, d2, pa & 0xFF, pa >> 8], 0.8)
-        if rng.random() < 0.3:  # bytes that meet the table build
+        if rng.random() < 0.3:  # bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))
@@ -116,11 +117,11 @@ class _Writer(HostWriter):
             self.add("fetch", code, rng.choice((count, count, 1, 0, count + 1)))
 
     def pause(self) -> None:
-        """Long enough to see the chopper."""
+        """Wait long enough for several phases of the chopper."""
         self.add("wait", self.clk(100, 9_000))
 
     def half_command(self) -> None:
-        """Data bytes are missing when the next command comes."""
+        """Omit the last data byte before the next command."""
         code, data = self.motion_bytes()
         self.blind([(1, code), *((0, byte) for byte in data[:-1])])
         if self.rng.random() < 0.5:
@@ -129,7 +130,9 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ motions
 
     def motion_bytes(self) -> tuple[int, list[int]]:
-        """A motion command: short moves, small divisors; now and then too few or too many data bytes."""
+        """Return a motion command: short moves, small divisors, sometimes too few or too many data
+        bytes.
+        """
         rng = self.rng
         code = (
             rng.choice(MOTIONS)
@@ -165,7 +168,7 @@ class _Writer(HostWriter):
             self.add("pins", dict.fromkeys(SWITCHES, 1))
 
     def disturb(self) -> None:
-        """Something that happens during a motion."""
+        """Add an action that happens during a motion."""
         rng = self.rng
         self.add("wait", self.clk(1, 4_000 if self.external else 12_000))
         rng.choices(
@@ -187,7 +190,7 @@ class _Writer(HostWriter):
     # ------------------------------------------------------------ bad input
 
     def random_write(self) -> tuple[int, int]:
-        """A byte that is never the divisor of a constant-speed motion too fast for the clock."""
+        """Return a byte that is never the divisor of a constant-speed motion too fast for the clock."""
         rng = self.rng
         if rng.random() < 0.5:
             return 1, rng.choice(KNOWN)

@@ -1,6 +1,6 @@
 """Puts the core into each state of the accept/reject table (chapter 4) and keeps it there.
 
-A moving core stays in its state because `ext_clk` stands still and is clocked by hand.
+A moving core stays in its state because `ext_clk` is stopped; the tests make its edges one by one.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ MOVING = (*RAMP, *STEADY)
 
 
 async def enter(lab: Lab, state: str) -> None:
-    """From reset into `state`. Raises KeyError for an unknown one."""
+    """Reset and enter `state`. Raises KeyError for an unknown state."""
     await lab.reset()
     if state.endswith("U"):
         if state != "U":
@@ -50,7 +50,7 @@ async def enter(lab: Lab, state: str) -> None:
 
 
 async def leave(lab: Lab) -> None:
-    """Stop whatever moves."""
+    """Stop a motion, if one is running."""
     if lab.bench.level("hold") == 0:
         await lab.host.command(0x40)
         await lab.idle()

@@ -1,4 +1,4 @@
-"""Black-box acceptance checks AC-01 to AC-20: stimulus and figures as the acceptance table gives them."""
+"""Black-box acceptance checks AC-01 to AC-20: stimulus and values as in the acceptance table."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .lab import Lab
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]
-# Number sent and gaps of the checks 6 and 7.
+# Number sent and gaps of checks 6 and 7.
 AC_06 = {
     0x0B: W2,
     0x0A: [20, 12, 9, 8, 7, 7, 8, 9, 12, 20],
@@ -22,14 +22,14 @@ AC_07 = {0: [], 1: [20], 2: [20, 20], 3: [20, 12, 20]}
 
 
 async def first_step(lab: Lab, rule: str, t0: int) -> None:
-    """Step 0 of the last `go` came T0 after hold fell."""
+    """Check that step 0 of the last `go` follows the fall of hold by T0."""
     fall = lab.bench.falls("hold", lab.since)[0]
     lab.window(rule, "hold fall to the first step", lab.pulses[0] - fall, t0, t0 + 2)
 
 
 @directed("AC-01", "STMC-ST-01", "STMC-FIN-01", "STMC-INP-01", "STMC-OUT-01", "STMC-REM-02")
 async def stmc_ac_01_reset_values(dut: Any) -> None:
-    """Given a reset, when it ends, then outputs, status and all registers have their reset values."""
+    """After reset, outputs, status and all registers have their reset values (AC-01)."""
     lab = await Lab.start(dut, None)
     lab.check("AC-01", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
     lab.check("AC-01", "d_oe, d_o", (lab.bench.level("d_oe"), lab.bench.level("d_o")), (0, 0))
@@ -40,7 +40,9 @@ async def stmc_ac_01_reset_values(dut: Any) -> None:
 
 @directed("AC-02", "STMC-MOT-01", "STMC-STP-05", "STMC-BAD-08")
 async def stmc_ac_02_not_initialised(dut: Any) -> None:
-    """Given no initialisation, when 42, 40, a data byte and C0 come, then errors 2, 0, 3, 0 and no step."""
+    """Before initialisation, 42, 40, a data byte and C0 return errors 2, 0, 3, 0 and make no step
+    (AC-02).
+    """
     lab = await Lab.start(dut, None)
     lab.check("AC-02", "statuses", await lab.statuses("c 42 c 40 d 55 c C0"), [0xA0, 0x80, 0xB0, 0x80])
     await lab.bench.clocks(500)
@@ -49,7 +51,7 @@ async def stmc_ac_02_not_initialised(dut: Any) -> None:
 
 @directed("AC-03", "STMC-ST-02", "STMC-INI-06", "STMC-INI-08")
 async def stmc_ac_03_initialisation(dut: Any) -> None:
-    """Given a reset, when an initialisation goes in, then CODE counts down and position 0 appears."""
+    """During an initialisation CODE counts down, and after it s has position 0 (AC-03)."""
     lab = await Lab.start(dut, None)
     got = await lab.statuses("c 0A d 14 d 05 d 08 d 00")
     lab.check("AC-03", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0x00])
@@ -60,7 +62,9 @@ async def stmc_ac_03_initialisation(dut: Any) -> None:
 
 @directed("AC-04", "STMC-INI-05", "STMC-BAD-06")
 async def stmc_ac_04_motor_type_00(dut: Any) -> None:
-    """Given motor type 00, when sent before and after a good initialisation, then error 0, no change."""
+    """Motor type 00 returns error 0 and changes nothing, before and after a valid initialisation
+    (AC-04).
+    """
     lab = await Lab.start(dut, None)
     lab.check("AC-04", "statuses", await lab.statuses("c 08 d 14"), [0x80, 0xB0])
     lab.check("AC-04", "s", lab.bench.level("s"), 0)
@@ -75,7 +79,7 @@ async def stmc_ac_04_motor_type_00(dut: Any) -> None:
 
 @directed("AC-05", "STMC-MOV-02", "STMC-MOV-03", "STMC-MOT-08")
 async def stmc_ac_05_trapezoid(dut: Any) -> None:
-    """Given 20/5/8, when 20 steps are asked for, then the gaps of W1, int_n = 0, FIN 83, REM 0."""
+    """With 20/5/8, 20 steps have the gaps of W1, then int_n = 0, FIN 83, REM 0 (AC-05)."""
     lab = await Lab.start(dut)
     await lab.host.run("c 80 r")
     lab.since = lab.bench.now
@@ -89,7 +93,7 @@ async def stmc_ac_05_trapezoid(dut: Any) -> None:
 
 @directed("AC-06", "AC-07", "STMC-MOV-02", "STMC-RUN-01")
 async def stmc_ac_06_short_moves(dut: Any) -> None:
-    """Given 20/5/8, when moves of 1 to 18 steps run, then the gaps of W2 to W6."""
+    """With 20/5/8, moves of 1 to 18 steps have the gaps of W2 to W6 (AC-06, AC-07)."""
     lab = await Lab.start(dut)
     for rule, table in (("AC-06", AC_06), ("AC-07", AC_07)):
         for number, ticks in table.items():
@@ -99,7 +103,7 @@ async def stmc_ac_06_short_moves(dut: Any) -> None:
 
 @directed("AC-08", "STMC-RUN-01", "STMC-RMP-01")
 async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
-    """Given 141/59/400, when 32, 3, 0 is sent, then 801 steps that last 66 634 ticks."""
+    """With 141/59/400, the number 32, 3, 0 leads to 801 steps in 66 634 ticks (AC-08)."""
     lab = await Lab.start(dut, (0x1A, 141, 59, 400))
     lab.since = lab.bench.now
     await lab.host.run("c 43 d 20 d 03 d 00")
@@ -113,7 +117,7 @@ async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
 
 @directed("AC-09", "STMC-RMP-01", "STMC-RMP-02")
 async def stmc_ac_09_a_tie_rounds_up(dut: Any) -> None:
-    """Given 15/5/8, when 12 steps run, then the level of exactly 7.5 ticks lasts 8."""
+    """With 15/5/8 and 12 steps, the level of exactly 7.5 ticks lasts 8 ticks (AC-09)."""
     lab = await Lab.start(dut, (0x1A, 15, 5, 8))
     await lab.move(0x43, 12)
     lab.check("AC-09", "fourth gap", lab.intervals[3], 8 * EXT)
@@ -121,7 +125,7 @@ async def stmc_ac_09_a_tie_rounds_up(dut: Any) -> None:
 
 @directed("AC-10", "STMC-CLK-01", "STMC-MOT-06")
 async def stmc_ac_10_internal_clock(dut: Any) -> None:
-    """Given the internal clock, when 5 steps at divisor 5 run, then each gap is 6400 clk."""
+    """On the internal clock, 5 steps at divisor 5 have gaps of 6400 cycles (AC-10)."""
     lab = await Lab.start(dut, (0x0A, 5, 5, 0))
     await lab.move(0x43, 5)
     lab.check("AC-10", "gaps", lab.intervals, [6400] * 4)
@@ -130,7 +134,7 @@ async def stmc_ac_10_internal_clock(dut: Any) -> None:
 
 @directed("AC-11", "STMC-CLK-01", builds=(F10,))
 async def stmc_ac_11_slow_core_clock(dut: Any) -> None:
-    """Given a core clock of 10 MHz, when 4 steps at divisor 10 run, then each gap is 8000 clk."""
+    """With a core clock of 10 MHz, 4 steps at divisor 10 have gaps of 8000 cycles (AC-11)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.move(0x44, 4, 10)
     lab.check("AC-11", "gaps", lab.intervals, [8000] * 3)
@@ -139,7 +143,7 @@ async def stmc_ac_11_slow_core_clock(dut: Any) -> None:
 
 @directed("AC-12", "STMC-CLK-01", builds=(F12,))
 async def stmc_ac_12_odd_core_clock(dut: Any) -> None:
-    """Given a core clock of 12.345678 MHz, when 101 steps run, then no step drifts by a clk."""
+    """With a core clock of 12.345678 MHz, 101 steps are exact to the cycle, without drift (AC-12)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.move(0x44, 101, 10)
     offsets = [t - lab.pulses[0] for t in lab.pulses]
@@ -153,7 +157,7 @@ async def stmc_ac_12_odd_core_clock(dut: Any) -> None:
 
 @directed("AC-13", "STMC-SGL-01", "STMC-SGL-03", "STMC-EXC-04", "STMC-OUT-01", "STMC-MOT-06")
 async def stmc_ac_13_single_steps(dut: Any) -> None:
-    """Given single steps three cw, one ccw, when they run, then the patterns and the outputs register."""
+    """Single steps, three cw and one ccw, have their patterns and set the outputs register (AC-13)."""
     lab = await Lab.start(dut)
     seen = []
     for code, register in ((0x42, None), (0x42, None), (0x42, 0x90), (0x4A, 0x32)):
@@ -171,7 +175,7 @@ async def stmc_ac_13_single_steps(dut: Any) -> None:
 
 
 async def patterns(lab: Lab, rule: str, code: int, wanted: str) -> None:
-    """Reset, an initialisation, then as many single steps as there are patterns."""
+    """Reset, initialise, and check the pattern after each of the given single steps."""
     await lab.reset()
     await lab.init(code, 20, 5, 8)
     words = wanted.split()
@@ -184,7 +188,7 @@ async def patterns(lab: Lab, rule: str, code: int, wanted: str) -> None:
 
 @directed("AC-14", "AC-15", "AC-16", "AC-17", "STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04")
 async def stmc_ac_14_patterns(dut: Any) -> None:
-    """Given each type and mode, when single steps run, then the patterns of the acceptance table."""
+    """For each type and mode, single steps have the patterns of the acceptance table (AC-14 to AC-17)."""
     lab = await Lab.start(dut, None)
     half4 = "00010 00110 00100 01100 01000 01001 00001 00011"
     await patterns(lab, "AC-14", 0x1E, half4)
@@ -201,7 +205,7 @@ async def stmc_ac_14_patterns(dut: Any) -> None:
 
 @directed("AC-18", "STMC-INI-04")
 async def stmc_ac_18_frozen_bits(dut: Any) -> None:
-    """Given 4-phase full positive, when 05 is sent, then only the clock changes."""
+    """After 4-phase full positive, an initialisation with 05 changes only the clock (AC-18)."""
     lab = await Lab.start(dut)
     lab.check("AC-18", "status", await lab.host.init(0x05, 20, 5, 8), 0x00)
     await lab.ready()
@@ -213,7 +217,7 @@ async def stmc_ac_18_frozen_bits(dut: Any) -> None:
 
 @directed("AC-19", "STMC-MOV-01")
 async def stmc_ac_19_constant_speed(dut: Any) -> None:
-    """Given divisor 7, when 5 steps run, then gaps of 112 clk and FIN 84."""
+    """At divisor 7, 5 steps have gaps of 112 cycles and FIN 84 (AC-19)."""
     lab = await Lab.start(dut)
     await lab.go(0x44, 5, 7)
     await lab.outcome("AC-19", 5, 0x84, 0, [7] * 4)
@@ -221,7 +225,7 @@ async def stmc_ac_19_constant_speed(dut: Any) -> None:
 
 @directed("AC-20", "STMC-MOT-03", "STMC-BAD-07", builds=(F16,))
 async def stmc_ac_20_divisor_0(dut: Any) -> None:
-    """Given divisor 0, when the last byte is in, then error 5, no step, FIN as before."""
+    """Divisor 0 returns error 5 with the last byte, makes no step and does not change FIN (AC-20)."""
     lab = await Lab.start(dut)
     got = await lab.statuses("c 44 d 00 d 04 d 00 d 00")
     lab.check("AC-20", "statuses", got, [0x40, 0x30, 0x20, 0x10, 0xD0])

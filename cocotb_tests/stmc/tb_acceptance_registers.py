@@ -12,7 +12,7 @@ from .lab import WRITE_EVENT, Lab
 
 @directed("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
 async def stmc_ac_35_interrupt(dut: Any) -> None:
-    """Given bit 4, motions, reads, when they come, then int_n falls without it and 80 alone releases it."""
+    """A motion asserts int_n only without bit 4, and only 80 releases int_n (AC-35)."""
     lab = await Lab.start(dut)
     await lab.move(0x53, 1)
     lab.check("AC-35", "edges of int_n", lab.bench.edges("int_n"), [])
@@ -28,7 +28,7 @@ async def stmc_ac_35_interrupt(dut: Any) -> None:
 
 @directed("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17", "STMC-INI-03")
 async def stmc_ac_36_bytes_during_a_move(dut: Any) -> None:
-    """Given a running move, when 80, 0A, C0, 42 and a data byte come, then errors 1, 1, 0, 1, 6."""
+    """During a move, 80, 0A, C0, 42 and a data byte return errors 1, 1, 0, 1, 6 (AC-36)."""
     lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     got = await lab.statuses("c 80 c 0A c C0 c 42 d 00")
@@ -38,7 +38,7 @@ async def stmc_ac_36_bytes_during_a_move(dut: Any) -> None:
 
 @directed("AC-37", "STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-BAD-11")
 async def stmc_ac_37_answer_replaced(dut: Any) -> None:
-    """Given a half-read answer, when 81 is accepted, then only the inputs byte is there."""
+    """When 81 is accepted, its byte replaces a half-read answer (AC-37)."""
     lab = await Lab.start(dut)
     lab.check("AC-37", "bytes", await lab.host.run("c 83 r c 81 r"), [0, 0xCF])
     lab.check("AC-37", "OBF", await lab.host.status() & OBF, 0)
@@ -48,7 +48,7 @@ async def stmc_ac_37_answer_replaced(dut: Any) -> None:
 
 @directed("AC-38", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-04")
 async def stmc_ac_38_command_instead_of_data(dut: Any) -> None:
-    """Given an unfinished command 3, when 42 comes, then one step, and a later data byte is error 3."""
+    """42 cancels an incomplete command 3 and makes one step; a later data byte returns error 3 (AC-38)."""
     lab = await Lab.start(dut)
     lab.since = lab.bench.now
     await lab.host.run("c 43 d 05 c 42")
@@ -59,7 +59,9 @@ async def stmc_ac_38_command_instead_of_data(dut: Any) -> None:
 
 @directed("AC-39", "STMC-INI-02", "STMC-BAD-05")
 async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
-    """Given nothing, then 20/5/8, when 5/20/8 and the like are sent, then error 5, and the old data stay."""
+    """Illegal divisors (5/20/8 and others) return error 5; before an initialisation nothing is set,
+    after it the old data stay (AC-39).
+    """
     lab = await Lab.start(dut, None)
     refused = ((5, 20), (0, 0), (20, 0), (0, 5), (254, 255))
     for d1, d2 in refused:
@@ -74,7 +76,7 @@ async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
 
 @directed("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
 async def stmc_ac_40_bytes_meet_the_build(dut: Any) -> None:
-    """Given a table build, when 40 and then 80 are written, then 80 is answered without an error."""
+    """If 40 and then 80 are written during a table build, only 80 is executed, without an error (AC-40)."""
     lab = await Lab.start(dut)
     await lab.host.init(0x1A, 255, 5, 400)
     edge0 = await lab.host.write(1, 0x40)
@@ -88,7 +90,7 @@ async def stmc_ac_40_bytes_meet_the_build(dut: Any) -> None:
 
 @directed("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02", builds=(SHEET,))
 async def stmc_ac_41_chopper(dut: Any) -> None:
-    """Given bit 5, when the part rests, steps, rests, then the pattern is chopped but for the step."""
+    """With bit 5, the pattern is chopped at standstill and full during a step (AC-41)."""
     lab = await Lab.start(dut, None)
     await lab.host.init(0x3A, 20, 5, 8)
     await lab.bench.level_is("s", 0b00000, 60_000)
@@ -114,7 +116,7 @@ async def stmc_ac_41_chopper(dut: Any) -> None:
 
 @directed("AC-42", "STMC-CLK-05")
 async def stmc_ac_42_no_ticks(dut: Any) -> None:
-    """Given no external clock, when a move starts, then it waits; 40 ends it, 41 leaves one step."""
+    """Without an external clock a started move waits; 40 ends it, 41 leaves one step (AC-42)."""
     lab = await Lab.start(dut, clock=0)
     await lab.go(0x43, 6)
     await lab.bench.clocks(5_000)
@@ -131,7 +133,7 @@ async def stmc_ac_42_no_ticks(dut: Any) -> None:
 
 @directed("AC-43", "STMC-RUN-01")
 async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
-    """Given 63, when it runs, then it is 43."""
+    """63 acts like 43 (AC-43)."""
     lab = await Lab.start(dut)
     await lab.go(0x63, 1)
     await lab.result("AC-43", 1, 0x83, 0)
@@ -140,7 +142,7 @@ async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
 
 @directed("AC-44", "STMC-RD-01", "STMC-BAD-01")
 async def stmc_ac_44_family_codes(dut: Any) -> None:
-    """By default 81, 82, 83 return inputs, outputs and three bytes; 84 is error 0 (R-01)."""
+    """By default 81, 82, 83 return inputs, outputs and three bytes; 84 is error 0 (AC-44, R-01)."""
     lab = await Lab.start(dut)
     got = await lab.host.run("c 81 r c 82 r c 83 rrr c 84 s")
     lab.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])
@@ -148,14 +150,14 @@ async def stmc_ac_44_family_codes(dut: Any) -> None:
 
 @directed("AC-45", "STMC-RD-01", "STMC-BAD-01", builds=(SHEET,))
 async def stmc_ac_45_sheet_codes(dut: Any) -> None:
-    """Given READ_MAP "SHEET", when 81 and 84 come, then error 0 and three bytes."""
+    """With READ_MAP "SHEET", 81 is error 0 and 84 returns three bytes (AC-45)."""
     lab = await Lab.start(dut)
     lab.check("AC-45", "answers", await lab.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
 
 
 @directed("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", builds=(D16,))
 async def stmc_ac_48_datasheet_times(dut: Any) -> None:
-    """Given the DATASHEET timing, when two steps run, then start, steps, end, answer at their times."""
+    """In DATASHEET, start, steps, end and answer of a two-step motion occur at their times (AC-48)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     bench = lab.bench
     edge0 = await lab.go(0x44, 2, 10, poll=False)
@@ -178,7 +180,9 @@ async def stmc_ac_48_datasheet_times(dut: Any) -> None:
 
 @directed("AC-49", "STMC-BAD-16")
 async def stmc_ac_49_reset_in_motion(dut: Any) -> None:
-    """Given a move, when rst_n falls, then all outputs rest at once and everything is forgotten."""
+    """When rst_n falls during a move, all outputs take their reset levels immediately, and all state is
+    cleared (AC-49).
+    """
     lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(5)
@@ -195,7 +199,9 @@ async def stmc_ac_49_reset_in_motion(dut: Any) -> None:
 
 @directed("AC-50", "STMC-DEC-03", "STMC-IN-04")
 async def stmc_ac_50_start_at_the_deceleration_limit(dut: Any) -> None:
-    """Given l3_n low, when 3, 6, 3 with N = 1, 7 start, then 1, 1, 1, 0 steps; with l1_n low, then none."""
+    """With l3_n low, commands 3, 6, 3 with N = 1, and 7 make 1, 1, 1, 0 steps; with l1_n low they make
+    no step (AC-50).
+    """
     lab = await Lab.start(dut)
     await lab.pins(l3_n=0)
     for code, n, rate, steps, finish, rest in (
@@ -213,7 +219,7 @@ async def stmc_ac_50_start_at_the_deceleration_limit(dut: Any) -> None:
 
 @directed("AC-51", "STMC-CMD-01", "STMC-BAD-11")
 async def stmc_ac_51_answer_outlives_a_step(dut: Any) -> None:
-    """Given a half-read remaining value, when a step runs, then the other two bytes are still there."""
+    """If a step runs while the remaining value is half read, its other two bytes stay available (AC-51)."""
     lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(10)
@@ -228,7 +234,7 @@ async def stmc_ac_51_answer_outlives_a_step(dut: Any) -> None:
 
 @directed("AC-52", "STMC-BUS-06", "STMC-BAD-12")
 async def stmc_ac_52_both_strobes(dut: Any) -> None:
-    """Given both strobes low together, when they rise together, then nothing was driven or written."""
+    """If both strobes are low together and rise together, nothing was driven or written (AC-52)."""
     lab = await Lab.start(dut)
     before = await lab.host.status()
     since = lab.bench.now

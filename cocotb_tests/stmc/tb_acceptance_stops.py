@@ -14,7 +14,7 @@ W14 = [20, 12, 9, 8, 9, 12, 20]
 
 
 async def asked_in(lab: Lab, gap: int, n: int = 100, code: int = 0x41, plus: int = 30) -> int:
-    """Command 3 with n steps, a stop command in that gap; the status after it."""
+    """Start command 3 with n steps, send a stop command in that gap, and return the status after it."""
     await lab.go(0x43, n)
     await lab.in_gap(gap, plus)
     return await lab.command(code)
@@ -22,7 +22,9 @@ async def asked_in(lab: Lab, gap: int, n: int = 100, code: int = 0x41, plus: int
 
 @directed("AC-21", "STMC-STP-03", "STMC-DEC-04", "STMC-REM-01")
 async def stmc_ac_21_the_rest_of_a_stopped_move(dut: Any) -> None:
-    """Given 100 steps, when 41 comes in gap 3, then W14, and the remaining value finishes the move."""
+    """In a move of 100 steps, 41 in gap 3 leads to W14, and the remaining value completes the move
+    (AC-21).
+    """
     lab = await Lab.start(dut)
     await asked_in(lab, 3)
     await lab.outcome("AC-21", 8, 0xC3, 0x5B, W14)
@@ -33,7 +35,7 @@ async def stmc_ac_21_the_rest_of_a_stopped_move(dut: Any) -> None:
 
 @directed("AC-22", "STMC-DEC-03", "STMC-DEC-04")
 async def stmc_ac_22_requests_at_other_speeds(dut: Any) -> None:
-    """Given 100 steps, when 41 comes in gap 10, 1 or 0, then W15, W16, W17."""
+    """In a move of 100 steps, 41 in gap 10, 1 or 0 leads to W15, W16, W17 (AC-22)."""
     lab = await Lab.start(dut)
     for gap, ticks, rest in ((10, W1, 79), (1, [20, 12, 20], 95), (0, [], 98)):
         await asked_in(lab, gap)
@@ -42,7 +44,9 @@ async def stmc_ac_22_requests_at_other_speeds(dut: Any) -> None:
 
 @directed("AC-23", "STMC-DEC-01", "STMC-STP-04", "STMC-FIN-02")
 async def stmc_ac_23_around_the_turn(dut: Any) -> None:
-    """Given 12 steps, when 41 comes in gap 5 or 6, then accepted or error 7, and the move is complete."""
+    """In a move of 12 steps, 41 is accepted in gap 5 and returns error 7 in gap 6; the move is complete
+    in both cases (AC-23).
+    """
     lab = await Lab.start(dut)
     for gap, status in ((5, 0x04), (6, 0xF4)):
         lab.check("AC-23", f"status in gap {gap}", await asked_in(lab, gap, 12), status)
@@ -51,7 +55,7 @@ async def stmc_ac_23_around_the_turn(dut: Any) -> None:
 
 @directed("AC-24", "STMC-STP-01")
 async def stmc_ac_24_emergency_stop(dut: Any) -> None:
-    """Given 100 steps, when 40 comes in gap 10, then no further step."""
+    """In a move of 100 steps, no step follows 40 in gap 10 (AC-24)."""
     lab = await Lab.start(dut)
     await asked_in(lab, 10, code=0x40)
     await lab.outcome("AC-24", 11, 0xC3, 0x58)
@@ -59,7 +63,7 @@ async def stmc_ac_24_emergency_stop(dut: Any) -> None:
 
 @directed("AC-25", "STMC-STP-02")
 async def stmc_ac_25_command_1_at_constant_speed(dut: Any) -> None:
-    """Given constant speed, when 41 or 40 comes in gap 2, then it stops at once."""
+    """At constant speed, 41 or 40 in gap 2 stops the motion immediately (AC-25)."""
     lab = await Lab.start(dut)
     for code in (0x41, 0x40):
         await lab.go(0x44, 256, 0x14)
@@ -70,7 +74,9 @@ async def stmc_ac_25_command_1_at_constant_speed(dut: Any) -> None:
 
 @directed("AC-26", "STMC-IN-01", "STMC-DEC-05")
 async def stmc_ac_26_deceleration_limit(dut: Any) -> None:
-    """Given 100 steps cw, when l3_n is low for 4 clk in gap 10, then the ramp down of W15."""
+    """In a cw move of 100 steps, l3_n low for 4 cycles in gap 10 leads to the deceleration of W15
+    (AC-26).
+    """
     lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(10)
@@ -80,7 +86,7 @@ async def stmc_ac_26_deceleration_limit(dut: Any) -> None:
 
 @directed("AC-27", "STMC-IN-03")
 async def stmc_ac_27_limits_behind(dut: Any) -> None:
-    """Given l4_n and l2_n low all the time, when a cw move runs, then they are ignored."""
+    """l4_n and l2_n, low all the time, do not affect a cw move (AC-27)."""
     lab = await Lab.start(dut, l4_n=0, l2_n=0)
     await lab.go(0x43, 100)
     await lab.outcome("AC-27", 100, 0x83, 0)
@@ -88,7 +94,7 @@ async def stmc_ac_27_limits_behind(dut: Any) -> None:
 
 @directed("AC-28", "STMC-DEC-06", "STMC-FIN-02")
 async def stmc_ac_28_stop_limit_in_the_ramp_down(dut: Any) -> None:
-    """Given command 6, when l3_n falls in gap 30 and l1_n soon after, then FIN 9E, at once."""
+    """In command 6, l3_n in gap 30 and l1_n soon after end the motion immediately with FIN 9E (AC-28)."""
     lab = await Lab.start(dut)
     await lab.go(0x46)
     await lab.in_gap(30)
@@ -102,7 +108,7 @@ async def stmc_ac_28_stop_limit_in_the_ramp_down(dut: Any) -> None:
 
 @directed("AC-29", "STMC-IN-03")
 async def stmc_ac_29_to_the_limit_ccw(dut: Any) -> None:
-    """Given command 6 ccw, when l4_n falls in gap 12, then 22 steps."""
+    """In command 6 ccw, l4_n in gap 12 leads to 22 steps (AC-29)."""
     lab = await Lab.start(dut)
     await lab.go(0x4E)
     await lab.in_gap(12)
@@ -112,7 +118,7 @@ async def stmc_ac_29_to_the_limit_ccw(dut: Any) -> None:
 
 @directed("AC-30", "STMC-IN-03", "STMC-MOT-07")
 async def stmc_ac_30_constant_speed_to_the_limit(dut: Any) -> None:
-    """Given command 5, when l3_n and then l1_n fall, then only l1_n ends it, after 50 steps."""
+    """In command 5, l3_n has no effect, and l1_n ends the motion after 50 steps (AC-30)."""
     lab = await Lab.start(dut)
     await lab.go(0x45, rate=10)
     await lab.in_gap(20)
@@ -124,7 +130,9 @@ async def stmc_ac_30_constant_speed_to_the_limit(dut: Any) -> None:
 
 @directed("AC-31", "STMC-MOT-05", "STMC-SGL-02", "STMC-MOT-10")
 async def stmc_ac_31_start_against_the_limit(dut: Any) -> None:
-    """Given l1_n low, when 42 and 43 come, then no step and an interrupt at once; 4A steps."""
+    """With l1_n low, 42 and 43 make no step and assert the interrupt immediately; 4A makes a step
+    (AC-31).
+    """
     lab = await Lab.start(dut)
     await lab.pins(l1_n=0)
     for script, steps, finish, rest in (
@@ -146,7 +154,7 @@ async def stmc_ac_31_start_against_the_limit(dut: Any) -> None:
 
 @directed("AC-32", "STMC-RUN-03")
 async def stmc_ac_32_reference_point(dut: Any) -> None:
-    """Given command 7, when cnp_n falls in gap 19, then 20 steps; again with it low, then none."""
+    """In command 7, cnp_n in gap 19 leads to 20 steps; started with cnp_n low, it makes no step (AC-32)."""
     lab = await Lab.start(dut)
     await lab.go(0x47, rate=10)
     await lab.in_gap(19)
@@ -158,7 +166,7 @@ async def stmc_ac_32_reference_point(dut: Any) -> None:
 
 @directed("AC-33", "STMC-IN-04")
 async def stmc_ac_33_deceleration_limit_of_command_7(dut: Any) -> None:
-    """Given command 7 cw, when l3_n falls in gap 5, then it stops at once."""
+    """In command 7 cw, l3_n in gap 5 stops the motion immediately (AC-33)."""
     lab = await Lab.start(dut)
     await lab.go(0x47, rate=10)
     await lab.in_gap(5)
@@ -168,7 +176,7 @@ async def stmc_ac_33_deceleration_limit_of_command_7(dut: Any) -> None:
 
 @directed("AC-34", "STMC-IN-05", "STMC-INP-01")
 async def stmc_ac_34_motor_off(dut: Any) -> None:
-    """Given a move, when mon falls in gap 9, then 10 steps; while it is low, no step at all."""
+    """mon that falls in gap 9 ends a move with 10 steps; while it is low, no step is made (AC-34)."""
     lab = await Lab.start(dut)
     await lab.go(0x44, 100, 10)
     await lab.in_gap(9)

@@ -19,7 +19,7 @@ NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edg
 @rtl_only(NANOSECONDS)
 @directed("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
 async def j105_ac_46_a_move(dut: Any) -> None:
-    """Given the board, when check 5 is played on the bus, then the same steps, drv with s, and irq."""
+    """On the board, check 5 leads to the same steps; drv follows s, and irq is asserted (AC-46)."""
     lab = await BoardLab.start(dut)
     bench = lab.bench
     await lab.init(0x1A, *A)
@@ -40,7 +40,9 @@ async def j105_ac_46_a_move(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("AC-46", "J105-01", "J105-03", builds=(F16, OTHER))
 async def j105_01_addresses(dut: Any) -> None:
-    """Given all addresses next to the board's, with and without aen, when used, then only two answer."""
+    """Of all addresses next to those of the board, with and without aen, only its two addresses respond
+    (J105-01).
+    """
     lab = await BoardLab.start(dut)
     master, base = lab.master, lab.base
     around = {base ^ bit for bit in (1 << n for n in range(1, 10))} | {base - 1, base + 2, base + 3}
@@ -61,7 +63,7 @@ async def j105_01_addresses(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-03", "J105-04", builds=(F16, F8))
 async def j105_03_bus_is_released_at_once(dut: Any) -> None:
-    """Given reads at any phase to clk, when ior_n, sa or aen ends them, then sd_oe falls with it."""
+    """When ior_n, sa or aen ends a read at any phase to clk, sd_oe falls immediately (J105-03)."""
     lab = await BoardLab.start(dut)
     bench = lab.bench
     await lab.host.command(0xC0)
@@ -90,7 +92,7 @@ async def j105_03_bus_is_released_at_once(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("AC-47", "J105-06", builds=(F16,))
 async def j105_ac_47_step_clock(dut: Any) -> None:
-    """Given divisor 141 on 48.675 kHz, when 21 steps run, then their distance is exact, without drift."""
+    """At divisor 141 on 48.675 kHz, 21 steps have exact distances, without drift (AC-47)."""
     lab = await BoardLab.start(dut)
     await lab.init(0x1A, 141, 141, 0)
     lab.since = lab.bench.now
@@ -106,7 +108,7 @@ async def j105_ac_47_step_clock(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-06", "J105-08", builds=(F8, OTHER))
 async def j105_06_other_clocks(dut: Any) -> None:
-    """Given other core clocks and step clocks, when a ramp runs, then every step is where F puts it."""
+    """With other core clocks and step clocks, every step of a ramp is where EXT_HZ puts it (J105-06)."""
     lab = await BoardLab.start(dut)
     ext_hz = int(dict(lab.cfg.extra).get("EXT_HZ", 48_675))
     await lab.init(0x1A, 20, 5, 8)
@@ -125,7 +127,9 @@ async def j105_06_other_clocks(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-07", "J105-02", "J105-06")
 async def j105_07_drivers(dut: Any) -> None:
-    """Given 5 phases, negative logic and the chopper, when it steps and rests, then drv is s[4:1]."""
+    """With 5 phases, negative logic and the chopper, drv is s[4:1], during steps and at standstill
+    (J105-07).
+    """
     lab = await BoardLab.start(dut)
     bench = lab.bench
     for code in (0x2F, 0x22, 0x2E):
@@ -151,7 +155,9 @@ async def j105_07_drivers(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-05", "STMC-MOT-09")
 async def j105_05_interrupt(dut: Any) -> None:
-    """Given bit 4, when motions end, then irq rises only without it and falls with 80, not by its byte."""
+    """irq rises at the end of a motion only without bit 4, and falls with 80, not with the read of its
+    byte (J105-05).
+    """
     lab = await BoardLab.start(dut)
     await lab.init(0x0A, 9, 3, 3)
     await lab.move(0x52)
@@ -167,10 +173,10 @@ async def j105_05_interrupt(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-02", "STMC-BAD-13")
 async def j105_02_short_cycles(dut: Any) -> None:
-    """Given cycles of 2 ns to 5 clk at any phase, then each write is done wholly or not at all."""
+    """Accesses of 2 ns to 5 cycles, at any phase, are executed completely or not at all (J105-02)."""
     lab = await BoardLab.start(dut)
     bench, master, rng = lab.bench, lab.master, lab.bench.rng
-    master.times = Times(late=0)  # data as early as the command: its length alone decides
+    master.times = Times(late=0)  # data with the strobe: only its length decides
     clk_ns = bench.period / 1000
     done = missed = 0
     for _ in range(150):
@@ -198,7 +204,9 @@ async def j105_02_short_cycles(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("J105-01", "STMC-INI-07", "STMC-BAD-12")
 async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
-    """Given a table build, when cycles are for others, masked or illegal, then it is not disturbed."""
+    """Accesses to other addresses, masked by aen, or illegal ones do not disturb a table build
+    (J105-01).
+    """
     lab = await BoardLab.start(dut)
     bench, master = lab.bench, lab.master
     await lab.host.init(0x1A, 255, 1, 60)
@@ -228,7 +236,9 @@ async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
 @rtl_only(NANOSECONDS)
 @directed("STMC-INP-01", "STMC-HLD-01", "STMC-CHP-01", "STMC-DS-03", "J105-07", builds=(OTHER,))
 async def j105_all_parameters(dut: Any) -> None:
-    """Given other values of all parameters, when it steps and rests, then codes and times are theirs."""
+    """With other values of all parameters, codes and times are those of the parameters (J105-07,
+    STMC-DS-03).
+    """
     lab = await BoardLab.start(dut)
     bench = lab.bench
     await lab.init(0x2A, 9, 3, 3)

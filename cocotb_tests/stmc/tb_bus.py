@@ -1,4 +1,4 @@
-"""Bus cycles and the mailbox: STMC-BUS, STMC-BAD-09..13."""
+"""Bus accesses and the mailbox: STMC-BUS, STMC-BAD-09..13."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ OFF = {"cs_n": 1, "rd_n": 1, "wr_n": 1}
 
 
 async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
-    """One host cycle that ignores clk: levels on, hold `ps`, strobes off, `gap_ps` of rest."""
+    """Make one host access that is asynchronous to clk: levels for `ps`, then strobes off for `gap_ps`."""
     lab.bench.set_between_edges(**levels)
     await Timer(ps, "ps")
     lab.bench.set_between_edges(**OFF)
@@ -24,7 +24,7 @@ async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
 
 @directed("STMC-BUS-01", "STMC-BUS-02", "STMC-BUS-03", "STMC-BUS-04", "STMC-BUS-05")
 async def stmc_bus_01_access_table(dut: Any) -> None:
-    """Given all levels of cs_n, a0 and the strobes, when used, then only the selected register is touched."""
+    """For all levels of cs_n, a0 and the strobes, only the selected register is accessed (STMC-BUS-01)."""
     lab = await Lab.start(dut, None)
     bench, host = lab.bench, lab.host
     lab.check("STMC-BUS-04", "a0 = 0 writes data: error 3", await host.data(0x43), 0xB0)
@@ -50,7 +50,7 @@ async def stmc_bus_01_access_table(dut: Any) -> None:
 
 @directed("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12")
 async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
-    """Given a write that a read strobe interrupts, when both are low, then the byte so far counts, once."""
+    """If a read strobe interrupts a write, the byte sampled before is stored once (STMC-BUS-06)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     since = bench.set(a0=COMMAND, d_i=0x0A, cs_n=0, wr_n=0)
@@ -75,7 +75,7 @@ async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
 
 @directed("STMC-BUS-10")
 async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
-    """Given writes that end by wr_n, cs_n or rd_n, when data change then, then the old byte counts."""
+    """If data change when wr_n, cs_n or rd_n ends a write, the byte before is stored (STMC-BUS-10)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     for n, levels in enumerate(({"wr_n": 1}, {"cs_n": 1}, {"rd_n": 0}, {"wr_n": 1, "cs_n": 1})):
@@ -94,14 +94,14 @@ async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BUS-11", builds=(F16, F8X20, F200))
 async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
-    """Given the shortest legal cycles at any phase to clk, when bytes go in, then none is lost."""
+    """In the shortest legal accesses, at any phase to clk, no byte is lost (STMC-BUS-11)."""
     lab = await Lab.start(dut, None)
     bench = lab.bench
     clk = bench.period
     for part in range(8):
         await bench.align()
         await Timer(clk * part // 16 * 2 + 2 * (clk // 64), "ps")
-        # Garbage until 2 clk before the rise.
+        # Invalid levels until 2 cycles before the rise.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(clk + 2, "ps")
         await strobe(lab, 2 * clk, 12 * clk, a0=1, d_i=0x0A, cs_n=0, wr_n=0)
@@ -117,7 +117,9 @@ async def stmc_bus_11_shortest_cycles(dut: Any) -> None:
 
 @directed("STMC-BUS-12", "STMC-BUS-13")
 async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
-    """Given writes, when IBF falls, then the status shows every effect of the byte; pins follow soon."""
+    """When IBF falls, the status shows every effect of the byte, and the pins follow within their limit
+    (STMC-BUS-12, STMC-BUS-13).
+    """
     lab = await Lab.start(dut)
     bench, host = lab.bench, lab.host
     script = ((1, 0x43, 0x30), (0, 9, 0x20), (0, 0, 0x10), (0, 0, BUSY), (1, 0x40, 0x00), (1, 0x81, OBF))
@@ -145,7 +147,9 @@ async def stmc_bus_12_ibf_and_effects(dut: Any) -> None:
 
 @directed("STMC-BUS-14", "STMC-BAD-09")
 async def stmc_bus_14_newest_byte_wins(dut: Any) -> None:
-    """Given two writes 5 clk and more apart, when nothing is polled, then the newer one is always taken."""
+    """Of two writes at least 5 cycles apart, without polling, the newer one is always accepted
+    (STMC-BUS-14).
+    """
     lab = await Lab.start(dut, None)
     for apart in range(5, 16):
         await lab.reset()
@@ -160,7 +164,7 @@ async def stmc_bus_14_newest_byte_wins(dut: Any) -> None:
 
 @directed("STMC-BUS-20")
 async def stmc_bus_20_read_cycle(dut: Any) -> None:
-    """Given status reads of many lengths, when they run, then d_o is there in time and does not change."""
+    """In status reads of many lengths, d_o is valid in time and does not change (STMC-BUS-20)."""
     lab = await Lab.start(dut)
     bench = lab.bench
     for length in (5, 6, 9, 40):
@@ -183,7 +187,7 @@ async def stmc_bus_20_read_cycle(dut: Any) -> None:
 
 @directed("STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-REM-02", "STMC-ST-04")
 async def stmc_bus_21_answers(dut: Any) -> None:
-    """Given answers of one and three bytes, when read, then OBF falls and rises as many times as needed."""
+    """During reads of answers of one and three bytes, OBF falls and rises once per byte (STMC-BUS-21)."""
     lab = await Lab.start(dut)
     bench, host = lab.bench, lab.host
     await lab.go(0x44, 0x030201, 3)
@@ -205,7 +209,7 @@ async def stmc_bus_21_answers(dut: Any) -> None:
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("STMC-BAD-13")
 async def stmc_bad_13_short_strobes(dut: Any) -> None:
-    """Given strobes that are too short, when they come at any phase, then nothing or one whole write."""
+    """Strobes that are too short, at any phase, cause no write or one complete write (STMC-BAD-13)."""
     lab = await Lab.start(dut)
     bench = lab.bench
     clk = bench.period
@@ -225,7 +229,7 @@ async def stmc_bad_13_short_strobes(dut: Any) -> None:
 
 @directed("STMC-BUS-12", "STMC-BUS-13", "STMC-DS-14", builds=(D16,))
 async def stmc_bus_13_datasheet(dut: Any) -> None:
-    """Given DATASHEET timing, when reads and errors come at rest, then they are as fast as in FAST."""
+    """In DATASHEET, reads and errors at rest are as fast as in FAST (STMC-BUS-13, STMC-DS-14)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     for byte, after in ((0x81, OBF), (0xC0, 0x80 | OBF), (0x43, 0x30 | OBF), (0x83, OBF), (0x40, 0x80 | OBF)):
         await lab.host.write(COMMAND, byte, gap=C_EVENT_LATEST)

@@ -1,4 +1,4 @@
-"""Stop-time chopper, HOLD and the outputs register: STMC-CHP, STMC-HLD, STMC-OUT-02."""
+"""Chopper at standstill, HOLD and the outputs register: STMC-CHP, STMC-HLD, STMC-OUT-02."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
 
 
 def xt(lab: Lab, name: str, default: int) -> int:
-    """A time parameter of the build in crystal periods."""
+    """Return a time parameter of the build in crystal periods."""
     return int(dict(lab.cfg.extra).get(name, default))
 
 
 def check_chopping(lab: Lab, rule: str, since: int, pattern: int, off: int) -> None:
-    """Every whole phase since an edge is CHOP_ON or CHOP_OFF to 4 crystal periods + 1 clk, without drift."""
+    """Check that every complete phase since an edge is CHOP_ON or CHOP_OFF within 4 crystal periods + 1
+    cycle, without drift.
+    """
     slack = lab.cfg.cyc(4) + 1
     on_xt, off_xt = xt(lab, "CHOP_ON_XT", 1_040), xt(lab, "CHOP_OFF_XT", 1_740)
     rows = lab.stretches(since)
@@ -37,7 +39,7 @@ def check_chopping(lab: Lab, rule: str, since: int, pattern: int, off: int) -> N
 
 @directed("STMC-CHP-01", builds=(F16, F12, ODD))
 async def stmc_chp_01_phases(dut: Any) -> None:
-    """Given bit 5 and each logic, when the part rests, then on and off times repeat without drift."""
+    """With bit 5, on and off times repeat without drift at standstill, for each logic (STMC-CHP-01)."""
     lab = await Lab.start(dut, None, clock=0)
     for code, pattern, off in ((0x2A, 0b00011, 0b00000), (0x22, 0b11100, 0b11111), (0x2F, 0b00011, 0)):
         await lab.reset()
@@ -51,7 +53,9 @@ async def stmc_chp_01_phases(dut: Any) -> None:
 
 @directed("STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-02", builds=(F16, F12))
 async def stmc_chp_02_motion(dut: Any) -> None:
-    """Given chopping, when motions start in any phase, then full pattern, then a whole on-time at the end."""
+    """A motion that starts in any phase of the chopper has the full pattern, and a complete on-time
+    follows its end (STMC-CHP-02).
+    """
     lab = await Lab.start(dut, CHOP, clock=0)
     on, slack = lab.cfg.cyc(1_040), lab.cfg.cyc(4) + 1
     table = [0b00011, 0b00110, 0b01100, 0b01001]
@@ -75,7 +79,7 @@ async def stmc_chp_02_motion(dut: Any) -> None:
 
 @directed("STMC-CHP-02", "STMC-INI-04", "STMC-INI-07")
 async def stmc_chp_02_initialisations(dut: Any) -> None:
-    """Given chopping, when bit 5 is taken away and set again, then it changes when the build is complete."""
+    """When bit 5 is cleared or set again, the chopping changes when the build is complete (STMC-CHP-02)."""
     lab = await Lab.start(dut, CHOP, clock=0)
     await lab.bench.edge("s", 0)
     await lab.host.init(0x0A, 20, 5, 8)
@@ -93,7 +97,7 @@ async def stmc_chp_02_initialisations(dut: Any) -> None:
     await lab.ready()
     off = await lab.bench.edge("s", 0)
     lab.window("STMC-CHP-01", "a full on-time after the build", off - since, 1_040, 1_040 + 6_000)
-    # A refused one leaves the old bit 5 in force.
+    # A rejected initialisation leaves the old bit 5 active.
     await lab.host.init(0x0A, 5, 20, 8)
     since = lab.bench.now
     await lab.bench.clocks(9_000)
@@ -102,7 +106,7 @@ async def stmc_chp_02_initialisations(dut: Any) -> None:
 
 @directed("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01")
 async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
-    """Given chopping and l1_n low, when 42 comes, then a full on-time begins at its end all the same."""
+    """If 42 makes no step because l1_n is low, a complete on-time still begins at its end (STMC-CHP-01)."""
     lab = await Lab.start(dut, CHOP, clock=0)
     await lab.pins(l1_n=0)
     for wait in (0, 900, 1_700):
@@ -117,7 +121,9 @@ async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
 
 @directed("STMC-OUT-02", "STMC-OUT-01", builds=(SHEET,))
 async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
-    """While chopping, each read of the outputs returns the pattern, and HOLD by its pin."""
+    """While chopping, each read of the outputs returns the unchopped pattern, and HOLD as its pin
+    (STMC-OUT-02).
+    """
     lab = await Lab.start(dut, CHOP, clock=0)
     for wait in (1, 300, 500, 700, 900, 1_100):
         await lab.bench.clocks(wait)
@@ -131,7 +137,9 @@ async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
 
 @directed("STMC-HLD-01", "STMC-HLD-02", builds=(SHEET, ODD))
 async def stmc_hld_01_hold(dut: Any) -> None:
-    """Given HOLD_XT, when motions end, restart, do nothing, then hold rises so long after the last end."""
+    """hold rises HOLD_XT crystal periods after the last end, also if motions restart or make no step
+    (STMC-HLD-01).
+    """
     lab = await Lab.start(dut, INTERNAL, clock=0)
     delay = lab.cfg.cyc(xt(lab, "HOLD_XT", 544_000))
     for code, n, rate in ((0x42, None, None), (0x44, 3, 1), (0x43, 1, None)):
@@ -158,7 +166,7 @@ async def stmc_hld_01_hold(dut: Any) -> None:
 
 @directed("STMC-HLD-01")
 async def stmc_hld_01_default(dut: Any) -> None:
-    """Given the default, when a step has ended, then hold rises 34 ms later."""
+    """With the default, hold rises 34 ms after a step (STMC-HLD-01)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.go(0x42)
     end = await lab.ended()

@@ -1,4 +1,4 @@
-"""DATASHEET timing: STMC-DS-01..14. Times are -0/+16 clk, plus up to 2 clk to a pin."""
+"""DATASHEET timing: STMC-DS-01..14. Times are -0/+16 cycles, plus up to 2 cycles to a pin."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ ALL_CLOCKS = (D16, D25X8)
 
 
 def after(lab: Lab, rule: str, what: str, got: int, xt: int, pin: int = PIN) -> None:
-    """`got` clk is CYC(xt), -0/+16, plus the way to the pin."""
+    """Check that `got` cycles are CYC(xt), -0/+16, plus the delay to the pin."""
     nominal = lab.cfg.cyc(xt)
     lab.window(rule, what, got, nominal, nominal + TOLERANCE + pin)
 
 
 async def event(lab: Lab, code: int, n: int | None = None, rate: int | None = None) -> int:
-    """Start a motion; returns the write event of its last byte."""
+    """Start a motion; return the write event of its last byte."""
     return await lab.go(code, n, rate, poll=False) + WRITE_EVENT
 
 
 async def taken(lab: Lab, rule: str, since: int, xt: int, code: int = 0x80) -> None:
-    """A command written now is taken so long after an edge, not before."""
+    """Check that a command written now is accepted CYC(xt) cycles after `since`, not before."""
     nominal = since + lab.cfg.cyc(xt)
     await lab.host.write(1, code)
     await lab.bench.until(max(lab.bench.now, nominal - 20))
@@ -38,14 +38,16 @@ async def taken(lab: Lab, rule: str, since: int, xt: int, code: int = 0x80) -> N
 
 
 async def rest(lab: Lab) -> None:
-    """End of motion, its interrupt read, all windows open."""
+    """Wait for the end of the motion, read its interrupt, and wait until all windows are closed."""
     await lab.host.poll(BUSY | IBF, 0)
     await lab.finish()
 
 
 @directed("STMC-DS-01", "STMC-DS-04", "STMC-DS-05", "STMC-DS-06", builds=ALL_CLOCKS)
 async def stmc_ds_01_starts(dut: Any) -> None:
-    """Given each motion command, when its last byte is in, then start and step 0 come at their times."""
+    """For each motion command, start and step 0 occur at their times after the last byte (STMC-DS-01,
+    STMC-DS-04).
+    """
     lab = await Lab.start(dut, INTERNAL, clock=0)
     for code, n, rate, start, step in (
         (0x42, None, None, 432, 1_376),
@@ -70,7 +72,9 @@ async def stmc_ds_01_starts(dut: Any) -> None:
 
 @directed("STMC-DS-02", "STMC-DS-03", "STMC-DS-14", "STMC-INI-04", "STMC-INI-08", builds=(D16,))
 async def stmc_ds_02_initialisations(dut: Any) -> None:
-    """Given initialisations, when the 4th byte is in, then pattern and completion come at their times."""
+    """Pattern and completion of an initialisation occur at their times after the 4th byte (STMC-DS-02,
+    STMC-DS-03).
+    """
     lab = await Lab.start(dut, None, clock=0)
     for first, (d1, d2, pa) in enumerate(((20, 5, 8), (20, 20, 0), (255, 1, 400))):
         for byte in (d1, d2, pa & 255):
@@ -101,7 +105,7 @@ async def stmc_ds_02_initialisations(dut: Any) -> None:
 
 @directed("STMC-DS-06", "STMC-DS-13", builds=ALL_CLOCKS)
 async def stmc_ds_06_single_step(dut: Any) -> None:
-    """Given a single step, when it ends, then int_n and the taking of bytes are 112 us after its byte."""
+    """int_n falls, and bytes are accepted again, 112 us after the byte of a single step (STMC-DS-06)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     t = await event(lab, 0x42)
     await lab.pulse(1)
@@ -116,7 +120,9 @@ async def stmc_ds_06_single_step(dut: Any) -> None:
 
 @directed("STMC-DS-07", "STMC-DS-08", "STMC-DS-13", builds=(D16,))
 async def stmc_ds_07_normal_ends(dut: Any) -> None:
-    """Given motions of commands 3, 4 and 7, when they end normally or at CNP, then 26 us, bytes at 156 us."""
+    """After a normal end, or one by CNP, of commands 3, 4 and 7, int_n falls after 26 us, and bytes are
+    accepted after 156 us (STMC-DS-07, STMC-DS-08).
+    """
     lab = await Lab.start(dut, INTERNAL, clock=0)
     for code, n, rate in ((0x43, 3, None), (0x44, 2, 4), (0x47, None, 4)):
         await event(lab, code, n, rate)
@@ -134,7 +140,9 @@ async def stmc_ds_07_normal_ends(dut: Any) -> None:
 
 @directed("STMC-DS-09", "STMC-DS-10", "STMC-DS-11", builds=ALL_CLOCKS)
 async def stmc_ds_09_stops(dut: Any) -> None:
-    """Given motions, when a limit, mon or 40 stops them, then no step more, the end at its time."""
+    """When a limit, mon or 40 stops a motion, no step follows, and the end occurs at its time
+    (STMC-DS-09, STMC-DS-10).
+    """
     lab = await Lab.start(dut, INTERNAL, clock=0)
     for code, n, rate, stop, end_xt, open_xt in (
         (0x43, 100, None, "l1_n", 3_200, 3_200),
@@ -160,7 +168,7 @@ async def stmc_ds_09_stops(dut: Any) -> None:
 
 @directed("STMC-DS-09", "STMC-DS-11", builds=(D16,))
 async def stmc_ds_09_ramp_down(dut: Any) -> None:
-    """Given a request, when the ramp down has ended, then the end follows 0.2 ms after its last step."""
+    """After a requested deceleration, the end follows its last step by 0.2 ms (STMC-DS-09)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     for i, how in ((3, "c 41"), (2, "l3_n"), (5, "c 41")):
         n = 12 if i == 5 else 100
@@ -180,7 +188,7 @@ async def stmc_ds_09_ramp_down(dut: Any) -> None:
 
 @directed("STMC-DS-12", "STMC-DS-14", "STMC-MOT-05", builds=(D16,))
 async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
-    """Given a cause at the start, or a stop that waits for it, when it starts, then no step."""
+    """A cause at the start, or a stop that waits for the start, prevents all steps (STMC-DS-12)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     await lab.pins(l1_n=0)
     for code, n, rate, start, end_xt in (
@@ -202,7 +210,9 @@ async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-DS-13", "STMC-BUS-14", builds=(D16,))
 async def stmc_ds_13_a_newer_byte(dut: Any) -> None:
-    """Given a byte that waits for the end, when a newer one is written, then that one is judged."""
+    """If a newer byte replaces a byte that waits for the end, only the newer one is checked
+    (STMC-DS-13).
+    """
     lab = await Lab.start(dut, INTERNAL, clock=0)
     await event(lab, 0x44, 2, 3)
     last = await lab.pulse(2)
@@ -216,7 +226,7 @@ async def stmc_ds_13_a_newer_byte(dut: Any) -> None:
 
 @directed("STMC-DS-04", "STMC-DS-11", "STMC-DS-12", builds=(D16,))
 async def stmc_ds_04_external_clock(dut: Any) -> None:
-    """Given the external clock, when moves run, then step 0 is the first tick from its time on."""
+    """With the external clock, step 0 is on the first tick after its time (STMC-DS-04)."""
     lab = await Lab.start(dut)
     for code, n, rate, xt in ((0x43, 12, None, 3_200), (0x44, 5, 3, 3_104)):
         t = await event(lab, code, n, rate)

@@ -1,4 +1,4 @@
-"""Fast step clocks against the formula (STMC-CLK-04)."""
+"""Fast step clocks compared with the formula (STMC-CLK-04)."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ from .lab import Lab
 
 
 def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:
-    """Divisors - 1 of ramp (D1 - 1, D2 - 1, PA) at the given levels."""
+    """Return the divisors - 1 of the ramp (D1 - 1, D2 - 1, PA) at the given levels."""
     slow, fast, pa = ramp
     return [divisor((slow + 1, fast + 1, pa), v) - 1 for v in which]
 
 
 @directed("STMC-CLK-02", "STMC-CLK-04", builds=(F16, F8X20), uncompared=TOO_MANY)
 async def stmc_clk_04_sweep(dut: Any) -> None:
-    """Given edges 4 to 17 clk apart and D2 1 to 5, when moves turn round anywhere, then gaps are exact."""
+    """With edges 4 to 17 cycles apart, D2 1 to 5, and any deceleration point, gaps are exact
+    (STMC-CLK-04).
+    """
     lab = await Lab.start(dut, None, clock=0)
     rng = lab.bench.rng
     await lab.init(0x1A, 10, 5, 4)

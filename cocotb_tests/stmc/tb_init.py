@@ -1,4 +1,4 @@
-"""Initialisation and excitation: STMC-INI, STMC-EXC, STMC-RMP as the part shows it, PHASE_IDLE."""
+"""Initialisation and excitation: STMC-INI, STMC-EXC, visible effects of STMC-RMP, PHASE_IDLE."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WRONG = ((0, 0, 8), (0, 5, 8), (20, 0, 8), (5, 20, 8), (19, 20, 0), (254, 255, 6
 
 @directed("STMC-INI-02", "STMC-BAD-05", "STMC-ST-03")
 async def stmc_ini_02_illegal_divisors(dut: Any) -> None:
-    """Given illegal divisors, when the 4th byte is in, then error 5 and no effect."""
+    """Illegal divisors return error 5 with the 4th byte and have no effect (STMC-INI-02)."""
     lab = await Lab.start(dut, None)
     for good in (False, True):
         if good:
@@ -33,7 +33,7 @@ async def stmc_ini_02_illegal_divisors(dut: Any) -> None:
 
 @directed("STMC-INI-02", "STMC-MOV-04", "STMC-INI-01")
 async def stmc_ini_02_small_and_flat(dut: Any) -> None:
-    """Given divisors 1..4, PA 0 and 65535, D1 = D2, when moves run, then all are accepted and right."""
+    """Divisors 1..4, PA 0 and 65535, and D1 = D2 are accepted, and their moves are right (STMC-INI-02)."""
     lab = await Lab.start(dut)
     for d1, d2, pa, n in (
         (4, 3, 2, 8),
@@ -55,7 +55,7 @@ async def stmc_ini_02_small_and_flat(dut: Any) -> None:
 
 @directed("STMC-INI-04", "STMC-INI-05", "STMC-INI-06", "STMC-EXC-03")
 async def stmc_ini_04_frozen_bits(dut: Any) -> None:
-    """Given a part set up, when others are sent, then bits 3..0 stay; a reset frees them."""
+    """After the first initialisation, later ones do not change bits 3..0 until a reset (STMC-INI-04)."""
     lab = await Lab.start(dut)
     await lab.move(0x42)
     fin = await lab.finish()
@@ -77,7 +77,7 @@ async def stmc_ini_04_frozen_bits(dut: Any) -> None:
 
 @directed("STMC-INI-04", "STMC-INI-07")
 async def stmc_ini_04_data_taken_anew(dut: Any) -> None:
-    """Given other divisors and the other clock, when sent again, then the next move has them."""
+    """After a second initialisation, the next move uses its divisors and clock (STMC-INI-04)."""
     lab = await Lab.start(dut)
     await lab.init(0x1A, 30, 10, 4)
     await lab.move(0x43, 10)
@@ -89,7 +89,9 @@ async def stmc_ini_04_data_taken_anew(dut: Any) -> None:
 
 @directed("STMC-INI-07", "STMC-FSM-03", "STMC-BUS-14")
 async def stmc_ini_07_build(dut: Any) -> None:
-    """Given builds of all lengths, when a motion waits, then it is judged afterwards and runs right."""
+    """A motion that waits for a table build of any length is checked after it and is right
+    (STMC-INI-07).
+    """
     lab = await Lab.start(dut)
     for d1, d2, pa in ((255, 1, 65535), (255, 254, 65535), (2, 1, 1), (200, 3, 255), (20, 20, 9), (9, 3, 0)):
         edge0 = (await lab.host.init(0x1A, d1, d2, pa), lab.bench.now)[1]
@@ -104,7 +106,7 @@ async def stmc_ini_07_build(dut: Any) -> None:
 
 @directed("STMC-INI-07", "STMC-FSM-03", "STMC-BAD-16")
 async def stmc_ini_07_reset_in_the_build(dut: Any) -> None:
-    """Given a build, when a reset comes at any moment of it, then the next initialisation is good."""
+    """After a reset at any time of a build, the next initialisation works (STMC-INI-07, STMC-BAD-16)."""
     lab = await Lab.start(dut)
     for wait in (2, 40, 500, 3_000):
         await lab.host.init(0x1A, 255, 5, 400)
@@ -118,7 +120,7 @@ async def stmc_ini_07_reset_in_the_build(dut: Any) -> None:
 
 @directed("STMC-INI-06", "STMC-INI-08", builds=(F16, SHEET, D16))
 async def stmc_ini_06_first_pattern(dut: Any) -> None:
-    """Given the idle level, when the first initialisation goes in, then position 0 appears, BUSY stays 0."""
+    """The first initialisation replaces the idle level with position 0; BUSY stays 0 (STMC-INI-06)."""
     lab = await Lab.start(dut, None, clock=0)
     idle = 0x1F if lab.sheet else 0
     lab.check("STMC-INI-06", "s before", lab.bench.level("s"), idle)
@@ -145,7 +147,7 @@ async def stmc_ini_06_first_pattern(dut: Any) -> None:
 
 @directed("STMC-EXC-01", "STMC-EXC-02", "STMC-EXC-04", "STMC-EXC-05", "STMC-OUT-01", "STMC-OUT-02")
 async def stmc_exc_01_all_tables(dut: Any) -> None:
-    """Given each type, mode, logic, when it runs round twice and back, then every pattern of the table."""
+    """For each type, mode and logic, two turns and back show every pattern of the table (STMC-EXC-01)."""
     lab = await Lab.start(dut, None)
     for low in STEPS:
         for logic in (8, 0):

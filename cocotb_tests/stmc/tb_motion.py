@@ -10,7 +10,7 @@ from cocotb_tests.harness import BUSY, F16, directed
 from .figures import ALL, EXT, F8X20, F12, F200, INTERNAL, MOST, ODD, STANDARD, SWITCHES, T0, divisor, gaps
 from .lab import END_LATEST, Lab
 
-# Command 2 to 7 with n = 4 or without a count.
+# Commands 2 to 7 with n = 4 or without a count.
 MOTIONS = (
     (0x42, None, None),
     (0x43, 4, None),
@@ -26,7 +26,7 @@ CLOCKS = (F16, F12, F200, F8X20, ODD)
 
 @directed("STMC-MOT-06", "STMC-CLK-01", "STMC-CLK-03", "STMC-MOV-02", builds=CLOCKS)
 async def stmc_clk_01_internal_clock(dut: Any) -> None:
-    """Given any core and crystal clock, when moves run, then T0 and every step are where the formula says."""
+    """For any core and crystal clock, T0 and every step are where the formula states (STMC-CLK-01)."""
     lab = await Lab.start(dut, INTERNAL, clock=0)
     t0 = lab.cfg.cyc(T0)
     for n in (4, 7):
@@ -42,7 +42,9 @@ async def stmc_clk_01_internal_clock(dut: Any) -> None:
 
 @directed("STMC-MOT-08", "STMC-MOT-09", "STMC-FIN-01")
 async def stmc_mot_08_normal_end(dut: Any) -> None:
-    """Given complete motions, when the last step is made, then BUSY falls and int_n follows at once."""
+    """After the last step of a complete motion BUSY falls, and int_n falls at the same time
+    (STMC-MOT-08).
+    """
     lab = await Lab.start(dut)
     for code, n, rate in (
         (0x42, None, None),
@@ -63,7 +65,7 @@ async def stmc_mot_08_normal_end(dut: Any) -> None:
 
 @directed("STMC-MOT-06", "STMC-CLK-02", "STMC-CLK-03")
 async def stmc_clk_02_external_clock(dut: Any) -> None:
-    """Given uneven external ticks, when moves run, then step 0 is on a tick after T0, gaps count ticks."""
+    """With uneven external ticks, step 0 is on a tick after T0, and gaps count ticks (STMC-CLK-02)."""
     lab = await Lab.start(dut, clock=0)
     periods = [64, 16, 33, 20, 90, 17, 16, 24, 41, 128]
     lab.bench.external_clock((p for _ in repeat(0) for p in periods), high=5)
@@ -82,7 +84,7 @@ async def stmc_clk_02_external_clock(dut: Any) -> None:
 
 @directed("STMC-SGL-01", "STMC-SGL-03")
 async def stmc_sgl_01_single_step_without_ticks(dut: Any) -> None:
-    """Given an external clock that stands still, when 42 comes, then the step is made after T0."""
+    """If the external clock is stopped, the step of 42 occurs after T0 (STMC-SGL-01)."""
     lab = await Lab.start(dut, clock=0)
     for code in (0x42, 0x4A, 0x6A, 0x52):
         begin = lab.bench.now
@@ -96,7 +98,7 @@ async def stmc_sgl_01_single_step_without_ticks(dut: Any) -> None:
 
 @directed("STMC-SGL-02", "STMC-IN-03", "STMC-IN-05", "STMC-IN-06", "STMC-INP-01")
 async def stmc_sgl_02_single_steps_and_switches(dut: Any) -> None:
-    """Given each switch active, when single steps both ways are sent, then limit and mon stop them."""
+    """Of all switches, only the limit of the direction and mon prevent single steps (STMC-SGL-02)."""
     lab = await Lab.start(dut, clock=0)
     for pin, bit in zip(SWITCHES, (0x08, 0x04, 0x02, 0x01, 0x80, 0x40), strict=True):
         since = lab.bench.now
@@ -116,7 +118,9 @@ async def stmc_sgl_02_single_steps_and_switches(dut: Any) -> None:
     "STMC-MOT-05", "STMC-MOT-04", "STMC-RUN-03", "STMC-IN-03", "STMC-IN-04", "STMC-DEC-03", "STMC-BAD-14"
 )
 async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
-    """Given each switch active at the start, when each motion both ways starts, then as table 7.3 says."""
+    """With each switch active at the start, each motion in both directions acts as table 7.3 states
+    (STMC-MOT-05).
+    """
     lab = await Lab.start(dut)
     for pin in (*SWITCHES, "all"):
         active = SWITCHES[:5] if pin == "all" else (pin,)
@@ -142,7 +146,7 @@ async def stmc_mot_05_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-MOT-05", "STMC-MOT-10", "STMC-HLD-02")
 async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
-    """Given mon low, when a motion is sent, then BUSY is up for at most 8 clk, and int_n falls."""
+    """With mon low, a motion sets BUSY for at most 8 cycles, and int_n falls (STMC-MOT-05)."""
     lab = await Lab.start(dut)
     await lab.pins(mon=0)
     for masked in (0, 0x10):
@@ -161,7 +165,9 @@ async def stmc_mot_05_times_without_a_step(dut: Any) -> None:
 
 @directed("STMC-MOT-03", "STMC-BAD-07")
 async def stmc_mot_03_divisor_0(dut: Any) -> None:
-    """Given divisor 0 in commands 4, 5, 7, when the last byte is in, then error 5, nothing changes."""
+    """Divisor 0 in commands 4, 5, 7 returns error 5 with the last byte and changes nothing
+    (STMC-MOT-03).
+    """
     lab = await Lab.start(dut)
     await lab.move(0x4B, 3)
     since = lab.bench.now
@@ -177,7 +183,7 @@ async def stmc_mot_03_divisor_0(dut: Any) -> None:
 
 @directed("STMC-RUN-02", "STMC-RUN-01", "STMC-MOT-04", "STMC-MOT-07")
 async def stmc_run_02_counts(dut: Any) -> None:
-    """Given moves of many lengths, when they stop after two steps, then REM is what was sent less two."""
+    """If a move of any length stops after two steps, REM is the number sent less two (STMC-RUN-02)."""
     lab = await Lab.start(dut)
     for n in (3, 256, 257, 65_536, 65_537, ALL):
         await lab.go(0x44, n, 6)
@@ -193,7 +199,7 @@ async def stmc_run_02_counts(dut: Any) -> None:
 
 @directed("STMC-CLK-04", "STMC-BAD-15")
 async def stmc_clk_04_too_fast_a_clock(dut: Any) -> None:
-    """Given gaps far below 64 clk, when moves and stops run, then steps, order, FIN and REM are right."""
+    """With gaps far below 64 cycles, steps, their order, FIN and REM are right (STMC-CLK-04)."""
     lab = await Lab.start(dut, clock=0)
     await lab.init(0x1A, 4, 1, 8)
     for period in (4, 6, 9):
@@ -222,7 +228,7 @@ async def stmc_clk_04_too_fast_a_clock(dut: Any) -> None:
 
 @directed("STMC-CLK-05", "STMC-BAD-15", "STMC-IN-01")
 async def stmc_clk_05_a_clock_that_stops(dut: Any) -> None:
-    """Given a clock that stops in mid-move, when limits, 41 and reads come, then they work."""
+    """If the clock stops during a move, limits, 41 and reads still work (STMC-CLK-05)."""
     lab = await Lab.start(dut, clock=0)
     await lab.go(0x43, 100)
     await lab.bench.clocks(120)
@@ -245,7 +251,9 @@ async def stmc_clk_05_a_clock_that_stops(dut: Any) -> None:
 
 @directed("STMC-BAD-16", "STMC-INI-04")
 async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
-    """Given motions, when rst_n falls between two edges at several moments, then everything is as new."""
+    """If rst_n falls between two edges during a motion, at several times, all is in its reset state
+    (STMC-BAD-16).
+    """
     lab = await Lab.start(dut)
     for moment in (0, 1, 2):
         await lab.go(0x43, 50)
@@ -254,7 +262,7 @@ async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
         await lab.bench.clocks(3)
         lab.check("STMC-BAD-16", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
         lab.set(rst_n=1)
-        await lab.bench.clocks(4)  # by then bytes are accepted (ports, rst_n)
+        await lab.bench.clocks(4)  # bytes are accepted by then (ports, rst_n)
         lab.check("STMC-BAD-16", "statuses", await lab.statuses("c 42 d 00"), [0xA0, 0xB0])
         lab.check("STMC-BAD-16", "FIN", await lab.finish(), 0x80)
         await lab.init(*STANDARD)
@@ -262,7 +270,7 @@ async def stmc_bad_16_reset_in_motion(dut: Any) -> None:
 
 @directed("STMC-RMP-01", "STMC-RMP-02", "STMC-RMP-03")
 async def stmc_rmp_01_ramps(dut: Any) -> None:
-    """Given the reference ramps, when whole moves run, then every level has its reference value."""
+    """In complete moves with the reference ramps, every level has its reference value (STMC-RMP-01)."""
     lab = await Lab.start(dut)
     table = {
         (10, 5, 4): [10, 8, 6, 6, 5],
@@ -282,7 +290,7 @@ async def stmc_rmp_01_ramps(dut: Any) -> None:
 
 @directed("STMC-INI-02", "STMC-RMP-02", "STMC-MOV-02")
 async def stmc_rmp_02_the_longest_ramp(dut: Any) -> None:
-    """Given PA = 65535, when all its levels are climbed, then the speed stays at the top."""
+    """With PA = 65535, the speed stays at its maximum after all levels (STMC-INI-02, STMC-RMP-02)."""
     lab = await Lab.start(dut, (0x1A, 2, 1, 65_535))
     # x(k) = 1 from the first k on with 7 * 65535 <= 27 * (k - 1): the threshold form of the rule.
     change = 1 + 7 * 65_535 // 27

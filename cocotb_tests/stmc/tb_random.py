@@ -1,4 +1,4 @@
-"""Random hosts, compared with the golden model edge by edge, and noise that the core must survive."""
+"""Constrained-random hosts, compared with the golden model edge by edge, and noise on all pins."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ CODES = (
     least=10,
 )
 async def stmc_random_host(dut: Any, seed: int) -> None:
-    """Given a random host, when it has played its list, then all outputs changed as in the golden model."""
+    """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
     side = await start_bench(dut, STMC, **plan.pins)
     note(side, describe(plan.actions))
@@ -46,7 +46,7 @@ async def stmc_random_host(dut: Any, seed: int) -> None:
 
 @random_test("STMC-BAD-13", "STMC-BAD-14", "STMC-BAD-15", "STMC-CLK-04", "STMC-INI-04", uncompared=UNCOMPARED)
 async def stmc_random_chaos(dut: Any, seed: int) -> None:
-    """Given noise on all input pins, when it ends, then 40 and an initialisation recover the core."""
+    """After noise on all input pins, 40 and an initialisation make the core work again."""
     bench = await Bench.start(dut, STMC, seed=seed)
     noise = Noise(bench, STROBES, CODES)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
@@ -54,7 +54,7 @@ async def stmc_random_chaos(dut: Any, seed: int) -> None:
     host = HostBus(bench, timeout=bench.config.cyc(264_000 + 209 * 65_536))
     for _ in range(4):
         await host.poll(IBF, 0)
-        # In DATASHEET timing a motion taken just now raises BUSY up to 112 us later.
+        # In DATASHEET timing, a motion that was just accepted raises BUSY up to 112 us later.
         await bench.clocks(bench.config.us(300))
         if not await host.poll(IBF, 0) & BUSY:
             break

@@ -15,7 +15,7 @@ RAMP_COMMANDS = (3, 6)
 
 
 def kind_of(code: int, reads: tuple[int, ...]) -> str:
-    """What a command byte is, from the table of all codes alone."""
+    """Return the kind of a command byte; it follows from the table of all codes alone."""
     if code < 0x40:
         return "init" if code & 3 else "undefined"
     if code < 0x80:
@@ -24,12 +24,12 @@ def kind_of(code: int, reads: tuple[int, ...]) -> str:
 
 
 def expected(kind: str) -> int:
-    """CODE field of an accepted code as data bytes to come."""
+    """Return the CODE field of an accepted code: the number of data bytes that follow."""
     return {"init": 0x40, "ramp": 0x30, "steady": 0x40, "limit": 0x10, "search": 0x10}.get(kind, 0x00)
 
 
 def verdict(kind: str, state: str) -> int:
-    """Status of a code in a state, BUSY left out: the accept/reject table."""
+    """Return the status of a code in a state without BUSY, from the accept/reject table."""
     moving = state in MOVING
     if kind == "undefined":
         return 0x80
@@ -48,13 +48,13 @@ def verdict(kind: str, state: str) -> int:
     return expected(kind)
 
 
-# One of each kind, with don't-care bits set in some.
+# One code of each kind, some with don't-care bits set.
 SAMPLE = (0x0A, 0x08, 0x40, 0x78, 0x41, 0x59, 0x42, 0x43, 0x64, 0x45, 0x46, 0x47, 0x80, 0x83, 0x84, 0xC3)
 
 
 @directed("STMC-MOT-01", "STMC-STP-05", "STMC-BAD-01", builds=(F16, SHEET))
 async def stmc_all_codes_before_the_initialisation(dut: Any) -> None:
-    """Given no initialisation, when each of the 256 codes is sent, then the status is as its kind says."""
+    """Before initialisation, each of the 256 codes sets the status of its kind (STMC-MOT-01)."""
     lab = await Lab.start(dut, None, clock=0)
     reads = READS["SHEET" if lab.sheet else "FAMILY"]
     count = 0
@@ -72,7 +72,7 @@ async def stmc_all_codes_before_the_initialisation(dut: Any) -> None:
 
 @directed("STMC-FSM-01", "STMC-FSM-02", "STMC-CMD-01", "STMC-STP-04", "STMC-ST-03")
 async def stmc_fsm_01_accept_table(dut: Any) -> None:
-    """Given each state, when each kind of byte comes, then the status is as the table says."""
+    """In each state, each kind of byte sets the status of the accept/reject table (STMC-FSM-01)."""
     lab = await Lab.start(dut, None, clock=0)
     for state in (*RESTING, *MOVING):
         for code in SAMPLE:
@@ -90,7 +90,9 @@ async def stmc_fsm_01_accept_table(dut: Any) -> None:
 
 @directed("STMC-CMD-03", "STMC-BAD-02", "STMC-BAD-03", "STMC-ST-03")
 async def stmc_cmd_03_data_bytes(dut: Any) -> None:
-    """Given each state, when a data byte comes, then it is taken, error 3, or error 6, and nothing else."""
+    """In each state, a data byte is accepted or sets error 3 or 6, and has no other effect
+    (STMC-CMD-03).
+    """
     lab = await Lab.start(dut, None, clock=0)
     for state in (*RESTING, *MOVING):
         await enter(lab, state)
@@ -107,7 +109,9 @@ async def stmc_cmd_03_data_bytes(dut: Any) -> None:
 
 @directed("STMC-ST-02", "STMC-ST-03", "STMC-ST-04", "STMC-CMD-01", "STMC-CMD-02")
 async def stmc_st_03_error_field(dut: Any) -> None:
-    """Given errors, when refused and accepted bytes follow, then only an accepted command clears ERR."""
+    """After an error, only an accepted command clears ERR; rejected and accepted data bytes do not
+    (STMC-ST-03).
+    """
     lab = await Lab.start(dut)
     got = await lab.statuses("c C0 d 00")
     lab.check("STMC-ST-03", "statuses", got, [0x80, 0xB0])
@@ -126,7 +130,9 @@ async def stmc_st_03_error_field(dut: Any) -> None:
 
 @directed("STMC-CMD-02", "STMC-BAD-04", "STMC-FSM-03")
 async def stmc_cmd_02_unfinished_commands(dut: Any) -> None:
-    """Given unfinished commands, when time passes and another code comes, then they had no effect at all."""
+    """Incomplete commands have no effect, however long they wait and whichever code follows
+    (STMC-CMD-02).
+    """
     lab = await Lab.start(dut)
     since = lab.bench.now
     for script in ("c 43 d 05 d 00", "c 44 d 07 d 01 d 00", "c 0A d 05 d 05 d 00", "c 45", "c 08", "c 47"):
@@ -141,7 +147,9 @@ async def stmc_cmd_02_unfinished_commands(dut: Any) -> None:
 
 @directed("STMC-ST-01", "STMC-BAD-08")
 async def stmc_bad_08_motion_before_the_initialisation(dut: Any) -> None:
-    """Given no initialisation, when motions with all their data come, then error 2, then 3 for each byte."""
+    """Before initialisation, motions return error 2, and each of their data bytes returns error 3
+    (STMC-BAD-08).
+    """
     lab = await Lab.start(dut, None)
     lab.check("STMC-ST-01", "status", await lab.host.status(), 0x00)
     for code, count in ((0x42, 0), (0x43, 3), (0x44, 4), (0x45, 1), (0x46, 0), (0x4F, 1)):
@@ -154,7 +162,9 @@ async def stmc_bad_08_motion_before_the_initialisation(dut: Any) -> None:
 
 @directed("STMC-BAD-17", "STMC-BAD-03", "STMC-MOT-02")
 async def stmc_bad_17_two_motions_back_to_back(dut: Any) -> None:
-    """Given a motion just started, when a second one follows without a poll, then errors 1 and 6."""
+    """A second motion directly after the first returns error 1, and its data bytes return error 6
+    (STMC-BAD-17).
+    """
     lab = await Lab.start(dut)
     await lab.go(0x43, 3)
     got = await lab.statuses("c 44 d 01 d 00 d 00 d 00")
@@ -164,7 +174,7 @@ async def stmc_bad_17_two_motions_back_to_back(dut: Any) -> None:
 
 @directed("STMC-RD-01", "STMC-CMD-01", "STMC-BAD-11", "STMC-FIN-04", "STMC-REM-02")
 async def stmc_rd_01_reads(dut: Any) -> None:
-    """Given reads of all kinds, when repeated or left unread, then each accepted one replaces the last."""
+    """Each accepted read of any kind replaces the previous answer, read or unread (STMC-RD-01)."""
     lab = await Lab.start(dut)
     await lab.go(0x44, 1000, 5)
     await lab.in_gap(4)
@@ -189,7 +199,9 @@ async def stmc_rd_01_reads(dut: Any) -> None:
 
 @directed("STMC-FSM-01", "STMC-FSM-04", "STMC-STP-03")
 async def stmc_fsm_04_stops_before_step_0(dut: Any) -> None:
-    """Given commands 2..7 in state S, when 40 or 41 comes, then no step, but one in commands 3 and 6."""
+    """In state S of commands 2..7, 40 or 41 prevents all steps, except that 41 leaves one step in
+    commands 3 and 6 (STMC-FSM-04).
+    """
     lab = await Lab.start(dut, clock=0)
     for code, n, divisor, number in (
         (0x42, None, None, 2),

@@ -1,4 +1,4 @@
-"""Stops, deceleration requests and switches of a moving core: STMC-STP, STMC-DEC, STMC-IN, STMC-FIN."""
+"""Stops, deceleration requests and switches during a motion: STMC-STP, STMC-DEC, STMC-IN, STMC-FIN."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ REQUESTS = (("c 41", 0x40), ("l3_n", 0x08))
 
 
 async def request(lab: Lab, how: str) -> None:
-    """A deceleration request: command 1, or a short pulse of the limit."""
+    """Request a deceleration: by command 1, or by a short pulse of the limit."""
     if how == "c 41":
         await lab.command(0x41)
     else:
@@ -24,7 +24,7 @@ async def request(lab: Lab, how: str) -> None:
 
 @directed("STMC-DEC-01", "STMC-DEC-02", "STMC-DEC-04", "STMC-STP-03", "STMC-FIN-02", "STMC-FIN-03")
 async def stmc_dec_04_every_gap_of_a_move(dut: Any) -> None:
-    """Given moves of 12 and 24 steps, when a request comes in each gap, then the gaps of the rule."""
+    """In moves of 12 and 23 steps, a request in each gap leads to the gaps of the rule (STMC-DEC-04)."""
     lab = await Lab.start(dut)
     for n, how, bit in ((12, "c 41", 0x40), (23, "l3_n", 0x08)):
         for i in range(n - 1):
@@ -39,7 +39,9 @@ async def stmc_dec_04_every_gap_of_a_move(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-MOV-04", "STMC-DEC-04")
 async def stmc_dec_03_start_speed(dut: Any) -> None:
-    """Given ramps that begin flat, flat profiles, when a request comes at D1, then it stops at once."""
+    """In ramps that begin flat, and in flat profiles, a request at D1 stops the motion immediately
+    (STMC-DEC-03).
+    """
     lab = await Lab.start(dut)
     for ramp, last in (((10, 9, 16), 9), ((10, 6, 16), 4), ((12, 6, 0), 3), ((9, 9, 5), 3), ((50, 49, 3), 3)):
         await lab.init(0x1A, *ramp)
@@ -51,7 +53,7 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
                 ticks = slowed(60, i, ramp)
                 made = len(ticks) + 1
                 await lab.outcome("STMC-DEC-03", made, 0x83 | bit, 59 - made, ticks)
-    # Without a ramp there is no last part of one either, however large PA is.
+    # Without a ramp there is no last part of a ramp, however large PA is.
     for ramp in ((9, 9, 5), (12, 6, 0)):
         await lab.init(0x1A, *ramp)
         for how, bit in REQUESTS:
@@ -63,7 +65,7 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-MOT-08", "STMC-IN-02")
 async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
-    """Given gap 0, when a request comes, then BUSY falls within 8 clk of the pin, 12 of the byte."""
+    """After a request in gap 0, BUSY falls within 8 cycles of the pin, or 12 of the byte (STMC-DEC-03)."""
     lab = await Lab.start(dut)
     for how, latest in (("l3_n", 8), ("c 41", PINS_LATEST)):
         await lab.go(0x43, 60)
@@ -79,7 +81,9 @@ async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
 
 @directed("STMC-DEC-02", "STMC-STP-04", "STMC-FIN-03", "STMC-DEC-05")
 async def stmc_dec_02_second_requests(dut: Any) -> None:
-    """Given an accepted request, when others follow, then error 7 or nothing, and only the first counts."""
+    """After an accepted request, further ones return error 7 or have no effect; only the first counts
+    (STMC-DEC-02).
+    """
     lab = await Lab.start(dut)
     await lab.go(0x43, 100)
     await lab.in_gap(6)
@@ -97,7 +101,9 @@ async def stmc_dec_02_second_requests(dut: Any) -> None:
 
 @directed("STMC-DEC-06", "STMC-STP-06", "STMC-FIN-02", "STMC-STP-01", "STMC-IN-02")
 async def stmc_dec_06_stops_in_the_ramp_down(dut: Any) -> None:
-    """Given a ramp down by 41 or l3_n, when l1_n, mon or 40 comes, then at once, and all bits are there."""
+    """During a deceleration requested by 41 or l3_n, l1_n, mon or 40 stops the motion immediately, and
+    all bits are set (STMC-DEC-06).
+    """
     lab = await Lab.start(dut)
     for how, first in REQUESTS:
         for stop, second in (("l1_n", 0x10), ("mon", 0x20), ("c 40", 0x40)):
@@ -114,7 +120,7 @@ async def stmc_dec_06_stops_in_the_ramp_down(dut: Any) -> None:
 
 @directed("STMC-STP-01", "STMC-STP-02", "STMC-MOT-08", "STMC-MOT-09")
 async def stmc_stp_01_emergency_stop(dut: Any) -> None:
-    """Given each motion, when 40 (or 41) comes at many distances before a step, then none comes late."""
+    """In each motion, after 40 or 41 at various times before a step, no late step is made (STMC-STP-01)."""
     lab = await Lab.start(dut)
     moves = ((0x43, 200, None), (0x44, 200, 5), (0x45, None, 5), (0x46, None, None), (0x47, None, 5))
     for code, n, rate in moves:
@@ -136,7 +142,7 @@ async def stmc_stp_01_emergency_stop(dut: Any) -> None:
 
 @directed("STMC-IN-01", "STMC-IN-02", "STMC-IN-03", "STMC-MOT-08")
 async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
-    """Given a pin that stops, when it changes d clk before a step, then 4 and more suppress it."""
+    """A stop pin that changes 4 or more cycles before a step suppresses it (STMC-IN-02)."""
     lab = await Lab.start(dut)
     for code, pin, bits in (
         (0x45, "l1_n", 0x10),
@@ -161,7 +167,7 @@ async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
 
 @directed("STMC-IN-03", "STMC-IN-05", "STMC-FIN-01", "STMC-FIN-04", "STMC-RUN-03")
 async def stmc_in_03_what_is_ignored(dut: Any) -> None:
-    """Given each motion both ways, when switches that do not count for it come, then nothing happens."""
+    """In each motion in both directions, switches that do not apply to it have no effect (STMC-IN-03)."""
     lab = await Lab.start(dut)
     cases = (
         (0x43, 12, None, ("l2_n", "l4_n", "cnp_n"), ("l1_n", "l3_n", "cnp_n")),
@@ -194,7 +200,7 @@ async def stmc_in_03_what_is_ignored(dut: Any) -> None:
 
 @directed("STMC-IN-04", "STMC-FIN-02")
 async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
-    """Given several causes on one edge, when they come, then stop causes are all recorded."""
+    """Of several causes on one edge, all stop causes are recorded (STMC-IN-04)."""
     lab = await Lab.start(dut)
     for code, pins, bits, made in (
         (0x43, ("l1_n", "l3_n"), 0x10, 5),
@@ -218,7 +224,9 @@ async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
 
 @directed("STMC-IN-04", "STMC-FIN-02", "STMC-IN-03")
 async def stmc_in_04_limit_and_monitor_on_one_edge(dut: Any) -> None:
-    """Given every operation, on either clock, when l1_n and mon fall on one edge, then both bits."""
+    """If l1_n and mon fall on the same edge, both bits are set: in every operation, on either clock
+    (STMC-IN-04).
+    """
     lab = await Lab.start(dut)
     for code in (0x1A, 0x0A):
         await lab.init(code, 19, 9, 4)
@@ -231,7 +239,7 @@ async def stmc_in_04_limit_and_monitor_on_one_edge(dut: Any) -> None:
 
 @directed("STMC-IN-04", "STMC-DEC-07", "STMC-FIN-02")
 async def stmc_in_04_command_and_limit_together(dut: Any) -> None:
-    """Given 41 and l3_n around one edge, when both come, then one or both bits, and one ramp down."""
+    """41 and l3_n around the same edge set one bit or both, and lead to one deceleration (STMC-IN-04)."""
     lab = await Lab.start(dut)
     for lead in range(-2, 9):
         await lab.go(0x43, 100)
@@ -249,7 +257,7 @@ async def stmc_in_04_command_and_limit_together(dut: Any) -> None:
 
 @directed("STMC-DEC-07", "STMC-DEC-04")
 async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
-    """Given a request d clk before a step, when d is 4 or more, then it counts for the gap before it."""
+    """A request 4 or more cycles before a step counts for the gap before this step (STMC-DEC-07)."""
     lab = await Lab.start(dut)
     for how, _ in REQUESTS:
         for before in (0, 1, 2, 3, 4, 6, 12):
@@ -266,7 +274,7 @@ async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
 
 @directed("STMC-FIN-02", "STMC-FIN-04", "STMC-MOT-08", "STMC-STP-04")
 async def stmc_mot_08_after_the_last_step(dut: Any) -> None:
-    """Given the last step, when switches or stops come right after it, then they leave no trace."""
+    """Switches or stops directly after the last step have no effect (STMC-MOT-08)."""
     lab = await Lab.start(dut)
     for wait in range(0, 10):
         for how, code in (("l1_n", 0x43), ("mon", 0x43), ("c 40", 0x43), ("c 41", 0x43), ("c 41", 0x44)):
@@ -288,7 +296,7 @@ async def stmc_mot_08_after_the_last_step(dut: Any) -> None:
 
 @directed("STMC-DEC-03", "STMC-STP-03", "STMC-MOT-06")
 async def stmc_dec_03_requests_before_step_0(dut: Any) -> None:
-    """Given commands 3 and 6 in state S, when a request comes, then step 0 is made and is the last."""
+    """After a request in state S of commands 3 and 6, step 0 is made and is the last (STMC-DEC-03)."""
     lab = await Lab.start(dut, clock=0)
     for code, n in ((0x43, 30), (0x43, 1), (0x46, None)):
         for how, bit in REQUESTS:
@@ -305,7 +313,9 @@ async def stmc_dec_03_requests_before_step_0(dut: Any) -> None:
 
 @directed("STMC-REM-01", "STMC-FIN-02", "STMC-RUN-01")
 async def stmc_rem_01_the_rest_can_be_sent_again(dut: Any) -> None:
-    """Given stopped moves, when REM is sent as a new command, then exactly the missing steps are made."""
+    """If REM of a stopped move is sent as a new command, exactly the missing steps are made
+    (STMC-REM-01).
+    """
     lab = await Lab.start(dut)
     for n, gap in ((30, 4), (12, 9), (6, 4)):
         for code, rate in ((0x43, None), (0x44, 6)):

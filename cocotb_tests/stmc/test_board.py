@@ -1,4 +1,6 @@
-"""Tests of the board j105_stmc: one pytest item a cocotb test and build configuration; its parameters."""
+"""Tests of the board j105_stmc and of its parameters: one pytest item per cocotb test and build
+configuration.
+"""
 
 from __future__ import annotations
 
@@ -23,5 +25,7 @@ def test_board(item, sim_options):
 
 
 def test_j105_parameter_ranges():
-    """Given address and step clock at and just outside their ranges, when elaborated, then as they say."""
+    """The elaboration accepts address and step clock at their bounds and rejects the values just
+    outside.
+    """
     check_ranges("J105 1.5", design(F16), RANGES)

@@ -1,4 +1,4 @@
-"""Directed part tests of the STMC core: one pytest item a cocotb test and build configuration."""
+"""Directed tests of the STMC core: one pytest item per cocotb test and build configuration."""
 
 from __future__ import annotations
 
@@ -45,5 +45,5 @@ def test_stmc(item, sim_options):
 
 
 def test_stmc_parameter_ranges():
-    """Given each parameter at and just outside its range, when elaborated, then only legal values pass."""
+    """The elaboration accepts each parameter at its bounds and rejects the values just outside."""
     check_ranges("STMC 1.4", part_design("stmc", F16), RANGES)

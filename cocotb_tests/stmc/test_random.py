@@ -1,6 +1,6 @@
-"""Random hosts against the golden model, and noise: fixed lists of seeds; `--seed N` plays seed N only.
+"""Random hosts against the golden model, and noise: fixed lists of seeds; `--seed N` runs seed N only.
 
-`make soak PART=stmc` plays as many others as you like.
+`make soak PART=stmc` runs any number of other seeds.
 """
 
 from __future__ import annotations
@@ -28,17 +28,19 @@ pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_ite
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """The scenarios of some seeds: every output edge equals the golden model's."""
+    """For the scenarios of some seeds, every output edge equals that of the golden model."""
     random_item.run(item, seeds, sim_options)
 
 
 def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """Noise on all pins, then recovery."""
+    """After noise on all pins, the core works again."""
     chaos_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
-    """Same seed, same list; the fixed seeds together use every action kind and every build."""
+    """The same seed yields the same list; the fixed seeds together use every kind of action and every
+    build.
+    """
     assert scenario(5) == scenario(5) != scenario(6)
     assert random_item.complete and chaos_item.complete and len(SEEDS) >= 150
     plans = [scenario(seed) for seed in SEEDS]

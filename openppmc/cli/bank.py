@@ -1,4 +1,4 @@
-"""What a bank shows on the command line, and moves of several axes together."""
+"""Output of the bank on the command line, and simultaneous moves of several axes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .common.view import RampView
 
 
 class BankView(RampView[PpmcBank]):
-    """All axes in one look, a row each; moves of several begin on the same clk."""
+    """All axes in one snapshot, one row each; moves of several axes start in the same cycle."""
 
     wide = True
 

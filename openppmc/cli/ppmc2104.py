@@ -1,4 +1,4 @@
-"""What a PPMC-2104 shows on the command line, and moves of both axes together."""
+"""Output of the PPMC-2104 on the command line, and simultaneous moves of both axes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .common.view import RampView
 
 
 class PartView(RampView[Ppmc2104]):
-    """One status register for both axes, and a start for both."""
+    """View of a part with one status register for both axes, and a common start."""
 
     def moving(self, status: Status, number: int) -> tuple[bool, int | str | None]:
         return status.busy[number - 1], "unread" if status.error else None

@@ -1,4 +1,4 @@
-"""`python -m openppmc.sim [TEXT]`, `make board SIM=TEXT`: a virtual board in the foreground."""
+"""Run a virtual board: `python -m openppmc.sim [TEXT]` or `make board SIM=TEXT`."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ SWITCHES = (("L1", "l1"), ("L2", "l2"), ("L3", "l3"), ("L4", "l4"), ("CNP", "cnp
 
 
 def split_link(text: str) -> tuple[str, Path | None]:
-    """Take `link=PATH` out of the text."""
+    """Separate `link=PATH` from the text. Raise SpecError if another file has this name."""
     words = text.split(",")
     links = [word.partition("=")[2].strip() for word in words if word.strip().startswith("link=")]
     rest = ",".join(word for word in words if not word.strip().startswith("link="))
     if links and (not links[-1] or (Path(links[-1]).exists() and not Path(links[-1]).is_symlink())):
-        raise SpecError(f"link={links[-1]}: there is something else of that name")
+        raise SpecError(f"link={links[-1]}: a file with this name exists; use another name")
     return rest, Path(links[-1]) if links else None
 
 
 def line(now: Status, alarm: str) -> str:
-    """One line for the user; alarm: what the part calls that switch."""
+    """Return the status as one line. alarm: name of the alarm switch of the part."""
     host = f"{now.rate} baud" if now.open else "no host"
     pace = "asleep" if now.asleep else f"{now.factor:.2f} x real time"
     axes = "  ".join(motor(axis, alarm) for axis in (now, now.second) if axis is not None)
@@ -42,13 +42,16 @@ def line(now: Status, alarm: str) -> str:
 
 
 def motor(axis: AxisStatus, alarm: str) -> str:
-    """Position, state and switches of an axis."""
+    """Return position, state and switches of an axis as text."""
     switches = " ".join(name for name, field in (*SWITCHES, (alarm, "alm")) if getattr(axis, field)) or "none"
     return f"position {axis.position:8}  {'at rest' if axis.hold else 'moving':7}  active: {switches}"
 
 
 def show(board: SimBoard | SimLine) -> None:
-    """Status until the board ends: a live line on a terminal, else a line now and then."""
+    """Print the status until the board ends.
+
+    A terminal has one line that is updated; other outputs receive a line every PLAIN seconds.
+    """
     live = sys.stdout.isatty()
     while True:
         text = (
@@ -65,7 +68,7 @@ def show(board: SimBoard | SimLine) -> None:
 
 
 def main(arguments: list[str]) -> int:
-    """Run a board until Ctrl-C; 1 after an error."""
+    """Run a board until Ctrl-C and return the exit status: 1 after an error."""
     if any(word in ("-h", "--help") for word in arguments):
         print(USAGE)
         return 0

@@ -1,4 +1,4 @@
-"""The machine around a bank: a plant for each axis; all are alike, except as words with numbers say."""
+"""Machine model of a bank: equal plants, except for words with the number of an axis."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ def _check(setup: Setup) -> None:
     if setup.timing != "FAST":
         raise ValueError(f"timing={setup.timing}: a bank is always FAST")
     if 4 * setup.clk_hz % setup.xtal_hz:
-        raise ValueError(f"clk={setup.clk_hz}: 4 clk must be a multiple of xtal={setup.xtal_hz} in a bank")
+        raise ValueError(f"clk={setup.clk_hz}: 4 * clk must be a multiple of xtal={setup.xtal_hz} in a bank")
     axes = len(setup.plants)
     if Timebase(setup.clk_hz, setup.xtal_hz).cyc(16) < axes:
         least = -(-axes * setup.xtal_hz // 16)

@@ -1,4 +1,4 @@
-"""The machine around a PPMC-104: only what all devices have."""
+"""Machine model of a PPMC-104: only the features that all devices have."""
 
 from __future__ import annotations
 

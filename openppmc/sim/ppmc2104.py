@@ -1,4 +1,4 @@
-"""The machine around a PPMC-2104: two axes."""
+"""Machine model of a PPMC-2104: two axes."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The machine around an STMC: `read_map` names the read codes that the device was built with.
+"""Machine model of an STMC; the word `read_map` selects the read codes of the device.
 
-The reference point is between the deceleration limits of a J105 STMC; a search for it ends at either limit.
+The reference point is between the deceleration limits of a J105 STMC; the search for it ends at either limit.
 """
 
 from __future__ import annotations

@@ -1,4 +1,5 @@
-// node pdf.mjs HTML PAGE.html=NAME.pdf …: pages of the site as PDF. Exit code 3 and one line if no browser can be had.
+// node pdf.mjs HTML PAGE.html=NAME.pdf …: print pages of the site as PDF.
+// Without a browser the program ends with one line and exit code 3.
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 import { launch } from "./launch.mjs";
@@ -9,7 +10,7 @@ const page = await view.newPage({ locale: "en-US" });
 for (const job of jobs) {
   const [from, to] = job.split("=");
   await page.goto(pathToFileURL(path.join(html, from)).href);
-  // A data sheet is read alone: what it says of other pages stays, the path to where they were made does not.
+  // A data sheet is read alone: references to other pages stay as text, links to files of the build go.
   await page.evaluate(() => {
     for (const link of document.querySelectorAll("a[href]"))
       if (link.protocol === "file:" && link.pathname !== location.pathname) link.removeAttribute("href");

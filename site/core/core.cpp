@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Verilated part as a WebAssembly module (or, for the yardstick, a program): its clock, a queue of pin changes to
-// come, a recorder of all pins, motors with their switches. No line of it knows a part: pins.h, which
-// scripts/site/wasm.py writes, has the ports, each as words of 32 bits, and what hangs on them.
+// A Verilated part as a WebAssembly module (or as a program, for the comparison of speeds): its clock, a queue of
+// scheduled pin changes, a recorder of all pins, and motors with their switches. This file is the same for all
+// parts: pins.h, which scripts/site/wasm.py writes, has the ports as words of 32 bits and their connections.
 //
-// Times are clk: t is the next rising edge. A level put at t is there on edge t; an output's row at t shows the level
-// after edge t. Edge 0 is the first with rst_n high. Same rules as a recording of the harness.
+// Times are in cycles: t is the number of the next rising edge. A level put at t is valid on edge t; the row of an
+// output at t has its level after edge t. Edge 0 is the first one with rst_n high. A recording of the harness
+// follows the same rules.
 #include <cstdint>
 #include <vector>
 
@@ -25,7 +26,7 @@ namespace {
 
 struct Row {
     double t;
-    uint32_t pin;  // word of an output; kInput + word of an input; kStep + axis: a step, value 1 if CCW
+    uint32_t pin;  // word of an output; kInput + word of an input; kStep + axis: a step, value 1 = CCW
     uint32_t value;
 };
 struct Later {
@@ -51,8 +52,8 @@ Later queue[kQueue];
 uint32_t queue_at, queue_end;
 int64_t now;
 uint32_t user[kInputs], applied[kInputs], level[kOutputs];
-uint32_t pulled_low[kInputs], pulled_high[kInputs];  // by the plant
-// A square wave on a pin: low for a while, then high.
+uint32_t pulled_low[kInputs], pulled_high[kInputs];  // bits that the plant drives
+// A square wave on a pin: cycles low, cycles high, time of the next edge.
 struct Wave {
     uint32_t pin, mask;
     int64_t low, high, next;
@@ -62,7 +63,7 @@ Wave waves[kWaves];
 int64_t wave_next = INT64_MAX;
 Motor motors[kAxes];
 bool plant_on;
-uint32_t moved, moved_by[kAxes];  // steps of motors since power-up, of all and of each
+uint32_t moved, moved_by[kAxes];  // steps since power-up: of all motors, of each motor
 
 void note(uint32_t pin, uint32_t value) { rows[count++] = {static_cast<double>(now), pin, value}; }
 
@@ -90,7 +91,7 @@ void pull_switches(uint32_t axis) {
     for (uint32_t n = 0; n < 6; ++n) pull(pulled_low, to.at[n], plant_on && active[n]);
 }
 
-// An output has changed: does a motor step?
+// Move the motors that step with this change of an output.
 void follow(uint32_t pin, uint32_t before) {
     for (uint32_t axis = 0; axis < kAxes; ++axis) {
         const Drive& drive = kDrives[axis];
@@ -121,7 +122,8 @@ void edge() {
     top->eval();
 }
 
-// Nothing works on the falling edge; where Verilator has this name, it is told that clk was low (tb/board/dut.h).
+// No block uses the falling edge. If Verilator has this variable, it is set as if clk had been low; then the falling
+// edge need not be simulated (tb/board/dut.h).
 template <class Root>
 auto rearm(Root& root, int) -> decltype(root.__Vtrigprevexpr___TOP__clk__0, void()) {
     root.__Vtrigprevexpr___TOP__clk__0 = 0;
@@ -132,7 +134,7 @@ void rearm(Root&, long) {
     top->eval();
 }
 
-// What reads the outputs again, and whether any has changed.
+// Read the outputs, and record and follow each change.
 void look() {
     uint32_t is[kOutputs];
     get_outputs(*top, is);
@@ -148,11 +150,11 @@ void look() {
 }  // namespace
 
 #ifdef __wasm__
-// One thread: its objects live as long as the module.
+// One thread: its objects exist as long as the module.
 extern "C" int __cxa_thread_atexit(void (*)(void*), void*, void*) { return 0; }
 #endif
 
-// $fatal and failed assertions: the module traps, after its message has gone to standard output.
+// $fatal and failed assertions: the module traps after it has written the message to standard output.
 void vl_stop(const char*, int, const char*) VL_MT_UNSAFE { __builtin_trap(); }
 void vl_fatal(const char* file, int line, const char*, const char* text) VL_MT_UNSAFE {
     VL_PRINTF("%s:%d: %s\n", file, line, text);
@@ -160,7 +162,8 @@ void vl_fatal(const char* file, int line, const char*, const char* text) VL_MT_U
 }
 void vl_finish(const char*, int, const char*) VL_MT_UNSAFE { __builtin_trap(); }
 
-// A new part, as after power-up: eight clk of reset, then t = 0. All that was queued, recorded and pressed is gone.
+// Create the part as after power-up: eight cycles of reset, then t = 0. The queue, the rows and the levels set
+// by the user are cleared.
 EXPORT(power_up) void power_up() {
     delete top;
     delete context;
@@ -192,7 +195,7 @@ EXPORT(power_up) void power_up() {
     count = 0;
 }
 
-// The machine of an axis: where the carriage stands, where its switches are, in pulses; CW is up.
+// Set the positions of the carriage and of the switches of an axis, in pulses; CW is positive.
 EXPORT(place) void place(uint32_t axis, double start, double ccw, double slow_ccw, double origin, double slow_cw, double cw) {
     PlantText text;
     text.start = static_cast<int64_t>(start);
@@ -217,7 +220,7 @@ EXPORT(plant) void plant(uint32_t on) {
 EXPORT(position) double position(uint32_t axis) { return static_cast<double>(motors[axis].plant.position()); }
 EXPORT(steps) uint32_t steps(uint32_t axis) { return moved_by[axis]; }
 
-// A level from the next edge on.
+// Set a level from the next edge on.
 EXPORT(put) void put(uint32_t pin, uint32_t value) {
     if (pin == kInputs) {
         top->rst_n = (value);
@@ -228,7 +231,8 @@ EXPORT(put) void put(uint32_t pin, uint32_t value) {
     user[pin] = value;
     apply(pin);
 }
-// A square wave on the bits of `mask` from now on, `low` clk low, then `high` clk high; 0 and 0: none. Number 0 to 3.
+// Start a square wave on the bits of `mask`: low for `low` cycles, then high for `high` cycles; 0 and 0 stop it.
+// number: 0 to 3.
 EXPORT(wave) void wave(uint32_t number, uint32_t pin, uint32_t mask, double low, double high) {
     Wave& one = waves[number % kWaves];
     one = {pin, mask, static_cast<int64_t>(low), static_cast<int64_t>(high), now + static_cast<int64_t>(low)};
@@ -237,8 +241,8 @@ EXPORT(wave) void wave(uint32_t number, uint32_t pin, uint32_t mask, double low,
     for (const Wave& each : waves)
         if (each.low && each.next < wave_next) wave_next = each.next;
 }
-// Levels to come: rows in order of time are written at queue_rows(), kQueue of them at most, then told by their number.
-// Whatever was still to come is forgotten.
+// Scheduled levels: write at most kQueue rows in order of time at queue_rows(), then call queued() with their number.
+// Rows that are still pending are discarded.
 EXPORT(queue_rows) Later* queue_rows() { return queue; }
 EXPORT(queued) void queued(uint32_t rows_written) {
     queue_at = 0;
@@ -249,26 +253,26 @@ EXPORT(input) uint32_t input(uint32_t pin) { return applied[pin]; }
 
 EXPORT(clk_now) double clk_now() { return static_cast<double>(now); }
 EXPORT(row_at) Row* row_at() { return rows; }
-// Rows since the last call; they stay in place until the next `run`, which writes over them.
+// Return the number of rows since the last call. The rows are valid until the next `run`, which overwrites them.
 EXPORT(take) uint32_t take() {
     const uint32_t taken = count;
     count = 0;
     return taken;
 }
 
-// Up to n clk; returns how many it was. Ends early when there is no room for rows; with bit 0 of `until` with the first
-// step of a motor, with bit 1 with any change of an output.
+// Run up to n cycles and return their number. Stop earlier if there is no space for rows; with bit 0 of `until`
+// also after the first step of a motor, with bit 1 after any change of an output.
 EXPORT(run) double run(double n, uint32_t until) {
     const int64_t end = now + static_cast<int64_t>(n), begin = now;
     const uint32_t before = moved;
-    // Rows that one edge can add: each output, each input twice, a step of each motor.
+    // Space for the rows of one edge: each output, each input twice, a step of each motor.
     constexpr uint32_t room = kRows - kOutputs - 2 * kInputs - kAxes - 16;
     while (now < end && count < room) {
         while (queue_at != queue_end && queue[queue_at].t <= static_cast<double>(now) && count < room) {
             put(queue[queue_at].pin, queue[queue_at].value);
             ++queue_at;
         }
-        // Inputs that have no room now belong to this edge: they must not follow it.
+        // The pending inputs belong to this edge, so the edge must wait until there is space for them.
         if (count >= room) break;
         if (now == wave_next) {
             wave_next = INT64_MAX;

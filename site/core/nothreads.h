@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Included before everything: what Verilator's run-time library names of threads and of the system, for
-// WebAssembly, which has neither. One thread runs, so a lock is nothing.
+// Included first: replacements for the thread and system functions that Verilator's run-time library uses.
+// WebAssembly has neither. Only one thread runs, so a lock does nothing.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pins.h of a part is written in: places of bits, motors on outputs, switches on inputs.
+// Types for the pins.h of a part: positions of bits, motors on outputs, switches on inputs.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 #include "Vpart.h"
 
 struct Bit {
-    int word;  // of the inputs or outputs; -1: there is none
+    int word;  // number among the words of inputs or outputs; -1: not connected
     uint32_t place;
 };
 
-// A motor steps with an edge of a bit, or with the phases, five bits from `step` on.
+// A motor steps with an edge of the bit `step`, or with its phases, five bits from `step` on.
 struct Drive {
     Bit step, dir;
-    bool phases, rises, ccw;  // the step is a rise; level of dir that turns CCW
-    Bit encoder, encoder_dir;  // inputs that tell the part what the axle did
+    bool phases, rises, ccw;  // phases: step by phases; rises: step by a rising edge; ccw: level of dir for CCW
+    Bit encoder, encoder_dir;  // inputs that report the rotation of the shaft
 };
 
-// In the order of tb/board/plant.h: l1, l2, l3, l4, cnp, alm; a closed one is low.
+// In the order of tb/board/plant.h: l1, l2, l3, l4, cnp, alm; a closed switch is low.
 struct Switches {
     Bit at[6];
 };

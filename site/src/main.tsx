@@ -7,7 +7,7 @@ import { arrive } from "./ui/state";
 
 setBase((document.currentScript as HTMLScriptElement | null)?.src ?? "");
 
-/** On a page of its own: the scheme of the system, under the name that MkDocs Material gives it. */
+/** On a page without MkDocs, use the colour scheme of the system, with the names of MkDocs Material. */
 function followSystem(): void {
   const { dataset } = document.body;
   if (dataset.mdColorScheme) return;
@@ -26,7 +26,7 @@ function begin(): void {
   root.replaceChildren();
   render(<App />, root);
   arrive(true);
-  // A link to this page, back and forward. (hashchange misses a link that is followed twice.)
+  // A link to this page, and the buttons Back and Forward. (hashchange misses a link that is followed twice.)
   addEventListener("popstate", () => arrive());
 }
 

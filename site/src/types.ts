@@ -1,11 +1,11 @@
-// What the page, the worker and the exported tables (scripts/site/export.py) have in common.
+// Types that the page, the worker and the exported tables (scripts/site/export.py) share.
 
 export interface Port {
   name: string;
   width: number;
-  /** Level at rest of an input, in reset of an output; low word first. */
+  /** Idle level of an input, reset level of an output; low word first. */
   idle: number[];
-  /** Number of its lowest bit in names. */
+  /** Number of its lowest bit, as in names. */
   lowest: number;
   /** Number of its first word of 32 bits in the module. */
   word: number;
@@ -14,14 +14,14 @@ export interface Port {
 export interface Field {
   name: string;
   bytes: number;
-  /** Added to the number for display: counts are sent less one. */
+  /** Added to the value for display, because counts are sent minus one. */
   plus: number;
 }
 
 export interface Code {
   text: string;
   fields: Field[];
-  /** Table that explains the answer, and its bytes. */
+  /** Table for the meaning of the answer; count: its number of bytes. */
   answer: string;
   count: number;
 }
@@ -30,7 +30,7 @@ export interface Words {
   codes: Record<string, Code>;
   status: string[];
   answers: Record<string, string[]>;
-  /** "read 4" and "write 4": names of registers. */
+  /** Names of registers, by "read 4" or "write 4". */
   registers?: Record<string, string>;
   reports?: Record<string, string>;
   causes?: Record<string, string>;
@@ -43,13 +43,13 @@ export interface Session {
 }
 
 export interface MotorPins {
-  /** Names of pins: switches in the order CW, CCW, slow CW, slow CCW, origin, alarm. */
+  /** Pins of the switches in the order CW, CCW, slow CW, slow CCW, origin, alarm. */
   switches: string[];
   step: string;
-  /** Level that a step comes with. */
+  /** Level after the edge that is a step. */
   edge: number;
   dir: string;
-  /** Names of phases, S1 first; on: the level of a winding that is on. */
+  /** Pins of the phases, S1 first. */
   phases: string[];
 }
 
@@ -61,7 +61,7 @@ export interface PartData {
   inputs: Port[];
   outputs: Port[];
   motors: MotorPins[];
-  /** Pins to press beside the switches. */
+  /** Further pins that the reader can press. */
   straps: string[];
   words: Words;
   sessions: Session[];
@@ -99,9 +99,9 @@ export interface Frame {
   status: number;
   line: number;
   running: boolean;
-  /** The text has been played to its end; the part may go on moving. */
+  /** The end of the text has been played; the part may still move. */
   over: boolean;
-  /** Whether the machine's switches act, and its places (host.ts). */
+  /** Whether the switches of the machine are active; places: its positions (host.ts). */
   machine: boolean;
   places: number[];
   why: string;

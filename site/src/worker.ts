@@ -1,4 +1,4 @@
-// The part and its host, beside the page: what passes as fast as asked for, sent to the page 60 times a second.
+// Worker with the part and its host: runs them at the requested speed and sends frames to the page, 60 a second.
 
 import type { Frame, FromWorker, PartData, ToWorker } from "./types";
 import { Core, ROW } from "./engine/core";
@@ -6,10 +6,10 @@ import { Player } from "./engine/player";
 import { words } from "./engine/side";
 import { TextError } from "./engine/text";
 
-const SLICE = 14; // ms of work between two messages of the page
-const CHUNK_MS = 3; // ms of work between two readings of the time
-const MOST_CHUNK = 200_000; // clk
-const MOST_ROWS = 16_384; // that wait for the page; then the part waits, too
+const SLICE = 14; // ms of work before messages of the page are handled
+const CHUNK_MS = 3; // ms of work between two reads of the time
+const MOST_CHUNK = 200_000; // cycles
+const MOST_ROWS = 16_384; // rows that wait for the page; with more rows, the part waits, too
 
 let part: PartData;
 let core: Core;
@@ -17,16 +17,16 @@ let bytes: ArrayBuffer;
 let player: Player | undefined;
 let running = false;
 let stepping = false;
-let speed = 0.1; // times real time; 0: as fast as it goes
-let credit = 0; // clk that may pass
+let speed = 0.1; // multiple of real time; 0: as fast as possible
+let credit = 0; // cycles that may be simulated
 let last = 0;
 let timer = 0;
 let why = "";
-let chunk = 2_000; // clk that take about CHUNK_MS
+let chunk = 2_000; // cycles that need about CHUNK_MS
 let shown = true; // the page has drawn the last frame
-let waiting: Uint8Array[] = []; // rows for the next one
+let waiting: Uint8Array[] = []; // rows for the next frame
 let bytesWaiting = 0;
-let done = 0; // clk and ms of work, for the figure
+let done = 0; // cycles and ms of work (spent), for the displayed speed
 let spent = 0;
 
 const post = (message: FromWorker, transfer: Transferable[] = []): void =>
@@ -83,7 +83,7 @@ function tell(error: unknown): void {
   else if (error instanceof WebAssembly.RuntimeError) {
     post({
       kind: "error",
-      text: `the part has stopped: ${said || "an assertion failed"}. Run a session to power it up anew.`,
+      text: `the part has stopped: ${said || "an assertion failed"}. Run a session to power it up again.`,
     });
     player = undefined;
   } else post({ kind: "error", text: String(error instanceof Error ? error.message : error) });
@@ -182,7 +182,7 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>): void => {
         break;
       case "start":
         if (!player) {
-          // The module has stopped at a mistake of its own: another one.
+          // The module has stopped after a failed assertion: create a new one.
           core = new Core(bytes);
           player = new Player(core, part);
         }

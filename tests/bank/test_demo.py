@@ -1,4 +1,4 @@
-"""`make demo PART=bank` without RTL: its host on the golden model, and what it says of wrong pulses."""
+"""`make demo PART=bank` without RTL: its host on the golden model, and its reports about wrong pulses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The examples of docs/bank/README.md do what the page says."""
+"""The examples of docs/bank/README.md behave as the page states."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PORT = "model:speed=max,part=bank"
 
 
 def block(kind: str) -> str:
-    """The only fenced block of a kind."""
+    """Return the only fenced block of a kind."""
     (found,) = re.findall(rf"^```{kind}\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
     return str(found)
 

@@ -1,4 +1,4 @@
-"""The figures of docs/benchmarks.md that are counts of cycles, and not measured times."""
+"""The values of docs/benchmarks.md that are numbers of cycles, not measured times."""
 
 from __future__ import annotations
 

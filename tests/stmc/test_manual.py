@@ -1,4 +1,4 @@
-"""What docs/stmc/examples.md and docs/stmc/replace.md print, on the golden model of the board."""
+"""The output of docs/stmc/examples.md and docs/stmc/replace.md on the golden model of the board."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EXAMPLES = Sessions("stmc", brief=())
 REPLACE = ROOT / "docs/stmc/replace.md"
 DATA, COMMAND = 0x3B0, 0x3B1
 OBF, IBF, BUSY = 1, 2, 4
-MOST = 40_000  # bus cycles of a host that is not lost
+MOST = 40_000  # bus accesses after which a host is stuck
 TICK = 16_000_000 / 48_675
 CONIO = "int inp(unsigned short port); int outp(unsigned short port, int byte);\n"
 STUBS = """
@@ -30,7 +30,7 @@ int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 
 
 class Board:
-    """The board behind INP and OUT; `switches` are (steps made from now on, levels)."""
+    """The board accessed by INP and OUT; `switches` are (steps made from now on, levels)."""
 
     def __init__(self, **parameters: object) -> None:
         self.model = J105Stmc(**parameters)  # type: ignore[arg-type]
@@ -43,7 +43,9 @@ class Board:
 
     @property
     def steps(self) -> list[int]:
-        """Edges of the steps since `mark`, and of the initialisation if it is later (never chopped here)."""
+        """Edges of the steps since `mark`, and of the initialisation if it is later (never chopped
+        here).
+        """
         fresh = self.model.edges[self._looked :]
         self._looked += len(fresh)
         self._drv += [edge.t for edge in fresh if edge.signal == "drv"]
@@ -51,14 +53,14 @@ class Board:
 
     @property
     def lost(self) -> bool:
-        """The host polls for ever."""
+        """Whether the host polls indefinitely."""
         return self.cycles > MOST
 
     def cycle(self, strobe: str, port: int, **data: int) -> int:
-        """One bus cycle of 560 ns; sd_o at its end, FF if the board does not drive."""
+        """Make one bus access of 560 ns; return sd_o at its end, FF if the board does not drive."""
         self.cycles += 1
         if self.lost:
-            return 0xFF * (self.cycles & 1)  # ends every loop of a program that would not end by itself
+            return 0xFF * (self.cycles & 1)  # ends each loop of a program that would not terminate
         self.model.pins(self.t, sa=port, **data)
         self.model.pins(self.t + 1, **{strobe: 0})
         self.model.run_until(self.t + 9)
@@ -71,24 +73,24 @@ class Board:
         return driven
 
     def inp(self, port: int) -> int:
-        """A read; a host that polls a running motor looks again after 0.5 ms."""
+        """Read; a host that polls a running motor reads again after 0.5 ms."""
         value = self.cycle("ior_n", port)
         self.t += 8000 if port == COMMAND and value & BUSY else 0
         return value
 
     def outp(self, port: int, byte: int) -> int:
-        """A write."""
+        """Write a byte."""
         self.cycle("iow_n", port, sd_i=byte)
         return 0
 
     def poll(self, mask: int, level: int) -> int:
-        """Read the status until the bits are so."""
+        """Read the status until the bits match."""
         while (status := self.inp(COMMAND)) & mask != level:
             assert not self.lost, f"the status never shows {level:02X}, it is {status:02X}"
         return status
 
     def play(self, block: list[Step], where: str) -> None:
-        """One block of a session."""
+        """Run one block of a session."""
         for number, step in enumerate(block, 1):
             at = f"{where}, line {number}: {step.kind} {step.byte:02X}"
             if step.kind == "r":
@@ -102,7 +104,7 @@ class Board:
                 assert f"{self.poll(IBF, 0):02X}" == f"{step.status:02X}", at
 
     def until(self, count: int) -> None:
-        """Let so many steps be made."""
+        """Wait until this number of steps was made."""
         while len(self.steps) < count:
             self.t += 100
             self.model.run_until(self.t)
@@ -119,7 +121,7 @@ def board() -> Board:
 
 
 def test_example_1_and_2(board):
-    """Given the data sheet's speeds, then 800 steps take what the page says."""
+    """At the speeds of the data sheet, 800 steps take the time that the page states."""
     board.play(EXAMPLES.blocks(2)[0], "example 2")
     steps = board.steps
     gaps = [round((b - a) / TICK) for a, b in pairwise(steps)]
@@ -130,7 +132,7 @@ def test_example_1_and_2(board):
 
 
 def test_example_3(board):
-    """Given a stop after 40 steps, then the remaining bytes make the other 60."""
+    """After a stop at 40 steps, the remaining bytes lead to the other 60."""
     first, second = EXAMPLES.blocks(3)
     board.play(first, "example 3")
     board.until(40)
@@ -139,7 +141,7 @@ def test_example_3(board):
 
 
 def test_example_4():
-    """Given a decelerating stop in gap 10, then 20 steps."""
+    """A decelerating stop in gap 10 leads to 20 steps."""
     board = Board()
     first, second = EXAMPLES.blocks(4)
     board.play(first, "example 4")
@@ -149,14 +151,14 @@ def test_example_4():
 
 
 def test_example_5(board):
-    """Given L2 and CNP on the way, then the motor finds its reference point."""
+    """With L2 and CNP activated during the motion, the motor finds its reference point."""
     board.switches = [(30, {"l2_n": 0}), (35, {"l2_n": 1}), (55, {"cnp_n": 0})]
     board.play(EXAMPLES.blocks(5)[0], "example 5")
     assert len(board.steps) == 55 and not board.switches
 
 
 def test_example_6(board):
-    """Given L1 closed, then only ccw steps."""
+    """With L1 active, only ccw steps are made."""
     board.model.pins(board.t, l1_n=0)
     board.t += 4
     board.play(EXAMPLES.blocks(6)[0], "example 6")
@@ -164,20 +166,20 @@ def test_example_6(board):
 
 
 def test_examples_without_motion(board):
-    """Given examples 7, 8 and 9, then every byte is the printed one."""
+    """In examples 7, 8 and 9, every byte is the printed one."""
     board.play(EXAMPLES.blocks(7)[0], "example 7")
     Board().play(EXAMPLES.blocks(8)[0], "example 8")
     Board(read_map="SHEET").play(EXAMPLES.blocks(9)[0], "example 9")
 
 
 def code(kind: str) -> str:
-    """The program of that language in docs/stmc/replace.md."""
+    """Return the program of that language in docs/stmc/replace.md."""
     (found,) = re.findall(rf"^```{kind}\n(.*?)^```$", REPLACE.read_text(encoding="utf-8"), re.S | re.M)
     return found
 
 
 def test_c_program(tmp_path, capfd):
-    """Given the C program, when it runs on the board, then it finds L2, the reference point, and says so."""
+    """The C program finds L2 and the reference point on the board and reports it."""
     (tmp_path / "conio.h").write_text(CONIO)
     (tmp_path / "stubs.c").write_text(STUBS)
     (tmp_path / "program.c").write_text(code("c"))
@@ -199,7 +201,7 @@ def test_c_program(tmp_path, capfd):
 
 
 def test_basic_program():
-    """Given the QBasic program, when its OUT and DATA are played, then 200 steps, finish status 83."""
+    """The OUT and DATA of the QBasic program lead to 200 steps and finish status 83."""
     text = code("basic")
     codes = [int(byte, 16) for byte in re.findall(r"OUT CMD, &H(\w+)", text)]
     first, second = ([int(n) for n in re.findall(r"\d+", line)]

@@ -1,4 +1,4 @@
-"""`Bench`: clock and reset of ppmc_uart_bridge, its line bit by bit, its bus with a slave made of Python."""
+"""`Bench`: clock and reset of ppmc_uart_bridge, its line bit by bit, and its bus with a slave in Python."""
 
 from __future__ import annotations
 
@@ -23,19 +23,20 @@ SECOND = 10**12  # in ps
 
 
 def now() -> int:
-    """Simulation time in ps."""
+    """Return the simulation time in ps."""
     return int(get_sim_time("ps"))
 
 
 def same(what: str, got: object, want: object) -> None:
-    """Assertion with both values in the message."""
+    """Assert that both values are equal; the message contains both."""
     assert got == want, f"{what}: got {got}, want {want}"
 
 
 class Bench:
-    """One bridge. `slave` answers its cycles, `got` has the payloads received, `edges` every edge of txd.
+    """One bridge. `slave` responds to its accesses, `got` holds the received payloads, `edges` every
+    edge of txd.
 
-    `baud` is the rate of the host's side; `error` its deviation (0.02: the host is 2 % fast).
+    `baud` is the rate of the host; `error` is its deviation (0.02: the host is 2 % fast).
     """
 
     def __init__(self, dut: Any, slave: Toy | None) -> None:
@@ -43,7 +44,7 @@ class Bench:
         self.config = Config.from_json(os.environ["OPENPPMC_CONFIG"])
         self.rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
         self.period = self.config.period_ps
-        self.rate_scale = SECOND / (self.period * self.config.clk_hz)  # clk of the simulation against ClkHz
+        self.rate_scale = SECOND / (self.period * self.config.clk_hz)  # simulated clock frequency / ClkHz
         self.baud = baud_of(self.config)
         self.error = 0.0
         self.rxd = dut.rxd_i if hasattr(dut, "rxd_i") else dut.uart_rxd
@@ -58,7 +59,7 @@ class Bench:
 
     @classmethod
     async def start(cls, dut: Any, slave: Toy | None = None) -> Bench:
-        """Clock, reset, monitors."""
+        """Start clock, reset and monitors."""
         watchdog.arm()
         bench = cls(dut, slave or Toy())
         dut.clk_i.set(Immediate(0))
@@ -78,7 +79,7 @@ class Bench:
 
     @classmethod
     async def of_carrier(cls, dut: Any, idle: Mapping[str, int], settle: int = 10) -> Bench:
-        """A carrier with the bridge as its host: pins idle, clock, reset, `settle` clk behind it."""
+        """Start a carrier with the bridge as its host: idle pins, clock, reset, then `settle` cycles."""
         bench = cls(dut, None)
         dut.clk.set(Immediate(0))
         dut.rst_n.set(Immediate(1))
@@ -94,7 +95,7 @@ class Bench:
         return bench
 
     def watch_line(self, txd: Any) -> None:
-        """Receive what the bridge sends."""
+        """Receive the output of the bridge."""
         self._txd = txd
         cocotb.start_soon(self._receive())
         cocotb.start_soon(self._note_edges())
@@ -102,19 +103,19 @@ class Bench:
     # ---------------------------------------------------------------- time
 
     async def clocks(self, n: int) -> None:
-        """Wait n clk."""
+        """Wait n cycles."""
         await Timer(n * self.period, "ps")
 
     async def ms(self, n: float) -> None:
-        """Wait milliseconds of the bridge's time."""
+        """Wait n milliseconds, as counted by the bridge."""
         await Timer(round(n * self.config.clk_hz / 1000) * self.period, "ps")
 
     def bit_ps(self) -> float:
-        """A bit time of the host."""
+        """Return the bit time of the host in ps."""
         return SECOND / self.rate_scale / (self.baud * (1 + self.error))
 
     def clk_of(self, ps: int) -> float:
-        """A time in clk."""
+        """Convert a time in ps to cycles."""
         return ps / self.period
 
     # ---------------------------------------------------------------- to the bridge
@@ -128,7 +129,7 @@ class Bench:
                 await Timer(max(1, round(start + (n + 1) * bit) - now()), "ps")
 
     async def send(self, data: bytes | list[int], stop: int = 1) -> None:
-        """Characters, one behind the other; `stop` is the level of their stop bits."""
+        """Send characters without a pause; `stop` is the level of their stop bits."""
         bits = []
         for byte in bytes(data):
             bits += [0, *(byte >> n & 1 for n in range(8)), stop]
@@ -136,7 +137,7 @@ class Bench:
         self.rxd.value = 1
 
     async def quiet(self, bits: float = 25) -> None:
-        """Idle line for some bit times."""
+        """Keep the line idle for some bit times."""
         await Timer(round(bits * self.bit_ps()), "ps")
 
     # ---------------------------------------------------------------- from the bridge
@@ -164,7 +165,10 @@ class Bench:
                 self._frame.set()
 
     async def message(self, ms: float = 50) -> bytes:
-        """Next payload from the bridge, its stop bit complete; TimeoutError if none comes."""
+        """Return the next payload from the bridge, after its stop bit.
+
+        Raise TimeoutError if no payload arrives.
+        """
         while not self.got:
             self._frame.clear()
             await with_timeout(self._frame.wait(), round(ms * SECOND / 1000), "ps")
@@ -172,7 +176,7 @@ class Bench:
         return self.got.pop(0)
 
     async def silent(self, why: str, bits: float = 60) -> None:
-        """Nothing comes."""
+        """Check that the bridge sends nothing."""
         lines = len(self.line)
         await self.quiet(bits)
         same(f"{why}: messages", (self.got, len(self.line) - lines), ([], 0))
@@ -180,7 +184,7 @@ class Bench:
     # ---------------------------------------------------------------- requests
 
     async def ask(self, script: bytes | str, seq: int | None = None, ms: float = 50) -> bytes:
-        """Send a request and return the payload of its answer; the script as bytes or hexadecimal text."""
+        """Send a request and return the payload of its answer. The script is bytes or hexadecimal text."""
         if seq is None:
             self.seq = seq = self.seq % 127 + 1
         data = bytes.fromhex(script) if isinstance(script, str) else script
@@ -190,13 +194,13 @@ class Bench:
         return answer[1:]
 
     async def done(self, script: bytes | str, ms: float = 50) -> bytes:
-        """As `ask`, RESULT must be 0; returns the data."""
+        """Send a request as `ask` does, check RESULT = 0, and return the data."""
         answer = await self.ask(script, ms=ms)
         same("RESULT", answer[0], 0)
         return answer[1:]
 
     def accesses(self) -> list[tuple[str, int, int]]:
-        """The slave's log since the last call."""
+        """Return the log of the slave since the last call."""
         log = list(self.slave.log)
         self.slave.log.clear()
         return log
@@ -215,7 +219,7 @@ class Bench:
     async def _reads(self) -> None:
         while True:
             await FallingEdge(self.dut.rd_no)
-            # Wrong data until the fifth clk: only what stands on the last clk counts.
+            # Wrong data until the fifth cycle: only the byte in the last cycle counts.
             self.dut.d_i.value = 0x5A
             await Timer(self.period * 9 // 2, "ps")
             self.dut.d_i.value = self.slave.read(int(self.dut.a_o.value))

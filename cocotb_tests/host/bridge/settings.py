@@ -4,41 +4,41 @@ from __future__ import annotations
 
 from cocotb_tests.harness import Config
 
-# 8 clk a bit: scripts take little simulated time. Most tests run here.
+# 8 cycles per bit: scripts need little simulated time. Most tests run here.
 FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))
 # Two pulse counters, as for a part with two axes.
 TWO = Config("two8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Axes", 2), ("Part", 2104)))
 # No pulse counter, as for a bank.
 NONE = Config("none8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Counter", 0), ("Part", 32)))
-# A bank with its bridge: as few clk a round as BANK-GEN-02 lets it have.
+# A bank with its bridge: the shortest round in cycles that BANK-GEN-02 allows.
 BANK = Config("bank8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("AXES", 4)))
-# With a recorder of 32 records: 3 bytes each of 9 levels, and 15 bits of time.
+# With a recorder of 32 records, each with 3 bytes: 9 levels and 15 bits of time.
 REC = Config("rec8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Watch", 9), ("Record", 5)))
 # A carrier with a recorder of 16 records.
 RECORDING = Config("recording8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Record", 4)))
-# Every rate code; the highest rate has exactly 5 clk a bit.
+# Every rate code; the highest rate has exactly 5 cycles per bit.
 ALL_RATES = Config("rates15m", clk_hz=15_000_000, extra=(("Baud", 115_200),))
-# Few clk a millisecond, for what takes long.
+# Few cycles per millisecond, for long waits.
 SLOW = Config("slow2m", clk_hz=2_000_000, extra=(("Baud", 115_200), ("Datasheet", 1)))
 
 RATES = {1: 230_400, 2: 460_800, 3: 921_600, 4: 1_000_000, 5: 2_000_000, 6: 3_000_000}
 
 
 def baud_of(config: Config) -> int:
-    """Line rate after reset in baud."""
+    """Return the line rate after reset in baud."""
     return int(dict(config.extra)["Baud"])
 
 
 def rates_of(config: Config) -> dict[int, int]:
-    """Available codes and their rates in baud (UB-LIN-02)."""
+    """Return the available codes and their rates in baud (UB-LIN-02)."""
     return {0: baud_of(config), **{c: r for c, r in RATES.items() if config.clk_hz >= 5 * r}}
 
 
 def axes_of(config: Config) -> int:
-    """Number of pulse counters."""
+    """Return the number of pulse counters."""
     return int(dict(config.extra).get("Axes", 1))
 
 
 def params_of(config: Config) -> dict[str, int]:
-    """Parameters of ppmc_uart_bridge."""
+    """Return the parameters of ppmc_uart_bridge."""
     return {"ClkHz": config.clk_hz, "XtalHz": config.xtal_hz, **dict(config.extra)}

@@ -1,6 +1,6 @@
-"""A mailbox part made of Python whose behaviour depends on its accesses only, never on time.
+"""A mailbox part in Python whose behaviour depends only on its accesses, never on time.
 
-So the same one can stand behind the RTL and behind the golden model and must see the same accesses.
+So the RTL and the golden model can each use one, and both must make the same accesses.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ IBF, OBF, ERR = 0x02, 0x01, 0x80
 
 
 class Toy:
-    """16 registers; 1 is the status, 0 the data register.
+    """Mailbox with 16 registers; 1 is the status, 0 the data register.
 
-    After a write to 0 or 1, IBF stays for up to `lag` status reads; a write to 1 may bring `answers` bytes,
-    whose OBF comes after some status reads as well. `refuse` is the chance of ERR. `log` has ("W" or "R", a,
-    byte) of every access. `hold_ibf` and `hold_obf` (0, 1 or None) override the bits.
+    After a write to 0 or 1, IBF stays for up to `lag` status reads. A write to 1 may produce `answers`
+    bytes; OBF is set after some status reads as well. `refuse` is the probability of ERR. `log` has
+    ("W" or "R", a, byte) of every access. `hold_ibf` and `hold_obf` (0, 1 or None) override the bits.
     """
 
     def __init__(self, seed: int = 1, lag: int = 3, refuse: float = 0.0) -> None:
@@ -37,19 +37,19 @@ class Toy:
     # ---------------------------------------------------------------- bus
 
     def read(self, a: int) -> int:
-        """One read cycle."""
+        """Return the byte of one read access."""
         if a == 1:
             byte = self._status()
         elif a == 0:
             byte = self._queue.pop(0) if self._queue else 0xE7
         else:
             byte = self.registers[a]
-            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # comes to every value
+            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # reaches every value
         self.log.append(("R", a, byte))
         return byte
 
     def write(self, a: int, byte: int) -> None:
-        """One write cycle."""
+        """Store the byte of one write access."""
         self.log.append(("W", a, byte))
         if a > 1:
             self.registers[a] = byte
@@ -68,29 +68,30 @@ class Toy:
         obf = bool(obf if self.hold_obf is None else self.hold_obf)
         return ERR * self.error | IBF * ibf | OBF * obf | 0x40
 
-    # ---------------------------------------------------------------- what else the golden model asks for
+    # ---------------------------------------------------------------- other methods that the golden model
+    # calls
 
     def reset(self) -> None:
-        """Op RESET."""
+        """Execute op RESET."""
         self.resets += 1
 
     def straps(self, byte: int) -> None:
-        """Op STRAPS."""
+        """Execute op STRAPS."""
         self.strap_bytes.append(byte)
 
     def pins(self) -> int:
-        """Op PINS."""
+        """Execute op PINS."""
         return self.pin_levels
 
     def zero(self, axis: int = 1) -> None:
-        """Op ZERO."""
+        """Execute op ZERO."""
         self.zeros += axis
 
     def count(self, axis: int = 1) -> int:
-        """Op COUNT."""
+        """Execute op COUNT."""
         return -0x1234567 if axis == 1 else 0x7D7E5A81
 
 
 def without_polls(log: list[tuple[str, int, int]]) -> list[tuple[str, int, int]]:
-    """The log with repeated reads that gave the same byte written once: their number depends on time."""
+    """Return the log without repeated reads of the same byte: their number depends on time."""
     return [entry for n, entry in enumerate(log) if entry[0] == "W" or n == 0 or log[n - 1] != entry]

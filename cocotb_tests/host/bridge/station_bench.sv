@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// station_bench: the ULX3S with a PPMC-2104 and an old host on its data bus; the tri-states meet here.
+// station_bench: the ULX3S with a PPMC-2104, and an old host on its data bus; each has tri-state drivers.
 `default_nettype none
 
-// Stands in for the PLL: clk is the oscillator, the bench says whether it is locked.
+// Replaces the PLL: `clk` is the oscillator, and the test bench drives the lock signal.
 module ppmc_clock_ulx3s (
     input  wire logic clk_25m_i,
     output logic      clk_o,
@@ -53,7 +53,7 @@ module station_bench (
   wire [7:0] d;
   logic wifi_gpio0;
 
-  // The host drives while the part does not.
+  // The host drives while the part does not drive.
   assign d   = d_oe ? 'z : d_i;
   assign d_o = d;
 

@@ -1,4 +1,4 @@
-"""ppmc_bank_carrier: a real bank, one axis at a time over its UART (docs/bank/carrier.md)."""
+"""ppmc_bank_carrier: a bank, one axis at a time through its UART (docs/bank/carrier.md)."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ FINISH = "51 80 61"
 
 
 def chosen(axis: int) -> str:
-    """The op that chooses an axis."""
+    """Return the op that selects an axis."""
     return f"13 {axis:02X} "
 
 
 async def start(dut: Any) -> Bench:
-    """The board with idle pins, out of reset, the bank ready."""
+    """Start the board with idle pins, release reset, and wait until the bank is ready."""
     idle = {**dict.fromkeys(SWITCHES, ALL), "spi_cs_n": 1, "sck": 0, "mosi": 0}
     return await Bench.of_carrier(dut, idle, AXES + 40)
 
@@ -33,7 +33,7 @@ async def start(dut: Any) -> Bench:
 @cocotb.test()
 @configs(BANK)
 async def bank_registers_of_an_axis(dut):
-    """Given the choice of an axis, then IDENT, INFO, CONFIG, MASK are where the page says."""
+    """After the choice of an axis, IDENT, INFO, CONFIG and MASK are where docs/bank/carrier.md states."""
     bench = await start(dut)
     ident = await bench.done("01")
     same("part number, no counter", (ident[5] | ident[6] << 8, ident[7] & 0x0E), (32, 0))
@@ -56,7 +56,9 @@ async def bank_registers_of_an_axis(dut):
 @cocotb.test()
 @configs(BANK)
 async def bank_moves(dut):
-    """Given two axes that move one after the other, then events, map, finish status, positions are theirs."""
+    """When two axes move one after the other, events, map, finish status and positions belong to the
+    axis that moved.
+    """
     bench = await start(dut)
     await bench.done("03 01")
     for axis, code, count in ((2, "43", 14), (1, "4B", -14)):
@@ -76,7 +78,9 @@ async def bank_moves(dut):
 @cocotb.test()
 @configs(BANK)
 async def bank_pins(dut):
-    """Given a switch of an axis, then PINS shows it when that axis is chosen, and the lamp is on."""
+    """PINS reports a switch of an axis only while that axis is chosen, and the LED is on while a limit
+    or alarm is active.
+    """
     bench = await start(dut)
     for axis in range(AXES):
         for n, pin in enumerate(SWITCHES):

@@ -1,4 +1,4 @@
-"""ppmc104_carrier: the real part, initialised and moved over its UART, one frame each."""
+"""ppmc104_carrier: the part is initialised and moved through its UART, with one frame each."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ FINISH = "51 80 61"
 
 
 async def start(dut: Any) -> Bench:
-    """The board with idle pins, out of reset."""
+    """Start the board with idle pins and release reset."""
     return await Bench.of_carrier(dut, PARTS["ppmc104"].inputs)
 
 
 def pulses_of(dut: Any) -> list[int]:
-    """A list that gets the level of dir at each falling edge of pout_n."""
+    """Return a list to which the level of dir is appended at each falling edge of pout_n."""
     pulses: list[int] = []
 
     async def run() -> None:
@@ -42,7 +42,9 @@ def pulses_of(dut: Any) -> list[int]:
 @cocotb.test()
 @configs(FAST)
 async def board_initialise_and_move(dut):
-    """UB-OPS-01, UB-OPS-02, UB-MSG-01: the examples of the contract on a real part: pulses, event, count."""
+    """The examples of the contract on a part output the pulses, the event and the count (UB-OPS-01,
+    UB-OPS-02, UB-MSG-01).
+    """
     bench = await start(dut)
     pulses = pulses_of(dut)
     status = await bench.done(INITIALISE)
@@ -64,14 +66,16 @@ async def board_initialise_and_move(dut):
 @cocotb.test()
 @configs(FAST)
 async def board_pins_straps_reset(dut):
-    """UB-OPS-02, UB-ANS-02: PINS has the switches, STRAPS reach csel, RESET works, errors come back."""
+    """PINS reports the switches, STRAPS reaches csel, RESET acts, errors are reported (UB-OPS-02,
+    UB-ANS-02).
+    """
     bench = await start(dut)
     same("idle pins", await bench.done("06"), b"\xff")
     for n, pin in enumerate(("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")):
         getattr(dut, pin).value = 0
         same(pin, await bench.done("06"), bytes([0xFF & ~(4 << n)]))
         getattr(dut, pin).value = 1
-    # A move before initialisation is refused with its first byte.
+    # The part rejects the first byte of a move before initialisation.
     answer = await bench.ask(MOVE)
     same("refused", (answer[:2], answer[2] & 0x80), (b"\x02\x00", 0x80))
     await bench.done(INITIALISE)

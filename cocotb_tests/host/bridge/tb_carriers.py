@@ -1,4 +1,6 @@
-"""Carriers behind their bridge: no read leaves them, straps reach their pins, the step clock of the STMC."""
+"""Carriers with their bridge: no read drives the data pins, straps reach their pins, step clock of the
+STMC.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +19,11 @@ STRAPS = {
     "ppmc2104": {"csel": (0, 1), "run": (2, 3), "errint_n": (4,)},
     "ppmc312": {"run": (0,), "evt0_n": (1,), "evt1_n": (2,)},
 }
-"""Pins that straps can pull to 0, with the strap of each of their bits."""
+"""Pins that straps can pull to 0, with the strap of each bit."""
 
 
 async def start(dut: Any, part: str) -> Bench:
-    """The carrier with idle pins, out of reset."""
+    """Start the carrier with idle pins and release reset."""
     idle = {"rs485_rxd": 1, **PARTS[part].inputs}
     return await Bench.of_carrier(dut, {pin: level for pin, level in idle.items() if hasattr(dut, pin)})
 
@@ -30,7 +32,7 @@ async def start(dut: Any, part: str) -> Bench:
 @cocotb.parametrize(part=["ppmc104", "ppmc2104", "stmc", "ppmc312"])
 @configs(FAST)
 async def carrier_keeps_its_reads(dut: Any, part: str) -> None:
-    """Given reads through the bridge, then d_oe stays 0."""
+    """During reads through the bridge, d_oe stays 0."""
     bench = await start(dut, part)
     moves = []
 
@@ -49,7 +51,7 @@ async def carrier_keeps_its_reads(dut: Any, part: str) -> None:
 @cocotb.parametrize(part=list(STRAPS))
 @configs(FAST)
 async def carrier_straps(dut: Any, part: str) -> None:
-    """Given each strap alone at 0, then one bit of one pin is; a pin at 0 stays so."""
+    """Each strap at 0 pulls exactly one bit of one pin to 0; a pin that is at 0 stays at 0."""
     bench = await start(dut, part)
 
     def levels() -> dict[str, int]:
@@ -77,7 +79,7 @@ async def carrier_straps(dut: Any, part: str) -> None:
 @cocotb.parametrize(part=["stmc"])
 @configs(FAST, RECORDING)
 async def carrier_step_clock(dut: Any, part: str) -> None:
-    """Given an STMC on its external clock, then strap 0 stops it where there is a recorder, there alone."""
+    """Strap 0 stops an STMC on its external clock only if there is a recorder."""
     bench = await start(dut, part)
     stops = "Record" in dict(bench.config.extra)
     await bench.done("55 1A 05 05 00 00")

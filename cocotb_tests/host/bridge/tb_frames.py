@@ -1,4 +1,4 @@
-"""UB-FRM: flags, escapes, CRC, lengths, faults, bytes at the wrong time."""
+"""UB-FRM: flags, escapes, CRC, lengths, faults, and bytes during a script or an answer."""
 
 from __future__ import annotations
 
@@ -12,19 +12,21 @@ from .settings import FAST, SLOW
 
 
 def nak(code: int) -> bytes:
-    """Payload of a NAK."""
+    """Return the payload of a NAK."""
     return bytes([0x81, code])
 
 
 def script_of(length: int) -> bytes:
-    """A script of this many bytes that writes: WRITEN to register 3, NOPs up to the length."""
+    """Return a script of this length that writes once: WRITEN to register 3, then NOPs."""
     return b"\x00" * length if length < 3 else b"\x83\x01\x99" + b"\x00" * (length - 3)
 
 
 @cocotb.test()
 @configs(FAST)
 async def frames_flags_and_escapes(dut):
-    """UB-FRM-01, UB-FRM-02, UB-FRM-05: flags in a row or shared, any byte escaped, noise before a flag."""
+    """The bridge accepts repeated and shared flags, escapes of any byte, and noise before a flag
+    (UB-FRM-01, UB-FRM-02, UB-FRM-05).
+    """
     bench = await Bench.start(dut)
     line = encode(b"\x01\x12\x7e\x13\x7d\x14\x5d")
     assert bytes.fromhex("127D5E137D5D145D") in line
@@ -32,7 +34,8 @@ async def frames_flags_and_escapes(dut):
     content = b"\x02\x12\x7e\x13\x7d\x14\x5d"
     content += crc16(content).to_bytes(2, "big")
     everything_escaped = b"\x7e" + b"".join(bytes([0x7D, byte ^ 0x20]) for byte in content) + b"\x7e"
-    # Escaping the byte 5D gives 7D 7D; 5E and 7E exclusive-or 20 are each other's, 7D 7E ends a frame.
+    # The byte 5D is escaped as 7D 7D. 5E and 7E are exchanged by the exclusive-or with 20, and 7D 7E ends
+    # a frame.
     assert b"\x7d\x7d" in everything_escaped and b"\x7d\x7e" not in everything_escaped
     cases = (
         (b"\x11\x22\x7d" + line, 1),
@@ -49,7 +52,7 @@ async def frames_flags_and_escapes(dut):
     same("the flag before is enough", await bench.message(), b"\x04\x00")
     same("writes", bench.accesses(), [("W", 2, 0x34), ("W", 2, 0x35)])
     await bench.silent("nothing more")
-    # Answers are escaped, too: data, and by chance a CRC.
+    # The bridge escapes answers, too: data, and by chance a CRC.
     for _ in range(40):
         data = bytes(bench.rng.choice((0x7D, 0x7E, bench.rng.getrandbits(8))) for _ in range(3))
         script = b"".join(bytes([0x12, byte, 0x22]) for byte in data)
@@ -59,9 +62,11 @@ async def frames_flags_and_escapes(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_every_bit(dut):
-    """UB-FRM-03, UB-FRM-06: with any one bit flipped a frame is not executed; the next one is."""
+    """A frame with any one bit inverted is not executed; the next frame is executed (UB-FRM-03,
+    UB-FRM-06).
+    """
     bench = await Bench.start(dut)
-    # Without flag or escape in it; none appears by one flip in the script.
+    # The frame contains no flag and no escape; no inverted bit makes one in the script.
     line = encode(b"\x21\x12\x31\x13\x42")
     good = encode(b"\x00\x14\x01")
     for place in range(1, len(line) - 1):
@@ -71,7 +76,7 @@ async def frames_every_bit(dut):
             await bench.send(bad)
             reply = await bench.message()
             assert reply[0] == 0x81 and reply[1] in (2, 4, 6), f"byte {place}, bit {bit}: {reply.hex()}"
-            # A flip may make a flag, and then the rest is a second faulty frame.
+            # An inverted bit may make a flag; then the rest is a second faulty frame.
             while 0x7E in bad[1:-1] and len(bench.line) and not await nothing(bench):
                 assert bench.got.pop(0)[0] == 0x81
             same(f"byte {place}, bit {bit}", bench.accesses(), [])
@@ -81,7 +86,7 @@ async def frames_every_bit(dut):
 
 
 async def nothing(bench: Bench) -> bool:
-    """True if no message comes for a while."""
+    """Return True if no message arrives for some time."""
     await bench.quiet(120)
     return not bench.got
 
@@ -89,7 +94,9 @@ async def nothing(bench: Bench) -> bool:
 @cocotb.test()
 @configs(FAST)
 async def frames_faults(dut):
-    """UB-FRM-04, UB-FRM-06: lengths 0 to 258, 7D 7E, wrong CRC; what the bridge does after each."""
+    """Lengths 0 to 258, 7D 7E and a wrong CRC are answered as the rules state, and the bridge continues
+    (UB-FRM-04, UB-FRM-06).
+    """
     bench = await Bench.start(dut)
     for length in (0, 1, 3, 251, 252, 253):
         await bench.send(encode(bytes([length & 0x7F]) + script_of(length)))
@@ -101,7 +108,7 @@ async def frames_faults(dut):
         await bench.silent("only one NAK, the frame's last flag begins the next")
         await bench.send(encode(b"\x00\x00")[1:])
         same("next frame", await bench.message(), b"\x00\x00")
-    # The NAK comes before the end of the frame, and up to the next flag nothing counts.
+    # The NAK is sent before the end of the frame; all bytes up to the next flag are ignored.
     await bench.send(encode(b"\x01" + script_of(254), limit=400)[:-1])
     same("257 bytes", await bench.message(), nak(3))
     await bench.send(encode(b"\x01\x00")[1:-1])
@@ -110,7 +117,7 @@ async def frames_faults(dut):
     for content in (b"\x05", b"\x05\x00"):
         await bench.send(content + b"\x7e")
         same(f"{len(content)} bytes", await bench.message(), nak(4))
-    # A CRC that is right does not make two bytes a frame.
+    # Two bytes are not a frame, even if the CRC is right.
     await bench.send(b"\xff\xff\x7e")
     same("CRC only", await bench.message(), nak(4))
     for content in (b"\x05\x12\x34\x7d", b"\x7d", encode(b"\x05\x12\x34")[1:-1] + b"\x7d"):
@@ -126,7 +133,9 @@ async def frames_faults(dut):
 @cocotb.test()
 @configs(SLOW)
 async def frames_silence(dut):
-    """UB-FRM-06: NAK 5 after 100 ms of silence in a frame, not before, not between frames; then the hunt."""
+    """After 100 ms of silence within a frame the bridge sends NAK 5 and hunts for a flag; it does not
+    do so earlier or between frames (UB-FRM-06).
+    """
     bench = await Bench.start(dut)
     line = encode(b"\x06\x12\x34")
     await bench.send(line[:2])
@@ -154,12 +163,14 @@ async def frames_silence(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_while_busy(dut):
-    """UB-FRM-07: bytes during script and answer, but flags: NAK 7 after the answer, then the hunt."""
+    """Bytes other than flags during a script or an answer cause NAK 7 after the answer, then the hunt
+    (UB-FRM-07).
+    """
     bench = await Bench.start(dut)
     long_script = bytes([0x32, 40])
     line = encode(b"\x01" + long_script)
     other = encode(b"\x02\x13\x01")
-    # While the answer is sent.
+    # While the bridge sends the answer.
     await bench.send(line)
     await bench.quiet(100)
     await bench.send(other[:-1])
@@ -169,18 +180,18 @@ async def frames_while_busy(dut):
     await bench.silent("hunt")
     await bench.send(other)
     same("next frame", await bench.message(), b"\x02\x00")
-    # Flags do not count, and a frame may begin with the last of them.
+    # Flags are ignored here, and the last of them may begin a frame.
     await bench.send(encode(b"\x03" + long_script))
     await bench.send(b"\x7e" * 10)
     same("answer", (await bench.message())[:2], b"\x03\x00")
     await bench.send(encode(b"\x04\x13\x02")[1:])
     same("no NAK, no hunt", await bench.message(), b"\x04\x00")
-    # During a script that does not wait nothing is interrupted; all of it is done.
+    # Bytes do not interrupt a script that does not wait; it is executed completely.
     await bench.send(encode(b"\x05" + b"\x05" * 100 + b"\x13\x03"))
     await bench.send([0x42])
     same("answer", await bench.message(), b"\x05\x00")
     same("NAK", await bench.message(), nak(7))
-    # A character without stop bit counts like a byte.
+    # A character without stop bit is treated like a byte.
     await bench.send(encode(b"\x06" + long_script))
     await bench.quiet(50)
     await bench.send([0x42], stop=0)
@@ -193,7 +204,9 @@ async def frames_while_busy(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_garbage(dut):
-    """UB-FRM-05, UB-FRM-06, UB-FRM-08: after any garbage, a frame that begins with its flag is executed."""
+    """After any garbage, a frame that begins with its flag is executed (UB-FRM-05, UB-FRM-06,
+    UB-FRM-08).
+    """
     bench = await Bench.start(dut)
     for n in range(60):
         size = bench.rng.choice((1, 3, 8, 30, 30, 300 if n % 20 == 0 else 5))
@@ -202,7 +215,8 @@ async def frames_garbage(dut):
         if bench.rng.random() < 0.3:
             await bench.send([bench.rng.getrandbits(8)], stop=0)
             await bench.quiet(3)
-        # The flag ends what garbage may have begun; the NAK to it is on its way while the frame arrives.
+        # The flag ends a frame that the garbage may have begun; the NAK for it is in transit while the
+        # frame arrives.
         await bench.send(b"\x7e" + encode(bytes([0, 0x12, n])))
         while (reply := await bench.message())[0] == 0x81:
             assert reply[1] in (1, 2, 3, 4, 6, 8), reply.hex()
@@ -215,7 +229,9 @@ async def frames_garbage(dut):
 @cocotb.test()
 @configs(FAST)
 async def frames_nak_waits(dut):
-    """UB-FRM-08: of many faults in a row some make a NAK, each whole; the bridge works on."""
+    """For many faults in a row the bridge sends some NAKs, each complete, and continues to work
+    (UB-FRM-08).
+    """
     bench = await Bench.start(dut)
     await bench.send(b"\x7e\x01" * 30 + b"\x7e")
     await bench.quiet(150)

@@ -1,4 +1,4 @@
-"""UB-LIN: characters, rates, breaks; and one literal frame in each direction."""
+"""UB-LIN: characters, rates, breaks, and one literal frame in each direction."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from openppmc.host.frames import encode
 from .bench import SECOND, Bench, now, same
 from .settings import ALL_RATES, FAST, SLOW, baud_of, rates_of
 
-# "123456789" has the check value 29B1 of this CRC. As a script it reads 51 + 53 + 55 + 57 bytes.
+# The string "123456789" has the check value 29B1 of this CRC. As a script it reads 51 + 53 + 55 + 57
+# bytes.
 LITERAL = bytes.fromhex("7E 31 32 33 34 35 36 37 38 39 29 B1 7E")
 NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer SEQ 0, RESULT 0 is the same
 
@@ -20,7 +21,9 @@ NOTHING = bytes.fromhex("7E 00 00 1D 0F 7E")  # SEQ 0, NOP; the answer SEQ 0, RE
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_literal_frames(dut):
-    """UB-LIN-01, UB-LIN-02, UB-FRM-01, UB-FRM-03: idle is high, 115 200 baud, bytes as written down."""
+    """The line idles high, starts at 115 200 baud, and carries the literal bytes of two frames
+    (UB-LIN-01, UB-LIN-02, UB-FRM-01, UB-FRM-03).
+    """
     bench = await Bench.start(dut)
     same("idle", (int(dut.txd_o.value), bench.edges), (1, []))
     await bench.send(NOTHING)
@@ -34,7 +37,9 @@ async def line_literal_frames(dut):
 @cocotb.test()
 @configs(ALL_RATES, FAST)
 async def line_rates(dut):
-    """UB-LIN-02, UB-LIN-03, UB-LIN-07: each code sets its rate after the answer; others are refused."""
+    """Each available code sets its rate after the answer; other codes are rejected (UB-LIN-02,
+    UB-LIN-03, UB-LIN-07).
+    """
     bench = await Bench.start(dut)
     rates = rates_of(bench.config)
     for code in [*range(7), 7, 8, 0x40, 255, *reversed(range(7))]:
@@ -51,7 +56,9 @@ async def line_rates(dut):
 
 
 def check_edges(bench: Bench) -> None:
-    """Every edge inside a character lies at the nearest clk of a grid that may begin up to a clk late."""
+    """Check that every edge inside a character is at the nearest cycle of a grid that begins up to one
+    cycle late.
+    """
     bit = bench.config.clk_hz / bench.baud
     start, checked = None, 0
     for time, _ in bench.edges:
@@ -68,7 +75,9 @@ def check_edges(bench: Bench) -> None:
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_tolerance(dut):
-    """UB-LIN-03, UB-LIN-04: at every rate the host may be 2 % slow or fast, characters back to back."""
+    """At every rate the host may be 2 % slow or fast, with characters back to back (UB-LIN-03,
+    UB-LIN-04).
+    """
     bench = await Bench.start(dut)
     for code, rate in rates_of(bench.config).items():
         await bench.done(bytes([2, code]))
@@ -84,13 +93,15 @@ async def line_tolerance(dut):
 @cocotb.test()
 @configs(SLOW)
 async def line_middle(dut):
-    """UB-LIN-03, UB-LIN-04: only the middle of a bit counts; a short low level is no start bit."""
+    """Only the middle of a bit is sampled, and a short low level is not a start bit (UB-LIN-03,
+    UB-LIN-04).
+    """
     bench = await Bench.start(dut)
     for byte in (0x00, 0xFF, 0x55, 0xAA, 0x7E, 0x31):
         script = bytes([0x12, byte])
         for char in encode(b"\x00" + script):
             bits = [0, *(char >> n & 1 for n in range(8)), 1]
-            # Ten slices a bit: wrong in the outer three at the end of data bits, right in the middle.
+            # Ten slices per bit: wrong in the outer three at each end of data bits, right in the middle.
             slices = []
             for n, bit in enumerate(bits):
                 wrong = 1 - bit if 1 <= n <= 8 else bit
@@ -113,7 +124,9 @@ async def line_middle(dut):
 @cocotb.test()
 @configs(FAST)
 async def line_framing_error(dut):
-    """UB-LIN-05, UB-FRM-06: low stop bit: NAK 1 in a frame, none in the hunt; one however long it is low."""
+    """A low stop bit causes one NAK 1 in a frame, however long the line is low, and no NAK in the hunt
+    (UB-LIN-05, UB-FRM-06).
+    """
     bench = await Bench.start(dut)
     line = encode(b"\x05\x12\x34")
     await bench.send([0x55], stop=0)
@@ -136,13 +149,15 @@ async def line_framing_error(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_break(dut):
-    """UB-LIN-05, UB-LIN-06, UB-FRM-08: a break brings the first rate and the hunt back; so does a slow 00."""
+    """A break restores the first rate and the hunt; a character 00 at the lower first rate is a break, too
+    (UB-LIN-05, UB-LIN-06, UB-FRM-08).
+    """
     bench = await Bench.start(dut)
     for code in (1, 4):
         await bench.done(bytes([2, code]))
         bench.baud = rates_of(bench.config)[code]
         await bench.done("00")
-        # A framing error that is no break leaves the rate alone.
+        # A framing error that is not a break does not change the rate.
         await bench.send([0x10], stop=0)
         same("NAK", await bench.message(), b"\x81\x01")
         await bench.done("00")
@@ -154,7 +169,7 @@ async def line_break(dut):
         await bench.send(line[3:-1])
         await bench.silent("hunt")
         await bench.done("00")
-    # During a script that has asked for another rate.
+    # During a script that has requested another rate.
     await bench.send(encode(b"\x70\x02\x04\x77\x00\x01"))
     await bench.quiet()
     await bench.send([0x00], stop=0)
@@ -166,7 +181,9 @@ async def line_break(dut):
 @cocotb.test()
 @configs(SLOW)
 async def line_rate_trial(dut):
-    """UB-LIN-07: without a good frame in 1000 ms the old rate comes back; a good one keeps the new rate."""
+    """The old rate returns if no valid frame arrives within 1000 ms; a valid frame keeps the new rate
+    (UB-LIN-07).
+    """
     bench = await Bench.start(dut)
     await bench.done("02 01")
     switched, bench.baud = now(), 230_400
@@ -189,7 +206,9 @@ async def line_rate_trial(dut):
 @cocotb.test()
 @configs(ALL_RATES)
 async def line_no_drift(dut):
-    """UB-LIN-03: the bit time is clk / rate on average: every edge of a long answer is right."""
+    """The average bit time is exactly `clk` / rate: every edge of a long answer is at its time
+    (UB-LIN-03).
+    """
     bench = await Bench.start(dut)
     bench.slave.registers[2] = 0x55
     await bench.done("32 20")

@@ -14,7 +14,9 @@ from .settings import FAST, SLOW
 @cocotb.test()
 @configs(FAST)
 async def messages_repeat(dut):
-    """UB-SEQ-01, UB-SEQ-02: the last SEQ again gives the stored answer, whatever its script; 0 runs."""
+    """A repeated SEQ returns the stored answer, regardless of its script; SEQ 0 is always executed
+    (UB-SEQ-01, UB-SEQ-02).
+    """
     bench = await Bench.start(dut)
     scripts = ("12 33 22 24", "06", "0F", "32 FF 06", "24 61", "32 F0 32 F0")
     bench.slave.hold_obf = 0
@@ -26,7 +28,7 @@ async def messages_repeat(dut):
         same("SEQ", first[0], seq)
         bench.accesses()
         for again in (script, b"\x12\x01", script + b"\x00", b""):
-            # Faults and NAKs in between change nothing.
+            # Faults and NAKs in between have no effect.
             await bench.send(b"\x7e\x01\x02\x03\x04\x7e")
             same("NAK", await bench.message(), b"\x81\x02")
             await bench.send(encode(b"\xff\x12\x01"))
@@ -40,7 +42,7 @@ async def messages_repeat(dut):
     for seq in (5, 6, 5):
         same("SEQ before the last", await bench.ask("12 01", seq=seq), b"\x00")
         same("executed", bench.accesses(), [("W", 2, 1)])
-    # SEQ 0 is a request like others: after it the older SEQ is not the last one any more.
+    # SEQ 0 is a request like any other: after it, the older SEQ is no longer the last one.
     await bench.ask("12 02", seq=0)
     await bench.ask("12 03", seq=5)
     same("executed", bench.accesses(), [("W", 2, 2), ("W", 2, 3)])
@@ -49,7 +51,7 @@ async def messages_repeat(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_seq_limit(dut):
-    """UB-SEQ-03, UB-SEQ-01: SEQ 127 is executed, 128 to 255 give NAK 8 and are not."""
+    """SEQ 127 is executed; SEQ 128 to 255 cause NAK 8 and are not executed (UB-SEQ-03, UB-SEQ-01)."""
     bench = await Bench.start(dut)
     for seq in (128, 129, 200, 253, 254, 255):
         await bench.send(encode(bytes([seq, 0x12, 0x01])))
@@ -63,7 +65,9 @@ async def messages_seq_limit(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_answer_form(dut):
-    """UB-ANS-01, UB-ANS-03, UB-ANS-04: POS and LAST only with a fault; LAST is 00 without a read."""
+    """POS and LAST are sent only with a fault; LAST is 00 if the script has read nothing (UB-ANS-01,
+    UB-ANS-03, UB-ANS-04).
+    """
     bench = await Bench.start(dut)
     bench.slave.registers[9] = 0xC3
     same("no fault", await bench.ask("29"), b"\x00\xc3")
@@ -79,7 +83,9 @@ async def messages_answer_form(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_events(dut):
-    """UB-MSG-01, UB-MSG-02: off at first; one a fall; when enabled with int_n low; disabling forgets."""
+    """Events are off at first. When enabled, each fall of int_n causes one, and so does enabling while int_n
+    is low; disabling discards them (UB-MSG-01, UB-MSG-02).
+    """
     bench = await Bench.start(dut)
     event = b"\x80\xff"
 
@@ -101,12 +107,12 @@ async def messages_events(dut):
     dut.int_ni.value = 1
     dut.pins_i.value = 0xFF
     await bench.silent("a rise is no event")
-    # PINS as they are when the message is sent: its second byte is a flag here.
+    # PINS has the levels at the time of sending; here its second byte is a flag.
     dut.pins_i.value = 0x7E
     await pulses()
     same("escaped", await bench.message(), b"\x80\x7e")
     dut.pins_i.value = 0xFF
-    # While an answer is on its way: after it, once for any number of falls, before NAK 7.
+    # During an answer: one event for any number of falls, after the answer and before NAK 7.
     await bench.send(encode(b"\x11\x32\x20"))
     await bench.quiet(120)
     await pulses(5)
@@ -115,19 +121,19 @@ async def messages_events(dut):
     same("event", await bench.message(), event)
     same("NAK", await bench.message(), b"\x81\x07")
     await bench.silent("one for all")
-    # While a script runs: not before its answer.
+    # During a script: not before its answer.
     await bench.send(encode(b"\x12" + b"\x05" * 60 + b"\x06"))
     await bench.clocks(300)
     await pulses(2)
     same("answer first", await bench.message(), b"\x12\x00\xff")
     same("event", await bench.message(), event)
-    # Falls while an event is being sent give another one.
+    # Falls during an event cause another one.
     await pulses()
     await bench.quiet(45)
     await pulses(3)
     same("events", [await bench.message() for _ in range(2)], [event, event])
     await bench.silent("two")
-    # Enabling with int_n low; enabling again is no fall; disabling forgets.
+    # Enabling with int_n low causes an event, enabling again does not; disabling discards a fall.
     await bench.done("03 00")
     dut.int_ni.value = 0
     await bench.silent("disabled")
@@ -148,7 +154,7 @@ async def messages_events(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_event_and_request(dut):
-    """UB-MSG-01: a request that comes while an event or a NAK is being sent is executed and answered."""
+    """A request that arrives while an event or a NAK is being sent is executed and answered (UB-MSG-01)."""
     bench = await Bench.start(dut)
     await bench.done("03 01")
     line = encode(b"\x00\x12\x44")
@@ -166,7 +172,9 @@ async def messages_event_and_request(dut):
 @cocotb.test()
 @configs(SLOW)
 async def messages_reset(dut):
-    """UB-LIN-02, UB-SEQ-02, UB-MSG-01: rst_ni forgets rate, events and the answer; part in reset, too."""
+    """rst_ni clears the rate, the events and the stored answer, and resets the part (UB-LIN-02,
+    UB-SEQ-02, UB-MSG-01).
+    """
     bench = await Bench.start(dut)
     await bench.ask("03 01 07 11 02 01", seq=9)
     bench.baud = 230_400
@@ -193,7 +201,9 @@ async def messages_reset(dut):
 @cocotb.test()
 @configs(FAST)
 async def messages_order(dut):
-    """UB-MSG-01, UB-MSG-02: an event waits before a NAK; enabling again forgets none."""
+    """A pending event is sent before a pending NAK; enabling events again discards no event (UB-MSG-01,
+    UB-MSG-02).
+    """
     bench = await Bench.start(dut)
 
     async def fall() -> None:
@@ -203,14 +213,14 @@ async def messages_order(dut):
         await bench.clocks(3)
 
     await bench.done("03 01")
-    # The second fault and the fall come while the NAK to the first one is being sent.
+    # The second fault and the fall occur while the first NAK is being sent.
     await bench.send(b"\x01\x7e")
     await bench.quiet(30)
     await bench.send(b"\x01\x7e")
     await fall()
     assert not bench.got, "the first NAK has already been sent"
     same("order", [await bench.message() for _ in range(3)], [b"\x81\x04", b"\x80\xff", b"\x81\x04"])
-    # A fall during a script that enables events once more is not forgotten.
+    # A fall during a script that enables events again is kept.
     await bench.send(encode(b"\x21" + b"\x05" * 60 + b"\x03\x01"))
     await bench.clocks(300)
     await fall()

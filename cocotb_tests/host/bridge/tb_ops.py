@@ -1,4 +1,4 @@
-"""The ops without waits, the cycles at the part (UB-BUS-01), reset pulse, straps, counter, overflow."""
+"""The ops without waits, the accesses to the part (UB-BUS-01), reset pulse, straps, counter, overflow."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .settings import ALL_RATES, FAST, NONE, SLOW, TWO, axes_of, params_of
 @cocotb.test()
 @configs(FAST, ALL_RATES, SLOW, TWO, NONE)
 async def ops_ident(dut):
-    """UB-OPS-02: IDENT gives the 16 bytes of the table."""
+    """IDENT returns the 16 bytes of the table (UB-OPS-02)."""
     bench = await Bench.start(dut)
     params = params_of(bench.config)
     top = {8_000_000: 4, 15_000_000: 6, 2_000_000: 1}[bench.config.clk_hz]
@@ -30,7 +30,9 @@ async def ops_ident(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_bus_cycles(dut):
-    """UB-OPS-02, UB-BUS-01: address, strobe lengths and gaps to the clk; registers 0 to 15; order."""
+    """Accesses to registers 0 to 15 have the right order, address, strobe length and gap, exact to the
+    cycle (UB-OPS-02, UB-BUS-01).
+    """
     bench = await Bench.start(dut)
     bench.slave.registers[7] = 0x31
     script = b"".join(bytes([0x10 | a, 0x80 + a]) for a in range(16)) + bytes([0x27, 0x8A, 3, 1, 2, 3])
@@ -48,7 +50,7 @@ async def ops_bus_cycles(dut):
 
 
 def check_strobes(bench: Bench) -> int:
-    """UB-BUS-01 over all noted pin changes; the number of cycles."""
+    """Check UB-BUS-01 for all recorded pin changes; return the number of accesses."""
     falls = {"rd_no": 0, "wr_no": 0, "cs_no": 0}
     last_rise = last_change = -(10**9)
     cycles = 0
@@ -77,7 +79,7 @@ def check_strobes(bench: Bench) -> int:
 @cocotb.test()
 @configs(FAST)
 async def ops_counts(dut):
-    """UB-OPS-02: READN, WRITEN and POST with 1 and with the longest counts."""
+    """READN, WRITEN and POST work with 1 and with their maximum counts (UB-OPS-02)."""
     bench = await Bench.start(dut)
     for n in (1, 2, 251):
         data = bytes(bench.rng.getrandbits(8) for _ in range(n))
@@ -102,7 +104,9 @@ async def ops_counts(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_illegal(dut):
-    """UB-ANS-02, UB-ANS-03, UB-ANS-05, UB-OPS-02: unknown, cut, illegal ops: result 3, nothing done."""
+    """Unknown, truncated or illegal ops return result 3 and have no effect (UB-ANS-02, UB-ANS-03,
+    UB-ANS-05, UB-OPS-02).
+    """
     bench = await Bench.start(dut)
     bad = [bytes([code]) for code in (0x0A, 0x0B, 0x0D, 0x0E, 0x0F)] + [b"\x0d\x01", b"\x90\x01"]
     bad += [bytes([group << 4 | bench.rng.randrange(16), 0, 0]) for group in range(9, 16)]
@@ -129,7 +133,7 @@ async def ops_illegal(dut):
         last = read[-1] if read else 0
         same(f"{prefix} {op.hex()}", answer, bytes([3, len(before), last]) + read)
         same("accesses", len(log), len(before) if prefix == "24" else prefix == "12 21")
-    # The longest script, its last op cut by one byte.
+    # The longest script, with its last op one byte too short.
     answer = await bench.ask(b"\x00" * 240 + b"\x83\x0c" + bytes(11))
     same("POS 240", answer, bytes([3, 240, 0]))
     same("accesses", bench.accesses(), [])
@@ -139,12 +143,12 @@ async def ops_illegal(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_overflow(dut):
-    """UB-ANS-02, UB-ANS-04, UB-ANS-05: 256 data bytes have room, the 257th gives result 4."""
+    """An answer holds 256 data bytes; the 257th causes result 4 (UB-ANS-02, UB-ANS-04, UB-ANS-05)."""
     bench = await Bench.start(dut)
     fill = bytes([0x32, 255])
     same("256", len(await bench.done(fill + b"\x06")), 256)
     bench.accesses()
-    # (filler in front, op, reads of the failing op, data of it)
+    # (preceding fill bytes, op, reads of the failing op, data bytes of it)
     cases = [
         (255, "06 06", 0, 1, 1),
         (255, "22 22", 1, 1, 1),
@@ -165,7 +169,7 @@ async def ops_overflow(dut):
         answer = await bench.ask(bytes([0x32, size]) + bytes.fromhex(text))
         same(f"{size}, {text} has room", (answer[0], len(answer) - 1), (0, size + more))
     bench.accesses()
-    # GET keeps what fits.
+    # GET keeps the bytes that fit.
     bench.slave.hold_obf = 1
     answer = await bench.ask(bytes([0x32, 254]) + b"\x63")
     same("GET", (answer[:2], len(answer) - 3), (b"\x04\x02", 256))
@@ -175,7 +179,9 @@ async def ops_overflow(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_board(dut):
-    """UB-OPS-02: PINS, STRAPS, COUNT in one snapshot, ZERO, RESET of 16 clk and its pause."""
+    """PINS, STRAPS and ZERO work, COUNT is one snapshot, RESET lasts 16 cycles with its pause
+    (UB-OPS-02).
+    """
     bench = await Bench.start(dut)
     for level in (0x00, 0x81, 0x7E, 0x55):
         dut.pins_i.value = level
@@ -202,7 +208,7 @@ async def ops_board(dut):
 
 
 def watch(bench: Bench, pin) -> list[tuple[int, int]]:
-    """A list that fills with (time, level) of a pin's changes."""
+    """Return a list to which (time, level) of each change of the pin is appended."""
     changes: list[tuple[int, int]] = []
 
     async def run() -> None:
@@ -217,7 +223,9 @@ def watch(bench: Bench, pin) -> list[tuple[int, int]]:
 @cocotb.test()
 @configs(TWO)
 async def ops_two_counters(dut):
-    """UB-OPS-02, UB-ANS-05: COUNT and ZERO of axis 2 are its counter's; the ops behind stay illegal."""
+    """COUNT and ZERO of axis 2 use the counter of axis 2; the next op codes stay illegal (UB-OPS-02,
+    UB-ANS-05).
+    """
     bench = await Bench.start(dut)
     for first, second in ((0, -1), (0x12345678, -0x80000000), (-2, 0x7D7E5A81)):
         dut.count_i.value = (second & 0xFFFFFFFF) << 32 | first & 0xFFFFFFFF
@@ -238,7 +246,9 @@ async def ops_two_counters(dut):
 @cocotb.test()
 @configs(TWO)
 async def ops_two_snapshots(dut):
-    """UB-OPS-02: COUNT of axis 2 while both counters step gives a value it had, never a mixture."""
+    """While both counters step, COUNT of axis 2 returns a value that its counter had, never a mixture
+    (UB-OPS-02).
+    """
     bench = await Bench.start(dut)
 
     async def run() -> None:
@@ -266,13 +276,13 @@ async def ops_two_snapshots(dut):
 @cocotb.test()
 @configs(FAST)
 async def ops_count_snapshot(dut):
-    """UB-OPS-02: a counter that steps while COUNT is read gives a value it had, never a mixture."""
+    """While the counter steps, COUNT returns a value that it had, never a mixture (UB-OPS-02)."""
     bench = await Bench.start(dut)
 
     async def run() -> None:
         value, step = 0x00FFFFF0, 1
         while True:
-            # Across a carry through three bytes, up and down.
+            # Across a carry through three bytes, in both directions.
             for _ in range(32):
                 value += step
                 dut.count_i.value = value

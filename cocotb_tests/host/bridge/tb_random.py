@@ -1,4 +1,4 @@
-"""Random scripts and random line noise: ppmc_uart_bridge against the golden model, byte for byte."""
+"""Random scripts and random line noise: ppmc_uart_bridge compared with the golden model, byte for byte."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LONGEST_SCRIPT = 253
 
 
 def random_op(rng: random.Random) -> bytes:
-    """One op, mostly legal."""
+    """Return a random op; most are legal."""
 
     def some(n: int) -> bytes:
         return bytes(rng.choice((0x7D, 0x7E, rng.getrandbits(8))) for _ in range(n))
@@ -58,7 +58,7 @@ def random_op(rng: random.Random) -> bytes:
 
 
 def random_script(rng: random.Random) -> bytes:
-    """A script that fits a frame; waits that nothing ends take 1 ms."""
+    """Return a script that fits into a frame; its waits time out after 1 ms."""
     script = b"\x04\x01\x00"
     for _ in range(rng.choice((0, 1, 2, 4, 8, 30))):
         op = random_op(rng)
@@ -67,13 +67,13 @@ def random_script(rng: random.Random) -> bytes:
         script += op
     if rng.random() < 0.15:
         script = script[: rng.randint(0, len(script))]
-        # Without its TIMEOUT the limit is 250 ms: too long for a test.
+        # Without its TIMEOUT op the limit is 250 ms: too long for a test.
         script = script if len(script) >= 3 else b""
     return script
 
 
 class Pair:
-    """RTL and golden model, each with its own copy of the same part."""
+    """RTL and golden model, each with its own instance of the same part."""
 
     def __init__(self, bench: Bench, twin: Toy) -> None:
         params = params_of(bench.config)
@@ -85,17 +85,17 @@ class Pair:
         bench.dut.count_i.value = sum((twin.count(n + 1) & 0xFFFFFFFF) << 32 * n for n in range(axes))
 
     def pins(self, level: int) -> None:
-        """Level of all pins, both sides; bit 0 is int_n."""
+        """Set the levels of all pins on both sides; bit 0 is int_n."""
         self.bench.slave.pin_levels = self.twin.pin_levels = level
         self.bench.dut.pins_i.value = level
 
     async def exchange(self, what: str, data: bytes) -> None:
-        """Send; line bytes and accesses must be those of the model."""
+        """Send data; the bytes on the line and the accesses must be those of the model."""
         bench = self.bench
         before = len(bench.line)
         want = self.model.receive(data)
         await bench.send(data)
-        # Waits take up to 2 ms each when they fail, and one fails at most.
+        # A wait that fails takes up to 2 ms, and at most one fails.
         for _ in range(60):
             if len(bench.line) - before >= len(want):
                 break
@@ -114,7 +114,9 @@ class Pair:
 @cocotb.test()
 @configs(FAST, TWO)
 async def random_scripts(dut):
-    """UB-ANS-01 to UB-ANS-05, UB-OPS-02: 250 random scripts, some repeated, some with SEQ 0 or >= 128."""
+    """For 250 random scripts, some repeated, some with SEQ 0 or >= 128, answers and accesses equal
+    those of the model (UB-ANS-01 to UB-ANS-05, UB-OPS-02).
+    """
     bench = await Bench.start(dut)
     rng = bench.rng
     seed = rng.getrandbits(32)
@@ -132,13 +134,15 @@ async def random_scripts(dut):
 @cocotb.test()
 @configs(FAST)
 async def random_noise(dut):
-    """UB-FRM-01 to UB-FRM-06: damaged frames: the same NAKs as the model, nothing executed."""
+    """For damaged frames the bridge sends the same NAKs as the model and executes nothing (UB-FRM-01 to
+    UB-FRM-06).
+    """
     bench = await Bench.start(dut)
     rng = bench.rng
     pair = Pair(bench, Toy())
     bench.slave = Toy()
     for n in range(150):
-        # WRITE, READ, NOP only: whatever is left of it, the script takes no time.
+        # Only WRITE, READ and NOP: any remainder of the script takes no time.
         script = b"".join(
             rng.choice((b"\x00", b"\x12\x7d", b"\x12\x7e", b"\x24")) for _ in range(rng.randint(0, 9))
         )
@@ -154,7 +158,7 @@ async def random_noise(dut):
             line = line[:place] + b"\x7e"
         elif kind == 4:
             line = bytearray(rng.getrandbits(7) & 0x7C for _ in range(rng.randint(1, 9))) + b"\x7e"
-        # One fault at a time: a second NAK might not wait.
+        # Only one fault per frame, because a second NAK might not be queued.
         if line[1:-1].count(0x7E):
             continue
         await pair.exchange(f"line {n}", bytes(line))

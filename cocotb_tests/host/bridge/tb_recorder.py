@@ -1,4 +1,4 @@
-"""The recorder behind the bridge: every change with its clk, full memory, reading back; VERSION."""
+"""The recorder of the bridge: every change with its cycle, full memory, read-back; VERSION."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LONGEST = (1 << 8 * BYTES - WIDTH) - 1
 
 
 async def drive(bench: Bench, levels: list[tuple[int, int]]) -> None:
-    """Set watch_i: (clk to wait before, level)."""
+    """Drive watch_i with a list of (cycles to wait before, level)."""
     for gap, level in levels:
         for _ in range(gap):
             await FallingEdge(bench.dut.clk_i)
@@ -27,7 +27,7 @@ async def drive(bench: Bench, levels: list[tuple[int, int]]) -> None:
 
 
 async def read_all(bench: Bench) -> tuple[Recorded, list[tuple[int, int]]]:
-    """State, and (clk, levels) of all records, fetched in odd portions."""
+    """Return the state and (cycle, levels) of all records, read in portions of random size."""
     info = Recorded.parse(await bench.done(INFO))
     left, data = info.count * info.record_bytes, b""
     while left:
@@ -40,7 +40,9 @@ async def read_all(bench: Bench) -> tuple[Recorded, list[tuple[int, int]]]:
 @cocotb.test()
 @configs(REC)
 async def recorder_changes(dut: Any) -> None:
-    """UB-REC-01, UB-REC-02, UB-REC-03, UB-REC-04, UB-OPS-02: each change with its clk; rests; the end."""
+    """The recorder stores each change with its cycle, long pauses, and the end (UB-REC-01, UB-REC-02,
+    UB-REC-03, UB-REC-04, UB-OPS-02).
+    """
     bench = await Bench.start(dut)
     for turn in range(3):
         first = bench.rng.getrandbits(WIDTH)
@@ -68,7 +70,9 @@ async def recorder_changes(dut: Any) -> None:
 @cocotb.test()
 @configs(REC)
 async def recorder_full(dut: Any) -> None:
-    """UB-REC-04: one record more than there is room for sets FULL and ends it; what is there is right."""
+    """One record more than the memory holds sets FULL and ends the recording; the stored records are
+    right (UB-REC-04).
+    """
     bench = await Bench.start(dut)
     await bench.done(BEGIN)
     await drive(bench, [(3, n % 2 + 2 * n) for n in range(1, MOST)])
@@ -89,7 +93,9 @@ async def recorder_full(dut: Any) -> None:
 @cocotb.test()
 @configs(REC)
 async def recorder_reading(dut: Any) -> None:
-    """UB-REC-03, UB-ANS-05: bytes in order, REWIND to the first, zeros while it runs, room, bad operands."""
+    """Bytes are read in order, REWIND returns to the first, reads return zeros while it runs; the data
+    limit and invalid operands are handled as the rules state (UB-REC-03, UB-ANS-05).
+    """
     bench = await Bench.start(dut)
     bench.dut.watch_i.value = 0x155
     await bench.done(f"{BEGIN} 00 00 {END}")
@@ -114,7 +120,7 @@ async def recorder_reading(dut: Any) -> None:
 @cocotb.test()
 @configs(FAST, TWO)
 async def recorder_not_there(dut: Any) -> None:
-    """UB-REC-05, UB-VER-01: without a recorder its ops are unknown; VERSION has 16 bytes, here 0."""
+    """Without a recorder its ops are unknown; VERSION returns 16 bytes, here 0 (UB-REC-05, UB-VER-01)."""
     bench = await Bench.start(dut)
     for op in ("0D 00", "0D 01", "0E", "90 01"):
         same(op, await bench.ask(f"00 {op}"), bytes([3, 1, 0]))

@@ -1,4 +1,6 @@
-"""A whole board with a PPMC-2104 on the old chip's bus: both bus styles, phase drivers, lamps, reset."""
+"""A complete board with a PPMC-2104 on the bus of the old chip: both bus styles, phase drivers, LEDs,
+reset.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ LAMP_RUNNING, LAMP_SWITCH, LAMP_MOVING = 8, 4, 2
 
 
 class Host:
-    """Accesses in one bus style, all edges in the middle between two of clk."""
+    """Accesses in one bus style; all edges are midway between two rising edges of `clk`."""
 
     def __init__(self, dut: Any, style: BusStyle) -> None:
         self.dut, self.style = dut, style
@@ -39,11 +41,11 @@ class Host:
         return byte
 
     async def read(self, a: int) -> int:
-        """One read cycle; -1 if the part did not drive the bus."""
+        """Make one read access and return the byte; -1 if the part did not drive the bus."""
         return await self._strobe(a, dict(self.style.read_on), dict(self.style.read_off))
 
     async def write(self, a: int, byte: int) -> None:
-        """One write cycle, then until IBF = 0."""
+        """Make one write access, then wait until IBF = 0."""
         self.dut.d_i.value = byte
         driven = await self._strobe(a, dict(self.style.write_on), dict(self.style.write_off))
         same("nothing driven in a write", driven, -1)
@@ -51,14 +53,14 @@ class Host:
             pass
 
     async def instruction(self, code: int, *data: int) -> None:
-        """Code and data bytes."""
+        """Write a code and its data bytes."""
         await self.write(1, code)
         for byte in data:
             await self.write(0, byte)
 
 
 async def start(dut: Any, busc: int) -> Host:
-    """Power-on with idle pins; the station lets its part out of reset by itself."""
+    """Power on with idle pins; the board releases the reset of its part itself."""
     dut.clk.set(Immediate(0))
     dut.lock.set(Immediate(1))
     idle = {**PARTS["ppmc2104"].inputs, "busc": busc, "req_n": 1, "uart_rxd": 1}
@@ -75,7 +77,7 @@ async def start(dut: Any, busc: int) -> Host:
 
 
 async def released(dut: Any) -> None:
-    """Until the part is out of reset: 1 ms to 2 ms."""
+    """Wait until the part is out of reset: 1 ms to 2 ms."""
     for _ in range(20):
         await Timer(SECOND // 10_000, "ps")
         if int(dut.lamps.value) & LAMP_RUNNING:
@@ -84,7 +86,7 @@ async def released(dut: Any) -> None:
 
 
 async def move_one(dut: Any, busc: int) -> None:
-    """Initialise axis 1, one step of it, its end status."""
+    """Initialise axis 1, make one step and check its end status."""
     host = await start(dut, busc)
     same("windings are off", (int(dut.s1.value), int(dut.s2.value)), (0, 0))
     await host.instruction(*INIT)
@@ -105,21 +107,23 @@ async def move_one(dut: Any, busc: int) -> None:
 @cocotb.test()
 @configs(STATION)
 async def station_strobes(dut):
-    """P2104-BUS-02: WRS and RDS reach the part; the phases are turned round; lamps."""
+    """WRS and RDS reach the part, the phase outputs are inverted, the LEDs follow (P2104-BUS-02)."""
     await move_one(dut, 0)
 
 
 @cocotb.test()
 @configs(STATION)
 async def station_direction(dut):
-    """P2104-BUS-01: DS and R/W reach the part as well."""
+    """DS and R/W reach the part (P2104-BUS-01)."""
     await move_one(dut, 1)
 
 
 @cocotb.test()
 @configs(STATION)
 async def station_reset(dut):
-    """The host's reset line stops a motion at once and switches everything off; the straps are pins."""
+    """The reset line of the host stops a motion immediately and switches everything off; the straps are
+    pins.
+    """
     host = await start(dut, 0)
     await host.instruction(*INIT)
     while await host.read(1) & 0x10:

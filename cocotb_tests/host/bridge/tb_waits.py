@@ -15,7 +15,9 @@ from .slave import ERR, IBF, OBF, Toy
 @cocotb.test()
 @configs(FAST)
 async def waits_handshake(dut):
-    """UB-OPS-01, UB-WAIT-01, UB-OPS-02: each write after IBF = 0, each read after OBF = 1; bytes in order."""
+    """Each write follows IBF = 0, each read follows OBF = 1, and the bytes are in order (UB-OPS-01,
+    UB-WAIT-01, UB-OPS-02).
+    """
     bench = await Bench.start(dut, Toy(lag=4))
     for _ in range(30):
         n = bench.rng.randint(1, 15)
@@ -34,7 +36,7 @@ async def waits_handshake(dut):
                     assert log[n + 1][:2] == ("R", 1), f"no look at IBF after a byte of CALL, {log}"
             elif a == 0:
                 assert log[n - 1][:2] == ("R", 1) and status & OBF, f"read without OBF, {log}"
-        # The status that CALL gives: the last one of its last wait.
+        # CALL returns the last status of its last wait.
         end = max(n for n, (kind, a, _) in enumerate(log) if kind == "W" and a < 2) + 1
         while log[end][2] & IBF:
             end += 1
@@ -44,14 +46,16 @@ async def waits_handshake(dut):
 @cocotb.test()
 @configs(FAST)
 async def waits_refused(dut):
-    """UB-ANS-02, UB-ANS-04, UB-OPS-01: ERR after a byte of CALL: result 2, no status, no further byte."""
+    """ERR after a byte of CALL causes result 2 without a status, and no further byte is written
+    (UB-ANS-02, UB-ANS-04, UB-OPS-01).
+    """
     bench = await Bench.start(dut, Toy(refuse=1.0))
     answer = await bench.ask("00 24 53 11 22 33")
     log = bench.accesses()
     same("head", answer, bytes([2, 2, log[-1][2], log[0][2]]))
     assert log[-1][2] & ERR
     same("writes", [entry for entry in log if entry[0] == "W"], [("W", 1, 0x11)])
-    # POST does not look at ERR; an error that was there before CALL does not count before its first byte.
+    # POST ignores ERR. CALL ignores an error that was set before its first byte.
     await bench.done("40 02 01 02")
     bench.slave.refuse = 0.0
     same("cleared by the command", len(await bench.done("51 00")), 1)
@@ -60,7 +64,9 @@ async def waits_refused(dut):
 @cocotb.test()
 @configs(FAST)
 async def waits_condition(dut):
-    """UB-WAIT-01, UB-OPS-02: WAIT compares register AND mask with value, gives the whole byte."""
+    """WAIT compares register AND mask with the value and returns the complete byte (UB-WAIT-01,
+    UB-OPS-02).
+    """
     bench = await Bench.start(dut)
     for _ in range(40):
         a, mask, byte = bench.rng.randint(2, 15), bench.rng.getrandbits(8), bench.rng.getrandbits(8)
@@ -72,14 +78,16 @@ async def waits_condition(dut):
         log = bench.accesses()
         same("byte", data[0], log[-1][2])
         same("first that fits", [byte & mask == 0 for _, _, byte in log], [False] * (len(log) - 1) + [True])
-    # A value bit outside the mask can never be met.
+    # A value bit outside the mask can never match.
     same("never", (await bench.ask("04 00 00 72 00 01"))[:2], b"\x01\x03")
 
 
 @cocotb.test()
 @configs(SLOW)
 async def waits_time(dut):
-    """UB-WAIT-01, UB-ANS-02, UB-ANS-04: result 1 after limit to limit + 1 ms, first 250 ms; 0: one look."""
+    """A wait returns result 1 after its limit to limit + 1 ms (default 250 ms); with limit 0 it reads
+    once (UB-WAIT-01, UB-ANS-02, UB-ANS-04).
+    """
     bench = await Bench.start(dut)
     bench.slave.hold_ibf, bench.slave.hold_obf = 1, 0
     cases = (
@@ -97,18 +105,18 @@ async def waits_time(dut):
         answer = await bench.message(limit + 30)
         log = bench.accesses()
         same(text, answer, bytes([0, 1, place, log[-1][2]]))
-        # The answer begins a little after the wait has ended: 6 characters and its flag back.
+        # The answer begins shortly after the end of the wait; `begun` is the start of its first character.
         begun = bench.line[-len(encode(answer))][0] - round(9.5 * bench.bit_ps())
         took = (begun - start) * 1000 / SECOND
         assert limit - 0.1 <= took <= limit + 1.3, f"{text}: {took} ms"
         same("accesses", ({entry[:2] for entry in log}, len(log) == 1), ({("R", 1)}, limit == 0))
         if limit:
-            # Back to back: a read every 10 clk, 3 more for the decision at most.
+            # Back to back: one read per 10 cycles, at most 3 more for the decision.
             assert len(log) >= limit * bench.config.clk_hz / 1000 / 13, f"only {len(log)} reads in {limit} ms"
     bench.slave.hold_ibf = 0
     answer = await bench.ask("04 01 00 51 07 61", ms=100)
     same("data before the wait that failed", answer, b"\x01\x05\x40\x40")
-    # The limit is of each wait, not of the script; the next script begins with 250 ms again.
+    # The limit applies to each wait, not to the script; the next script begins with 250 ms again.
     bench.slave.hold_obf = 1
     same("GET keeps what it has read", len(await bench.done("04 00 00 62 42 02 01 02")), 2)
 
@@ -116,7 +124,9 @@ async def waits_time(dut):
 @cocotb.test()
 @configs(SLOW)
 async def waits_limit_each(dut):
-    """UB-WAIT-01: the limit counts anew for each wait of an op; POST of 2 ms each, limit 3."""
+    """The limit restarts for each wait of an op: POST with waits of 2 ms each and a limit of 3 ms
+    succeeds (UB-WAIT-01).
+    """
 
     class Lazy(Toy):
         def read(self, a: int) -> int:
@@ -139,7 +149,7 @@ async def waits_limit_each(dut):
 @cocotb.test()
 @configs(FAST)
 async def waits_interrupted(dut):
-    """UB-FRM-07, UB-WAIT-01, UB-ANS-02: the next bytes end a wait with result 5; flags do not."""
+    """Bytes end a wait with result 5; flags do not (UB-FRM-07, UB-WAIT-01, UB-ANS-02)."""
     bench = await Bench.start(dut)
     bench.slave.hold_obf = 0
     frames = (("24 61", 1, [0x00]), ("04 E8 03 72 00 01", 3, [0x7D]), ("61", 0, encode(b"\x05\x13\x44")[1:]))
@@ -155,7 +165,7 @@ async def waits_interrupted(dut):
         log = bench.accesses()
         same(text, answer[:4], bytes([1, 5, place + 2, log[-1][2]]))
         begun = bench.line[-len(encode(answer))][0] - 9.5 * bench.bit_ps()
-        # At once: within a read cycle after the middle of the first stop bit.
+        # Immediately: within a read access after the middle of the first stop bit.
         assert 0 <= bench.clk_of(begun - start - 9.5 * bench.bit_ps()) <= 45
         same("NAK 7", await bench.message(), b"\x81\x07")
         await bench.silent("the bytes are dropped")

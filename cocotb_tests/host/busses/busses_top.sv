@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// busses_top: both bus bridges with ModelBits address lines and bare strobe pins (model_*), and both with a PPMC-104
-//         behind them, as the templates of packages/templates instantiate them (part_*).
-// Timing: one clk for all.
+// busses_top: both bus bridges with ModelBits address lines and bare strobe pins (model_*), and both with a
+//         PPMC-104, as the templates of packages/templates instantiate them (part_*).
+// Timing: one clock for all.
 `default_nettype none
 
 module busses_top #(

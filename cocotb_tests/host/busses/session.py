@@ -23,9 +23,10 @@ Write = Callable[[int, int], Awaitable[None]]
 
 
 class PartMonitor:
-    """Records each change of a part's pins; edge 0 is the first that samples the part's rst_n = 1.
+    """Records each change of the pins of a part; edge 0 is the first that samples rst_n = 1 at the
+    part.
 
-    Inputs carry the edge that samples them, outputs the edge that made them.
+    Inputs have the edge that samples them, outputs the edge on which they change.
     """
 
     def __init__(self, dut: Any, instance: str) -> None:
@@ -58,11 +59,11 @@ class PartMonitor:
                     seen[pin] = level
 
     def pulses(self) -> list[int]:
-        """Edges of all pulses: falls of pout_n."""
+        """Return the edges of all pulses (falling edges of pout_n)."""
         return [t for t, pin, level in self.outputs if pin == "pout_n" and not level]
 
     def check_against_model(self) -> None:
-        """Replay the strobes into the golden model and compare every output edge, exact to the clk."""
+        """Replay the strobes into the golden model and compare every output edge, exact to the cycle."""
         model = Ppmc104()
         groups: dict[int, dict[str, int]] = {}
         for t, pin, level in self.inputs:
@@ -80,7 +81,9 @@ class PartMonitor:
 
 
 async def run_session(read: Read, write: Write, irq: Callable[[], int]) -> dict[str, int]:
-    """Initialise, move PULSES pulses, wait for the bridge register, fetch finish status and remainder."""
+    """Initialise, move PULSES pulses, wait with the bridge register, read finish status and remaining
+    pulses.
+    """
 
     async def until(mask: int, value: int) -> int:
         for _ in range(2000):
@@ -119,7 +122,9 @@ async def run_session(read: Read, write: Write, irq: Callable[[], int]) -> dict[
 
 
 def check_session(monitor: PartMonitor, result: dict[str, int]) -> None:
-    """The answers, the pulses against the predictor, every output edge against the golden model."""
+    """Compare the answers with the expected ones, the pulses with the predictor, every output edge with
+    the golden model.
+    """
     assert result == {"status": 0, "finish": 0x83, "left": 0}, result
     pulses = monitor.pulses()
     got = [b - a for a, b in zip(pulses, pulses[1:], strict=False)]

@@ -1,4 +1,4 @@
-"""Start of every bus test: quiet inputs, clk, reset."""
+"""Start of every bus test: idle inputs, clk, reset."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ INPUT_ENDS += ("cyc", "stb", "we", "adr", "sel", "datwr", "bus_q")
 PREFIXES = ("model_axil", "part_axil", "model_wb", "part_wb")
 PERIOD_PS = 62_500
 TEN_LINES = Config("lines10", extra=(("ModelBits", 10),))
-"""As many address lines as a bank has."""
+"""The number of address lines of a bank."""
 
 
 def count_of(dut: Any) -> int:
-    """Number of registers behind the bridges with bare pins."""
+    """Return the number of registers accessed through the bridges with bare pins."""
     return 1 << len(dut.model_wb_bus_a)
 
 
 async def start(dut: Any) -> random.Random:
-    """All inputs 0 (int_n 1), clk running, reset done; returns the random source of the test."""
+    """Set all inputs to 0 (int_n to 1), start clk and reset; return the random source of the test."""
     for prefix in PREFIXES:
         for end in INPUT_ENDS:
             if hasattr(dut, name := f"{prefix}_{end}"):

@@ -1,4 +1,4 @@
-"""Register model on the strobe bus that checks the pins of every clk against UB-BUS-01."""
+"""Register model on the strobe bus that checks the pins against UB-BUS-01 in every cycle."""
 
 from __future__ import annotations
 
@@ -12,30 +12,31 @@ WRITE_CLK, READ_CLK, GAP_CLK = 4, 6, 4
 
 
 class Registers:
-    """What the registers hold. A read returns the value and then counts the register up.
+    """Contents of the registers. A read returns the value, then increments the register.
 
-    So a strobe too many, one too few and a strobe at a wrong address all show in later reads.
+    Therefore an extra strobe, a missing strobe and a strobe at a wrong address all change later reads.
     """
 
     def __init__(self, count: int) -> None:
         self.values = [17 * n & 0xFF for n in range(count)]
 
     def write(self, address: int, value: int) -> None:
-        """One write cycle."""
+        """Write a register."""
         self.values[address] = value
 
     def read(self, address: int) -> int:
-        """One read cycle."""
+        """Return the value of a register, then increment it."""
         value = self.values[address]
         self.values[address] = value + 1 & 0xFF
         return value
 
 
 class StrobeSlave:
-    """Slave at the pins `<prefix>_*`; `cycles` lists ("w" or "r", address, value, clk of its first low).
+    """Slave at the pins `<prefix>_*`; `cycles` lists ("w" or "r", address, value, cycle of its first low
+    level).
 
-    A read shows the value in the last clk of its strobe only, else noise. AssertionError in the simulation on
-    any breach of the timing.
+    A read outputs the value in the last cycle of its strobe only, else noise. Any violation of the
+    timing raises AssertionError in the simulation.
     """
 
     def __init__(self, dut: Any, prefix: str, count: int, rng: random.Random) -> None:
@@ -66,7 +67,7 @@ class StrobeSlave:
                 if not low:
                     assert high >= GAP_CLK, f"{where}: only {high} clk since the strobe before"
                     first = self.clk
-                # At the first low level `before` is the clk before the strobe: it counts as well.
+                # At the first low level, `before` is the cycle before the strobe; it must match, too.
                 assert before[3:] == now[3:], f"{where}: address or data changed from {before}"
                 low += 1
                 last = low == READ_CLK - 1 and not rd_n
@@ -91,11 +92,11 @@ class StrobeSlave:
         self.ended.set()
 
     def check_alive(self) -> None:
-        """Raise what the checker found, if it has found anything."""
+        """Raise the error of the checker, if it has found one."""
         if self._task.done():
             self._task.result()
 
     def accesses(self) -> list[tuple[str, int, int]]:
-        """The cycles so far without their times."""
+        """Return the accesses so far without their times."""
         self.check_alive()
         return [cycle[:3] for cycle in self.cycles]

@@ -1,4 +1,6 @@
-"""ppmc_axil behind cocotbext-axi's master: handshakes, register map, strobes, and a PPMC-104 that moves."""
+"""ppmc_axil with the master of cocotbext-axi: handshakes, register map, strobes, and a PPMC-104 that
+moves.
+"""
 
 from __future__ import annotations
 
@@ -23,12 +25,12 @@ WRITE_LATENCY, READ_LATENCY, QUICK_LATENCY = 8, 10, 2
 
 
 def make_master(dut: Any, prefix: str) -> AxiLiteMaster:
-    """Master at the pins `<prefix>_*`."""
+    """Return a master at the pins `<prefix>_*`."""
     return AxiLiteMaster(AxiLiteBus.from_prefix(dut, prefix), dut.clk)
 
 
 def channels(master: AxiLiteMaster) -> dict[str, Any]:
-    """The five channels of a master; each can pause."""
+    """Return the five channels of a master; each can pause."""
     write, read = master.write_if, master.read_if
     return {
         "aw": write.aw_channel,
@@ -40,27 +42,29 @@ def channels(master: AxiLiteMaster) -> dict[str, Any]:
 
 
 def pauses(rng: random.Random, share: float) -> Iterator[bool]:
-    """Pause generator: stalls of random length that take `share` of the time."""
+    """Yield stalls of random length that occupy `share` of the time."""
     while True:
         stalled = rng.random() < share
         yield from itertools.repeat(stalled, rng.randint(1, 12))
 
 
 async def read_word(master: AxiLiteMaster, address: int) -> tuple[int, int]:
-    """(response, data) of a 32-bit read."""
+    """Return (response, data) of a 32-bit read."""
     answer = await with_timeout(master.read(address, 4), 1, "ms")
     return int(answer.resp), int.from_bytes(answer.data, "little")
 
 
 async def write_bytes(master: AxiLiteMaster, address: int, data: bytes) -> int:
-    """Response of a write; lanes outside `data` have WSTRB = 0."""
+    """Return the response of a write; lanes outside `data` have WSTRB = 0."""
     return int((await with_timeout(master.write(address, data), 1, "ms")).resp)
 
 
 @cocotb.test()
 @configs(F16, TEN_LINES)
 async def axil_random_accesses(dut):
-    """Given random accesses and stalls on all channels, then data, responses and strobes follow the map."""
+    """For random accesses with stalls on all channels, data, responses and strobes follow the register
+    map.
+    """
     rng, count = await start(dut), count_of(dut)
     bridge = 4 * count
     slave, master = StrobeSlave(dut, "model_axil_bus", count, rng), make_master(dut, "model_axil")
@@ -105,7 +109,7 @@ async def axil_random_accesses(dut):
 
 @cocotb.test()
 async def axil_reads_and_writes_at_once(dut):
-    """Given queues of reads and writes side by side, then each keeps its order and both get their turn."""
+    """Parallel queues of reads and writes each keep their order, and both make progress."""
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
     written = [(rng.randrange(4), rng.getrandbits(8)) for _ in range(150)]
@@ -136,7 +140,9 @@ async def axil_reads_and_writes_at_once(dut):
 
 @cocotb.test()
 async def axil_channel_order(dut):
-    """Given AW long before W, W long before AW, answers nobody takes, then one strobe each, no more."""
+    """AW long before W, W long before AW, and responses that the master does not accept cause exactly
+    one strobe each.
+    """
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_axil_bus", COUNT, rng), make_master(dut, "model_axil")
     channel, want = channels(master), []
@@ -152,7 +158,7 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         want.append(("w", 3, value))
         assert slave.accesses() == want
-    # B not taken: the next write may wait in the bridge, reads go on.
+    # B not accepted: the next write may wait in the bridge, reads continue.
     channel["b"].pause = True
     events = [master.init_write(4 * n, bytes([n])) for n in (1, 2)]
     for _ in range(40):
@@ -161,14 +167,14 @@ async def axil_channel_order(dut):
     assert slave.accesses() == want and int(dut.model_axil_bvalid.value), "a write behind an answer not taken"
     assert (await read_word(master, 4 * 1))[1] == 1
     want.append(("r", 1, 1))
-    # What those reads are answered is none of B's business.
+    # The responses of these reads do not influence B.
     assert (await read_word(master, BRIDGE + 4))[0] == AxiResp.SLVERR
     channel["b"].pause = False
     for event in events:
         await with_timeout(event.wait(), 1, "ms")
         assert event.data.resp == AxiResp.OKAY
     want.append(("w", 2, 2))
-    # R not taken: it must keep its data while a write and another read wait or run.
+    # R not accepted: it must keep its data while a write and another read wait or run.
     channel["r"].pause = True
     reads = [master.init_read(4 * n, 4) for n in (1, 2)]
     await write_bytes(master, 4 * 5, b"\x77")
@@ -184,7 +190,7 @@ async def axil_channel_order(dut):
 
 @cocotb.test()
 async def axil_latency(dut):
-    """Given an idle bridge, then B and R come after the clk that the header names."""
+    """From an idle bridge, B and R are valid after the number of cycles that the header states."""
     rng = await start(dut)
     StrobeSlave(dut, "model_axil_bus", COUNT, rng)
     edge = RisingEdge(dut.clk)
@@ -217,7 +223,7 @@ async def axil_latency(dut):
 
 @cocotb.test()
 async def axil_part_moves(dut):
-    """Given a PPMC-104 behind the bridge, when a CPU runs it, then it does what the golden model does."""
+    """A PPMC-104 accessed through the bridge by a CPU behaves as the golden model does."""
     rng = await start(dut)
     monitor, master = PartMonitor(dut, "u_part_axil"), make_master(dut, "part_axil")
     for channel in channels(master).values():

@@ -1,4 +1,6 @@
-"""A reset in the middle of an access, on both busses: all is at rest at once, and nothing is left of it."""
+"""A reset during an access, on both buses: all outputs are idle immediately, and the access has no
+later effect.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +20,13 @@ CALLS = {
     "model_axil": ({"awvalid": 1, "wvalid": 1, "wstrb": 15}, {"arvalid": 1}),
 }
 ADDRESS = {"model_wb": ("adr", 2), "model_axil": ("awaddr", 0)}
-"""Pin, and how far a byte address is shifted."""
+"""Pin, and the number of bits by which a byte address is shifted."""
 LONGEST = 14
-"""clk that an access lasts at most."""
+"""Maximum length of an access in cycles."""
 
 
 async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
-    """An access that a reset ends `after` clk into it, in the low half of clk."""
+    """Start an access and assert the reset `after` cycles later, while clk is low."""
 
     def put(**levels: int) -> None:
         for name, level in levels.items():
@@ -55,7 +57,9 @@ async def cut(dut: Any, prefix: str, call: dict[str, int], after: int) -> None:
 @cocotb.test()
 @cocotb.parametrize(prefix=list(REST), register=[0, 1])
 async def bus_reset_in_an_access(dut: Any, prefix: str, register: int) -> None:
-    """Given accesses to a register or to the bridge, then at rest at once; irq comes back by itself."""
+    """A reset during an access to a register or to the bridge sets all outputs idle immediately; irq is
+    asserted again automatically.
+    """
     await start(dut)
     getattr(dut, f"{prefix}_bus_int_n").value = 0
     for _ in range(3):

@@ -1,4 +1,6 @@
-"""ppmc_wishbone behind a classic master: register map, strobes, give-ups, and a PPMC-104 that moves."""
+"""ppmc_wishbone with a classic master: register map, strobes, aborted requests, and a PPMC-104 that
+moves.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ WRITE_LATENCY, READ_LATENCY, QUICK_LATENCY = 6, 8, 1
 @cocotb.test()
 @configs(F16, TEN_LINES)
 async def wishbone_random_accesses(dut):
-    """Given random accesses with and without pauses, then data, answers and strobes follow the map."""
+    """For random accesses with and without pauses, data, responses and strobes follow the register map."""
     rng, count = await start(dut), count_of(dut)
     bridge = 4 * count
     slave, master = StrobeSlave(dut, "model_wb_bus", count, rng), WishboneMaster(dut, "model_wb")
@@ -63,7 +65,9 @@ async def wishbone_random_accesses(dut):
 
 @cocotb.test()
 async def wishbone_give_up(dut):
-    """Given a master that takes requests back, then strobes stay whole, no later access gets its answer."""
+    """If the master withdraws requests, strobes stay complete and no later access gets the response of
+    a withdrawn one.
+    """
     rng = await start(dut)
     slave, master = StrobeSlave(dut, "model_wb_bus", COUNT, rng), WishboneMaster(dut, "model_wb")
     answered = dropped = 0
@@ -89,7 +93,9 @@ async def wishbone_give_up(dut):
 
 @cocotb.test()
 async def wishbone_latency(dut):
-    """Given an idle bridge, then answers come after the clk that the header names; in a row too."""
+    """From an idle bridge, responses occur after the number of cycles that the header states, also back
+    to back.
+    """
     rng = await start(dut)
     StrobeSlave(dut, "model_wb_bus", COUNT, rng)
     master = WishboneMaster(dut, "model_wb")
@@ -111,7 +117,7 @@ async def wishbone_latency(dut):
 
 @cocotb.test()
 async def wishbone_part_moves(dut):
-    """Given a PPMC-104 behind the bridge, when a CPU runs it, then it does what the golden model does."""
+    """A PPMC-104 accessed through the bridge by a CPU behaves as the golden model does."""
     rng = await start(dut)
     monitor, master = PartMonitor(dut, "u_part_wb"), WishboneMaster(dut, "part_wb")
 

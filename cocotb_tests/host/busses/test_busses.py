@@ -1,4 +1,4 @@
-"""Runs the tests of the on-chip bus bridges: one pytest item a cocotb test, one build for all."""
+"""Runs the tests of the on-chip bus bridges: one pytest item per cocotb test, one build for all."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ ITEMS = cocotb_items(
     "cocotb_tests.host.busses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("busses", {}), shared=True
 )
 
-# The wheel's verilated.mk cannot build a design that is split into several C++ files.
+# The verilated.mk of the wheel cannot build a design that is split into several C++ files.
 ONE_FILE = ("--output-split", "0")
 
 
 def busses_design(item) -> Design:
-    """Everything of a PPMC-104, the templates of both bridges and the test top."""
+    """Return the design: the sources of a PPMC-104, the templates of both bridges and the test top."""
     part = part_design("ppmc104", item.config)
     templates = [
         ROOT / "packages" / "templates" / f"ppmc104_example_{bus}.sv" for bus in ("axil", "wishbone")

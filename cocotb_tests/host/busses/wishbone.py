@@ -1,4 +1,4 @@
-"""Wishbone B4 master for classic cycles; every clk is checked for answers nobody asked for."""
+"""Wishbone B4 master for classic cycles; it checks in every cycle that no unrequested response occurs."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from cocotb.triggers import RisingEdge
 
 
 class WishboneMaster:
-    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last answer.
+    """Master at the pins `<prefix>_*`. `clk` counts rising edges; `latency` is that of the last
+    response.
 
-    Latency: clk from the first edge that samples STB to the one that samples the answer.
+    Latency: cycles from the first edge that samples STB to the edge that samples the response.
     """
 
     TIMEOUT = 200
@@ -41,7 +42,7 @@ class WishboneMaster:
             self._pins[name].value = level
 
     def idle(self) -> None:
-        """End the cycle."""
+        """End the bus cycle."""
         self._put(cyc=0, stb=0, we=0, adr=0, sel=0, datwr=0)
 
     async def clocks(self, n: int) -> None:
@@ -55,9 +56,11 @@ class WishboneMaster:
     async def access(
         self, address: int, value: int | None = None, sel: int = 0xF, keep: bool = False
     ) -> tuple[bool, int]:
-        """One cycle at a byte address: a read, or a write of `value`; returns (ok, data).
+        """Make one bus cycle at a byte address: a read, or a write of `value`; return (ok, data).
 
-        keep: leave CYC and STB up, for another access right behind. AssertionError when no answer comes.
+        Args: keep: leave CYC and STB high for another access directly after this one.
+
+        Raises: AssertionError: no response.
         """
         self._offer(address, value, sel)
         for waited in range(self.TIMEOUT):
@@ -74,7 +77,9 @@ class WishboneMaster:
         raise AssertionError(f"no answer for {self.TIMEOUT} clk at address {address:#x}")
 
     async def give_up(self, address: int, value: int | None, after: int) -> bool:
-        """Offer an access and take it back after `after` clk (>= 1); True if it was answered before."""
+        """Request an access and withdraw it after `after` cycles (>= 1); return True if it was answered
+        before.
+        """
         self._offer(address, value, 0xF)
         for _ in range(after):
             await self._edge

@@ -1,4 +1,6 @@
-"""What `make test-verilog` runs of the four axes on an ISA bus, and what it leaves out and why."""
+"""Tests that `make test-verilog` runs for the four axes on an ISA bus, and the tests that it omits,
+with the reason.
+"""
 
 from __future__ import annotations
 

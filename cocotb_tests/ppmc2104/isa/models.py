@@ -1,4 +1,4 @@
-"""What each part of the module saw and did, compared edge by edge with a golden model of its own."""
+"""Comparison of each part of the module with a separate golden model, edge by edge."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .setting import AXIS_INPUTS, AXIS_OUTPUTS, BASE, ISA_4AXIS, PARTS, SOURCE
 
 
 def part_pins(pins: dict[str, int], number: int) -> dict[str, int]:
-    """Input pins of part 0 or 1 by the rules of the module's wiring, from the pins of the module."""
+    """Return the input pins of part 0 or 1, from the pins of the module and the rules of its wiring."""
     mine = not pins["aen"] and pins["sa"] >> 1 == (BASE >> 1) + number
     return {
         "rst_n": int(pins["rst_n"] and not pins["reset_drv"]),
@@ -29,7 +29,7 @@ def part_pins(pins: dict[str, int], number: int) -> dict[str, int]:
 
 
 def part_stimulus(bench: Bench, number: int) -> list[Change]:
-    """Pin changes of a part, as sampled by its clk edges."""
+    """Return the pin changes of a part, as its clk edges sample them."""
     pins = {**ISA_4AXIS.inputs, "rst_n": 1}
     seen: dict[str, int] = {"rst_n": 1, **PPMC2104.inputs}
     changes = []
@@ -42,7 +42,7 @@ def part_stimulus(bench: Bench, number: int) -> list[Change]:
 
 
 def part_edges(bench: Bench, number: int) -> list[Edge]:
-    """Output edges of a part."""
+    """Return the output edges of a part."""
     rows: list[Edge] = []
 
     def add(output: str, name: str, shift: int, mask: int) -> None:
@@ -73,9 +73,11 @@ def compare_part(bench: Bench, number: int) -> Comparison:
 
 
 def check_both(bench: Bench, at_least: int = 0) -> None:
-    """Both parts equal their models, irq follows int_n; AssertionError with a report if not.
+    """Check that both parts equal their models and that irq follows int_n.
 
-    `at_least`: so many edges of each part must have been there to compare.
+    Args: at_least: minimum number of edges of each part that must have been compared.
+
+    Raises: AssertionError: a mismatch; a report was written.
     """
     for number in range(PARTS):
         comparison = compare_part(bench, number)
@@ -88,7 +90,9 @@ def check_both(bench: Bench, at_least: int = 0) -> None:
 
 
 def arming_writes(bench: Bench) -> list[tuple[int, int]]:
-    """(edge, level): 1 from the edge on that sees a write of the source register, any byte (ISA-11)."""
+    """Return (edge, level) with level 1 from the edge that samples a write of the source register, any
+    byte (ISA-11).
+    """
     pins, found = {**ISA_4AXIS.inputs}, [(0, 0)]
     for t, group in groupby(bench.stimulus, key=lambda change: change.t):
         pins.update({change.pin: change.value for change in group})
@@ -99,8 +103,10 @@ def arming_writes(bench: Bench) -> list[tuple[int, int]]:
 
 
 def check_irq(bench: Bench) -> None:
-    """irq is the registered OR of both interrupts, low while a write re-arms it (ISA-06, ISA-11)."""
-    # When a level begins to count: that of int_n with the next edge, that of the pins with the edge itself.
+    """Check that irq is the registered OR of both interrupts, low while a write re-arms it (ISA-06,
+    ISA-11).
+    """
+    # Edge from which a level counts: for int_n the next edge, for the pins the edge itself.
     calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
     events = sorted(calls + [(t, "write", level) for t, level in arming_writes(bench)])
     now, level, wanted = {"call": 0, "write": 0}, 0, []

@@ -1,4 +1,4 @@
-"""The module isa_4axis as the harness sees it, and a bench with two hosts and four axes."""
+"""The module isa_4axis for the harness, and a test bench with two hosts and four axes."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ ISA_4AXIS = Part(
         "clk_o": (1, 0),
         **{pin: (4, level) for pin, level in AXIS_OUTPUTS.items()},
         **{pin: (5, 0b11111) for pin in PHASES},
-        # Not pins: what the two parts give to the slave.
+        # Not pins: signals from the two parts to the slave.
         "d": (16, 0),
         "d_oe": (2, 0b00),
         "int_n": (2, 0b11),
@@ -56,14 +56,14 @@ ISA_4AXIS = Part(
 
 
 def design(config: Config, **params: int) -> Design:
-    """The module with its parts; `params` overrides or adds parameters."""
+    """Return the design of the module with its parts; `params` overrides or adds parameters."""
     ports = ("clk", "rst_n", *ISA_4AXIS.inputs, *ISA_4AXIS.outputs)
     values = {**ISA_4AXIS.params(config), "BASE_ADDR": BASE, **params}
     return Design("isa_4axis", sources(part("isa_4axis")), include_dirs(), values, ports=ports)
 
 
 class Setting:
-    """The bench, one bus master, the host of each part, and the four axes as `axes[1]` … `axes[4]`."""
+    """The test bench, one bus master, the host of each part, and the four axes as `axes[1]` … `axes[4]`."""
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
@@ -84,11 +84,11 @@ class Setting:
 
     @classmethod
     async def start(cls, dut: Any, **pins: int) -> Setting:
-        """Reset done, the parts take bytes."""
+        """Reset the module and wait until the parts accept bytes."""
         return cls(await Bench.start(dut, ISA_4AXIS, **pins))
 
     async def set_up(self, axis: int, code: int, rl: int, rh: int, pa: int) -> None:
-        """Initial setting of an axis; waits for its ramp table."""
+        """Send the initial setting of an axis and wait for its ramp table."""
         host = self.hosts[(axis - 1) // 2]
         second = (axis - 1) % 2
         await host.init(code | second << 5, rl, rh, pa)

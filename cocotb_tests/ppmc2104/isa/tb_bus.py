@@ -1,4 +1,4 @@
-"""Addresses, AEN, lengths of cycles, resets, and the source register of isa_4axis."""
+"""Addresses, AEN, lengths of accesses, resets, and the source register of isa_4axis."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ DATA_A, CODE_A, DATA_B, CODE_B = range(BASE, BASE + 4)
 @cocotb.test()
 @configs(F16, F8)
 async def isa_registers(dut: Any) -> None:
-    """Given a reset module, when both parts are written and read, then each answers at its own addresses."""
+    """After reset, each part responds at its own addresses (ISA-02, ISA-09)."""
     setting = await Setting.start(dut)
     bench, (a, b) = setting.bench, setting.hosts
     levels = ISA_4AXIS.reset_levels()
@@ -44,7 +44,7 @@ async def isa_registers(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_other_addresses(dut: Any) -> None:
-    """Given a module at 300h, when other addresses are read and written, then nothing drives or changes."""
+    """With the module at 300h, accesses to other addresses drive and change nothing."""
     setting = await Setting.start(dut)
     bench, master = setting.bench, setting.master
     await setting.hosts[0].run("c D1 c 42")
@@ -73,10 +73,10 @@ async def isa_other_addresses(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F8)
 async def isa_short_cycles(dut: Any) -> None:
-    """Given commands of 2 ns to 1.5 clk at any phase, then each is done wholly or not at all."""
+    """Accesses of 2 ns to 1.5 cycles, at any phase, are executed completely or not at all."""
     setting = await Setting.start(dut)
     bench, master, rng = setting.bench, setting.master, setting.bench.rng
-    master.times = Times(late=0)  # data as early as the command: its length alone decides
+    master.times = Times(late=0)  # data with the strobe: only its length decides
     clk_ns = bench.period / 1000
     done = missed = 0
     shown = [0b11, 0b11]
@@ -106,7 +106,7 @@ async def isa_short_cycles(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_both_commands(dut: Any) -> None:
-    """Given IOR and IOW low together, then nothing is driven and nothing stored."""
+    """With IOR and IOW low together, the module drives and stores nothing."""
     setting = await Setting.start(dut)
     bench = setting.bench
     for address in range(BASE, SOURCE + 1):
@@ -126,7 +126,9 @@ async def isa_both_commands(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_address_moves_away(dut: Any) -> None:
-    """Given a read of A, when the address goes to B, to a stranger, or AEN rises, then A lets go at once."""
+    """When a read of A ends because the address changes to B or to another device, or AEN rises, A
+    stops driving immediately.
+    """
     setting = await Setting.start(dut)
     bench = setting.bench
     await setting.hosts[0].run("c 42")
@@ -157,7 +159,7 @@ async def isa_address_moves_away(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_resets(dut: Any) -> None:
-    """Given both parts in motion, when RESET DRV or rst_n acts between two edges, then all pins at once."""
+    """RESET DRV or rst_n between two edges, with both parts in motion, resets all pins immediately."""
     setting = await Setting.start(dut)
     bench = setting.bench
     moved = ("pout_n", "dir", "hold", "auxo", *PHASES)
@@ -187,7 +189,7 @@ async def isa_resets(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_source_register(dut: Any) -> None:
-    """Given interrupts of A and B, then base + 4 names them, and stands still while it is read."""
+    """Base + 4 returns which of A and B has an interrupt, and does not change during a read (ISA-07)."""
     setting = await Setting.start(dut, errint_n=0)
     bench, master, (a, b) = setting.bench, setting.master, setting.hosts
 
@@ -206,7 +208,7 @@ async def isa_source_register(dut: Any) -> None:
     await b.run("c 86 r")
     seen.append(await source())
     bench.check("ISA-07", "source: none, A, A and B, B, none", seen, [0, 1, 3, 2, 0])
-    # An interrupt of A that comes in the middle of a long read.
+    # An interrupt of A during a long read.
     await setting.set_up(1, 0x02, 9, 4, 4)
     await setting.axes[1].go(0x44, n=100, rate=49)
     last = bench.now + 99 * bench.config.cyc(1600)

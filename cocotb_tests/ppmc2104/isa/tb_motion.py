@@ -1,4 +1,6 @@
-"""Interrupts and motion of isa_4axis: a handler, four axes at once, both parts at random."""
+"""Interrupts and motion of isa_4axis: an interrupt handler, four axes together, both parts with random
+hosts.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,10 @@ RAMP_B = (0x63, 0x13, 0x0A)
 
 
 async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
-    """The handler of docs/ppmc2104/isa.md: goes on while it clears something; appends (axis, end status).
+    """Run the handler of docs/ppmc2104/isa.md: repeat while it clears causes; append (axis, end
+    status).
 
-    False if it leaves a cause behind, because its axis moves again.
+    Return False if it leaves a cause, because the axis moves again.
     """
     while True:
         before = len(found)
@@ -39,25 +42,27 @@ async def serve(setting: Setting, found: list[tuple[int, int]]) -> bool:
 
 
 class Controller:
-    """An edge-triggered interrupt input, as the 8259 of a PC: a rise is remembered until the service."""
+    """An edge-triggered interrupt input, as of the 8259 of a PC: it stores a rising edge until the
+    service.
+    """
 
     def __init__(self, setting: Setting) -> None:
         self.bench = setting.bench
         self.served = 0
 
     def requests(self) -> bool:
-        """Has irq risen since the last service began?"""
+        """Return whether irq has risen since the last service began."""
         return len(self.bench.rises("irq")) > self.served
 
     def acknowledge(self) -> None:
-        """The service begins."""
+        """Begin the service."""
         self.served = len(self.bench.rises("irq"))
 
 
 @cocotb.test()
 @configs(F16, F25)
 async def isa_interrupt_handler(dut: Any) -> None:
-    """Given an edge-triggered handler and four axes that end at various times, then no end is lost."""
+    """With an edge-triggered handler and four axes that end at various times, no end is lost (ISA-08)."""
     setting = await Setting.start(dut)
     bench, controller = setting.bench, Controller(setting)
     for axis in setting.axes:
@@ -66,7 +71,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
     wanted = []
     for turn in range(6):
         for axis, drive in setting.axes.items():
-            # The same length, a little different, very different: ends together, in the handler, between.
+            # Equal, slightly different or very different lengths: ends together, during the handler,
+            # between two calls.
             await drive.go(
                 0x44, n=4 + (0, axis, 5 * axis, 0, -axis, 1)[turn] % 9, rate=(29, 10, 49)[turn % 3]
             )
@@ -89,7 +95,9 @@ async def isa_interrupt_handler(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_write_makes_a_new_edge(dut: Any) -> None:
-    """Given a cause that cannot be read, as its axis moves again, then a write of base + 4 calls anew."""
+    """If the axis moves again and its cause cannot be read, a write of base + 4 makes a new edge of irq
+    (ISA-11).
+    """
     setting = await Setting.start(dut)
     bench, master = setting.bench, setting.master
     for axis in (1, 4):
@@ -100,7 +108,7 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
     bench.check("ISA-11", "edges of irq without a cause", bench.edges("irq"), [])
     await setting.axes[1].go(0x42)
     await bench.edge("irq", 1)
-    await setting.axes[1].go(0x45, rate=99)  # END1 stays, and END1 cannot be read now
+    await setting.axes[1].go(0x45, rate=99)  # END1 stays pending, and it cannot be read now
     await bench.clocks(50)
     bench.check("ISA-11", "edges before", [level for _, level in bench.edges("irq")], [1])
     for byte in (0x00, 0xFF, 0x01):
@@ -128,8 +136,9 @@ async def isa_write_makes_a_new_edge(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_service_after_the_restart(dut: Any) -> None:
-    """Given axes that are started again before a late handler reads their end, then it returns each time, and
-    with a tick that re-arms what it left, the last end of every axis is found."""
+    """If axes are started again before a late handler reads their end, the handler returns each time.
+    With a periodic write that re-arms pending causes, the last end of every axis is found.
+    """
     setting = await Setting.start(dut)
     bench, controller, rng = setting.bench, Controller(setting), setting.bench.rng
     for axis in setting.axes:
@@ -140,7 +149,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
         for axis in rng.sample(sorted(setting.axes), 4):
             await setting.axes[axis].go(0x42)
         await bench.clocks(bench.config.us(20))
-        # Interrupts were off until here; some axes move again, END pending.
+        # Interrupts were disabled until here; some axes move again, END pending.
         again = rng.sample(sorted(setting.axes), 1 + turn % 4)
         for axis in again:
             await setting.axes[axis].go(0x44, n=rng.randrange(2, 30), rate=rng.choice((19, 49, 99)))
@@ -172,7 +181,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
 @cocotb.test()
 @configs(F16, F25)
 async def isa_four_axes_together(dut: Any) -> None:
-    """Given four waiting moves in two parts, when RUN rises on one edge, then all start on one clk edge."""
+    """When RUN rises, four waiting moves in two parts start on the same edge of `clk` (ISA-10)."""
     setting = await Setting.start(dut, run=0)
     bench, axes = setting.bench, setting.axes
     ramps = {1: RAMP_B, 2: (0x3B, 0x09, 20), 3: (0x27, 0x01, 60), 4: (0x0E, 0x0C, 16)}
@@ -187,7 +196,7 @@ async def isa_four_axes_together(dut: Any) -> None:
     await bench.align()
     start = bench.set(run=0b1111)
     busy = list(setting.hosts)
-    while busy:  # polling goes on while they run
+    while busy:  # polling continues while they run
         busy = [host for host in busy if await host.status() & (BUSY1 | BUSY2)]
     falls = {drive.pulses[0] for drive in axes.values()}
     bench.check("ISA-10", "first falls on one edge", len(falls), 1)
@@ -201,13 +210,13 @@ async def isa_four_axes_together(dut: Any) -> None:
 
 
 async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
-    """Random instructions of all kinds to one part, some of them wrong."""
+    """Send random instructions of all kinds to one part, some of them faulty."""
     bench, rng = setting.bench, setting.bench.rng
     for axis_bit in (0x00, 0x20):
         await host.init(
             rng.choice((0x02, 0x06, 0x13)) | axis_bit, rng.randrange(12, 40), rng.randrange(3, 9), 7
         )
-        if bench.config.datasheet:  # its window is too long to be polled in a simulation
+        if bench.config.datasheet:  # its window is too long for polling in a simulation
             await bench.clocks(bench.config.us(71_000))
     await host.poll(CMND1 | CMND2, 0)
     for _ in range(actions):
@@ -235,7 +244,7 @@ async def random_host(setting: Setting, host: IsaHost, actions: int) -> None:
 
 
 async def random_switches(setting: Setting) -> None:
-    """Limits, alarms and RUN of all axes move at random for ever."""
+    """Move limits, alarms and RUN of all axes at random, until cancelled."""
     bench, rng = setting.bench, setting.bench.rng
     while True:
         pin = f"{rng.choice(('fl_n', 'bl_n', 'fhl_n', 'bhl_n', 'alm_n', 'run'))}[{rng.randrange(1, 5)}]"
@@ -248,7 +257,7 @@ async def random_switches(setting: Setting) -> None:
 @cocotb.test()
 @configs(F16, F25, D16)
 async def isa_random_both_parts(dut: Any) -> None:
-    """Given two host programs on one bus and random switches, then each part equals its own golden model."""
+    """With two host programs on one bus and random switches, each part equals its golden model."""
     setting = await Setting.start(dut)
     setting.bench.set(errint_n=setting.bench.rng.randrange(2))
     switches = cocotb.start_soon(random_switches(setting))

@@ -1,4 +1,4 @@
-"""ppmc_isa alone, with one part and no source register: the shape that the J105 board has."""
+"""ppmc_isa alone, with one part and no source register, as in the J105 board."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ BLOCKS = {
 
 @cocotb.test()
 async def isa_slave_one_part(dut: Any) -> None:
-    """Given one part at 3B0h, then 3B0h and 3B1h select it unless AEN is high; IOR gates the bus."""
+    """With one part at 3B0h, 3B0h and 3B1h select it unless AEN is high; IOR enables the data bus."""
     unit = Unit(dut, "one", BLOCKS, "cs_no a0_o sd_oe_o sd_o irq_o")
     await unit.reset(int_ni=1, ior_ni=1, iow_ni=1)
     for address in range(1024):
@@ -41,7 +41,7 @@ async def isa_slave_one_part(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_slave_three_parts(dut: Any) -> None:
-    """Given three parts and the source register at 2F8h, then each address has one owner at most."""
+    """With three parts and the source register at 2F8h, each address belongs to at most one of them."""
     unit = Unit(dut, "three", BLOCKS, "cs_no sd_oe_o sd_o")
     await unit.reset(int_ni=7, ior_ni=1, iow_ni=1)
     data, random = 0x332211, rng()
@@ -62,7 +62,9 @@ async def isa_slave_three_parts(dut: Any) -> None:
 
 @cocotb.test()
 async def isa_slave_write_of_the_source(dut: Any) -> None:
-    """Given an interrupt, then only a write of the source register takes irq away, as long as it lasts."""
+    """While an interrupt is pending, only a write of the source register deasserts irq, and only during
+    the write.
+    """
     unit = Unit(dut, "three", BLOCKS, "irq_o")
     await unit.reset(int_ni=5, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0)
     await unit.clk()

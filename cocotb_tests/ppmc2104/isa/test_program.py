@@ -1,4 +1,6 @@
-"""The C program of docs/ppmc2104/isa.md, compiled and run against two golden models behind the registers."""
+"""The C program of docs/ppmc2104/isa.md, compiled and run against two golden models at the register
+addresses.
+"""
 
 from __future__ import annotations
 
@@ -28,18 +30,19 @@ int inp(unsigned short port) { return on_inp(port); }
 int outp(unsigned short port, int byte) { return on_outp(port, byte); }
 void run(int high) { on_run(high); }
 """
-# Extensions of the DOS compilers; nothing is static, so that the test can call it.
+# Extensions of the DOS compilers; no function is static, so that the test can call it.
 DEFINES = ("-Dinterrupt=", "-Dfar=", "-Dstatic=", "-Dmain=program")
 LATEST = 10_000_000
-STEP = 16  # clk between looks at irq
-ACCESS = 64  # clk from one access of the bus to the next
+STEP = 16  # cycles between samples of irq
+ACCESS = 64  # cycles between two bus accesses
 
 
 class Module:
-    """Two golden models behind one base address, as the program's inp and outp see them, and one input of an
-    8259 interrupt controller: a rise of irq is remembered as long as irq stays high.
+    """Two golden models at one base address, accessed by inp and outp of the program, and one input of
+    an 8259 interrupt controller. The controller stores a rising edge of irq while irq stays high.
 
-    `enabled`: the processor's interrupt flag. `handler`: called where the processor would take the interrupt.
+    `enabled` is the interrupt flag of the processor; `handler` is called when the processor would take
+    the interrupt.
     """
 
     def __init__(self) -> None:
@@ -51,11 +54,11 @@ class Module:
         self._irq = self._request = self._serving = False
 
     def source(self) -> int:
-        """Which parts interrupt."""
+        """Return the bits of the parts that request an interrupt."""
         return sum((not part.outputs["int_n"]) << number for number, part in enumerate(self.parts))
 
     def pass_time(self, clk: int, rearm: bool = False) -> None:
-        """Let so many clk pass; `rearm`: with a write to the source register."""
+        """Let this number of cycles pass; with `rearm`, during a write to the source register."""
         for _ in range(0, clk, STEP):
             self.t += STEP
             for part in self.parts:
@@ -65,7 +68,7 @@ class Module:
             self._irq = irq
 
     def run_program(self, clk: int) -> None:
-        """The processor does something else for so many clk, and takes interrupts."""
+        """Let the processor run other code for this number of cycles, and take interrupts."""
         for _ in range(0, clk, ACCESS):
             self.pass_time(ACCESS)
             if self._request and self.enabled and not self._serving:
@@ -76,18 +79,18 @@ class Module:
                 assert not self._serving, "no end of interrupt"
 
     def inp(self, port: int) -> int:
-        """A read cycle."""
+        """Return the byte of a read access."""
         self.pass_time(ACCESS)
         if self.t > LATEST:
             self.late += 1
-            return 0xFF * (self.late & 1)  # ends every loop of the program that would not end by itself
+            return 0xFF * (self.late & 1)  # ends each loop of the program that would not terminate
         if port == SOURCE:
             return self.source()
         number, reg = divmod(port - BASE, 2)
         return self.parts[number].read(self.t, reg)
 
     def outp(self, port: int, byte: int) -> int:
-        """A write cycle, or the end of interrupt."""
+        """Make a write access, or end the interrupt."""
         self.pass_time(ACCESS, rearm=port == SOURCE)
         if port == 0x20:
             self._serving = False
@@ -97,21 +100,21 @@ class Module:
         return 0
 
     def run(self, high: int) -> int:
-        """All RUN pins."""
+        """Set all RUN pins."""
         self.pass_time(ACCESS)
         for part in self.parts:
             part.pins(self.t, run=0b11 * high)
         return 0
 
     def enable(self, on: int) -> int:
-        """The processor's interrupt flag."""
+        """Set the interrupt flag of the processor."""
         self.enabled = bool(on)
         return 0
 
 
 @pytest.fixture
 def program(tmp_path) -> tuple[ctypes.CDLL, Module, list[Callable[..., int]]]:
-    """The compiled program, what it talks to, and its callbacks (which must stay alive)."""
+    """The compiled program, the module that it accesses, and its callbacks (which must stay alive)."""
     blocks = re.findall(r"^```c\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.S | re.M)
     assert len(blocks) == 2
     (tmp_path / "conio.h").write_text(CONIO)
@@ -129,7 +132,7 @@ def program(tmp_path) -> tuple[ctypes.CDLL, Module, list[Callable[..., int]]]:
         *DEFINES,
         f"-I{tmp_path}",
     ]
-    # The C library has a `send` of its own.
+    # The C library has a function `send`, too.
     command += ["-Wl,-Bsymbolic", "program.c", "stubs.c", "-o", "program.so"]
     done = subprocess.run(command, cwd=tmp_path, text=True, check=False, capture_output=True)
     assert not done.returncode, done.stderr
@@ -149,7 +152,7 @@ def program(tmp_path) -> tuple[ctypes.CDLL, Module, list[Callable[..., int]]]:
 
 
 def test_program_moves_all_axes(program):
-    """Given the program, then axis 3 moves 1000 pulses alone, and after RUN all four start on one clk."""
+    """The program moves axis 3 alone by 1000 pulses; then RUN starts all four axes on the same cycle."""
     library, module, _ = program
     assert library.program() == 0
     assert not module.late, "the program polls for ever"
@@ -163,23 +166,23 @@ def test_program_moves_all_axes(program):
 
 
 def steps(library: ctypes.CDLL, *axes: int) -> None:
-    """A single step of each axis, with interrupt."""
+    """Start a single step of each axis, with interrupt."""
     for axis in axes:
         library.send(axis, 0x42, None, 0)
 
 
 def ends(library: ctypes.CDLL) -> list[int]:
-    """What the handler has found for axes 1 to 4."""
+    """Return the end statuses that the handler has found for axes 1 to 4."""
     return list((ctypes.c_ubyte * 5).in_dll(library, "ended"))[1:]
 
 
 def left(library: ctypes.CDLL) -> int:
-    """Has the handler left a cause?"""
+    """Return whether the handler has left a cause."""
     return ctypes.c_ubyte.in_dll(library, "left").value
 
 
 def test_handler_serves_all_axes(program):
-    """Given ends of all four axes, when the handler is called, then each end status is there once."""
+    """After the ends of all four axes, a call of the handler finds each end status once."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)
@@ -191,14 +194,14 @@ def test_handler_serves_all_axes(program):
 
 
 def test_handler_after_the_restart(program):
-    """Given a handler called when an axis moves again, then it neither waits nor loses another's end."""
+    """A handler called while an axis moves again neither waits for it nor loses the end of another axis."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)
     module.enabled = False
     steps(library, 1, 2, 3, 4)
     module.pass_time(1000)
-    assert library.move(1, 0x43, 1000, 0) == 0  # without a look at its end
+    assert library.move(1, 0x43, 1000, 0) == 0  # without reading its end
     module.enabled = True
     since = module.t
     module.run_program(3000)
@@ -227,13 +230,13 @@ def test_handler_after_the_restart(program):
 
 
 def test_start_takes_the_end_before(program):
-    """Given moves started by the program, whenever they come, then every end makes an edge of its own."""
+    """Moves that the program starts at any time each have an end with a separate edge."""
     library, module, _ = program
     for axis in (1, 2, 3, 4):
         library.setup(axis)
     for turn in range(12):
         axis = turn % 4 + 1
-        module.enabled = False  # the handler comes late
+        module.enabled = False  # the handler is called late
         steps(library, axis)
         module.pass_time(1000)
         assert library.start(axis, 5 + turn, turn & 1) == 0

@@ -1,4 +1,4 @@
-"""Which board a command talks to: the options in front of it."""
+"""The board that a command uses, from the options before the command."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from ...host.kind import Kind
 
 USUAL = "ppmc104"
-"""The part if the user names none: of plans, and of virtual boards."""
+"""Part of plans and of virtual boards if the user names no part."""
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
-"""All words of --line; each line takes some of them."""
+"""All words of --line; each line supports some of them."""
 
 
 class PartName(str, Enum):
-    """The parts of the table that a computer can talk to: behind a bridge, or on a line."""
+    """Parts that a computer can access: through the UART bridge, or on a serial line."""
 
     _ignore_ = ["members", "row"]
     members = vars()
@@ -32,8 +32,11 @@ NAMES = frozenset(name.value for name in PartName)
 
 @dataclass
 class Board:
-    """Which board, from the options in front of the command. baud: None: what is usual. part: its name in the
-    table, None if the user named none. line: options of a line."""
+    """The board, from the options before the command.
+
+    baud: line rate in bit/s; None: the default. part: its name in the table; None without --part.
+    line: options of a serial line.
+    """
 
     port: str = ""
     baud: int | None = None
@@ -49,7 +52,7 @@ class Board:
 
     @property
     def spec(self) -> str:
-        """The port with its part: a virtual board is built with the one that was named."""
+        """The port; for a virtual board with the part that --part names."""
         if self.part is None or not self.virtual:
             return self.port
         comma = "" if self.port.endswith(":") else ","
@@ -57,7 +60,7 @@ class Board:
 
     @property
     def planned(self) -> Kind:
-        """The part for plans, which open no board: the one that was named, in the port's text if need be."""
+        """Part of a plan, which opens no board: from --part, else from a virtual port, else USUAL."""
         from ...host.kind import kind_of
 
         if self.part is not None:

@@ -1,4 +1,4 @@
-"""Commands about boards: what is there, and how it is set up."""
+"""Commands that list ports, identify a board and initialise an axis."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .options import MOST_AXES, Json, with_setup
 from .session import initialise, lasting, opened, remember, setup_values
 
 AxisNumber = Annotated[
-    int, typer.Option("--axis", min=1, max=MOST_AXES, metavar="N", help="axis, 1 is the first")
+    int, typer.Option("--axis", min=1, max=MOST_AXES, metavar="N", help="number of the axis, from 1")
 ]
 
 
@@ -25,11 +25,11 @@ def ports(as_json: Json = False) -> None:
     elif found:
         output.console.print(output.table(dict(found)))
     else:
-        output.say("no serial port; --port model: works without one")
+        output.say("no serial port; use --port model: for a virtual board")
 
 
 def info(as_json: Json = False) -> None:
-    """What board answers at the port."""
+    """Print part, protocol and bitstream of the board."""
     from ...host.selftest.page import built
 
     with opened() as session:
@@ -45,7 +45,7 @@ def info(as_json: Json = False) -> None:
 
 @with_setup
 def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> None:
-    """Initialise an axis, and remember the set-up for this port."""
+    """Initialise an axis and store the set-up for this port."""
     values = setup_values(typed, axis)
     with opened() as session:
         (setup,) = initialise(session, {axis: values})
@@ -56,4 +56,4 @@ def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> 
         return
     output.console.print(output.table(view.setup_rows(setup)))
     if not lasting(BOARD.port):
-        output.note("(a virtual board is new each time: nothing to remember)")
+        output.note("(a virtual board is new each time; the set-up is not stored)")

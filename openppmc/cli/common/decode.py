@@ -1,4 +1,4 @@
-"""The command that reads captures of old chips."""
+"""The command `decode`, which reads captures of old chips."""
 
 from __future__ import annotations
 
@@ -26,38 +26,43 @@ if TYPE_CHECKING:
 
 WAYS = {1: "CW", -1: "CCW", 0: "?"}
 SHOWN = 10
-"""Differences that are told one by one."""
+"""Number of differences that are printed one by one."""
 
 
 def decode_capture(
     capture: Annotated[Path, typer.Argument(help="VCD, CSV of Saleae or sigrok, .sr")],
     pin_map: Annotated[
-        Path | None, typer.Option("--map", metavar="FILE", help="YAML or TOML: which channel is which pin")
+        Path | None,
+        typer.Option("--map", metavar="FILE", help="YAML or TOML file with the pin of each channel"),
     ] = None,
     part: Annotated[
         str, typer.Option(metavar="PART", help=f"{', '.join(row.name for row in parts.having('decode'))}")
     ] = "",
     beside: Annotated[
-        bool, typer.Option("--compare", help="play it into the golden model and compare each output edge")
+        bool, typer.Option("--compare", help="apply it to the golden model, compare each output edge")
     ] = False,
     tolerance: Annotated[
-        float, typer.Option(min=0.0, max=1e6, metavar="US", help="µs by which an edge may be off")
+        float, typer.Option(min=0.0, max=1e6, metavar="US", help="permitted deviation of an edge in µs")
     ] = 10.0,
     glitch: Annotated[
-        float, typer.Option(min=0.0, max=1e6, metavar="NS", help="shorter pulses on any pin are left out")
+        float,
+        typer.Option(min=0.0, max=1e6, metavar="NS", help="ignore pulses shorter than this, on any pin"),
     ] = 30.0,
     timing: Annotated[
-        str, typer.Option(metavar="FAST|DATASHEET", help="of the model (the map's; the file's; DATASHEET)")
+        str,
+        typer.Option(
+            metavar="FAST|DATASHEET", help="timing of the model (of map, else file, else DATASHEET)"
+        ),
     ] = "",
     scope: Annotated[
-        str, typer.Option(metavar="NAME", help="of a VCD with several of a name, as station3 (the first)")
+        str, typer.Option(metavar="NAME", help="scope of a VCD, if names are not unique (the first)")
     ] = "",
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="speed over time, as PNG, SVG or PDF")
+        Path | None, typer.Option(metavar="FILE", help="plot speed over time as PNG, SVG or PDF")
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Read what a logic analyser saw of an old chip: bytes in words, moves, the golden model beside it."""
+    """Decode a capture of an old chip: bytes, moves, comparison with the golden model."""
     chosen = PinMap() if pin_map is None else read_map(pin_map)
     if timing:
         if timing.upper() not in ("FAST", "DATASHEET"):
@@ -88,11 +93,9 @@ def decode_capture(
 def _show(found: Decoded) -> None:
     output.say(f"{found.capture}: {found.kind.called}, {found.wires.end / SECOND:.6f} s")
     for pin, count in sorted(found.glitches.items()):
-        output.note(
-            f"{pin}: {count} pulse{'s' if count > 1 else ''} too short to be one, left out (--glitch)"
-        )
+        output.note(f"{pin}: {count} pulse{'s' if count > 1 else ''} ignored, shorter than --glitch")
     if found.missing:
-        output.note(f"not captured, taken as at rest: {', '.join(found.missing)}")
+        output.note(f"not captured, assumed idle: {', '.join(found.missing)}")
     for note in found.notes:
         output.note(note)
     for line in found.lines:
@@ -127,10 +130,10 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
     for pin, why in result.skipped.items():
         output.note(f"{pin} not compared: {why}")
     if result.begin and result.begin > found.lines[0].t:
-        output.say(f"edges count from {result.begin / SECOND:.6f} s on: there the part is initialised")
+        output.say(f"edges are compared from {result.begin / SECOND:.6f} s, where the part is initialised")
     if result.ppm:
         how = "fast" if result.ppm > 0 else "slow"
-        output.say(f"the crystal ran {abs(result.ppm):.1f} ppm {how} by the analyser's clock")
+        output.say(f"the crystal is {abs(result.ppm):.1f} ppm {how} relative to the analyser's clock")
     output.say(
         f"{result.compared} edges of {len(result.pins)} pins compared with the golden model "
         f"({found.timing}), {len(result.differences)} differences; at most {result.worst / US:.3f} µs apart"
@@ -140,8 +143,8 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
     blind = [pin for pin in found.missing if pin in found.kind.inputs and pin != "rst_n"]
     if result.differences and blind:
         output.note(
-            f"inputs that were not captured: {', '.join(blind)}; a switch that the model does not see "
-            "does not end its moves"
+            f"inputs not captured: {', '.join(blind)}; without the signal of a switch, the model continues "
+            "a move that the switch ended"
         )
     for one in result.differences[:SHOWN]:
         output.say("  " + one.text())
@@ -150,7 +153,7 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
 
 
 def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
-    """For JSON; times in s."""
+    """Return the values for JSON; times in s."""
     values: dict[str, Any] = {
         "capture": found.capture,
         "part": found.part,
@@ -186,9 +189,9 @@ def _plot(found: Decoded, path: Path) -> None:
     from ...plot.capture import FORMATS, draw_capture
 
     if path.suffix.lower() not in FORMATS:
-        raise typer.BadParameter(f"--plot {path}: pictures end in {', '.join(FORMATS)}")
+        raise typer.BadParameter(f"--plot {path}: unsupported suffix; use {', '.join(FORMATS)}")
     if not found.moves:
-        raise CaptureError(f"{found.capture}: no pulses in it: there is no speed to be drawn")
+        raise CaptureError(f"{found.capture}: no pulses, so no speed to plot")
     drawn = [(one.axis, [run.tolist() for run, _ in runs(one, found.pause)]) for one in found.trains]
     try:
         draw_capture(drawn, f"{found.kind.called}: {found.capture}", path)

@@ -1,6 +1,6 @@
-"""The command group: rows of a table, of which only the called command is imported; help.
+"""Command group: a table of commands, imported when they are called, and the help texts.
 
-On a narrow terminal help is plain text, because the cells of tables would lose words.
+On a narrow terminal the help is plain text, because table cells would cut words off.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ...streams import is_narrow
 
 
 def fitted(command: Any) -> Any:
-    """The same command; its help has no tables."""
+    """Return the command, changed to print its help without tables."""
     command.format_help = partial(write, command)
     for one in getattr(command, "commands", {}).values():
         fitted(one)
@@ -28,7 +28,7 @@ def fitted(command: Any) -> Any:
 
 
 def write(command: Any, ctx: Any, formatter: Any) -> None:
-    """Write the help as text: explanations are indented below what they explain."""
+    """Write the help as text: each explanation is indented below its command or option."""
 
     def write_rows(rows: Any, *_: Any) -> None:
         for name, text in rows:
@@ -39,7 +39,7 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
     formatter.width, formatter.write_dl = get_terminal_size().columns, write_rows
     command.rich_markup_mode = None
     for one in getattr(command, "commands", {}).values():
-        one.short_help = one.help  # whole sentences in the list of commands
+        one.short_help = one.help  # the list of commands has the complete sentences
     mode = TyperGroup if isinstance(command, TyperGroup) else TyperCommand
     mode.format_help(command, ctx, formatter)
     # click would write UTF-8 to an ASCII stdout.
@@ -49,16 +49,16 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
-"""In place of a part: the parts behind the bridge, which have the same commands."""
+"""Represents all parts with the UART bridge; they have the same commands."""
 
 
 @dataclass(frozen=True)
 class Command:
-    """A row of the table.
+    """Row of the table.
 
-    place: "module:function" below `openppmc.cli`; a Typer is a group of commands. help: the docstring of the
-    function, in the first row of a name, which `--help` lists. parts: those that have this command. numbers:
-    arguments such as -200 are no options.
+    place: "module:function" below `openppmc.cli`; a Typer is a group of commands. help: docstring of the
+    function, only in the first row of a name; `--help` lists it. parts: the parts that have this command.
+    numbers: arguments such as -200 are numbers, not options.
     """
 
     name: str
@@ -68,12 +68,12 @@ class Command:
     numbers: bool = False
 
     def load(self) -> Any:
-        """The function or the Typer."""
+        """Import and return the function or the Typer."""
         module, _, name = self.place.partition(":")
         return getattr(import_module(f"openppmc.cli.{module}"), name)
 
     def build(self) -> Any:
-        """The command as the parser needs it."""
+        """Return the command in the form that the parser needs."""
         group, found = typer.Typer(add_completion=False), self.load()
         if isinstance(found, typer.Typer):
             group.add_typer(found, name=self.name)
@@ -88,24 +88,24 @@ class Command:
 
 
 class PartGroup(TyperGroup):
-    """The commands of all parts. rows: of one name, those of the parts behind the bridge come first."""
+    """Commands of all parts. rows: a row for BRIDGE precedes the other rows of its name."""
 
     rows: ClassVar[tuple[Command, ...]] = ()
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        # For help and suggestions only: `resolve_command` builds the one that is called.
+        # Only for help and suggestions: `resolve_command` builds the command that is called.
         self.commands = {
             row.name: TyperCommand(row.name, help=row.help, rich_markup_mode="rich")
             for row in reversed(self.rows)
         }
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """In the order of the rows."""
+        """Return the names in the order of the rows."""
         return list(dict.fromkeys(row.name for row in self.rows))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """The command of a command line. UsageError for one that belongs to other parts."""
+        """Return the command of a command line. Raise UsageError if the part does not have it."""
         name, _, rest = super().resolve_command(ctx, args)
         rows = [row for row in self.rows if row.name == name]
         others = list(dict.fromkeys(part for row in rows for part in row.parts))
@@ -119,7 +119,7 @@ class PartGroup(TyperGroup):
         raise _UsageError(f"{name}: only with --part {' or '.join(others)}", ctx)
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        """Write the help of the whole."""
+        """Write the help of `openppmc` itself."""
         _import_formatter()
         if is_narrow():
             pass
@@ -130,8 +130,10 @@ class PartGroup(TyperGroup):
 
 
 def _import_formatter() -> None:
-    """Import typer's formatter without two modules of rich, which take 0.1 s and have no use here: texts in
-    Markdown and coloured tracebacks."""
+    """Import typer's formatter without two modules of rich.
+
+    The modules for Markdown and for coloured tracebacks take 0.1 s to import and are not used here.
+    """
     unused = {"rich.markdown": "Markdown", "rich.traceback": "Traceback"}
     missing = [name for name in unused if name not in sys.modules and "typer.rich_utils" not in sys.modules]
     for name in missing:

@@ -1,4 +1,4 @@
-"""A serial line with stations while a command talks to it, and what its options mean."""
+"""A serial line with stations during a command, and the options of the line."""
 
 from __future__ import annotations
 
@@ -18,8 +18,10 @@ Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 
 
 def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
-    """Numbers and ranges, in the order given. known: what they may be; span: the same in words, beginning
-    with what they number. BadParameter."""
+    """Return the numbers of a list with ranges, in the order given. Raise BadParameter.
+
+    known: the allowed numbers. span: text about them for messages; its first word names the numbered things.
+    """
     numbers: list[int] = []
     for piece in text.split(","):
         first, dash, last = piece.strip().partition("-")
@@ -27,7 +29,9 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
             ends = int(first), int(last if dash else first)
         except ValueError:
             what = span.partition(" ")[0]
-            raise typer.BadParameter(f"{option} {text!r}: {what} are 3, 0,2,5 or {example}") from None
+            raise typer.BadParameter(
+                f"{option} {text!r}: not a list of {what}; write 3, 0,2,5 or {example}"
+            ) from None
         if ends[0] not in known or ends[1] not in known or ends[0] > ends[1]:
             raise typer.BadParameter(f"{option} {text!r}: {span}")
         numbers += [number for number in range(ends[0], ends[1] + 1) if number not in numbers]
@@ -35,8 +39,10 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 
 
 def line_options(text: str, known: str) -> dict[str, Any]:
-    """Arguments of a bus's `open` from the text of --line; `sum_mode` as a text. known: words that the line
-    takes. BadParameter."""
+    """Return the arguments of a bus's `open` from the text of --line. Raise BadParameter.
+
+    `sum_mode` is returned as text. known: words that the line supports.
+    """
     from serial.rs485 import RS485Settings
 
     options: dict[str, Any] = {}
@@ -69,7 +75,10 @@ def _number(word: str, value: str) -> float | int:
 def ending_after(
     seconds: float | None, bus: LineBus[Any, Any], guard: Guard, stations: Sequence[Turning]
 ) -> Callable[[Progress], None]:
-    """A progress callback that shows a bar and brakes after so many seconds of the line's time."""
+    """Return a progress callback that shows a bar and decelerates the stations after a time.
+
+    seconds: time on the line's clock; None: no limit.
+    """
     clock = bus.line.clock
     end_at = None if seconds is None else clock() + seconds
 
@@ -86,7 +95,9 @@ def ending_after(
 
 @contextmanager
 def guarded(make: Callable[[], Bus]) -> Iterator[tuple[Bus, Guard]]:
-    """A line that `make` opens, and signals under control: they bring the motors to rest and end with
-    status 128 + n. A lost stdout brings the motors to rest, too."""
+    """Open a line with `make`; a signal stops the motors and ends with status 128 + n.
+
+    A lost stdout also stops the motors.
+    """
     with make() as bus, Guard() as guard, guard.resting(bus):
         yield bus, guard

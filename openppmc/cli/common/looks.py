@@ -1,4 +1,4 @@
-"""Commands that look at a board."""
+"""Commands that read the state of a board."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 
 def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
-    """Values of the axes, by what to write in front of them."""
+    """Return the values of each axis, by the prefix of its rows."""
     seen = session.view.status_of(session.part, session.chosen(axis))
     return {f"axis {number} " if len(seen) > 1 else "": values for number, values in seen.items()}
 
 
 def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
-    """The same for people."""
+    """Return the values as rows of text."""
     return {
         prefix + name: text
         for prefix, values in looks.items()
@@ -34,14 +34,14 @@ def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
 
 
 def _table(session: Session, looks: dict[str, dict[str, Any]]) -> Table:
-    """For people on a terminal."""
+    """Return the values as a table."""
     if not session.view.wide or len(looks) == 1:
         return output.table(_rows(session, looks))
     return output.grid({prefix.strip(): session.view.status_rows(one) for prefix, one in looks.items()})
 
 
 def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
-    """Position, switches, state. Disturbs nothing."""
+    """Print position, switches and state without side effects."""
     with opened() as session:
         looks = _looks(session, axis)
     if not as_json:
@@ -53,7 +53,7 @@ def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
 
 
 def monitor(axis: AxisOrAll = None, count: Count = None, every: Every = 0.2) -> None:
-    """Watch position and switches until Ctrl-C."""
+    """Show position and switches until Ctrl-C."""
     with opened() as session:
 
         def line() -> list[str]:
@@ -71,9 +71,9 @@ def monitor(axis: AxisOrAll = None, count: Count = None, every: Every = 0.2) -> 
 @with_setup
 def table(
     typed: dict[str, Any],
-    out: Annotated[Path | None, typer.Option("--out", help="write it into this file instead")] = None,
+    out: Annotated[Path | None, typer.Option("--out", help="write it to this file instead")] = None,
 ) -> None:
-    """Read the ramps back from a PPMC-312, as the CSV that --curve takes."""
+    """Read the ramps of a PPMC-312 as a CSV file for --curve."""
     with ready(typed, (1,)) as session:
         lines = session.view.table_lines(session.part)
     if out is None:

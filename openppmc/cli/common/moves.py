@@ -18,25 +18,36 @@ from .view import Override, parse_override, plot_move, view_of
 AxisOrAll = Annotated[
     int | None,
     typer.Option(
-        "--axis", min=1, max=MOST_AXES, metavar="N", help="axis, 1 is the first (all)", show_default=False
+        "--axis",
+        min=1,
+        max=MOST_AXES,
+        metavar="N",
+        help="number of the axis, from 1 (all)",
+        show_default=False,
     ),
 ]
 Overrides = Annotated[
     list[str] | None,
-    typer.Option("--at", metavar="POS:WHAT", help="ppmc312: there stop, halt or another speed (repeatable)"),
+    typer.Option("--at", metavar="POS:WHAT", help="ppmc312: stop, halt or new speed at POS (repeatable)"),
 ]
 AxisList = Annotated[
     str | None,
-    typer.Option("--axes", metavar="N,N,…", help="axes of several numbers, in their order (1,2,…)"),
+    typer.Option("--axes", metavar="N,N,…", help="axes for several PULSES, in the same order (1,2,…)"),
 ]
 EncoderRange = Annotated[
     int | None,
-    typer.Option("--encoder", min=1, max=65_535, metavar="N", help="ppmc312: tell if it is off by more"),
+    typer.Option(
+        "--encoder",
+        min=1,
+        max=65_535,
+        metavar="N",
+        help="ppmc312: report an encoder deviation of more than N",
+    ),
 ]
 
 
 def override_values(texts: list[str] | None) -> list[Override]:
-    """The values of --at."""
+    """Return the values of --at. Raise BadParameter."""
     try:
         return [parse_override(text) for text in texts or ()]
     except ValueError as error:
@@ -44,17 +55,19 @@ def override_values(texts: list[str] | None) -> list[Override]:
 
 
 def numbers_of(text: str | None, count: int) -> tuple[int, ...]:
-    """The axes that as many numbers are for."""
+    """Return the axes of `count` values: those of --axes, else 1 to count. Raise BadParameter."""
     if text is None:
         return tuple(range(1, count + 1))
     words = text.split(",")
     if not all(word.strip().isascii() and word.strip().isdigit() for word in words):
-        raise typer.BadParameter(f"--axes {text}: wants numbers with commas between them, as in 1,2,5")
+        raise typer.BadParameter(f"--axes {text}: not a list of axes; write 1,2,5")
     numbers = tuple(map(int, words))
     if len(numbers) != count:
-        raise typer.BadParameter(f"--axes {text}: {len(numbers)} axes, but {count} numbers to move them")
+        raise typer.BadParameter(
+            f"--axes {text}: {len(numbers)} axes for {count} values; give one axis for each value"
+        )
     if len(set(numbers)) < len(numbers):
-        raise typer.BadParameter(f"--axes {text}: an axis stands there twice")
+        raise typer.BadParameter(f"--axes {text}: an axis occurs twice; name each axis once")
     return numbers
 
 
@@ -63,21 +76,23 @@ def move(
     typed: dict[str, Any],
     pulses: Annotated[
         list[int],
-        typer.Argument(help="pulses, CW positive; with --to a position; several: of axes 1, 2 and so on"),
+        typer.Argument(help="pulses, CW positive; with --to: position; one for each axis"),
     ],
     axis: AxisOrAll = None,
     axes: AxisList = None,
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
-    pulse_only: Annotated[bool, typer.Option("--pulse-only", help="the phases stand still")] = False,
+    pulse_only: Annotated[
+        bool, typer.Option("--pulse-only", help="output pulses, do not change the phases")
+    ] = False,
     overrides: Overrides = None,
     encoder: EncoderRange = None,
 ) -> None:
-    """Move so many pulses. Several numbers move as many axes of a part, begun at the same moment."""
+    """Move by PULSES. Several values move several axes of the part; all start together."""
     if speed is not None and pulse_only:
-        raise typer.BadParameter("only moves with a ramp can be --pulse-only: leave --speed out")
+        raise typer.BadParameter("--pulse-only: only for moves with a ramp; omit --speed")
     if axis is not None and (len(pulses) > 1 or axes is not None):
-        raise typer.BadParameter("move wants one number, with --axis if need be, or one number for each axis")
+        raise typer.BadParameter(f"--axis {axis}: only for one value and without --axes; omit it")
     wanted = override_values(overrides)
     numbers = numbers_of(axes, len(pulses)) if axis is None else (axis,)
     with ready(typed, numbers) as session:
@@ -101,15 +116,15 @@ def move(
 @with_setup
 def jog(
     typed: dict[str, Any],
-    direction: Annotated[Side, typer.Argument(help="where to")],
+    direction: Annotated[Side, typer.Argument(help="direction of rotation")],
     axis: AxisNumber = 1,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
-    ramped: Annotated[bool, typer.Option("--ramped", help="ramp up to the high speed")] = False,
-    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after so long")] = None,
+    ramped: Annotated[bool, typer.Option("--ramped", help="accelerate to the high speed")] = False,
+    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after this time")] = None,
 ) -> None:
     """Run until Ctrl-C, a limit switch or the alarm."""
     if ramped and speed is not None:
-        raise typer.BadParameter("either --speed or --ramped, not both")
+        raise typer.BadParameter("--speed and --ramped exclude each other; omit one")
     check_seconds(seconds)
     with ready(typed, (axis,)) as session:
         motor, guard, clock = session.axis(axis), session.guard, session.part.link.clock
@@ -135,11 +150,15 @@ def home(
     axis: AxisNumber = 1,
     direction: Annotated[Side, typer.Option(help="towards the origin switch")] = Side.CCW,
     search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
-    fast: Annotated[bool, typer.Option("--fast", help="at high speed to the slow-down limit first")] = False,
-    to_limit: Annotated[bool, typer.Option("--to-limit", help="to the hard limit first")] = False,
-    index: Annotated[bool, typer.Option("--index", help="ppmc312: to the encoder's index on it")] = False,
+    fast: Annotated[
+        bool, typer.Option("--fast", help="first run to the slow-down limit at high speed")
+    ] = False,
+    to_limit: Annotated[bool, typer.Option("--to-limit", help="first run to the hard limit")] = False,
+    index: Annotated[
+        bool, typer.Option("--index", help="ppmc312: origin is the first encoder index on the switch")
+    ] = False,
 ) -> None:
-    """Find the origin switch and call it position 0."""
+    """Find the origin switch and set the position to 0 there."""
     with ready(typed, (axis,)) as session:
         motor = session.axis(axis)
         session.view.home(
@@ -158,9 +177,9 @@ def home(
 
 def stop(
     axis: AxisOrAll = None,
-    now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
+    now: Annotated[bool, typer.Option("--now", help="stop immediately, without a ramp")] = False,
 ) -> None:
-    """Stop a motion that was left running."""
+    """Stop a motion that is still running."""
     with opened() as session:
         ends = session.view.halt_all(session.part) if now and axis is None else None
         for end in stop_all(session.chosen(axis), now) if ends is None else ends:
@@ -175,11 +194,13 @@ def plan(
     typed: dict[str, Any],
     pulses: Annotated[int, typer.Argument(help="pulses, CW positive")],
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
-    plot: Annotated[Path | None, typer.Option(help="speed over time into this file (png, svg, pdf)")] = None,
-    xtal: Annotated[int, typer.Option(min=1_000_000, max=XTAL_HZ, help="crystal in Hz")] = XTAL_HZ,
+    plot: Annotated[
+        Path | None, typer.Option(help="write a plot of speed over time (.png, .svg, .pdf)")
+    ] = None,
+    xtal: Annotated[int, typer.Option(min=1_000_000, max=XTAL_HZ, help="crystal frequency in Hz")] = XTAL_HZ,
     as_json: Json = False,
 ) -> None:
-    """Predict a move. Needs no board."""
+    """Predict a move; no board is needed."""
     kind = BOARD.planned
     view = view_of(kind)
     setup = setup_values(typed).plan(xtal, kind)

@@ -1,4 +1,4 @@
-"""Tables on a narrow terminal: one that does not fit becomes a list."""
+"""Tables on a narrow terminal: a table that does not fit is printed as a list."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...streams import NARROW
 
 
 class Console(rich.console.Console):
-    """A console that prints a table that does not fit row by row, a line for each cell."""
+    """Console that prints a table that does not fit as a list, one line for each cell."""
 
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
         options = options or self.options
@@ -28,7 +28,7 @@ class Console(rich.console.Console):
 
 
 def two_columns(rows: Iterable[tuple[str, str]]) -> Table:
-    """A table of names and values, no frame."""
+    """Return a table of names and values without a frame."""
     grid = Table(box=None, show_header=False, pad_edge=False)
     grid.add_column(style="bold", overflow="fold")
     grid.add_column(overflow="fold")
@@ -38,8 +38,11 @@ def two_columns(rows: Iterable[tuple[str, str]]) -> Table:
 
 
 def listed(heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> Group:
-    """Rows of a table, one below the other. A cell is in the line of its heading; empty cells are omitted, a
-    cell without heading names its row."""
+    """Return the rows of a table as lists, one below the other.
+
+    A cell follows its heading on the same line. Empty cells are omitted. A cell without a heading names its
+    row.
+    """
     tables: list[RenderableType] = []
     for row in rows:
         cells = [(head, str(cell)) for head, cell in zip(heads, row, strict=True) if cell]

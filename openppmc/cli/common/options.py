@@ -1,4 +1,4 @@
-"""The set-up options that several commands share: declared once, remembered by `init`."""
+"""Set-up options that several commands share; `init` stores their values."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from ...errors import PpmcError
 from ...host.kind import AnySetup, Kind, Wanted
 
 MOST_AXES = max(row.axes for row in parts.having("number", "kind"))
-"""What --axis takes; the part that is there says how many it has."""
-Json = Annotated[bool, typer.Option("--json", help="for programs")]
-_PANEL = "Set-up (remembered by init)"
+"""Highest number that --axis accepts; the connected part may have fewer axes."""
+Json = Annotated[bool, typer.Option("--json", help="print JSON")]
+_PANEL = "Set-up (stored by init)"
 
 
 def check_seconds(seconds: float | None) -> None:
-    """BadParameter for a value of --seconds that is no time."""
+    """Raise BadParameter if the value of --seconds is negative, infinite or not a number."""
     if seconds is not None and not 0 <= seconds < float("inf"):
-        raise typer.BadParameter(f"--seconds {seconds:g} is not a time from 0 on")
+        raise typer.BadParameter(f"--seconds {seconds:g}: not a valid time; use 0 or more")
 
 
 class Logic(str, Enum):
@@ -43,13 +43,13 @@ class Side(str, Enum):
 
     @property
     def code(self) -> int:
-        """0 or 1."""
+        """0 for CW, 1 for CCW."""
         return int(self is Side.CCW)
 
 
 @dataclass(frozen=True)
 class SetupValues:
-    """Values of the options; speeds in pps, clocks in Hz. ramp None: as usual for the part."""
+    """Values of the set-up options; speeds in pps, clocks in Hz. ramp None: the default."""
 
     start: float = 1000
     high: float = 5000
@@ -67,7 +67,7 @@ class SetupValues:
     curve: str | None = None
 
     def merged(self, changes: dict[str, Any]) -> SetupValues:
-        """With other values where they are given. PpmcError for names that do not exist."""
+        """Return a copy with these changes; None keeps a value. Raise PpmcError for unknown names."""
         known = {field.name for field in fields(self)}
         if unknown := set(changes) - known:
             raise PpmcError(
@@ -76,11 +76,11 @@ class SetupValues:
         return replace(self, **{name: value for name, value in changes.items() if value is not None})
 
     def table(self) -> dict[str, Any]:
-        """For the state file."""
+        """Return the values for the state file."""
         return asdict(self)
 
     def plan(self, xtal_hz: int, kind: Kind, axis: int = 1) -> AnySetup:
-        """Rates for an axis of a part with this crystal. OutOfRange for what it cannot do."""
+        """Return the plan of an axis with this crystal. Raise OutOfRange for unsupported values."""
         wanted = Wanted(
             self.start,
             self.high,
@@ -113,20 +113,20 @@ _OPTIONS: dict[str, Any] = {
         _option("--ramp", text="pulses from start to high speed (200; ppmc312: 2000)", metavar="PULSES"),
     ],
     "phases": Annotated[
-        int | None, _option("--phases", text="phases of the motor: 3, 4, 5 (4)", metavar="N")
+        int | None, _option("--phases", text="number of motor phases: 3, 4 or 5 (4)", metavar="N")
     ],
     "half_step": Annotated[bool | None, _option("--half-step/--full-step", text="excitation (full step)")],
     "logic": Annotated[
         Logic | None,
-        _option("--logic", text="level that switches a coil on (positive; a PPMC-2104 has no choice)"),
+        _option("--logic", text="level that switches a coil on (positive; not for ppmc2104)"),
     ],
-    "chop": Annotated[bool | None, _option("--chop/--no-chop", text="switch the coils at rest (no)")],
+    "chop": Annotated[bool | None, _option("--chop/--no-chop", text="chopper at standstill (no)")],
     "base_clock": Annotated[
         float | None,
         _option(
             "--base-clock",
             text="500000 or 125000, stmc: 48675 or 12500, ppmc312: 8e6 … 15625 "
-            "(the one that reaches the start speed)",
+            "(default: reaches the start speed)",
             metavar="HZ",
         ),
     ],
@@ -135,7 +135,7 @@ _OPTIONS: dict[str, Any] = {
     ],
     "long_intervals": Annotated[
         bool | None,
-        _option("--long-intervals/--plain-intervals", text="7.5 us more an interval (vsel low) (plain)"),
+        _option("--long-intervals/--plain-intervals", text="7.5 us longer intervals, vsel low (plain)"),
     ],
     "stop": Annotated[
         float | None, _option("--stop", text="ppmc312: stop speed (the start speed)", metavar="PPS")
@@ -152,7 +152,7 @@ _OPTIONS: dict[str, Any] = {
 
 
 def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the set-up options; it gets those that were typed as a dict named `typed`."""
+    """Add the set-up options to a command, which receives the typed ones as the dict `typed`."""
 
     @functools.wraps(command)
     def wrapper(**arguments: Any) -> Any:
@@ -161,10 +161,11 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         if "logic" in typed:
             typed["logic"] = typed["logic"].value
         if "curve" in typed:
-            typed["curve"] = os.path.abspath(typed["curve"])  # init remembers it
+            # `init` stores the path, and later commands may run in another folder.
+            typed["curve"] = os.path.abspath(typed["curve"])
         return command(**arguments, typed=typed)
 
-    # Not get_type_hints: on Python 3.10 it hides the Annotated of an option whose default is None.
+    # get_type_hints is not used: on Python 3.10 it hides the Annotated of an option with the default None.
     own = [
         parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
         for name, parameter in inspect.signature(command, eval_str=True).parameters.items()
@@ -174,7 +175,7 @@ def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
         for name, annotation in _OPTIONS.items()
     ]
-    seen: Any = wrapper  # by typer, which reads the signature
+    seen: Any = wrapper  # typer reads its signature
     del seen.__wrapped__
     seen.__signature__ = inspect.Signature([*own, *added])
     seen.__annotations__ = {parameter.name: parameter.annotation for parameter in (*own, *added)}

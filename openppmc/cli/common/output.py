@@ -1,4 +1,4 @@
-"""Where the words of commands go: results to stdout, remarks beside them to stderr."""
+"""Output of commands: results on stdout, notes on stderr."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def __getattr__(name: str) -> Any:
-    """`console`, made when it is first used: most commands print plain lines and need no rich."""
+    """Create `console` when it is first used: most commands print plain lines without rich."""
     if name != "console":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     if name not in globals():
@@ -29,25 +29,27 @@ def __getattr__(name: str) -> Any:
 
 
 def say(text: str) -> None:
-    """One line on stdout, as it is."""
+    """Print one line on stdout, unchanged."""
     print(text)
 
 
 def note(text: str) -> None:
-    """One line beside the results, on stderr."""
+    """Print one note on stderr."""
     print(text, file=sys.stderr)
 
 
 def table(rows: dict[str, str]) -> Table:
-    """Two columns, no frame."""
+    """Return a table of two columns without a frame."""
     from .narrow import two_columns
 
     return two_columns(rows.items())
 
 
 def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
-    """A table whose lines may be longer than those of the terminal. rows: headings first; sides: < or > of
-    each column."""
+    """Print a table whose lines may be longer than those of the terminal.
+
+    rows: the first one has the headings. sides: < or > for each column, aligned left or right.
+    """
     if is_narrow():
         from .narrow import listed
 
@@ -60,7 +62,7 @@ def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
 
 
 def grid(rows: dict[str, dict[str, str]]) -> Table:
-    """A row each with its name in front, the names of the values above; no frame."""
+    """Return a table without a frame; the names of the rows are its first column."""
     from rich.table import Table
 
     columns = list(next(iter(rows.values())))
@@ -73,5 +75,5 @@ def grid(rows: dict[str, dict[str, str]]) -> Table:
 
 
 def print_json(values: Any) -> None:
-    """One JSON document."""
+    """Print one JSON document."""
     print(json.dumps(values, indent=1))

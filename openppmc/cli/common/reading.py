@@ -1,4 +1,4 @@
-"""Reads the lines of script files: words of all devices, and words of one device (column `words`)."""
+"""Parser for lines of script files: common words and words of parts (column `words`)."""
 
 from __future__ import annotations
 
@@ -14,8 +14,11 @@ from .options import MOST_AXES, Logic, SetupValues, Side
 
 @dataclass(frozen=True)
 class OwnWord:
-    """A word that not all parts know. lacks: why this kind of part cannot do it with these values, empty if
-    it can. do: carries it out, only for a part that lacks nothing."""
+    """Word that only some parts support.
+
+    lacks: returns why this kind of part does not support the word with these values; empty if it does. do:
+    executes the word; it is called only if `lacks` returns an empty text.
+    """
 
     read: Reader
     lacks: Callable[[Kind, Values], str]
@@ -49,7 +52,7 @@ def _read_outputs(words: list[str]) -> Values:
 def _lacks_aux(kind: Kind, values: Values) -> str:
     if AUX in kind.has:
         return ""
-    return f"a {kind} has no output AUX" + (": use auxo" if kind.outputs else "")
+    return f"a {kind} has no output AUX" + ("; use auxo" if kind.outputs else "")
 
 
 def _lacks_outputs(kind: Kind, values: Values) -> str:
@@ -76,31 +79,31 @@ _SOME = {
 
 @cache
 def own_words() -> dict[str, OwnWord]:
-    """Words that not all parts know, with those that parts bring along (column `words`)."""
+    """Return the words that only some parts support, including those of column `words`."""
     own = dict(_SOME)
     for row in parts.folders():
         if row.words:
             more: dict[str, OwnWord] = row.load("words")
-            assert not own.keys() & more.keys(), f"{row.name}: a word that another part has, too"
+            assert not own.keys() & more.keys(), f"{row.name}: a word that another part also defines"
             own |= more
     return own
 
 
 MOST_TURNS = 1_000_000
 Values = dict[str, Any]
-"""What a line says, by names that `player` knows."""
+"""Operands of a line, by the names that `Player` uses."""
 Reader = Callable[[list[str]], Values]
-"""Takes the words after the first one, and uses them up. ValueError."""
+"""Parses and consumes the words after the first one. Raises ValueError."""
 
 
 def none_left(words: list[str]) -> None:
-    """The line ends here."""
+    """Raise ValueError if the line has more words."""
     if words:
         raise ValueError(f"{words[0]!r} does not belong here")
 
 
 def number(text: str, what: str, low: float, high: float) -> float:
-    """A number from low to high."""
+    """Return the text as a number. Raise ValueError unless it is one from low to high."""
     try:
         value = float(text)
     except ValueError:
@@ -111,7 +114,7 @@ def number(text: str, what: str, low: float, high: float) -> float:
 
 
 def whole(text: str, what: str, low: int, high: int) -> int:
-    """A whole number from low to high."""
+    """Return the text as a whole number. Raise ValueError unless it is one from low to high."""
     try:
         value = int(text)
     except ValueError:
@@ -122,7 +125,7 @@ def whole(text: str, what: str, low: int, high: int) -> int:
 
 
 def first(words: list[str], what: str) -> str:
-    """The next word, taken away."""
+    """Remove and return the next word. Raise ValueError if it is missing."""
     if not words:
         raise ValueError(f"{what} is missing")
     return words.pop(0)
@@ -146,14 +149,14 @@ def _pairs(words: Iterable[str]) -> dict[str, str]:
 
 
 def read_speed(words: list[str]) -> float | None:
-    """`speed=PPS`, if it comes next."""
+    """Return the speed if the next word is `speed=PPS`, else None."""
     if words and words[0].startswith("speed="):
         return number(words.pop(0)[6:], "speed", 1e-6, 1e6)
     return None
 
 
 class Numbered(NamedTuple):
-    """How the end of a line calls what it is for, and between which numbers."""
+    """Name and range of the number that a line may end with."""
 
     name: str = "axis"
     low: int = 1
@@ -164,15 +167,15 @@ AXES = Numbered()
 
 
 def read_axis(words: list[str], numbered: Numbered = AXES) -> int | None:
-    """`axis=2` at the end of the line."""
+    """Return the number in `axis=2` at the end of the line, else None."""
     if words and words[-1].startswith(f"{numbered.name}="):
         return whole(words.pop()[len(numbered.name) + 1 :], *numbered)
     return None
 
 
 def read_repeat(words: list[str]) -> Values:
-    """How often."""
-    turns = whole(first(words, "how often"), "count", 1, MOST_TURNS)
+    """Return the number of repetitions."""
+    turns = whole(first(words, "number of repetitions"), "count", 1, MOST_TURNS)
     none_left(words)
     return {"turns": turns}
 

@@ -1,4 +1,4 @@
-"""Script files: one command a line. `Program` reads a file; `Player` executes it."""
+"""Script files, one command a line: `read_program` parses a file, `Player` executes it."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from .session import Guard, initialise, opened, setup_values, stop_all
 
 
 def positions(axes: Iterable[AnyAxis]) -> str:
-    """Where they stand, in words."""
+    """Return the positions of the axes as text."""
     at = [str(axis.position) for axis in axes]
     return f"position{'s' if len(at) > 1 else ''} {' and '.join(at)}"
 
 
 class Played(Protocol):
-    """An open board or line, as far as a script needs it."""
+    """Open board or line, with the members that a script needs."""
 
     guard: Guard
 
@@ -43,13 +43,16 @@ class Played(Protocol):
 
 
 def number_of(step: Step) -> int:
-    """The axis that a line is about."""
+    """Return the axis of a line; 1 if the line names no axis."""
     return 1 if step.axis is None else step.axis
 
 
 def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
-    """All steps by `do`, repeated ones as often as they say; a progress bar ends with its step. ScriptError
-    with file:line for what the part refuses."""
+    """Execute all steps with `do`; `repeat` executes its body the given number of times.
+
+    The progress bar of a step ends with the step. Raises ScriptError with file:line if the part rejects a
+    step.
+    """
     for step in steps:
         guard.check()
         if step.word == "repeat":
@@ -67,7 +70,7 @@ def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step
 
 
 class Player:
-    """Carries a program out. values: set-ups of the axes in use. say: gets the lines that the user sees."""
+    """Executes a program. values: set-ups of the axes in use. say: prints a line for the user."""
 
     def __init__(
         self, session: Played, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
@@ -76,7 +79,7 @@ class Player:
         self._values, self._name, self._say = values, name, say
 
     def run(self, steps: Iterable[Step]) -> None:
-        """All steps. ScriptError with file:line for what the board refuses."""
+        """Execute all steps. Raise ScriptError with file:line if the board rejects one."""
         carry_out(steps, self._name, self._guard, self._do_and_report)
 
     def _do_and_report(self, step: Step) -> None:
@@ -116,12 +119,12 @@ class Player:
             self._say(f"{self._name}:{step.line}: {positions(self._chosen(step))}")
 
     def _chosen(self, step: Step) -> tuple[AnyAxis, ...]:
-        """The axis that a line names, or all that the program uses."""
+        """Return the axis that a line names, or all axes that the program uses."""
         numbers = sorted(self._values) if step.axis is None else [step.axis]
         return tuple(self._session.axis(number) for number in numbers)
 
     def _move(self, step: Step, axis: AnyAxis) -> None:
-        """move and goto, one axis or both."""
+        """Execute move or goto for one axis or for both."""
         values, progress = step.values, self._guard.progress
         absolute, speed = step.word == "goto", values.get("speed")
         first, second = values["position" if absolute else "pulses"], values["second"]
@@ -137,7 +140,7 @@ class Player:
 
 
 def check_steps(steps: Iterable[Step], name: str, kind: Kind) -> list[int]:
-    """The axes that a program uses, 1 if it names none. ScriptError for what the part does not have."""
+    """Return the axes of a program, [1] if it names none. Raise ScriptError if unsupported."""
     return sorted(_axes_of(steps, name, kind)) or [1]
 
 
@@ -158,7 +161,7 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Kind) -> set[int]:
 
 
 def _lacks(step: Step, kind: Kind) -> str:
-    """What a part does not have for this step, empty if it has all."""
+    """Return why the part does not support this step; empty if it does."""
     if own := own_words().get(step.word):
         return own.lacks(kind, step.values)
     if step.word == "off" and COILS_OFF not in kind.has:
@@ -169,7 +172,7 @@ def _lacks(step: Step, kind: Kind) -> str:
 def check_speeds(
     steps: Iterable[Step], values: dict[int, SetupValues], xtal_hz: int, name: str, kind: Kind
 ) -> None:
-    """Refuse speeds and ramps that the part cannot do before anything moves. ScriptError."""
+    """Raise ScriptError for unsupported speeds and ramps, before the first motion."""
     for step in steps:
         axis = number_of(step)
         try:
@@ -188,12 +191,12 @@ DEEPEST = 20
 
 
 class ScriptError(PpmcError):
-    """A line that cannot be understood or carried out; the message begins with file:line."""
+    """A line cannot be parsed or executed; the message begins with file:line."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One line. `body` belongs to repeat. axis: as written, None if it names none."""
+    """One line. body: steps of a repeat. axis: as written; None if the line names no axis."""
 
     line: int
     word: str
@@ -203,13 +206,13 @@ class Step:
 
 
 OF_AXES = ("init", "move", "goto", "step", "jog", "home", "stop", "zero", "off", "position")
-"""Commands that may end with axis=N; without it they are about axis 1."""
+"""Commands that may end with axis=N; without it they apply to axis 1."""
 OF_ALL_AXES = ("stop", "off", "position")
-"""Those that are about all axes without it."""
+"""Commands that apply to all axes if they do not end with axis=N."""
 
 
 def read_file(file: Path) -> tuple[str, str]:
-    """Name and text of a script file; - is standard input. PpmcError."""
+    """Return name and text of a script file; - is standard input. Raise PpmcError."""
     name = "stdin" if str(file) == "-" else str(file)
     try:
         text = typer.get_text_stream("stdin").read() if name == "stdin" else read_text(file)
@@ -229,8 +232,11 @@ def read_program(
     of_axes: Collection[str] = OF_AXES,
     numbered: Numbered = AXES,
 ) -> tuple[Step, ...]:
-    """All steps of a script file. readers: its words, those of parts behind the bridge if there are none;
-    of_axes: those that may end with axis=N, or as that is `numbered`. ScriptError for the first bad line."""
+    """Return all steps of a script file. Raise ScriptError for the first invalid line.
+
+    readers: the known words; None: those of parts with the UART bridge. of_axes: words that may end with
+    axis=N. numbered: name and range of this number.
+    """
     if readers is None:
         readers = READERS | {word: own.read for word, own in own_words().items()}
     stack: list[tuple[int, dict[str, Any], list[Step]]] = [(0, {}, [])]
@@ -250,13 +256,13 @@ def read_program(
                 stack[-1][2].append(Step(start, "repeat", values, tuple(body)))
             elif word == "repeat":
                 if len(stack) > DEEPEST:
-                    raise ValueError(f"repeat deeper than {DEEPEST}")
+                    raise ValueError(f"repeat: nested deeper than {DEEPEST}")
                 stack.append((number, read_repeat(rest), []))
             elif word in readers:
                 axis = read_axis(rest, numbered) if word in of_axes else None
                 step = Step(number, word, readers[word](rest), axis=axis)
                 if axis is not None and step.values.get("second") is not None:
-                    raise ValueError("two numbers are for both axes: leave axis= out")
+                    raise ValueError("two numbers move both axes; omit axis=")
                 stack[-1][2].append(step)
             else:
                 known = ", ".join(sorted([*readers, "repeat", "end"]))
@@ -266,7 +272,7 @@ def read_program(
     if len(stack) > 1:
         raise ScriptError(f"{name}:{stack[-1][0]}: repeat without end")
     if not stack[0][2]:
-        raise ScriptError(f"{name}:1: there is no command in this file")
+        raise ScriptError(f"{name}:1: no command in this file")
     return tuple(stack[0][2])
 
 
@@ -275,7 +281,7 @@ def script(
     typed: dict[str, Any],
     file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
 ) -> None:
-    """Carry out a file of commands."""
+    """Execute a file of commands."""
     name, text = read_file(file)
     steps = read_program(text, name)
     with opened() as session:

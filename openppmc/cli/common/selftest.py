@@ -1,4 +1,4 @@
-"""The command `selftest`: a board against the golden model, and a page about it."""
+"""The command `selftest`: compare a board with the golden model, write a page about it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .options import Json
 from .session import misfit
 
 RECORDS = 13
-"""Of a virtual board for which nobody asked for another number."""
+"""Size of the recorder of a virtual board without `record=`: 2**RECORDS records."""
 KINDS = (REGISTERS, COMMANDS, MOVES, SWITCHES)
 Kinds = Annotated[
     list[str] | None,
@@ -32,18 +32,19 @@ Kinds = Annotated[
 def selftest(
     yes: Annotated[bool, typer.Option("--yes", help="do not ask whether motors may turn")] = False,
     jumpers: Annotated[
-        bool, typer.Option("--jumpers", help="also limits and origin; wants two wires")
+        bool, typer.Option("--jumpers", help="also test limits and origin; requires two wires")
     ] = False,
     only: Kinds = None,
     folder: Annotated[
-        Path, typer.Option("--out", metavar="FOLDER", help="where the page goes, and pictures of differences")
+        Path,
+        typer.Option("--out", metavar="FOLDER", help="folder for the page and for pictures of differences"),
     ] = Path("selftest"),
     as_json: Json = False,
 ) -> None:
-    """Compare every edge of the board's pins with the golden model; ends with a page for an issue."""
+    """Compare every pin edge of a board with the golden model. Writes a page for an issue."""
     for kind in only or ():
         if kind not in KINDS:
-            raise typer.BadParameter(f"--only {kind}: there are {', '.join(KINDS)}")
+            raise typer.BadParameter(f"--only {kind}: unknown kind; use {', '.join(KINDS)}")
     tell = output.note if as_json else output.say
     number = None if BOARD.part is None else parts.part(BOARD.part).number
     with Link(_spec(), BOARD.baud or DEFAULT_BAUD, number) as link:
@@ -76,10 +77,13 @@ def selftest(
 
 
 def _spec() -> str:
-    """The port; a virtual board gets a recorder, the golden model cannot be compared with itself."""
+    """Return the port; a virtual board gets a recorder.
+
+    Raises PpmcError for `model:`: the golden model cannot be compared with itself.
+    """
     spec = BOARD.spec
     if spec.startswith(MODEL):
-        raise PpmcError("model: is what a board is compared with: name its port, or sim: for a virtual one")
+        raise PpmcError("model: cannot be compared with itself; use the port of a board, or sim:")
     if not spec.startswith(SIM) or "record=" in spec:
         return spec
     return f"{spec}{'' if spec.endswith(':') else ','}record={RECORDS}"
@@ -88,18 +92,21 @@ def _spec() -> str:
 def _plan(link: Link) -> Plan:
     row: Any = parts.by_number(link.identity.part)
     if row is None or not row.selftest:
-        raise PpmcError(f"{link.name}: there is no self-test for this part: renew the package")
+        raise PpmcError(f"{link.name}: no self-test for this part; renew the package")
     plan: Plan = row.load("selftest")
     return plan
 
 
 def _ask(plan: Plan, yes: bool, jumpers: bool) -> None:
-    """Nothing turns before somebody has said so."""
+    """List the wires, and ask the user whether motors may turn.
+
+    Raises PpmcError if stdin is not a terminal, Abort if the user declines.
+    """
     for wire in plan.jumpers if jumpers else ():
         output.note(f"wire: {wire}")
     if yes or BOARD.spec.startswith(SIM):
         return
     if not sys.stdin.isatty():
-        raise PpmcError("selftest makes pulses, and a motor that is connected turns: add --yes if it may")
-    output.note("The self-test makes some thousand pulses: a motor that is connected turns.")
-    typer.confirm("Is no motor powered, or may it turn?", abort=True, err=True)
+        raise PpmcError("selftest: a connected motor turns; add --yes if it may turn")
+    output.note("The self-test outputs some thousand pulses. A connected motor turns.")
+    typer.confirm("May all connected motors turn?", abort=True, err=True)

@@ -1,4 +1,4 @@
-"""The board that a command uses: its versions, what `init` has stored, signals and progress bars.
+"""The board that a command uses: versions, stored set-up, signals and progress bars.
 
 `init` stores the values of the set-up options of each port in a small JSON file. The first signal decelerates
 the motor, the second one stops it immediately, the third one ends the program.
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 
 def state_folder() -> Path:
-    """Where the files are: $OPENPPMC_STATE, or `openppmc` in the user's folder for program state."""
+    """Return $OPENPPMC_STATE, else `openppmc` in the user's folder for program state."""
     own = os.environ.get("OPENPPMC_STATE")
     if own:
         return Path(own)
@@ -51,7 +51,7 @@ def state_folder() -> Path:
 
 
 def lasting(port: str) -> bool:
-    """Virtual boards are new each time, so nothing is remembered for them."""
+    """Return whether set-ups are stored for this port; a virtual board is new each time."""
     return bool(port) and not f"{port}:".startswith((MODEL, SIM))
 
 
@@ -61,7 +61,7 @@ def _file(port: str, axis: int) -> Path:
 
 
 def recall(port: str, axis: int = 1) -> dict[str, Any]:
-    """Remembered options of an axis, empty if there are none. PpmcError if the file is not readable."""
+    """Return the stored options of an axis, or {}. Raise PpmcError for an unreadable file."""
     path = _file(port, axis)
     if not lasting(port) or not path.is_file():
         return {}
@@ -71,13 +71,13 @@ def recall(port: str, axis: int = 1) -> dict[str, Any]:
             raise ValueError("no table")
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise PpmcError(
-            f"{path}: the remembered set-up cannot be read: delete the file, then run init"
+            f"{path}: the stored set-up cannot be read; delete the file, then run init"
         ) from error
     return values
 
 
 def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
-    """Keep the options for later commands. PpmcError if the file cannot be written."""
+    """Store the options for later commands. Raise PpmcError if the file cannot be written."""
     if not lasting(port):
         return
     path = _file(port, axis)
@@ -88,20 +88,22 @@ def remember(port: str, values: dict[str, Any], axis: int = 1) -> None:
         fresh.write_text(text, encoding="utf-8")
         fresh.replace(path)
     except OSError as error:
-        raise PpmcError(f"{path}: the set-up cannot be remembered ({error.strerror})") from error
+        raise PpmcError(f"{path}: the set-up cannot be stored ({error.strerror})") from error
 
 
 BAR_AFTER = 0.6
-"""Seconds that a motion runs before it gets a bar."""
+"""Seconds after which a motion shows a progress bar."""
 
 
 class Interrupted(Exception):  # noqa: N818 - the user did it
-    """A signal has arrived; raised where the program looks for it, never in the middle of a frame."""
+    """A signal has arrived; raised where the program checks for it, never within a frame."""
 
 
 class Guard:
-    """Context manager: counts signals instead of letting them break the dialogue with the board. number: of
-    the first signal."""
+    """Context manager that counts signals, so that none interrupts an exchange with a board.
+
+    number: number of the first signal.
+    """
 
     def __init__(self) -> None:
         self.count = 0
@@ -129,18 +131,18 @@ class Guard:
             os._exit(128 + number)
 
     def check(self) -> None:
-        """Raise Interrupted if a signal has arrived, StdoutLost if stdout rejects what was printed."""
+        """Raise Interrupted if a signal has arrived, StdoutLost if stdout rejects the output."""
         if self.count:
             raise Interrupted
         sys.stdout.flush()
 
     def progress(self, now: Progress) -> None:
-        """Progress callback of motions."""
+        """Check for signals and show the bar; progress callback of motions."""
         self.check()
         self.bar(now)
 
     def pause(self, part: Device, seconds: float) -> None:
-        """Let time pass on the board's clock."""
+        """Wait for a time in s, measured by the clock of the board."""
         link = part.link
         end = link.clock() + seconds
         while (left := end - link.clock()) > 0:
@@ -151,13 +153,13 @@ class Guard:
     # ------------------------------------------------------------------ bar
 
     def bar(self, now: Progress) -> None:
-        """Show or move the bar of the running motion; only on a terminal."""
+        """Show or update the bar of the running motion; only on a terminal."""
         if not sys.stderr.isatty() or now.seconds < BAR_AFTER:
             return
         self._draw("moving", "position {task.fields[at]}", now.asked, now.made, at=now.position)
 
     def count_bar(self, what: str, done: int, of: int) -> None:
-        """Show or move a bar that counts; only on a terminal."""
+        """Show or update a bar with a count; only on a terminal."""
         if sys.stderr.isatty():
             self._draw(what, "{task.completed}/{task.total}", of, done)
 
@@ -173,17 +175,17 @@ class Guard:
         self._bars.update(self._task, total=total, completed=done, **fields)
 
     def bar_off(self) -> None:
-        """The motion is over."""
+        """Remove the bar."""
         if self._bars is not None:
             with suppress(OSError):  # the terminal was closed
                 self._bars.stop()
             self._bars = None
 
-    # ------------------------------------------------------------------ what a signal or a lost stdout does
+    # ------------------------------------------------------------------ signals and a lost stdout
 
     @contextmanager
     def resting(self, part: Device) -> Iterator[None]:
-        """Bring the motors to rest if the block ends by a signal or because stdout is lost."""
+        """Stop the motors if the block ends by a signal or because stdout is lost."""
         try:
             self.check()
             yield
@@ -203,18 +205,24 @@ class Guard:
         return 128 + self.number
 
     def bring_to_rest(self, part: Device) -> str:
-        """Decelerate all axes, wait; at once on the next signal. Returns one line for the user."""
+        """Decelerate all axes and wait; the next signal stops them immediately.
+
+        Returns one line for the user.
+        """
         self.bar_off()
         return f"{name_of(self.number)}: {bring_to_rest([part], hurry=lambda: self.count > 1)}"
 
 
 def misfit(build: Build | None, number: int) -> str:
-    """One line that says what to do, "" if they fit or nobody can tell. number: of the part."""
+    """Return one line if bitstream and package do not match: the difference, and what to do.
+
+    The line is empty if they match or if this cannot be checked. number: number of the part.
+    """
     if build is None:
         return ""
     if build.version != __version__:
         older = "the package" if _order(build.version) > _order(__version__) else "the bitstream"
-        return f"the bitstream is of version {build.version}, this package {__version__}: renew {older}"
+        return f"the bitstream has version {build.version}, this package {__version__}; renew {older}"
     row = parts.by_number(number)
     if not build.source or row is None:
         return ""
@@ -224,11 +232,11 @@ def misfit(build: Build | None, number: int) -> str:
     try:
         own = sources.digest(find_root(), f"{row.rtl}_carrier").hex()
     except (PpmcError, RuntimeError, OSError):
-        return ""  # no checkout here
+        return ""  # not in a checkout
     if own and build.source != own:
         return (
             f"the bitstream was built from other sources ({build.source}) than those of this checkout "
-            f"({own}): build and load it anew to test these"
+            f"({own}); build and load it again to test this checkout"
         )
     return ""
 
@@ -246,37 +254,42 @@ class Session:
 
     @property
     def kind(self) -> Kind:
-        """What part it is."""
+        """Capabilities of the part."""
         return self.part.kind
 
     @property
     def view(self) -> AnyView:
-        """What it shows, and what not all parts have."""
+        """Output of the part, and its additional functions."""
         return view_of(self.kind)
 
     @property
     def xtal_hz(self) -> int:
-        """Its crystal."""
+        """Crystal frequency in Hz."""
         return self.part.link.identity.xtal_hz
 
     def axis(self, number: int = 1) -> AnyAxis:
-        """One axis; OutOfRange if the part does not have it."""
+        """Return an axis. Raise OutOfRange if the part does not have it."""
         return self.part.axes[self.kind.check_axis(number) - 1]
 
     def chosen(self, number: int | None) -> Sequence[AnyAxis]:
-        """That axis, or all."""
+        """Return the axis with this number; for None all axes."""
         return self.part.axes if number is None else (self.axis(number),)
 
 
 def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
-    """Defaults, then what `init` remembered for this port and axis, then what was typed."""
+    """Return the set-up of an axis.
+
+    Typed values have priority over values that `init` stored for this port and axis, these over the defaults.
+    """
     return SetupValues().merged(recall(BOARD.port, axis)).merged(typed)
 
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """The board, and signals under control: they bring the motors to rest and end with status 128 + n. A lost
-    stdout brings the motors to rest, too."""
+    """Open the board; a signal stops the motors and ends with status 128 + n.
+
+    A lost stdout also stops the motors.
+    """
     number = None if BOARD.part is None else parts.part(BOARD.part).number
     with (
         open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part,
@@ -290,14 +303,14 @@ def opened() -> Iterator[Session]:
 
 @contextmanager
 def ready(typed: dict[str, Any], axes: Iterable[int]) -> Iterator[Session]:
-    """The board with these axes initialised."""
+    """Open the board and initialise these axes."""
     with opened() as session:
         initialise(session, {axis: setup_values(typed, axis) for axis in axes})
         yield session
 
 
 def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
-    """Initialise axes, all plans made before the first; returns what is reached."""
+    """Make all plans, then initialise the axes; return the reached set-ups."""
     plans = {
         axis: table.plan(session.xtal_hz, session.kind, session.kind.check_axis(axis))
         for axis, table in values.items()
@@ -306,8 +319,11 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
 
 
 def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[End]:
-    """Stop motions, perhaps of another program, and wait for their ends. All are stopped before an error is
-    told; that one rests already is none as long as another moves."""
+    """Stop motions, including those of other programs, and wait for their ends.
+
+    All axes are stopped before an error is raised. An axis that is already at standstill is an error only if
+    no axis could be stopped.
+    """
     errors: list[PpmcError] = []
     moving = []
     for axis in axes:

@@ -1,4 +1,4 @@
-"""What the shared commands print: rows for people, JSON for programs; `monitor` repeats it until Ctrl-C."""
+"""Output of the shared commands: rows of text, or JSON for programs; `monitor` repeats it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def identity_values(link: Link) -> dict[str, Any]:
-    """What IDENT said."""
+    """Return the values that IDENT reported."""
     identity = link.identity
     return {
         "port": link.name,
@@ -35,31 +35,31 @@ def identity_values(link: Link) -> dict[str, Any]:
 
 
 def end_line(end: End) -> str:
-    """Where the motor stands, and why."""
+    """Return one line: position, pulses, and why the motion has ended."""
     pulses = "" if end.pulses is None else f", {abs(end.pulses)} pulses {'CCW' if end.pulses < 0 else 'CW'}"
     return f"{end.who}position {end.position}{pulses}: {end.why}"
 
 
 def switches(axis_inputs: dict[str, bool]) -> str:
-    """Those that are active, in words."""
+    """Return the names of the active switches as text."""
     return ", ".join(name.replace("_", " ") for name, on in axis_inputs.items() if on) or "none active"
 
 
 def speed(value: speeds.Speed, byte_name: str = "rate") -> str:
-    """What is reached, with the number that does it, and what was asked if that is not the same."""
+    """Return the reached speed, its rate or divisor, and a different requested speed."""
     text = f"{speeds.nearby(value.reached)} pps ({byte_name} {value.rate})"
-    return text if value.reached == value.asked else f"{text}, asked {speeds.nearby(value.asked)} pps"
+    return text if value.reached == value.asked else f"{text}, requested {speeds.nearby(value.asked)} pps"
 
 
-# ---------------------------------------------------------------------- the ramp of the family
+# ---------------------------------------------------------------------- the ramp of the PPMC family
 
 
 def setup_rows(setup: speeds.Setup) -> dict[str, str]:
-    """Asked and reached speeds, ramp, bytes."""
+    """Return rows with the requested and reached speeds, the ramp and the bytes."""
     byte_name = "rate" if setup.clock.beyond else "divisor"
     rows = {"start speed": speed(setup.start, byte_name), "high speed": speed(setup.high, byte_name)}
     if not setup.ramp_pulses:
-        rows["ramp"] = "none: high speed at once"
+        rows["ramp"] = "none: high speed immediately"
     elif not setup.flat:
         steep = speeds.nearby(setup.acceleration)
         rows["ramp"] = f"{setup.ramp_pulses} pulses, {setup.ramp_seconds:.4g} s, {steep} pps/s"
@@ -73,7 +73,7 @@ def setup_rows(setup: speeds.Setup) -> dict[str, str]:
 
 
 def setup_values(setup: speeds.Setup) -> dict[str, Any]:
-    """For JSON."""
+    """Return the values for JSON."""
     return {
         "start_pps": float(setup.start.reached),
         "high_pps": float(setup.high.reached),
@@ -84,8 +84,8 @@ def setup_values(setup: speeds.Setup) -> dict[str, Any]:
     }
 
 
-Count = Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N looks")]
-Every = Annotated[float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between looks")]
+Count = Annotated[int | None, typer.Option(min=1, metavar="N", help="end after N readings")]
+Every = Annotated[float, typer.Option(min=0.05, max=3600, metavar="S", help="seconds between readings")]
 
 
 def watch(
@@ -94,7 +94,10 @@ def watch(
     lines: Callable[[], Iterable[str]],
     table: Callable[[], Table],
 ) -> None:
-    """A table that changes on a terminal, else `lines` of each look; `pause` comes between two looks."""
+    """Update a table on a terminal; elsewhere print the `lines` of each reading.
+
+    pause: called between two readings.
+    """
     turns = count or 10**9
     if not output.console.is_terminal:
         for turn in range(turns):

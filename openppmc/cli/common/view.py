@@ -1,4 +1,4 @@
-"""What a device shows on the command line, and requests of shared commands that only some devices support.
+"""Output of a device on the command line, and functions that only some devices support.
 
 The table of parts names the view of a part (column `view`); a part without one has `RampView`, that of the
 PPMC-104. A forecast is computed from the golden model's ramp before the move. `--at POSITION:WHAT` sets an
@@ -32,7 +32,10 @@ FARTHEST = 1 << 31
 
 @dataclass(frozen=True)
 class Override:
-    """At a position: another speed in pps (with a ramp), or a stop, `now` at once."""
+    """Action at a position: a speed in pps, reached with a ramp, or a stop.
+
+    now: stop without a ramp.
+    """
 
     at: int
     speed: float | None = None
@@ -40,7 +43,7 @@ class Override:
 
 
 def parse_override(text: str) -> Override:
-    """`2000:stop`, `2000:halt` or `2000:3500`. Raises ValueError."""
+    """Parse `2000:stop`, `2000:halt` or `2000:3500`. Raise ValueError."""
     place, colon, what = (piece.strip() for piece in text.partition(":"))
     try:
         at = int(place)
@@ -60,10 +63,11 @@ LONGEST_PLOT = 1_000_000
 
 
 def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> dict[str, Any]:
-    """Figures of an undisturbed move; times in s from the first to the last pulse, speeds in pps.
+    """Return the figures of an undisturbed move.
 
-    Computed interval by interval along the ramp, in closed form on the plateau. OutOfRange for a number of
-    pulses that the part cannot do.
+    Times are in s, from the first to the last pulse; speeds are in pps. The ramps are computed interval by
+    interval, the plateau in closed form. Raises OutOfRange for a number of pulses that the part does not
+    support.
     """
     n = abs(pulses)
     if not 1 <= n <= ENDLESS:
@@ -95,14 +99,14 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
 
 @dataclass(frozen=True)
 class Course:
-    """A move to draw: times of its pulses in s, speed of each interval in pps."""
+    """Move to draw: times of its pulses in s, speed of each interval in pps."""
 
     seconds: list[float]
     speeds: list[float]
 
     @classmethod
     def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
-        """With the ramp of the set-up or at a constant speed, pulses from 1 on."""
+        """Compute the course, with the ramp of the set-up or at `speed`. pulses: 1 or more."""
         if speed is None:
             ramp, clock = setup.ramp(), setup.clock
             counts = [ramp.rate(profile_index(pulses, ramp.pa, j)) + 1 for j in range(1, pulses)]
@@ -116,35 +120,38 @@ class Course:
 
 
 def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
-    """Speed over time as PNG, SVG or PDF. course: makes that of so many pulses. OutOfRange for moves too long
-    to draw and for file names that the plotter does not know."""
+    """Write a plot of the speed over time as PNG, SVG or PDF.
+
+    course: computes the course of a number of pulses. Raises OutOfRange for a move that is too long to draw
+    and for a file suffix that the plotter does not support.
+    """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
 
     if abs(pulses) > LONGEST_PLOT:
-        raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses: choose a shorter move")
+        raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses; choose a shorter move")
     if path.suffix.lower() not in FORMATS:
-        raise OutOfRange(f"{path}: the name of a plot ends in {', '.join(FORMATS)}")
+        raise OutOfRange(f"{path}: unsupported suffix of a plot; use {', '.join(FORMATS)}")
     draw_profile(course(abs(pulses)), f"{pulses} pulses", path)
 
 
 class Status(Protocol):
-    """The status of a part; its bits are the part's."""
+    """Status of a part; each part defines its bits."""
 
     @property
     def raw(self) -> int:
-        """As it was read."""
+        """Value as read from the part."""
 
 
 class WithStatus(Protocol):
-    """A part that tells its status."""
+    """Part with a status."""
 
     @property
     def kind(self) -> Kind: ...
     @property
     def link(self) -> Link: ...
     def status(self) -> Status:
-        """Read it; disturbs nothing."""
+        """Read the status; this changes nothing in the part."""
 
 
 PartT = TypeVar("PartT", bound=WithStatus)
@@ -152,24 +159,27 @@ SetupT = TypeVar("SetupT")
 
 
 class View(ABC, Generic[PartT, SetupT]):
-    """PartT: its driver. SetupT: what its kind plans. All speeds in pps, times in s. A method that is not
-    abstract raises OutOfRange or does nothing: the part does not have that. wide: several axes are the rows
-    of a table."""
+    """Output and additional functions of a part.
+
+    PartT: driver of the part. SetupT: plan of its kind. Speeds are in pps, times in s. An optional method
+    raises OutOfRange or does nothing if the part does not have the function. wide: several axes are the rows
+    of a table.
+    """
 
     wide = False
 
-    # ------------------------------------------------------------------ looking
+    # ------------------------------------------------------------------ reading
 
     @abstractmethod
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
-        """Everything that may be read of an axis at any time: position, moving, error, status, inputs."""
+        """Return all values that may be read at any time: position, moving, error, status, inputs."""
 
     def status_of(self, part: PartT, axes: Sequence[AnyAxis]) -> dict[int, dict[str, Any]]:
-        """`status_values` of each of these axes, by its number."""
+        """Return the `status_values` of these axes, by axis number."""
         return {axis.number: self.status_values(part, axis) for axis in axes}
 
     def status_rows(self, values: dict[str, Any]) -> dict[str, str]:
-        """The same for people."""
+        """Return the values as rows of text."""
         error = values["error"]
         return {
             "position": "no counter" if values["position"] is None else str(values["position"]),
@@ -179,37 +189,37 @@ class View(ABC, Generic[PartT, SetupT]):
         }
 
     def busy(self, part: PartT, axes: Sequence[AnyAxis]) -> tuple[AnyAxis, ...]:
-        """Those of these axes that move."""
+        """Return the axes that are moving."""
         status = part.status().raw
         return tuple(axis for axis in axes if status & axis.busy)
 
     def reports(self, part: PartT, tell: Callable[[str], None]) -> None:
-        """What the part said meanwhile, a line each. Raises what went wrong, after all of it."""
+        """Pass each new report to `tell` as a line; then raise the first error among them."""
 
     # ------------------------------------------------------------------ plans
 
     @abstractmethod
     def setup_rows(self, setup: SetupT) -> dict[str, str]:
-        """Asked and reached speeds, ramp, bytes."""
+        """Return rows with the requested and reached speeds, the ramp and the bytes."""
 
     @abstractmethod
     def setup_values(self, setup: SetupT) -> dict[str, Any]:
-        """For JSON."""
+        """Return the values for JSON."""
 
     @abstractmethod
     def figures(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-        """Key figures of a move before it is made, see `forecast.key_figures`. speed: constant, or None."""
+        """Return the figures of a move in advance, see `key_figures`. speed: constant, or None."""
 
     @abstractmethod
     def course(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> Course:
-        """The move to draw, pulses from 1 on."""
+        """Return the move to draw. pulses: 1 or more."""
 
     # ------------------------------------------------------------------ what not all parts have
 
     def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
-        """What the next move shall do on its way, and how far the encoder may be off in pulses."""
+        """Set the overrides of the next move and the permitted deviation of the encoder in pulses."""
         if encoder is not None:
-            raise OutOfRange(f"encoder: a {part.kind} does not have one")
+            raise OutOfRange(f"encoder: a {part.kind} does not have that")
         if overrides:
             raise OutOfRange(f"overrides: a {part.kind} does not have that")
 
@@ -221,11 +231,14 @@ class View(ABC, Generic[PartT, SetupT]):
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[End]:
-        """Move several axes, begun at the same moment, and wait. pulses: by number of the axis."""
+        """Move several axes, which start at the same time, and wait. pulses: by axis number."""
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 
     def halt_all(self, part: PartT) -> list[End] | None:
-        """Stop all axes at the same moment, at once; their ends. None: the part cannot."""
+        """Stop all axes immediately, at the same time, and return their ends.
+
+        Returns None if the part does not support this.
+        """
         return None
 
     def home(
@@ -239,18 +252,18 @@ class View(ABC, Generic[PartT, SetupT]):
         index: bool,
         progress: OnProgress,
     ) -> None:
-        """Find the origin. index: that of the encoder on it."""
+        """Find the origin. index: the origin is the first index of the encoder on the switch."""
         if index:
             raise OutOfRange(f"index: a {part.kind} does not have that")
         axis.home(direction, pps, fast, to_limit, progress=progress)
 
     def table_lines(self, part: PartT) -> list[str]:
-        """The ramps that the part has, as the CSV that --curve takes."""
-        raise OutOfRange(f"table: a {part.kind} cannot be asked for it")
+        """Return the ramps in the part as the lines of a CSV file for --curve."""
+        raise OutOfRange(f"table: a {part.kind} does not have that")
 
 
 class RampView(View[PartT, speeds.Setup]):
-    """Parts with the one ramp of the family."""
+    """View of the parts with the ramp of the PPMC family."""
 
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
         status: Any = part.status()
@@ -264,7 +277,7 @@ class RampView(View[PartT, speeds.Setup]):
         }
 
     def moving(self, status: Any, number: int) -> tuple[bool, int | str | None]:
-        """Whether the axis moves, and the error that the status tells, by what the part's `status` gives."""
+        """Return from a status whether the axis moves, and the error code."""
         return status.busy, None if status.error is None else int(status.error)
 
     def setup_rows(self, setup: speeds.Setup) -> dict[str, str]:
@@ -281,11 +294,11 @@ class RampView(View[PartT, speeds.Setup]):
 
 
 AnyView = View[Any, Any]
-"""Of a part that is known by its name only."""
+"""View of a part of any type."""
 _USUAL: AnyView = RampView[WithStatus]()
 
 
 def view_of(kind: Kind) -> AnyView:
-    """The view of the part of this kind."""
+    """Return the view of the parts of this kind."""
     view: AnyView = kind.row.load("view") if kind.row.view else _USUAL
     return view

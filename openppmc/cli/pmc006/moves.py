@@ -33,7 +33,7 @@ from .session import (
 if TYPE_CHECKING:
     from rich.table import Table
 
-Speed = Annotated[int | None, typer.Option(metavar="PPS", help="max_speed from now on, in steps/s")]
+Speed = Annotated[int | None, typer.Option(metavar="PPS", help="new max_speed, in steps/s")]
 
 
 class Way(str, Enum):
@@ -44,7 +44,7 @@ class Way(str, Enum):
 
     @property
     def sign(self) -> int:
-        """1 or -1."""
+        """1 for forward, -1 for backward."""
         return FORWARD if self is Way.FORWARD else BACKWARD
 
 
@@ -54,7 +54,7 @@ def move(
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Speed = None,
 ) -> None:
-    """Move controllers so many steps, all at the same time."""
+    """Move controllers by STEPS, all at the same time."""
     with opened() as session:
         motions = []
         for part in session.chosen(address):
@@ -68,10 +68,10 @@ def move(
 
 
 def jog(
-    direction: Annotated[Way, typer.Argument(help="where to")],
+    direction: Annotated[Way, typer.Argument(help="direction of rotation")],
     address: Address = None,
     speed: Speed = None,
-    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after so long")] = None,
+    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after this time")] = None,
 ) -> None:
     """Run until Ctrl-C, an EXT stop or a stall."""
     check_seconds(seconds)
@@ -82,7 +82,10 @@ def jog(
 
 
 def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgress | None = None) -> None:
-    """Wait for all, print where they stand, tell the first that ended early."""
+    """Wait for all motions and print their ends.
+
+    judge: raise an error for the first motion that ended early.
+    """
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()
     for end in ends:
@@ -95,7 +98,7 @@ def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgre
 def speed(
     pps: Annotated[int, typer.Argument(help="steps/s, forward positive; 0 stops")], address: Address = None
 ) -> None:
-    """Let motors run at this speed, and leave them running; `stop` stops them."""
+    """Start motors at this speed and return. `stop` stops them."""
     with opened() as session:
         for part in session.chosen(address):
             session.guard.check()
@@ -109,7 +112,7 @@ def speed(
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
-    """Change the speed of a motor that runs this way already."""
+    """If the motor already runs in this direction, change its speed and return True."""
     modes = part.modes()
     if not modes.running or modes.forward != (pps > 0):
         return False
@@ -119,9 +122,9 @@ def _goes(part: Pmc006, pps: int) -> bool:
 
 def stop(
     address: Address = None,
-    now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
+    now: Annotated[bool, typer.Option("--now", help="stop immediately, without a ramp")] = False,
 ) -> None:
-    """Stop motors that were left running."""
+    """Stop motors that are still running."""
     with opened() as session:
         ends = session.bus.stop([part.address for part in session.chosen(address)], now)
         for end in ends:
@@ -134,11 +137,13 @@ def home(
     address: Address = None,
     switch: Annotated[int, typer.Option(min=1, max=2, metavar="N", help="EXT1 or EXT2")] = 1,
     direction: Annotated[Way, typer.Option(help="towards the switch")] = Way.BACKWARD,
-    speed: Annotated[int, typer.Option(metavar="PPS", help="until the switch stops the motor")] = 1000,
-    slow: Annotated[int, typer.Option(metavar="PPS", help="for the second approach")] = 200,
-    off: Annotated[int, typer.Option(metavar="STEPS", help="from the switch to position 0")] = 100,
+    speed: Annotated[
+        int, typer.Option(metavar="PPS", help="speed of the first approach to the switch")
+    ] = 1000,
+    slow: Annotated[int, typer.Option(metavar="PPS", help="speed of the second approach")] = 200,
+    off: Annotated[int, typer.Option(metavar="STEPS", help="distance from the switch to position 0")] = 100,
 ) -> None:
-    """Find a switch, move off it, and call that place position 0; one controller after the other."""
+    """Find a switch, move off it and set the position to 0; one controller after the other."""
     with opened() as session:
         for part in session.chosen(address):
             part.home(switch, direction.sign, speed, slow, off, session.guard.progress)
@@ -146,11 +151,11 @@ def home(
             output.say(f"{part.who}position {part.position}: {off} steps from the edge of EXT{switch}")
 
 
-# ---------------------------------------------------------------------- who is there
+# ---------------------------------------------------------------------- scan and status
 
 
 def scan(as_json: Json = False) -> None:
-    """Who is on the line: 255, then 1 to 120."""
+    """List the controllers on the line: address 255, then 1 to 120."""
     with opened() as session:
         found = session.scan()
     if as_json:
@@ -161,14 +166,11 @@ def scan(as_json: Json = False) -> None:
             if one.trouble:
                 output.say(one.trouble)
     else:
-        raise PpmcError(
-            f"{session.bus.line.name}: no controller replies: are they powered, are baud rate and the wires "
-            "right?"
-        )
+        raise PpmcError(f"{session.bus.line.name}: no controller replies; check power, baud rate and wires")
 
 
 def info(address: Address = None, as_json: Json = False) -> None:
-    """Firmware and all settings of a controller; a star: kept by `save`."""
+    """Print firmware and settings of a controller. `save` stores those with a star."""
     with opened() as session:
         part = session.one(address)
         version, values = part.version(), settings_values(part)
@@ -181,7 +183,7 @@ def info(address: Address = None, as_json: Json = False) -> None:
 
 
 def status(address: Address = None, as_json: Json = False) -> None:
-    """Position, state, stops, inputs, outputs. Disturbs nothing."""
+    """Print position, state, stops, inputs and outputs without side effects."""
     with opened() as session:
         values = [status_values(part) for part in session.chosen(address)]
     if as_json:
@@ -192,7 +194,7 @@ def status(address: Address = None, as_json: Json = False) -> None:
 
 
 def monitor(address: Address = None, count: Count = None, every: Every = 0.2) -> None:
-    """Watch position, state and stops until Ctrl-C."""
+    """Show position, state and stops until Ctrl-C."""
     with opened() as session:
         parts = session.chosen(address)
 
@@ -217,11 +219,11 @@ def _table(parts: Iterable[Pmc006]) -> Table:
 
 def set_values(
     values: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME=VALUE|NAME]…", help="none: tell all")
+        list[str] | None, typer.Argument(metavar="[NAME=VALUE|NAME]…", help="without argument: print all")
     ] = None,
     address: Address = None,
 ) -> None:
-    """Change settings, or tell them: `set current=1500 microsteps=32`. `save` keeps them."""
+    """Change or print settings: `set current=1500 microsteps=32`. `save` stores them."""
     wanted = [_assignment(text) for text in values or ()]
     with opened() as session:
         for part in session.chosen(address):
@@ -253,11 +255,13 @@ def _assignment(text: str) -> tuple[str, int | None]:
 
 
 def io(
-    values: Annotated[list[str] | None, typer.Argument(metavar="[gpoN=0|1]…", help="none: only look")] = None,
+    values: Annotated[
+        list[str] | None, typer.Argument(metavar="[gpoN=0|1]…", help="without argument: only read")
+    ] = None,
     address: Address = None,
     as_json: Json = False,
 ) -> None:
-    """Inputs and outputs: `io gpo1=1 gpo3=0` switches outputs."""
+    """Print inputs and outputs; `io gpo1=1 gpo3=0` sets outputs."""
     levels = [_output(text) for text in values or ()]
     with opened() as session:
         for part in session.chosen(address):
@@ -274,14 +278,14 @@ def io(
 def _output(text: str) -> tuple[int, bool]:
     name, _, level = text.lower().replace(" ", "").partition("=")
     if name not in {f"gpo{number}" for number in range(1, 6)} or level not in ("0", "1"):
-        raise typer.BadParameter(f"{text}: write gpo1=0 … gpo5=1")
+        raise typer.BadParameter(f"{text}: not an output level; write gpo1=0 … gpo5=1")
     return int(name[3:]), level == "1"
 
 
 def address(
-    new: Annotated[int, typer.Argument(metavar="NEW", help="1 to 120")], address: Address = None
+    new: Annotated[int, typer.Argument(metavar="NEW", help="new address, 1 to 120")], address: Address = None
 ) -> None:
-    """Give a controller another address, at once; `save` keeps it."""
+    """Change the address of a controller immediately. `save` stores it."""
     with opened() as session:
         part = session.one(address)
         before = part.address
@@ -290,7 +294,7 @@ def address(
 
 
 def save(address: Address = None) -> None:
-    """Keep the settings for the next power-up (those with a star in `info`)."""
+    """Store the settings with a star in `info` for the next power-up."""
     with opened() as session:
         for part in session.chosen(address):
             part.save()
@@ -298,7 +302,7 @@ def save(address: Address = None) -> None:
 
 
 def reset_flags(address: Address = None) -> None:
-    """Clear the flags of EXT1, EXT2 and a stall, so that motors may start again. Nothing moves."""
+    """Clear the flags of EXT1, EXT2 and stall, so that motors can start. Nothing moves."""
     with opened() as session:
         for part in session.chosen(address):
             part.clear_stops()

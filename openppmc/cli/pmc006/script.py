@@ -1,4 +1,4 @@
-"""User programs and script files of PMC006B4: one command a line; address=N selects a controller."""
+"""User programs and script files of PMC006B4; in scripts, address=N selects a controller."""
 
 from __future__ import annotations
 
@@ -19,14 +19,16 @@ from ..common.script import Step, carry_out, read_file, read_program
 from .moves import Way
 from .session import Address, Session, end_line, opened
 
-program = typer.Typer(help="pmc006: user programs.", no_args_is_help=True, add_completion=False)
-File = Annotated[Path, typer.Argument(metavar="FILE", help="a text, or an image (.bin)")]
-Out = Annotated[Path | None, typer.Option("--out", "-o", metavar="FILE", help="into this file")]
+program = typer.Typer(
+    help="pmc006: Load, run and read user programs.", no_args_is_help=True, add_completion=False
+)
+File = Annotated[Path, typer.Argument(metavar="FILE", help="text file, or image (.bin)")]
+Out = Annotated[Path | None, typer.Option("--out", "-o", metavar="FILE", help="output file")]
 Place = Annotated[int, typer.Option("--at", metavar="N", help="number of the instruction, 0 to 99")]
 
 
 def _read(path: Path) -> Program:
-    """A program from a text or an image. PpmcError."""
+    """Read a program from a text or an image. Raise PpmcError."""
     try:
         if path.suffix == ".bin":
             return Program.from_image(path.read_bytes())
@@ -40,7 +42,7 @@ def _read(path: Path) -> Program:
 
 
 def _write(path: Path | None, text: str | bytes) -> None:
-    """Into a file, a text without one to standard output. PpmcError."""
+    """Write to a file; without a file, print the text. Raise PpmcError."""
     try:
         if path is None:
             assert isinstance(text, str)
@@ -55,7 +57,10 @@ def _write(path: Path | None, text: str | bytes) -> None:
 
 @program.command("assemble")
 def assemble_file(file: File, out: Out = None) -> None:
-    """Check a program, print its words, or write its EEPROM image (803 bytes). Needs no controller."""
+    """Check a program; print its words or write its EEPROM image (803 bytes).
+
+    No controller is needed.
+    """
     made = _read(file)
     if out is not None:
         _write(out, made.image())
@@ -69,7 +74,7 @@ def assemble_file(file: File, out: Out = None) -> None:
 
 @program.command("disassemble")
 def disassemble_file(file: File, out: Out = None) -> None:
-    """The text of an image. Needs no controller."""
+    """Print or write the text of an image. No controller is needed."""
     _write(out, disassemble(_read(file), numbers=out is None))
 
 
@@ -77,8 +82,8 @@ def disassemble_file(file: File, out: Out = None) -> None:
 def load(
     file: File,
     address: Address = None,
-    burn: Annotated[bool, typer.Option("--burn", help="and burn it")] = False,
-    run: Annotated[bool, typer.Option("--run", help="and run it")] = False,
+    burn: Annotated[bool, typer.Option("--burn", help="then burn it")] = False,
+    run: Annotated[bool, typer.Option("--run", help="then run it")] = False,
 ) -> None:
     """Load a program into the buffer; it is lost at power-off unless it is burned."""
     made = _read(file)
@@ -97,7 +102,7 @@ def load(
 
 @program.command("read")
 def read_back(address: Address = None, out: Out = None) -> None:
-    """The program in the buffer as a text, or as an image (--out x.bin)."""
+    """Print the program in the buffer as text, or write an image (--out x.bin)."""
     with opened() as session:
         found = session.one(address).read_program(session.counting)
         session.guard.bar_off()
@@ -109,7 +114,10 @@ def read_back(address: Address = None, out: Out = None) -> None:
 
 @program.command()
 def burn(address: Address = None) -> None:
-    """Keep the buffer's program for the next power-up; `set offline=1` and `save` let it start by itself."""
+    """Store the program in the buffer for the next power-up.
+
+    After `set offline=1` and `save` it then starts automatically.
+    """
     with opened() as session:
         for part in session.chosen(address):
             part.burn_program()
@@ -127,7 +135,7 @@ def run(address: Address = None, begin: Place = 0) -> None:
 
 @program.command()
 def halt(address: Address = None) -> None:
-    """Halt the program; a motion goes on."""
+    """Halt the program; a motion continues."""
     with opened() as session:
         for part in session.chosen(address):
             part.halt_program()
@@ -136,16 +144,16 @@ def halt(address: Address = None) -> None:
 
 @program.command("try")
 def try_one(address: Address = None, begin: Place = 0) -> None:
-    """Carry out one instruction of the buffer."""
+    """Execute one instruction of the buffer."""
     with opened() as session:
         for part in session.chosen(address):
             part.try_instruction(begin)
-            output.say(f"{part.who}instruction {begin} carried out")
+            output.say(f"{part.who}instruction {begin} executed")
 
 
 @program.command()
 def state(address: Address = None) -> None:
-    """Whether a program runs."""
+    """Print whether a program runs."""
     with opened() as session:
         for part in session.chosen(address):
             output.say(f"{part.who}{'a program runs' if part.program_runs() else 'no program runs'}")
@@ -213,10 +221,10 @@ def _out(words: list[str]) -> Values:
     for word in words:
         name, _, level = word.lower().partition("=")
         if name not in {f"gpo{number}" for number in range(1, 6)} or level not in ("0", "1"):
-            raise ValueError(f"{word!r}: write gpo1=0 … gpo5=1")
+            raise ValueError(f"{word!r}: not an output level; write gpo1=0 … gpo5=1")
         levels[int(name[3:])] = level == "1"
     if not levels:
-        raise ValueError("which output? write gpo1=0 … gpo5=1")
+        raise ValueError("output is missing; write gpo1=0 … gpo5=1")
     return {"levels": levels}
 
 
@@ -252,18 +260,18 @@ READERS: dict[str, Reader] = {
 
 
 class Player:
-    """Carries a script out. Lines without address= are for the controller that answers first."""
+    """Executes a script. Lines without address= apply to the first controller that replies."""
 
     def __init__(self, session: Session, name: str) -> None:
         self._session, self._name = session, name
         self._first: Pmc006 | None = None
 
     def run(self, steps: Iterable[Step]) -> None:
-        """All steps. ScriptError with file:line for what a controller refuses."""
+        """Execute all steps. Raise ScriptError with file:line if a controller rejects one."""
         carry_out(steps, self._name, self._session.guard, self._do)
 
     def controller(self, address: int | None) -> Pmc006:
-        """The one with this address, or the first that answers."""
+        """Return the controller with this address; for None, the first that replies."""
         if address is not None:
             return self._session.bus.axis(address)
         if self._first is None:
@@ -294,7 +302,7 @@ class Player:
             self._set(step, part)
 
     def _set(self, step: Step, part: Pmc006) -> None:
-        """What moves nothing."""
+        """Execute a step that moves no motor."""
         values: dict[str, Any] = step.values
         if step.word == "set":
             for name, value in values["settings"].items():
@@ -309,7 +317,7 @@ class Player:
 
 
 def addresses(steps: Iterable[Step]) -> set[int | None]:
-    """Of the controllers that a script is about, None for the first that answers."""
+    """Return the addresses in a script; None is the first controller that replies."""
     found: set[int | None] = set()
     for step in steps:
         found |= addresses(step.body)
@@ -321,7 +329,7 @@ def addresses(steps: Iterable[Step]) -> set[int | None]:
 def script(
     file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
 ) -> None:
-    """Carry out a file of commands."""
+    """Execute a file of commands."""
     name, text = read_file(file)
     steps = read_program(text, name, READERS, OF_CONTROLLERS, Numbered("address", 1, 255))
     used = addresses(steps)

@@ -1,4 +1,4 @@
-"""A line of PMC006B4 during a command, and the output of commands about it."""
+"""A line of PMC006B4 during a command, and the output of its commands."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ Address = Annotated[
         "-a",
         metavar="N",
         envvar="OPENPPMC_ADDRESS",
-        help="pmc006: controllers, as 3 or 1,5 or 1-4 (the first that answers)",
+        help="pmc006: controllers, as 3, 1,5 or 1-4 (the first that replies)",
     ),
 ]
 
 
 def parse_addresses(text: str) -> list[int]:
-    """`3`, `1,5` or `1-4`. BadParameter."""
+    """Parse `3`, `1,5` or `1-4`. Raise BadParameter."""
     span = f"addresses are 1 to {LAST}, factory-new controllers have {FACTORY}"
     return parse_numbers("--address", text, ADDRESSES, span, "1-4")
 
@@ -47,7 +47,7 @@ class Session:
     guard: Guard
 
     def chosen(self, text: str | None) -> list[Pmc006]:
-        """The controllers that --address names; without it, the first that answers."""
+        """Return the controllers that --address names; without it, the first that replies."""
         if text is None:
             numbers = [find(self.bus.line, self._scanning)]
             self.guard.bar_off()
@@ -60,13 +60,13 @@ class Session:
         return parts
 
     def one(self, text: str | None) -> Pmc006:
-        """The only one. BadParameter for several."""
+        """Return the only controller. Raise BadParameter for several."""
         if text is not None and len(parse_addresses(text)) > 1:
-            raise typer.BadParameter(f"--address {text!r}: this is for one controller at a time")
+            raise typer.BadParameter(f"--address {text!r}: the command is for one controller; name only one")
         return self.chosen(text)[0]
 
     def scan(self) -> list[Found]:
-        """Who is there."""
+        """Return all controllers that reply; show a bar during the search."""
         found = self.bus.scan(progress=self._scanning)
         self.guard.bar_off()
         return found
@@ -76,14 +76,14 @@ class Session:
         self.guard.count_bar("looking for controllers", ADDRESSES.index(address), len(ADDRESSES))
 
     def counting(self, done: int, of: int) -> None:
-        """Progress of a download."""
+        """Check for signals and show the bar; progress callback of a download."""
         self.guard.check()
         self.guard.count_bar("words of the program", done, of)
 
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """The line, and Ctrl-C under control: it brings the motors to rest and ends with status 130."""
+    """Open the line; a signal stops the motors and ends with status 128 + n."""
     options = line_options(BOARD.line, LINE_WORDS)
     if BOARD.baud is not None:
         options["baud"] = BOARD.baud
@@ -95,7 +95,7 @@ _HEADS = ("address", "version", "state", "position", "line faults")
 
 
 def state(flags: Flags | None, modes: Modes | None) -> str:
-    """One phrase: what the motor does, and what keeps it from starting."""
+    """Return as text whether the motor moves, and each condition that prevents a start."""
     if flags is None or modes is None:
         return "-"
     words = ["running" if modes.running else "moving"] if flags.busy else []
@@ -106,7 +106,7 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
 
 
 def found_table(found: Iterable[Found]) -> Table:
-    """A line a controller."""
+    """Return a table with one row for each controller."""
     from rich.table import Table
 
     grid = Table(box=None, pad_edge=False)
@@ -124,7 +124,7 @@ def found_table(found: Iterable[Found]) -> Table:
 
 
 def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
-    """For JSON."""
+    """Return the values for JSON."""
     return [
         {
             "address": one.address,
@@ -139,7 +139,7 @@ def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
 
 
 def end_line(end: End) -> str:
-    """Where the motor stands, and why."""
+    """Return one line: position, steps, and why the motion has ended."""
     steps = ""
     if end.pulses is not None:
         steps = f", {abs(end.pulses)} steps {'backward' if end.pulses < 0 else 'forward'}"
@@ -150,7 +150,7 @@ def end_line(end: End) -> str:
 
 
 def status_values(part: Pmc006) -> dict[str, Any]:
-    """All that changes by itself."""
+    """Return all values that change without a command: position, state, levels, line errors."""
     flags, modes, ports = part.flags(), part.modes(), part.ports()
     return {
         "address": part.address,
@@ -166,7 +166,7 @@ def status_values(part: Pmc006) -> dict[str, Any]:
 
 
 def status_rows(values: dict[str, Any]) -> dict[str, str]:
-    """The same for people."""
+    """Return the values as rows of text."""
     stops = [
         f"{name.upper()} {'on' if on else 'off'}, level {int(values['levels'][name])}"
         for name, on in values["enabled"].items()
@@ -182,7 +182,7 @@ def status_rows(values: dict[str, Any]) -> dict[str, str]:
 
 
 def io_values(part: Pmc006) -> dict[str, Any]:
-    """Port word, bit by bit."""
+    """Return the bits of the port word."""
     ports = part.ports()
     return {
         **{f"gpi{n + 1}": ports.inputs >> n & 1 for n in range(5)},
@@ -193,12 +193,15 @@ def io_values(part: Pmc006) -> dict[str, Any]:
 
 
 def settings_values(part: Pmc006, names: Iterable[str] = tuple(SETTINGS)) -> dict[str, int]:
-    """Settings in force."""
+    """Return the active settings."""
     return {name: getattr(part, name) for name in names}
 
 
 def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
-    """Values with units, ranges and what they mean; those with a star are kept by `save`. Headings first."""
+    """Return rows of values with unit, range and meaning; the first row has the headings.
+
+    A star marks settings that `save` stores.
+    """
     rows: list[tuple[str, ...]] = [("setting", "value", "unit", "", "range", "meaning")]
     for name, value in values.items():
         one: Setting = SETTINGS[name]
@@ -208,7 +211,7 @@ def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
 
 
 def _meaning(name: str, value: int, text: str) -> str:
-    """What a value comes to."""
+    """Return the meaning of a setting, for some settings with the resulting figure."""
     if name == "current":
         return f"{text}: drives {drive_current(value)} mA"
     if name in ("acceleration", "deceleration"):

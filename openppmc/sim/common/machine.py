@@ -1,8 +1,7 @@
-"""A machine around a motor controller in words: `start=4000,cw=40000,alarm=100..200`.
+"""Machine model of a motor controller as a text: `start=4000,cw=40000,alarm=100..200`.
 
-The same text describes it for the virtual board and for the model; words of axis 2 end in 2: `cw2=30000`, and
-so on.
-What is special to a part stands in its own `machine.py`, which the table of parts names.
+The virtual board and the golden model use the same text. Words of axis 2 end in 2 (`cw2=30000`), and so on.
+The module that the table of parts names for a part defines the differences of the part.
 """
 
 from __future__ import annotations
@@ -17,14 +16,17 @@ from ...model.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
-"""What only a machine with an encoder has."""
+"""Words for a machine with an encoder only."""
 _OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 
 
 @dataclass(frozen=True)
 class Setup:
-    """What a modelled carrier is built with. clk_hz, xtal_hz: as the part's. timing: FAST or DATASHEET. own:
-    values of the part's own words. on_interrupt: called when its interrupt begins."""
+    """Parameters of a modelled carrier.
+
+    clk_hz, xtal_hz: clock and crystal of the part in Hz. timing: FAST or DATASHEET. own: values of the words
+    that only this part has. on_interrupt: called when the interrupt begins.
+    """
 
     plants: Sequence[Plant]
     clk_hz: int
@@ -36,13 +38,13 @@ class Setup:
 
 @dataclass(frozen=True)
 class MachineKind:
-    """What is around a part behind the UART bridge.
+    """Machine model of a part that is accessed through the UART bridge.
 
-    called: the part in messages. carrier: makes its modelled carrier. axes: how many, if no word
-    `axes` of its own says. plant: where switches are by default. encoder: there is one. own: words of its
-    own and their values, the default first. xtal_max: of its crystal, Hz. alarm: what it calls that switch.
-    check: raises ValueError for a set-up that cannot be. timed: it has TIMING. counters: the carrier counts
-    pulses.
+    called: name of the part in messages. carrier: creates its modelled carrier. axes: number of axes, unless
+    the part has a word `axes`. plant: default positions of the switches. encoder: the machine has an encoder.
+    own: words that only this part has, with their values, the default first. xtal_max: highest crystal
+    frequency in Hz. alarm: name of the alarm switch. check: raises ValueError for an impossible set-up.
+    timed: the part has the parameter TIMING. counters: the carrier counts pulses.
     """
 
     called: str
@@ -59,24 +61,28 @@ class MachineKind:
 
 
 def machine_parts() -> tuple[str, ...]:
-    """Word `part`: its values."""
+    """Return the values of the word `part`."""
     return tuple(row.name for row in parts.having("number", "machine"))
 
 
 def machine_kind(part: str) -> MachineKind:
-    """What the part's own `machine.py` says."""
+    """Return the machine model of a part."""
     kind: MachineKind = parts.part(part).load("machine")
     return kind
 
 
 def own_words() -> tuple[str, ...]:
-    """Words that only one part has."""
+    """Return the words that only one part has."""
     return tuple(word for part in machine_parts() for word in machine_kind(part).own)
 
 
 @dataclass(frozen=True)
 class Machine:
-    """A part's surroundings: its name, one plant an axis, values of its own words, all other words."""
+    """Parsed text of a machine model.
+
+    part: name of the part. plants: one for each axis. own: values of words that only this part has. others:
+    all other words.
+    """
 
     part: str
     plants: tuple[Plant, ...]
@@ -85,8 +91,10 @@ class Machine:
 
 
 def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
-    """From `word=value,word=value`; empty text: the defaults. known: words of the caller, which no part has.
-    Raises ValueError with the offending word."""
+    """Parse `word=value,word=value`; an empty text selects the defaults.
+
+    known: words of the caller, which no part has. Raises ValueError with the offending word.
+    """
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}
     part, last, last_item, encoder = "ppmc104", 1, "", ""
@@ -114,24 +122,27 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     axes = int(own.get("axes", kind.axes))
     if last > axes == 1:
         other, _ = _first(lambda one: one.axes > 1)
-        raise ValueError(f"{last_item}: {kind.called} has one axis: add part={other}")
+        raise ValueError(f"{last_item}: {kind.called} has one axis; add part={other}")
     if last > axes:
         raise ValueError(f"{last_item}: {kind.called} has {axes} axes")
     if encoder and not kind.encoder:
         other, its = _first(lambda one: one.encoder)
-        raise ValueError(f"{encoder}: only {its.called} has an encoder: add part={other}")
+        raise ValueError(f"{encoder}: only {its.called} has an encoder; add part={other}")
     plants = tuple(_placed(kind.plant, words.get(axis, {})) for axis in range(1, axes + 1))
     return Machine(part, plants, own, others)
 
 
 def _first(wanted: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
-    """The first part with such a machine."""
+    """Return the first part with such a machine."""
     kinds = ((part, machine_kind(part)) for part in machine_parts())
     return next((part, kind) for part, kind in kinds if wanted(kind))
 
 
 def _own(kind: MachineKind, others: dict[str, str], known: Collection[str]) -> dict[str, str]:
-    """Takes the part's own words out of the others; ValueError for those of another part."""
+    """Remove the words of this part from `others` and return them.
+
+    Raises ValueError for a word of another part and for an unknown value.
+    """
     strange = others.keys() - kind.own.keys() - set(known)
     for its in map(machine_kind, machine_parts() if strange else ()):
         for word in its.own:
@@ -153,7 +164,7 @@ def _placed(plant: Plant, words: Mapping[str, int | tuple[int, int]]) -> Plant:
 
 
 def _where(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]:
-    """Fields of a plant for a word."""
+    """Return the fields of a plant for a word."""
     if name == "alarm":
         return {name: _span(word, value)}
     if name == "origin":
@@ -161,7 +172,9 @@ def _where(name: str, word: str, value: str) -> dict[str, int | tuple[int, int]]
         return {"origin_from": first, "origin": last}
     number = _position(word, value)
     if name == "index" and number < 0:
-        raise ValueError(f"{word}={value}: the pulses of a turn, 0 for an encoder without index")
+        raise ValueError(
+            f"{word}={value}: must not be negative; use the pulses of a turn, or 0 without index"
+        )
     return {name: number}
 
 
@@ -181,5 +194,5 @@ def _span(word: str, value: str) -> tuple[int, int]:
         raise ValueError(f"{word}={value} is not of the form {word}=100..200")
     span = _position(word, first), _position(word, last)
     if span[0] > span[1]:
-        raise ValueError(f"{word}={value}: the first position is behind the last one")
+        raise ValueError(f"{word}={value}: the first position must not exceed the last one")
     return span

@@ -1,4 +1,4 @@
-"""The text after `sim:`: plant words and options of the virtual board, checked before anything is built."""
+"""Text after `sim:`: plant words and options of the virtual board, checked before a build."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ PLACES = ("start", "cw", "ccw", "slow_cw", "slow_ccw", "origin", "origin_from")
 
 
 def suffixes() -> Iterator[str]:
-    """What the words of each axis end in."""
+    """Yield the endings of the words of each axis."""
     return ("" if number == 1 else str(number) for number in count(1))
 
 
 def known_words() -> str:
-    """All words, for messages."""
+    """Return all words as text for messages."""
     return ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), *FILES))
 
 
 class SpecError(ValueError):
-    """The text of a virtual board is wrong; one line that says what and what is known."""
+    """The text of a virtual board is wrong; the message is one line with the known words."""
 
 
 @dataclass(frozen=True)
 class Spec:
-    """A virtual board as it was asked for.
+    """Requested virtual board.
 
-    part: one behind the UART bridge. plants: one an axis. speed: times real time, None: as fast as the
-    machine can. clk_hz: clock of the board, 8e6 … 200e6 (real time is out of reach far above 8e6). xtal_hz:
-    crystal of the emulated chip, from 1e6 on. timing: FAST or DATASHEET. record: 2**record
-    records of the pins, 0: no recorder. own: values of the part's own words,
-    each a parameter of its top module. vcd: waveform file or None, with vcd_from and vcd_for in ms of board
-    time. log: file that gets a line a pulse, or None.
+    part: a part with the UART bridge. plants: one for each axis. speed: multiple of real time; None: as fast
+    as the computer can. clk_hz: clock of the board, 8e6 … 200e6 Hz (real time is not possible far above 8e6).
+    xtal_hz: crystal of the emulated chip, 1e6 Hz or more. timing: FAST or DATASHEET. record: the recorder
+    stores 2**record records of the pins; 0: no recorder. own: values of words that only this part has; each
+    one is a parameter of its top module. vcd: waveform file or None; vcd_from and vcd_for are in ms of board
+    time. log: file to which each pulse writes a line, or None.
     """
 
     part: str = "ppmc104"
@@ -56,14 +56,14 @@ class Spec:
 
     @property
     def parameters(self) -> dict[str, int | str]:
-        """Parameters of the board's top module."""
+        """Parameters of the top module of the board."""
         own = {word.upper(): int(value) if value.isdigit() else value for word, value in self.own.items()}
         timing = {"TIMING": self.timing} if machine_kind(self.part).timed else {}
         record = {"RECORD": self.record} if self.record else {}
         return {"CLK_HZ": self.clk_hz, "XTAL_HZ": self.xtal_hz, **timing, **record, **own}
 
     def arguments(self) -> list[str]:
-        """Arguments of the program in tb/board."""
+        """Return the arguments of the program in tb/board."""
         words = []
         for plant, suffix in zip(self.plants, suffixes(), strict=False):
             words += [f"{word}{suffix}={getattr(plant, word)}" for word in PLACES]
@@ -82,7 +82,7 @@ class Spec:
 
 
 def parse_spec(text: str = "", **options: object) -> Spec:
-    """Spec from `word=value,word=value`; options have the same names and win. Raises SpecError."""
+    """Parse `word=value,word=value`; options have priority over the text. Raise SpecError."""
     words = [text, *(f"{name}={value}" for name, value in options.items() if value is not None)]
     try:
         machine = parse_machine(",".join(words), (*OPTIONS, *FILES))
@@ -100,7 +100,7 @@ def parse_spec(text: str = "", **options: object) -> Spec:
     if timing not in ("FAST", "DATASHEET"):
         raise SpecError(f"timing={rest['timing']}: neither FAST nor DATASHEET")
     if "vcd" not in rest and ("vcd_from" in rest or "vcd_for" in rest):
-        raise SpecError("vcd_from and vcd_for need a waveform file: add vcd=FILE")
+        raise SpecError("vcd_from and vcd_for need a waveform file; add vcd=FILE")
     speed = rest.get("speed", "1")
     kind = machine_kind(machine.part)
     clk_hz = _whole("clk", rest.get("clk", "8000000"), 8_000_000, 200_000_000)
@@ -137,7 +137,7 @@ def _number(word: str, text: str, low: float, high: float, unit: str) -> float:
 
 def _record(text: str) -> int:
     if text not in ("0", *map(str, range(4, 17))):
-        raise SpecError(f"record={text}: 0 for no recorder, or 4 to 16 for 2 to the power of it records")
+        raise SpecError(f"record={text}: not supported; use 0 (no recorder) or 4 to 16 (2**record records)")
     return int(text)
 
 

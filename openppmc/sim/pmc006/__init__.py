@@ -1,1 +1,1 @@
-"""What is around a PMC006B4: virtual line of controllers with motor and EEPROM."""
+"""Surroundings of a PMC006B4: virtual line of controllers with motor and EEPROM."""

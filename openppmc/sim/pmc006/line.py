@@ -1,8 +1,8 @@
-"""PMC006B4 on one line: the RTL, or models with EEPROM, motor and a carriage between two switches.
+"""PMC006B4 on one line: RTL or models, with EEPROM, motor, carriage and two switches.
 
-The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end is for the
-controller with that address, without a number for all. The EEPROM is modelled byte by byte: bit by bit it
-would take most of the time.
+The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
+controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
+because a simulation bit by bit would need most of the time.
 """
 
 from __future__ import annotations
@@ -25,8 +25,11 @@ from ..common.lines import LineKind, one_of, pace, positive, split_words, whole
 
 
 class Eeprom:
-    """content: from address 0; the rest is blank. file: gets the content after each write. missing: there is
-    none. writes: how many there were."""
+    """Model of an EEPROM.
+
+    content: bytes from address 0; the rest is blank. file: the content is stored here after each write.
+    missing: no EEPROM is connected. writes: number of writes.
+    """
 
     def __init__(self, content: bytes, file: Path | None = None, missing: bool = False) -> None:
         self.memory = bytearray(content.ljust(SIZE, bytes([BLANK])))
@@ -36,23 +39,23 @@ class Eeprom:
         self._sent: list[int] = []
 
     def start(self) -> None:
-        """What comes next begins anew; an address that was sent is kept for reading."""
+        """Begin a transfer; an address that was already sent stays valid for reading."""
         self._sent = []
 
     def take(self, byte: int) -> None:
-        """A byte of the controller: device, address, then data."""
+        """Receive a byte of the controller: device, two address bytes, then data."""
         self._sent.append(byte)
         if len(self._sent) == 3:
             self._address = (self._sent[1] << 8 | byte) % SIZE
 
     def give(self) -> int:
-        """The next byte for the controller."""
+        """Return the next byte for the controller."""
         byte = self.memory[self._address]
         self._address = (self._address + 1) % SIZE
         return byte
 
     def stop(self) -> None:
-        """What was sent behind the address is written."""
+        """End the transfer: write the data bytes that followed the address."""
         data, self._sent = self._sent[3:], []
         for place, byte in enumerate(data):
             self.memory[self._address & -PAGE | self._address + place & PAGE - 1] = byte
@@ -63,14 +66,14 @@ class Eeprom:
 
 
 class QuickBus(Bus):
-    """The controller's side of the two wires: a byte a quarter bit."""
+    """Bus interface of the controller that transfers a byte in a quarter of a bit time."""
 
     def __init__(self, eeprom: Eeprom, shared: Shared, levels: Mapping[str, int], hz: int) -> None:
         super().__init__(shared, levels, hz)
         self._eeprom = eeprom
 
     def let_go(self) -> None:
-        """There are no wires."""
+        """Do nothing: this bus has no wires."""
 
     def start(self) -> Course[None]:
         yield
@@ -96,7 +99,7 @@ PART = "pmc006"
 FACTORY, LAST = 255, 120
 FARTHEST = 1 << 27
 UNIT = 16
-"""Positions in words are in 1/16 full steps, the steps of a factory-new controller."""
+"""Positions in the text are in 1/16 full steps, the steps of a factory-new controller."""
 OWN = ("start", "low", "high", "gpi", "eeprom", "program")
 OPTIONS = ("part", "address", "twin", "baud", "ack", "echo", "noise", "seed", "speed", "clk", "unplug")
 KNOWN = ", ".join((*(f"{word}[N]" for word in OWN), *OPTIONS))
@@ -104,10 +107,13 @@ KNOWN = ", ".join((*(f"{word}[N]" for word in OWN), *OPTIONS))
 
 @dataclass(frozen=True)
 class Carriage:
-    """What a controller drives, in 1/16 full steps, forward positive. start: where it is. EXT1 is at level 0
-    at and below `low`, EXT2 at and above `high`. gpi: levels of GPI5 to GPI1. eeprom: a file that keeps the
-    EEPROM, None: it is new each time, with the address in it. no_eeprom: there is none. program: a text that
-    is assembled into the EEPROM and starts by itself, None for none."""
+    """Carriage, inputs and EEPROM of a controller.
+
+    Positions are in 1/16 full steps, forward positive. start: initial position. EXT1 is at level 0 at and
+    below `low`, EXT2 at and above `high`. gpi: levels of GPI5 to GPI1. eeprom: file with the content of the
+    EEPROM; None: the EEPROM is new each time and has the address. no_eeprom: no EEPROM is connected. program:
+    text that is assembled into the EEPROM and starts after power-up, or None.
+    """
 
     start: int = 4000
     low: int = 0
@@ -118,18 +124,18 @@ class Carriage:
     program: Path | None = None
 
     def levels(self, position: float) -> dict[str, int]:
-        """Levels of the switches at a position."""
+        """Return the levels of the switches at a position."""
         return {"ext1": int(position > self.low), "ext2": int(position < self.high)}
 
 
 @dataclass(frozen=True)
 class LineSpec:
-    """A virtual line as it was asked for.
+    """Requested virtual line.
 
-    carriages: of each controller, by its address. twin: an address that a second controller has too, or None.
-    baud: line rate. step_ack: MANUAL or ECHO. echo: the master hears itself. noise: one character in so many
-    is damaged, either way; 0: none. speed: times real time, None: as fast as it goes. unplug: seconds after
-    which the port goes away.
+    carriages: one for each controller, by its address. twin: address that a second controller also has, or
+    None. baud: line rate in bit/s. step_ack: MANUAL or ECHO. echo: the master receives its own characters.
+    noise: one in this number of characters is corrupted, in both directions; 0: no noise. speed: multiple of
+    real time; None: as fast as possible. unplug: seconds after which the port disappears.
     """
 
     carriages: dict[int, Carriage] = field(default_factory=lambda: {FACTORY: Carriage()})
@@ -150,7 +156,7 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """The text with the rate of a host, unless it names one.
+    """Return the text with the rate of a host added, unless it names a rate.
 
     >>> at_rate("address=5", 19200)
     'address=5,baud=19200'
@@ -159,7 +165,7 @@ def at_rate(text: str, rate: int) -> str:
 
 
 def parse_line(text: str) -> LineSpec:
-    """From `word=value,word=value`. Raises ValueError with the offending word."""
+    """Parse `word=value,word=value`. Raise ValueError with the offending word."""
     words = split_words(text, OWN, OPTIONS, _address)
     options = words.options
     if options.get("part", PART) != PART:
@@ -169,12 +175,12 @@ def parse_line(text: str) -> LineSpec:
         if address not in addresses:
             there = ", ".join(map(str, addresses))
             raise ValueError(
-                f"{next(iter(own))}{address}: no such controller, there is {there}: see address="
+                f"{next(iter(own))}{address}: no controller with this address; address= has {there}"
             )
     carriages = {address: _carriage(words.shared | words.own.get(address, {})) for address in addresses}
     files = [one.eeprom for one in carriages.values() if one.eeprom is not None]
     if len(set(files)) < len(files):
-        raise ValueError(f"eeprom={files[0]}: each controller needs a file of its own, as eeprom1=…")
+        raise ValueError(f"eeprom={files[0]}: each controller needs its own file; write eeprom1=…")
     twin = _address("twin", options["twin"]) if "twin" in options else None
     if twin is not None and twin not in addresses:
         raise ValueError(f"twin={twin}: there is no controller {twin} to share the address with")
@@ -205,7 +211,7 @@ def _carriage(words: dict[str, str]) -> Carriage:
     if carriage.low >= carriage.high:
         raise ValueError(f"low={carriage.low},high={carriage.high}: EXT2 (high) must lie above EXT1 (low)")
     if carriage.program is not None and (carriage.no_eeprom or carriage.eeprom is not None):
-        raise ValueError(f"program={carriage.program}: goes into a new EEPROM: leave the word eeprom out")
+        raise ValueError(f"program={carriage.program}: is written into a new EEPROM; omit the word eeprom")
     return carriage
 
 
@@ -239,9 +245,9 @@ def _position(word: str, text: str) -> int:
 
 
 def _levels(text: str) -> int:
-    """Levels of GPI5 to GPI1."""
+    """Parse the levels of GPI5 to GPI1. Raise ValueError."""
     if len(text) != 5 or set(text) - {"0", "1"}:
-        raise ValueError(f"gpi={text}: five levels of GPI5 to GPI1, as 11111")
+        raise ValueError(f"gpi={text}: not five levels; write GPI5 to GPI1, as 11111")
     return int(text, 2)
 
 
@@ -253,12 +259,14 @@ def _file(word: str, text: str, there: bool) -> Path:
 
 
 FULL_STEP = 128
-"""Units of a full step: the finest microsteps."""
+"""Finest microsteps in a full step."""
 
 
 def first_content(address: int, carriage: Carriage) -> bytes:
-    """What an EEPROM holds at first: nothing at all in a factory-new controller. ValueError for a file that
-    is none, AssemblyError for a program with a mistake."""
+    """Return the initial content of an EEPROM; it is empty for a factory-new controller.
+
+    Raises ValueError for a file of the wrong size, AssemblyError for an error in the program.
+    """
     if carriage.eeprom is not None and carriage.eeprom.is_file():
         content = carriage.eeprom.read_bytes()
         if len(content) > SIZE:
@@ -274,7 +282,7 @@ def first_content(address: int, carriage: Carriage) -> bytes:
 
 
 class Part(Pmc006):
-    """The model, with an EEPROM that is spoken to byte by byte."""
+    """Golden model with an EEPROM that it accesses byte by byte."""
 
     def __init__(self, eeprom: Eeprom, spec: LineSpec, gpi: int) -> None:
         self._eeprom = eeprom
@@ -285,8 +293,11 @@ class Part(Pmc006):
 
 
 class Node(Carrier[Part], LineStation[Part]):
-    """number: its address at first. `position` is the carriage's in 1/16 full steps, the part itself counts
-    steps. The switches are optical: they do not bounce. It has been on for a while: it has booted."""
+    """Controller with its carriage, after boot.
+
+    number: its initial address. `position` is that of the carriage in 1/16 full steps; the part itself counts
+    steps. The switches are optical: they do not bounce.
+    """
 
     def __init__(self, carriage: Carriage, number: int, spec: LineSpec) -> None:
         self.number, self.carriage = number, carriage
@@ -303,7 +314,7 @@ class Node(Carrier[Part], LineStation[Part]):
         return levels[0]
 
     def straps(self, levels: int) -> None:
-        """None."""
+        """Do nothing: the part has no straps."""
 
     def pins(self) -> int:
         return 0
@@ -320,7 +331,7 @@ class Node(Carrier[Part], LineStation[Part]):
     # ------------------------------------------------------------------ of a station
 
     def words(self) -> str:
-        """Address, position of the carriage, state, inputs, outputs."""
+        """Return address, position of the carriage, state, inputs and outputs as text."""
         desk = self.part.desk
         flags = desk.guard.latched("ext1") or desk.guard.latched("ext2")
         state = (
@@ -338,12 +349,12 @@ class Node(Carrier[Part], LineStation[Part]):
         return f"{desk.settings.addr}:{self.position}:{state}:{gpi:05b}:{gpo:05b}"
 
     def set_inputs(self, levels: str) -> None:
-        """Levels of GPI5 to GPI1, as "11111"."""
+        """Set the levels of GPI5 to GPI1, as "11111"."""
         self.set_pins(gpi=int(levels, 2))
 
 
 class NodeLine(CharLine[Node]):
-    """The line. All controllers hear everything, each finds its frames by itself."""
+    """Line on which each controller receives all characters and selects its own frames."""
 
     def __init__(self, spec: LineSpec) -> None:
         numbered = [*spec.carriages.items()]
@@ -354,12 +365,15 @@ class NodeLine(CharLine[Node]):
 
 
 def parameters(spec: LineSpec) -> dict[str, int | str]:
-    """Of tb/pmc006/line/line_node.sv."""
+    """Return the parameters of tb/pmc006/line/line_node.sv."""
     return {"CLK_HZ": spec.clk_hz, "STEP_ACK": spec.step_ack, "BAUD": spec.baud}
 
 
 def arguments(spec: LineSpec, files: Path) -> list[str]:
-    """Of the program in tb/line with tb/pmc006/line/node.h; what the EEPROMs hold is put into files."""
+    """Return the arguments of the program in tb/line with tb/pmc006/line/node.h.
+
+    files: folder into which the contents of the EEPROMs are written. Raises ValueError for an unusable file.
+    """
     addresses = [*spec.carriages, *([] if spec.twin is None else [spec.twin])]
     words = [f"stations={len(addresses)}"]
     for place, address in enumerate(addresses):

@@ -1,1 +1,1 @@
-"""What is around a PPMC-312: machine, virtual line of stations."""
+"""Surroundings of a PPMC-312: machine model, virtual line of stations."""

@@ -1,8 +1,9 @@
-"""Sixteen PPMC-312 with their motors on one line: the RTL, or models in virtual time.
+"""Up to sixteen PPMC-312 with their motors on one line: RTL, or models in virtual time.
 
 The text is `stations=4,start=2000,alarm3=100..200,speed=max`. A word of the plant with a number at its end
-is for that station, without a number for all stations. Of the models only those that a control code addresses
-get the characters after it: all others ignore these anyway, so idle stations cost nothing.
+applies to that station; a word without a number applies to all stations. The characters after a control code
+are delivered only to the models that the code addresses. All other stations would ignore them, so idle
+stations need no computing time.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from ..common.spec import PLACES
 PART = "ppmc312-serial"
 STATIONS = 16
 SPEEDS = {19_200: 5, 38_400: 6, 83_333: 7}
-"""Levels of the pins MOD by line rate."""
+"""Levels of the pins MOD for each line rate in bit/s."""
 OPTIONS = (
     "part",
     "stations",
@@ -43,12 +44,13 @@ KNOWN = ", ".join((*(f"{word}[N]" for word in PLANT_WORDS), *OPTIONS, *LAST))
 
 @dataclass(frozen=True)
 class LineSpec:
-    """A virtual line as it was asked for.
+    """Requested virtual line.
 
-    plants: of each station, by its number. twin: (number, plant) of a second station with a number that is
-    taken, if any. baud: line rate at a 16 MHz crystal. sum_mode: BINARY or CHARS. echo: the master hears
-    itself. noise: one character in so many is damaged, either way; 0: none. speed: times real time, None: as
-    fast as it goes. unplug: seconds after which the port goes away.
+    plants: one for each station, by its number. twin: (number, plant) of a second station with the number of
+    another station, or None. baud: line rate in bit/s with a 16 MHz crystal. sum_mode: BINARY or CHARS. echo:
+    the master receives its own characters. noise: one in this number of characters is corrupted, in both
+    directions; 0: no noise. speed: multiple of real time; None: as fast as possible. unplug: seconds after
+    which the port disappears.
     """
 
     plants: dict[int, Plant]
@@ -71,8 +73,9 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """The text with the speed that a host at this line rate in bit/s wants, unless it names one. Raises
-    ValueError.
+    """Return the text with the speed for a host added, unless it names a speed.
+
+    rate: line rate of the host in bit/s. Raises ValueError.
 
     >>> at_rate("stations=2,xtal=8000000", 9600)
     'stations=2,xtal=8000000,baud=19200'
@@ -85,7 +88,7 @@ def at_rate(text: str, rate: int) -> str:
 
 
 def parse_line(text: str) -> LineSpec:
-    """From `word=value,word=value`. Raises ValueError with the offending word."""
+    """Parse `word=value,word=value`. Raise ValueError with the offending word."""
     words = split_words(text, PLANT_WORDS, (*OPTIONS, *LAST), _station)
     options = words.options
     numbers = _numbers(options.get("stations", str(STATIONS)))
@@ -133,7 +136,7 @@ def _twin(
 
 
 def _numbers(text: str) -> range:
-    """`4` is 0 to 3, `3..5` is 3 to 5."""
+    """Parse `4` as 0 to 3, `3..5` as 3 to 5. Raise ValueError."""
     first, dots, last = text.partition("..")
     try:
         numbers = range(int(first), int(last) + 1) if dots else range(int(first))
@@ -151,7 +154,7 @@ def _station(item: str, text: str) -> int:
 
 
 class Station(Carrier, LineStation[Ppmc312]):
-    """A station with motor and encoder; `straps` sets RUN and the event inputs."""
+    """Station with motor and encoder; `straps` sets RUN and the event inputs."""
 
     def __init__(self, plant: Plant, number: int, spec: LineSpec) -> None:
         straps = {"mode": 0, "mod": SPEEDS[spec.baud], "adr": number}
@@ -163,12 +166,12 @@ class Station(Carrier, LineStation[Ppmc312]):
         return None
 
     def words(self) -> str:
-        """Number, position of the motor, state."""
+        """Return number, position of the motor and state as text."""
         return f"{self.number}:{self.position}:{self.part.state.name}"
 
 
 class StationLine(CharLine[Station]):
-    """The line. Only the station that was addressed last runs with it."""
+    """Line; only the station that was addressed last is simulated together with it."""
 
     def __init__(self, spec: LineSpec) -> None:
         numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
@@ -182,13 +185,13 @@ class StationLine(CharLine[Station]):
 
 
 def parameters(spec: LineSpec) -> dict[str, int | str]:
-    """Of tb/ppmc312/line/line_node.sv."""
+    """Return the parameters of tb/ppmc312/line/line_node.sv."""
     times: dict[str, int | str] = {"CLK_HZ": spec.clk_hz, "XTAL_HZ": spec.xtal_hz}
     return {**times, "TIMING": spec.timing, "SUM_MODE": spec.sum_mode}
 
 
 def arguments(spec: LineSpec, files: Path) -> list[str]:
-    """Of the program in tb/line with tb/ppmc312/line/node.h."""
+    """Return the arguments of the program in tb/line with tb/ppmc312/line/node.h."""
     del files
     numbered = [*spec.plants.items(), *([spec.twin] if spec.twin else [])]
     words = [f"stations={len(numbered)}", f"mod={SPEEDS[spec.baud]}", f"xtal={spec.xtal_hz}"]

@@ -1,5 +1,6 @@
-"""The machine around a PPMC-312: its motor has an encoder; the origin is a cam well inside the limits, as its
-zero return wants it.
+"""Machine model of a PPMC-312: the motor has an encoder.
+
+The origin is a cam well inside the limits, as the zero return of the PPMC-312 requires.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-// The engine without a page, for node (tests/common/web/play.mjs): a session, and every edge of every output.
+// The engine without a page, for node (tests/common/web/play.mjs): play a session, return all edges of outputs.
 
 import type { PartData } from "../types";
 import { Store } from "../ui/store";
@@ -11,7 +11,7 @@ export interface Played {
   /** (t, word of an output, value) */
   edges: [number, number, number][];
   bad: string[];
-  /** What the speed plot of each motor draws. */
+  /** Data of the speed plot of each motor. */
   speeds: Speeds[];
 }
 
@@ -33,7 +33,7 @@ export function play(part: PartData, wasm: Uint8Array, text: string): Played {
     told = player.side.log.length;
   };
   for (;;) {
-    // No further than the host's last wait: the end is that of the text.
+    // Stop after the last wait of the host, so that the end is that of the text.
     const before = core.now;
     if (player.over) break;
     player.advance(1_000_000, false, true);

@@ -1,4 +1,4 @@
-// The host of the PPMC-312: registers, and blocks through its windows.
+// Host of the PPMC-312: accesses registers, and transfers blocks through the windows.
 
 import type { Words } from "../types";
 import { Host } from "./host";
@@ -87,7 +87,7 @@ export class BlockHost extends Host {
   *block(words: string[]): Doing<string[]> {
     const content = bytes(words);
     if (!content.length || content.length > LONGEST)
-      throw new TextError(`a block of ${content.length} bytes: 1 to ${LONGEST}`);
+      throw new TextError(`block of ${content.length} bytes: wrong length; write 1 to ${LONGEST} bytes`);
     yield* this.ready(MWEF);
     yield* this.put(WCR, 0x20);
     yield* this.put(WAR, 0x20 - content.length);
@@ -125,11 +125,11 @@ export class BlockHost extends Host {
   }
 }
 
-/** Words of hexadecimal digits, two for each byte. */
+/** Parse words of hexadecimal digits, two for each byte. */
 export function bytes(words: readonly string[]): number[] {
   const text = words.join("");
   if (text.length % 2 || /[^0-9A-Fa-f]/.test(text))
-    throw new TextError(`${words.join(" ")} are no bytes: two hexadecimal digits each`);
+    throw new TextError(`${words.join(" ")}: not bytes; write two hexadecimal digits for each`);
   return Array.from({ length: text.length / 2 }, (_, n) => parseInt(text.slice(2 * n, 2 * n + 2), 16));
 }
 
@@ -145,6 +145,6 @@ export function answerWords(words: Words, content: readonly number[]): string {
     return `stopped at ${position}: ${words.causes?.[String(content[3])] ?? ""}`;
   }
   const report = words.reports?.[hex(code)];
-  if (report) return code >= 0xf0 ? `refused: ${report}` : report;
+  if (report) return code >= 0xf0 ? `rejected: ${report}` : report;
   return `answer to: ${words.codes[hex(code)]?.text ?? hex(code)}`;
 }

@@ -1,4 +1,4 @@
-// The host of a part with a data register and one for commands and status.
+// Host of a part with a data register and a register for commands and status.
 
 import { Explainer } from "./explain";
 import { Host } from "./host";
@@ -15,7 +15,7 @@ export class ByteHost extends Host {
   private readonly explainers = new Map<number, Explainer>();
   private polled = -1;
 
-  /** Each axis has a command of its own. */
+  /** Explainer of the selected axis; each axis has a separate command. */
   private get explainer(): Explainer {
     const known = this.explainers.get(this.base) ?? new Explainer(this.side.part.words);
     this.explainers.set(this.base, known);

@@ -1,4 +1,4 @@
-// A part's module: site/core/core.cpp with its functions. Times are clk.
+// Interface to the module of a part: the functions of site/core/core.cpp. Times are in cycles.
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -52,7 +52,7 @@ export class Core {
         return 0;
       },
       proc_exit: (code) => {
-        throw new Error(`it ended with ${code}`);
+        throw new Error(`the module ended with code ${code}`);
       },
     };
     const empty = (count: number, size: number): number => {
@@ -71,7 +71,7 @@ export class Core {
     this.exports.power_up();
   }
 
-  /** What the RTL has said ($fatal, $error), and nothing of it any more. */
+  /** Return and clear the messages of the RTL ($fatal, $error). */
   message(): string {
     const text = this.said.trim();
     this.said = "";
@@ -112,7 +112,7 @@ export class Core {
     const [start = 0, ccw = 0, slowCcw = 0, origin = 0, slowCw = 0, cw = 0] = at;
     this.exports.place(axis, start, ccw, slowCcw, origin, slowCw, cw);
   }
-  /** Rows of the last `run`: time as a double, pin and value as 32 bits each. */
+  /** Return the rows of the last `run`: time as a double, pin and value as 32 bits each. */
   rows(): Uint8Array {
     const count = this.exports.take();
     return new Uint8Array(this.exports.memory.buffer, this.exports.row_at(), count * ROW).slice();

@@ -1,10 +1,10 @@
-// Bytes in words, from the tables of the Python package (scripts/site/words.py).
+// Meaning of bytes, from the tables of the Python package (scripts/site/words.py).
 
 import type { Code, Words } from "../types";
 import { hex } from "./side";
 import { isByte } from "./text";
 
-/** Words of a line, and what they mean. */
+/** A statement of a line and its meaning. */
 export interface Meant {
   word: string;
   meaning: string;
@@ -40,12 +40,12 @@ export class Explainer {
       if (this.sent.length > at && this.sent.length <= at + field.bytes) {
         const have = this.sent.slice(at);
         if (have.length < field.bytes)
-          return `${field.name}, byte ${have.length} of ${field.bytes}, low one first`;
+          return `${field.name}, byte ${have.length} of ${field.bytes}, low byte first`;
         return `${field.name} ${number(have) + field.plus}`;
       }
       at += field.bytes;
     }
-    return this.code ? "nobody asked for this byte" : "";
+    return this.code ? "the command does not need this byte" : "";
   }
 
   answer(value: number): string {
@@ -58,7 +58,7 @@ export class Explainer {
     return `${this.code.answer}: ${number(this.got)}`;
   }
 
-  /** A line of the text while it is typed: each of its words. */
+  /** Explain each statement of a line while the reader types it. */
   line(text: string): Meant[] {
     const found: Meant[] = [];
     const words = (text.split("#")[0] ?? "").split(/[\s;]+/).filter(Boolean);

@@ -1,4 +1,4 @@
-// The host of the PMC006B4: frames on its serial line, and their replies.
+// Host of the PMC006B4: sends frames on the serial line and receives the replies.
 
 import { CHANGE } from "./core";
 import { Host, PATIENCE } from "./host";
@@ -25,7 +25,7 @@ export class FrameHost extends Host {
     yield* this.side.clocks(clk - this.side.core.now);
   }
 
-  /** Characters back to back; ends where the line is free again. */
+  /** Send characters back to back; end when the line is free again. */
   private *say(line: readonly number[]): Doing {
     let free = this.side.core.now;
     for (const one of line) {
@@ -44,7 +44,7 @@ export class FrameHost extends Host {
   private *hear(): Doing<number> {
     const end = this.side.core.now + PATIENCE / 100;
     while (this.side.level("txd")) {
-      if (this.side.core.now > end) throw new TextError("no reply comes");
+      if (this.side.core.now > end) throw new TextError("no reply before the time limit");
       yield { clk: PATIENCE / 100, until: CHANGE };
     }
     const start = this.side.core.now;
@@ -73,7 +73,7 @@ export class FrameHost extends Host {
     const got: number[] = [];
     for (let n = 0; n < 8; n++) got.push(yield* this.hear());
     if (got[0] !== HEAD || got[1] !== REPLY || sum(got.slice(0, 7)) !== got[7])
-      throw new TextError(`${got.map((one) => hex(one)).join(" ")} is no reply`);
+      throw new TextError(`${got.map((one) => hex(one)).join(" ")}: not a valid reply`);
     const value = got.slice(3, 7).reduceRight((whole, one) => (whole << 8) | one, 0);
     if (letter === "j") this.side.status = value & 0xff;
     this.side.note(
@@ -86,7 +86,7 @@ export class FrameHost extends Host {
 
   *frame(words: string[]): Doing<string[]> {
     const [letter = "", ...more] = words;
-    if (letter.length !== 1) throw new TextError(`${letter || "nothing"} is no instruction: one letter`);
+    if (letter.length !== 1) throw new TextError(`${letter || "missing word"}: not an instruction; write one letter`);
     let rest = more;
     let data = 0;
     if (rest.length && rest[0] !== "=") {
@@ -107,7 +107,7 @@ export class FrameHost extends Host {
   }
 }
 
-/** Whole clk, upwards; a sum of bit times that is whole but for rounding stays. */
+/** Round up to whole cycles; a sum of bit times that is a whole number except for rounding is not changed. */
 function up(clk: number): number {
   return Math.ceil(clk - 1e-6);
 }
@@ -118,6 +118,6 @@ function sum(bytes: readonly number[]): number {
 
 function number(word: string): number {
   if (!/^(-?\d+|0x[0-9a-f]{1,8})$/i.test(word) || Math.abs(Number(word)) > 0xffffffff)
-    throw new TextError(`${word || "nothing"} is no number of 32 bits`);
+    throw new TextError(`${word || "missing word"}: not a 32-bit number`);
   return Number(word) | 0;
 }

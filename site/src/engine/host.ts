@@ -1,10 +1,10 @@
-// What hosts of all parts can do; the same as scripts/site/script.py, to the clk.
+// Statements of all hosts; cycle-accurate counterpart of scripts/site/script.py.
 
 import { CHANGE, STEP } from "./core";
 import { MACHINE, type Doing, type Side } from "./side";
 import { clks, TextError, whole, type Statement } from "./text";
 
-export const PATIENCE = 400_000_000; // clk that a statement waits at most
+export const PATIENCE = 400_000_000; // time limit of a statement in cycles
 const RESET = 16;
 
 export type Verb = (words: string[]) => Doing<string[]>;
@@ -24,7 +24,7 @@ export class Host {
     };
   }
 
-  /** From power-up to the first access. */
+  /** Wait from power-up to the first access. */
   *begin(): Doing {
     yield* this.side.clocks(Number(this.side.part.style.settle));
   }
@@ -41,11 +41,11 @@ export class Host {
   }
 
   *set(words: string[]): Doing<string[]> {
-    if (!words.length) throw new TextError("set what? As in: set l1_n=0");
+    if (!words.length) throw new TextError("set: no level; write set l1_n=0");
     for (const word of words) {
       const [pin, level, more] = word.split("=");
       if (!pin || !/^(0x[0-9a-f]+|\d+)$/i.test(level ?? "") || more !== undefined)
-        throw new TextError(`${word} is no level: as in l1_n=0`);
+        throw new TextError(`${word}: not a level; write l1_n=0`);
       this.side.set(pin, BigInt(level!));
     }
     this.side.note("pins", words.join(" "), "");
@@ -66,7 +66,7 @@ export class Host {
       throw new TextError(`there is no axis ${axis + first}`);
     const end = this.side.core.now + PATIENCE;
     while (this.side.pulses(axis) < wanted) {
-      if (this.side.core.now > end) throw new TextError(`only ${this.side.pulses(axis)} pulses came`);
+      if (this.side.core.now > end) throw new TextError(`only ${this.side.pulses(axis)} pulses before the time limit`);
       yield { clk: PATIENCE, until: STEP };
     }
     return words.slice(named ? 2 : 1);
@@ -76,7 +76,7 @@ export class Host {
     const [pin = "", level] = words;
     const end = this.side.core.now + PATIENCE;
     while (this.side.level(pin) !== whole(level, "level")) {
-      if (this.side.core.now > end) throw new TextError(`${pin} does not become ${level}`);
+      if (this.side.core.now > end) throw new TextError(`${pin} does not become ${level} before the time limit`);
       yield { clk: PATIENCE, until: CHANGE };
     }
     return words.slice(2);
@@ -92,19 +92,19 @@ export class Host {
     return words;
   }
 
-  /** `clock ext_clk 329`: a square wave of so many clk a period; 0 ends it. */
+  /** `clock ext_clk 329`: a square wave with this period in cycles; 0 stops it. */
   *clock(words: string[]): Doing<string[]> {
-    this.side.wave(words[0] ?? "", whole(words[1], "period in clk"));
+    this.side.wave(words[0] ?? "", whole(words[1], "period in cycles"));
     return words.slice(2);
   }
 
-  /** `machine on [start ccw slow_ccw origin slow_cw cw]`, `machine off`: of all axes. */
+  /** `machine on [start ccw slow_ccw origin slow_cw cw]`, `machine off`: machine of all axes. */
   *machine(words: string[]): Doing<string[]> {
     const { core, part } = this.side;
-    if (words[0] !== "on" && words[0] !== "off") throw new TextError("machine on or machine off");
-    const places = words.slice(1).map((word) => whole(word, "place"));
+    if (words[0] !== "on" && words[0] !== "off") throw new TextError("machine: write machine on or machine off");
+    const places = words.slice(1).map((word) => whole(word, "position"));
     if (places.length && places.length !== 6)
-      throw new TextError("a machine has six places: start, CCW limit, slow CCW, origin, slow CW, CW limit");
+      throw new TextError("machine: write six positions: start, CCW limit, slow CCW, origin, slow CW, CW limit");
     if (words[0] === "on") {
       this.side.places = places.length ? places : [...MACHINE];
       part.motors.forEach((_, axis) => core.place(axis, this.side.places));

@@ -1,4 +1,4 @@
-// The host of each kind of part.
+// Selects the host for the bus of a part.
 
 import { BlockHost } from "./blocks";
 import { ByteHost } from "./bytes";
@@ -17,6 +17,6 @@ const KINDS: Record<string, new (side: Side) => Host> = {
 
 export function makeHost(side: Side): Host {
   const kind = KINDS[side.part.bus];
-  if (!kind) throw new TextError(`the page knows no host for ${side.part.title}`);
+  if (!kind) throw new TextError(`${side.part.title}: the page does not support the bus of this part`);
   return new kind(side);
 }

@@ -1,4 +1,4 @@
-// A line of a session in words, while it is typed.
+// Meaning of a line of a session while the reader types it.
 
 import type { PartData } from "../types";
 import { answerWords, blockWords, bytes } from "./blocks";
@@ -55,7 +55,7 @@ function frameLine(part: PartData, text: string): Meant[] {
   return found;
 }
 
-/** What the lines before the caret make of the line that it is in. */
+/** Explain the line with the caret; its meaning depends on the lines before it. */
 export function meaning(part: PartData, whole: string, caret: number): Meant[] {
   const lines = whole.slice(0, caret).split("\n");
   const full = whole.split("\n")[lines.length - 1] ?? "";

@@ -1,4 +1,4 @@
-// A session on a part: statements one after the other, pressed switches in between, and the clock of all of it.
+// Plays a session on a part: executes statements in order and timed presses of switches, and runs the clock.
 
 import type { PartData } from "../types";
 import { makeHost } from "./hosts";
@@ -7,13 +7,13 @@ import type { Host } from "./host";
 import { MACHINE, Side, type Doing, type Wait } from "./side";
 import { statements, TextError, type Statement } from "./text";
 
-const REST = 0.045; // s without a step of a motor after which the part is said to rest
+const REST = 0.045; // s without a step of a motor until the part is at rest
 
 export class Player {
   readonly side: Side;
   private readonly host: Host;
   private todo: Statement[] = [];
-  /** Pressed at a certain clk, whatever the host is doing then. */
+  /** Statements for a certain cycle, regardless of the present statement of the host. */
   private timed: Statement[] = [];
   private doing: Doing | undefined;
   private waits: Wait | undefined;
@@ -37,7 +37,7 @@ export class Player {
     this.side.powerUp();
   }
 
-  /** From power-up on. TextError for a text that is none. */
+  /** Play a text from power-up on. Throws TextError for an invalid text. */
   start(text: string): void {
     const all = statements(text);
     for (const one of all)
@@ -53,7 +53,7 @@ export class Player {
     this.stir();
   }
 
-  /** More statements behind those that there are. */
+  /** Append statements to the pending ones. */
   send(text: string): void {
     const more = statements(text);
     for (const one of more)
@@ -62,17 +62,17 @@ export class Player {
     this.stir();
   }
 
-  /** Something has been done: the part does not rest. */
+  /** Restart the time until the part is at rest. */
   stir(): void {
     this.restFrom = this.core.now;
   }
 
-  /** All statements are done. */
+  /** Whether all statements have been executed. */
   get over(): boolean {
     return !this.doing && !this.todo.length && !this.timed.length && !this.waits;
   }
 
-  /** Nothing is to be done and no motor has moved for a while. */
+  /** Whether all statements have been executed and no motor has stepped for REST. */
   get resting(): boolean {
     if (!this.over) return false;
     const steps = this.side.part.motors.reduce((sum, _, axis) => sum + this.core.steps(axis), 0);
@@ -83,8 +83,8 @@ export class Player {
     return this.core.now - this.restFrom > REST * this.side.part.clkHz;
   }
 
-  /** Up to so many clk; returns how many it was. With `step` no further than to a step of a motor, with `strict` no
-   * further than the text goes. */
+  /** Run up to `most` cycles and return their number. With `step`, stop at a step of a motor; with `strict`, stop at
+   * the end of the text. */
   advance(most: number, step: boolean, strict = false): number {
     this.pressDue();
     while (!this.waits && this.think()) continue;
@@ -95,13 +95,13 @@ export class Player {
     const ran = this.core.run(clk, until);
     if (this.waits) {
       this.waits.clk -= ran;
-      // A wait for something is over whenever the part has stopped early: whoever waits looks for himself.
+      // A wait for an event ends whenever the part has stopped early; the statement then checks its condition.
       if (this.waits.clk <= 0 || this.waits.until) this.waits = undefined;
     }
     return ran;
   }
 
-  /** Statements that take no time, at once. */
+  /** Execute statements that need no time immediately. */
   press(text: string): void {
     statements(text).forEach((one) => this.atOnce(one));
   }
@@ -116,7 +116,7 @@ export class Player {
     this.stir();
   }
 
-  /** What the host does next, up to where it waits; false if it has nothing to do. */
+  /** Execute the host until its next wait; return false if no statement is left. */
   private think(): boolean {
     if (!this.doing) {
       const one = this.todo.shift();

@@ -1,10 +1,10 @@
-// A part with its pins by name, and what a host does there: generators that yield how long they wait.
+// Access to the pins of a part by name. Actions of a host are generators that yield the waiting times.
 
 import type { LogEntry, PartData, Port } from "../types";
 import type { Core } from "./core";
 import { TextError } from "./text";
 
-/** Let so many clk pass; with `until` (core.ts) no more than up to that. */
+/** Wait this number of cycles; with `until` (core.ts) at most until that event. */
 export interface Wait {
   clk: number;
   until: number;
@@ -16,14 +16,14 @@ interface Place {
   bit: number; // -1: the whole port
 }
 
-/** Where the carriage stands, CCW limit, slow CCW, origin, slow CW, CW limit. */
+/** Positions: start of the carriage, CCW limit, slow CCW, origin, slow CW, CW limit. */
 export const MACHINE: readonly number[] = [500, -300, -150, 0, 1850, 2000];
 const PIN = /^(\w+)(?:\[(\d+)\])?$/;
 
 export class Side {
   private readonly inputs = new Map<string, Port>();
   private readonly outputs = new Map<string, Port>();
-  /** Levels as the host puts them; the machine may pull switches besides. */
+  /** Levels that the host sets; in addition, the machine may close switches. */
   readonly levels = new Map<string, bigint>();
   log: LogEntry[] = [];
   status = -1;
@@ -66,7 +66,7 @@ export class Side {
     const { port, bit } = this.find(pin, this.inputs, "input");
     const width = bit < 0 ? port.width : 1;
     if (level < 0 || BigInt(level) >> BigInt(width))
-      throw new TextError(`${pin} has ${width} bit: not ${level}`);
+      throw new TextError(`${pin} has ${width} bit(s): ${level} is out of range`);
     const old = this.levels.get(port.name)!;
     const value = bit < 0 ? BigInt(level) : (old & ~(1n << BigInt(bit))) | (BigInt(level) << BigInt(bit));
     this.levels.set(port.name, value);
@@ -76,11 +76,11 @@ export class Side {
 
   private waves = 0;
   private readonly waving = new Map<string, number>();
-  /** A square wave from now on; period 0 ends it. */
+  /** Start a square wave; period 0 stops it. */
   wave(pin: string, period: number): void {
     const { port, bit } = this.find(pin, this.inputs, "input");
-    if (port.width > 1 && bit < 0) throw new TextError(`${pin} has ${port.width} bit: as in ${pin}[1]`);
-    if (period !== 0 && period < 4) throw new TextError("a period has 4 clk at least");
+    if (port.width > 1 && bit < 0) throw new TextError(`${pin} has ${port.width} bits; write one bit, as ${pin}[1]`);
+    if (period !== 0 && period < 4) throw new TextError("period: too short; write 4 cycles or more, or 0");
     const number = this.waving.get(pin) ?? this.waves++ % 4;
     this.waving.set(pin, number);
     this.set(pin, 0);
@@ -103,7 +103,7 @@ export class Side {
     if (clk > 0) yield { clk, until: 0 };
   }
 
-  /** Pulses count from here. */
+  /** Start to count the pulses. */
   markPulses(): void {
     this.mark = this.part.motors.map((_, axis) => this.core.steps(axis));
   }

@@ -1,16 +1,16 @@
-// Speed of a motor over time, from its steps: a staircase, v[n] from t[n] on.
+// Speed of a motor over time, computed from its steps: a staircase with v[n] from t[n] on.
 
 export interface Speeds {
   /** s */
   t: number[];
-  /** Steps a second. */
+  /** Steps per second. */
   v: number[];
 }
 
-const MOST = 4_000; // stairs
-/** Intervals longer than this many times their neighbours are standstills. */
+const MOST = 4_000; // entries of a staircase
+/** An interval longer than this multiple of its neighbours is a standstill. */
 const PAUSE = 8;
-/** The same for an interval in which the host has written something. */
+/** The multiple for an interval in which the host has written. */
 const PAUSE_WRITTEN = 3;
 
 interface Interval {
@@ -26,11 +26,11 @@ export class Speed {
   private way = 0;
   private written = false;
   private open: Interval | undefined;
-  private before = 0; // clk of the interval before; 0: the motor stood
+  private before = 0; // cycles of the interval before; 0: standstill
 
   constructor(private readonly clkHz: number) {}
 
-  /** The host has written something since the last step. */
+  /** Note that the host has written since the last step. */
   write(): void {
     this.written = true;
   }
@@ -70,7 +70,7 @@ export class Speed {
     return found;
   }
 
-  /** Of an interval, by the one before and the one after it; 0: a standstill, in which no speed can be measured. */
+  /** Speed in an interval, by comparison with its neighbours; 0: standstill, no speed can be measured. */
   private rate(one: Interval, after: number): number {
     const near = Math.max(this.before, after);
     const stood = near ? one.clk > near * (one.written ? PAUSE_WRITTEN : PAUSE) : one.written;
@@ -83,7 +83,7 @@ export class Speed {
     to.v.push(v);
   }
 
-  /** Two stairs become one with their mean. */
+  /** Replace each pair of entries by its mean. */
   private halve(): void {
     const { t, v } = this.stairs;
     let count = 0;
@@ -100,7 +100,7 @@ export class Speed {
   }
 }
 
-/** Columns over one time axis: undefined where a motor keeps its speed. */
+/** Return columns over one time axis; a value is undefined where the speed of a motor does not change. */
 export function columns(speeds: readonly Speeds[]): (number | undefined)[][] {
   const times: number[] = [];
   const found: (number | undefined)[][] = speeds.map(() => []);

@@ -1,4 +1,4 @@
-// Accesses on a bus with strobes, and the pauses between polls: those of scripts/site/script.py and players.py.
+// Accesses on a bus with strobes, and pauses between polls, equal to scripts/site/script.py and players.py.
 
 import { PATIENCE } from "./host";
 import type { Doing, Side } from "./side";
@@ -10,7 +10,7 @@ const LONGEST = 8_000;
 
 type Levels = Record<string, number>;
 
-/** Levels of pins for each half of an access (cocotb_tests/harness/part.py, BusStyle), and its lengths in clk. */
+/** Pin levels of each half of an access (cocotb_tests/harness/part.py, BusStyle), and its times in cycles. */
 export interface Style {
   address: string;
   writeOn: Levels;
@@ -60,7 +60,7 @@ export class Strobes {
   }
 }
 
-/** Between polls; they grow. */
+/** Pauses between polls, of increasing length. */
 export class Pauses {
   private count = 0;
   private pause = FIRST;
@@ -71,7 +71,7 @@ export class Pauses {
   }
 
   *next(): Doing {
-    if (this.side.core.now > this.end) throw new TextError("it does not come");
+    if (this.side.core.now > this.end) throw new TextError("the polled status does not occur before the time limit");
     if (++this.count < DENSE) return;
     this.pause = Math.min(LONGEST, Math.floor((this.pause * 5) / 4) + 1);
     yield* this.side.clocks(this.pause);

@@ -1,11 +1,11 @@
-// The text of a session: what it may say, and what is wrong with it. docs/playground.md has the list of statements.
+// Parser for the text of a session. docs/playground.md has the list of statements.
 
 export class TextError extends Error {}
 
 export interface Statement {
   line: number;
   words: string[];
-  /** clk before which it does not begin; -1: at once. */
+  /** Cycle at which the statement may begin at the earliest; -1: immediately. */
   at: number;
 }
 
@@ -14,7 +14,7 @@ const LENGTH = /^(\d+(?:\.\d+)?)(clk|us|ms)?$/;
 const HEX = /^[0-9A-Fa-f]{2}$/;
 
 export function statements(text: string): Statement[] {
-  if (text.length > MOST) throw new TextError(`a session of ${text.length} characters: ${MOST} at most`);
+  if (text.length > MOST) throw new TextError(`session of ${text.length} characters: too long; ${MOST} at most`);
   const found: Statement[] = [];
   text.split("\n").forEach((full, index) => {
     for (const part of (full.split("#")[0] ?? "").split(";")) {
@@ -23,7 +23,7 @@ export function statements(text: string): Statement[] {
       if (words[0]?.startsWith("@")) {
         at = Number(words[0].slice(1));
         if (!Number.isSafeInteger(at) || at < 0)
-          throw new TextError(`line ${index + 1}: ${words[0]} is no clk`);
+          throw new TextError(`line ${index + 1}: ${words[0]}: not a number of cycles`);
         words = words.slice(1);
       }
       if (words.length) found.push({ line: index + 1, words, at });
@@ -37,16 +37,16 @@ export function isByte(word: string | undefined): word is string {
 }
 
 export function byte(word: string | undefined): number {
-  if (!isByte(word)) throw new TextError(`${word ?? "nothing"} is no byte: two hexadecimal digits, 00 to FF`);
+  if (!isByte(word)) throw new TextError(`${word ?? "missing word"}: not a byte; write two hexadecimal digits, 00 to FF`);
   return parseInt(word, 16);
 }
 
-/** "400", "5us", "2ms" in clk. */
+/** Convert "400", "5us" or "2ms" to cycles. */
 export function clks(word: string | undefined, clkHz: number): number {
   const found = LENGTH.exec(word ?? "");
-  if (!found) throw new TextError(`${word ?? "nothing"} is no time: 400, 5us, 2ms`);
+  if (!found) throw new TextError(`${word ?? "missing word"}: not a time; write 400, 5us or 2ms`);
   const n = Number(found[1]);
-  // As Python rounds: halves to even.
+  // Round halves to even, as Python does.
   const scaled =
     found[2] === "us" ? (n * clkHz) / 1e6 : found[2] === "ms" ? (n * clkHz) / 1e3 : Math.floor(n);
   const down = Math.floor(scaled);
@@ -54,6 +54,6 @@ export function clks(word: string | undefined, clkHz: number): number {
 }
 
 export function whole(word: string | undefined, what: string): number {
-  if (!/^-?\d+$/.test(word ?? "")) throw new TextError(`${word ?? "nothing"} is no ${what}`);
+  if (!/^-?\d+$/.test(word ?? "")) throw new TextError(`${word ?? "missing word"}: not a valid ${what}`);
   return Number(word);
 }

@@ -1,4 +1,4 @@
-// The host of the bank: that of a PPMC-104 for each axis, and the registers of its window.
+// Host of the bank: for each axis that of a PPMC-104, and the registers of the window.
 
 import { ByteHost } from "./bytes";
 import { hex, type Doing, type Side } from "./side";

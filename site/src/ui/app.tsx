@@ -1,4 +1,4 @@
-// The page: on the left what the host does and what the machine is, on the right what comes of it.
+// The page: host and machine on the left, speed, waves, registers and log on the right.
 
 import { useEffect } from "preact/hooks";
 import { Bar } from "./bar";

@@ -1,4 +1,4 @@
-// Part, session, and the clock: run, pause, step, how fast; files and links.
+// Tool bar: part, session, clock (run, pause, step, speed), files and links.
 
 import { useState } from "preact/hooks";
 import { parts } from "./load";
@@ -89,12 +89,12 @@ export function Bar() {
       <button
         type="button"
         onClick={() => clock(running.value ? "pause" : "go")}
-        title="Space, where nothing is typed"
+        title="Space bar, outside text fields"
         aria-pressed={!running.value}
       >
-        {running.value ? "❚❚ Pause" : "▶ Go on"}
+        {running.value ? "❚❚ Pause" : "▶ Continue"}
       </button>
-      <button type="button" onClick={() => clock("step")} title="on to the next pulse">
+      <button type="button" onClick={() => clock("step")} title="run to the next pulse">
         ▶❚ Next pulse
       </button>
       <label>
@@ -125,7 +125,7 @@ export function Bar() {
       >
         {time(seconds.value)}
         <small>
-          {copied || (running.value ? `${mclk.value.toFixed(1)} million clk/s` : why.value || "ready")}
+          {copied || (running.value ? `${mclk.value.toFixed(1)} million cycles/s` : why.value || "ready")}
         </small>
       </output>
     </div>

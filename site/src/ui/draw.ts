@@ -1,4 +1,4 @@
-// Draws rows of waves on a canvas. Where edges are closer than pixels, a row is a solid band.
+// Draws rows of waves on a canvas. Where edges are closer than a pixel, a row is a solid band.
 
 import { hex } from "../engine/side";
 import type { Row } from "./store";
@@ -9,7 +9,7 @@ const TOP = 20;
 export interface View {
   from: number;
   to: number;
-  /** Cursors, clk; NaN: none. */
+  /** Cursors in cycles; NaN: not set. */
   a: number;
   b: number;
 }
@@ -75,7 +75,7 @@ function grid(
   line: string,
   soft: string,
 ): void {
-  const seconds = 90 / scale / clkHz; // between two lines, about
+  const seconds = 90 / scale / clkHz; // approximate distance of two lines
   const power = 10 ** Math.floor(Math.log10(seconds));
   const step = [1, 2, 5, 10].map((n) => n * power).find((one) => one >= seconds) ?? power;
   const unit = step >= 1 ? "s" : step >= 1e-3 ? "ms" : "µs";
@@ -127,7 +127,7 @@ function trace(
     if (bus) box(paper, at, to, high, low, value(index), row.width);
     else paper.lineTo(to, level(index));
     if (to >= stop || next >= track.count) break;
-    // All that happens within this pixel is one band.
+    // All edges within this pixel are drawn as one band.
     let last = next;
     const edge = track.at(view.from + ((to + 1) / width) * (view.to - view.from));
     if (edge > next + 1) {

@@ -1,4 +1,4 @@
-// What the host does: the text of a session, and bytes to send now, each in words while it is typed.
+// Host: the text of a session, and bytes to send now. The meaning of a line is shown while the reader types.
 
 import { useState } from "preact/hooks";
 import type { Meant } from "../engine/explain";
@@ -41,7 +41,7 @@ export function HostPane() {
     <section class="pg-box" aria-labelledby="pg-host">
       <h2 id="pg-host">Host</h2>
       <label class="pg-label" for="pg-text">
-        Session, one statement a line {document.getElementById("pg-statements") && <a href="#pg-statements">(which there are)</a>}
+        Session, one statement per line {document.getElementById("pg-statements") && <a href="#pg-statements">(list of statements)</a>}
         {running.value && line.value > 0 && <span class="pg-line">line {line.value}</span>}
       </label>
       <textarea

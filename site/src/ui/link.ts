@@ -1,4 +1,4 @@
-// A session in a link: part, text and speed behind the #. Version 1; a page that gets another one says so.
+// Link with a session: part, text and speed after the #. The version is 1; a page reports other versions.
 
 export interface Linked {
   part: string;
@@ -6,7 +6,7 @@ export interface Linked {
   run?: string;
   text?: string;
   speed?: number;
-  /** Begin at once. */
+  /** Start immediately. */
   go: boolean;
 }
 
@@ -21,14 +21,14 @@ export function write(state: Linked): string {
   return `#${words.toString()}`;
 }
 
-/** Whether an address has a session, and is not just a place on the page. */
+/** Whether an address has a session, and not only a position on the page. */
 export function isLink(hash: string): boolean {
   return /^#(.*&)?(v|part|run|text|speed|go)=/.test(hash);
 }
 
 export interface Read {
   linked?: Linked;
-  /** What is wrong with the link, for the reader. */
+  /** Errors in the link, as messages for the reader. */
   wrong: string[];
 }
 
@@ -40,7 +40,7 @@ export function read(hash: string, speeds: readonly number[]): Read {
   if (version !== VERSION)
     return {
       wrong: [
-        `this link is of version ${version}, the page reads version ${VERSION}: it shows the first session instead`,
+        `this link has version ${version}, the page supports version ${VERSION}; it shows the first session instead`,
       ],
     };
   if (!words.has("part")) wrong.push("this link names no part");
@@ -48,9 +48,9 @@ export function read(hash: string, speeds: readonly number[]): Read {
   const speed = given === null || given.trim() === "" ? NaN : Number(given);
   const known = speeds.includes(speed);
   if (given !== null && !known)
-    wrong.push(`speed=${given}: there is no such speed; the page has ${speeds.join(", ")}`);
+    wrong.push(`speed=${given}: unknown speed; use ${speeds.join(", ")}`);
   const go = words.get("go");
-  if (go !== null && go !== "1" && go !== "0") wrong.push(`go=${go}: it is 0 or 1`);
+  if (go !== null && go !== "1" && go !== "0") wrong.push(`go=${go}: not valid; use 0 or 1`);
   const linked = {
     part: words.get("part") ?? "",
     ...(words.has("run") ? { run: words.get("run")! } : {}),

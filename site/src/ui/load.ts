@@ -1,8 +1,8 @@
-// Tables and modules when they are needed: over the web server, or as scripts where the page is a file.
+// Loads tables and modules when they are needed: from the web server, or as scripts if the page is a file.
 
 import type { PartData } from "../types";
 
-declare const WORKER: string; // the worker's code, put in by build.mjs
+declare const WORKER: string; // code of the worker, inserted by build.mjs
 
 interface Entry {
   name: string;
@@ -17,7 +17,7 @@ interface Loaded {
 const known = ((globalThis as unknown as { openppmc?: Partial<Loaded> }).openppmc ??= {});
 let base = "";
 
-/** The folder that this script came from. */
+/** Set the folder of the files from the address of this script. */
 export function setBase(url: string): void {
   base = url.replace(/[^/]*$/, "");
 }
@@ -47,7 +47,7 @@ export async function loadWasm(part: PartData): Promise<ArrayBuffer> {
     if (!answer.ok) throw new Error(`${part.wasm}: ${answer.status} ${answer.statusText}`);
     return answer.arrayBuffer();
   }
-  // A page from a file may load scripts, and nothing else.
+  // A page from a file may load only scripts.
   if (!known.wasm?.[part.name]) await script(`${part.wasm}.js`);
   const text = atob(known.wasm![part.name]!);
   return Uint8Array.from(text, (letter) => letter.charCodeAt(0)).buffer;

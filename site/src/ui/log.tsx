@@ -1,4 +1,4 @@
-// The log of the bus: every access with its time and in words.
+// Log of the bus: all accesses with time and meaning.
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { log, part, shows } from "./state";
@@ -49,7 +49,7 @@ export function BusLog() {
               <th>ms</th>
               <th>access</th>
               <th>byte</th>
-              <th>in words</th>
+              <th>meaning</th>
             </tr>
           </thead>
           <tbody>

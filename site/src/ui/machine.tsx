@@ -1,13 +1,13 @@
-// The motor and its machine: phases, shaft, carriage between its switches.
+// Motor and machine: phases, shaft, carriage and switches.
 
 import { useState } from "preact/hooks";
 import { ask, frames, machineOn, outputs, part, places, positions, remember, store } from "./state";
 import { level } from "./store";
 
 const NAMES = ["start", "CCW limit", "slow CCW", "origin", "slow CW", "CW limit"];
-const TURN = 200; // full steps of a turn
+const TURN = 200; // full steps per turn
 
-/** How much current a winding has, 0 to 1: a phase that is on, or the reference of a chopper. */
+/** Relative current of a winding, 0 to 1: from a phase, or from the reference of a chopper. */
 function lit(pin: string, on: number): number {
   const row = store?.find(pin, false);
   if (!row) return 0;
@@ -110,7 +110,7 @@ export function Machine() {
             checked={machineOn.value}
             onChange={(event) => change(event.currentTarget.checked)}
           />{" "}
-          its switches act
+          switches active
         </label>
       </h2>
       <div class={data.motors.length > 2 ? "pg-axes pg-many" : "pg-axes"}>
@@ -122,7 +122,7 @@ export function Machine() {
         ))}
       </div>
       <button type="button" class="pg-more" aria-expanded={open} onClick={() => setOpen(!open)}>
-        {open ? "▾" : "▸"} places of the switches
+        {open ? "▾" : "▸"} positions of the switches
       </button>
       {open && (
         <div class="pg-places">

@@ -1,6 +1,6 @@
-// Drawing that may be late: with a picture of the browser, and only for a share of the page's time.
+// Delayed drawing: synchronous with the display, and only for a share of the page's time.
 
-const SHARE = 4; // pause after it, times its duration
+const SHARE = 4; // pause after a drawing, as a multiple of its duration
 
 export interface Paced {
   call: () => void;

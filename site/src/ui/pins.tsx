@@ -1,4 +1,4 @@
-// Input pins to press: switches, alarms, straps. Low is closed.
+// Buttons for input pins: switches, alarms, straps. Low = closed.
 
 import { ask, frames, inputs, part, store } from "./state";
 import { level } from "./store";

@@ -1,4 +1,4 @@
-// The status register as the host saw it last, bit by bit and in words, and the last answer.
+// The last status that the host has read, as bits and with its meaning, and the last answer.
 
 import { part, log, status } from "./state";
 import { hex } from "../engine/side";
@@ -24,7 +24,7 @@ export function Registers() {
         </p>
       )}
       <p>
-        <b>Last answer</b> {answer ? <code>{answer.text}</code> : "none"}{" "}
+        <b>Last answer</b> {answer ? <code>{answer.text}</code> : "no answer yet"}{" "}
         <span class="pg-words">{answer?.words}</span>
       </p>
     </section>

@@ -1,4 +1,4 @@
-// Speed over time, by uPlot.
+// Plot of the speed over time with uPlot.
 
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
@@ -85,7 +85,7 @@ export function Speed() {
   }, [name]);
   return (
     <section class="pg-box" aria-labelledby="pg-speed">
-      <h2 id="pg-speed">Speed, pulses a second</h2>
+      <h2 id="pg-speed">Speed, pulses per second</h2>
       <div ref={box} class="pg-plot" role="img" aria-label="speed over time" />
     </section>
   );

@@ -1,4 +1,4 @@
-// What the page knows, as signals; and what it asks the worker for.
+// State of the page as signals, and requests to the worker.
 
 import { batch, computed, signal } from "@preact/signals";
 import type { Frame, FromWorker, LogEntry, PartData, ToWorker } from "../types";
@@ -12,15 +12,15 @@ export const SPEEDS: readonly (readonly [number, string])[] = [
   [0.1, "1/10"],
   [1, "real time"],
   [10, "10 ×"],
-  [0, "as fast as it goes"],
+  [0, "as fast as possible"],
 ];
 const MOST_LOG = 2_000;
-const LOG_MS = 250; // between two changes of the log while the part runs
-const SHOWN_MS = 100; // after which a frame is drawn also where the browser draws none: in the background
-const KEPT_MS = 150; // between typing and keeping
+const LOG_MS = 250; // between two updates of the log while the part runs
+const SHOWN_MS = 100; // after which a frame is drawn even if the page is in the background
+const KEPT_MS = 150; // between an input and its storage
 
 export const part = signal<PartData | undefined>(undefined);
-/** The part that was chosen last; `part` is empty until its tables are there. */
+/** The part that was chosen last; `part` is undefined until its tables are loaded. */
 export const chosen = signal("");
 export const chapter = signal("");
 export const text = signal("");
@@ -28,7 +28,7 @@ export const text = signal("");
 export const now = signal("");
 export const speed = signal(0.1);
 export const running = signal(false);
-/** Part and chapter that log and waves are of. */
+/** Part and chapter to which log and waves belong. */
 export const shows = signal("");
 export const over = signal(false);
 export const why = signal("");
@@ -51,15 +51,15 @@ export let store: Store | undefined;
 let worker: Worker | undefined;
 /** Number of the newest choice of a part. An older one that is still loading must not change anything. */
 let turn = 0;
-/** Whether the part can run, and what was asked of it before: without its tables, and without its module. */
+/** Whether the part can run. Earlier requests: `early` without its tables, `later` without its module. */
 let loaded = false;
 let early: (() => void)[] = [];
 let later: ToWorker[] = [];
-/** Loading has failed: Run tries again. */
+/** Loading has failed: Run loads again. */
 let failed = false;
-/** What was wrong with the link; it stays until the reader does something else. */
+/** Errors in the link; the message stays until the reader starts a session or chooses a part. */
 let remark = "";
-/** The address that the page shows. */
+/** The displayed address. */
 let opened = "";
 /** A frame that is not drawn yet, and log entries that are not shown yet. */
 let frame: Frame | undefined;
@@ -74,7 +74,7 @@ export function ask(message: ToWorker): void {
   else worker?.postMessage(message);
 }
 
-/** Pause, go on, next pulse. */
+/** Pause, continue, or run to the next pulse. */
 export function clock(kind: "pause" | "go" | "step"): void {
   ask({ kind });
   if (!loaded && able()) running.value = kind !== "pause";
@@ -106,7 +106,7 @@ function draw(): void {
   });
 }
 
-/** Take what is new; draw it with the next picture of the browser, and only then ask for more. */
+/** Store a frame, draw it with the next repaint of the browser, and then request another one. */
 function onFrame(data: Frame, from: Worker): void {
   store?.take(data.rows, data.t, data.log);
   entries = [...entries, ...data.log].slice(-MOST_LOG);
@@ -162,7 +162,7 @@ function fail(told: string): void {
   trouble.value = remark ? `${remark}; ${told}` : told;
 }
 
-/** Nothing is left of the part that was there. */
+/** Discard the present part and its state. */
 function unload(): void {
   worker?.terminate();
   worker = undefined;
@@ -181,7 +181,7 @@ function unload(): void {
   machineOn.value = running.value = over.value = false;
 }
 
-/** Another part: its tables, its module, a session of it or an own text. With `go` it is run. */
+/** Load another part: its tables, its module, one of its sessions or another text. go: start the session. */
 export async function choose(
   name: string,
   { run, own, go = false, wrong = [] }: { run?: string | undefined; own?: string | undefined; go?: boolean | undefined; wrong?: string[] } = {},
@@ -190,7 +190,7 @@ export async function choose(
   const told = [...wrong];
   const show = (): string => (trouble.value = remark = told.join("; "));
   if (!parts().some((one) => one.name === name)) {
-    if (name) told.push(`there is no part ${name}: the page shows ${parts()[0]!.title} instead`);
+    if (name) told.push(`there is no part ${name}; the page shows ${parts()[0]!.title} instead`);
     name = parts()[0]!.name;
     run = own = undefined;
   }
@@ -213,7 +213,7 @@ export async function choose(
       frames.value++;
     });
     if (!able()) {
-      told.push("this browser has no WebAssembly: the text can be read and typed, the part cannot run");
+      told.push("this browser has no WebAssembly; you can read and edit the text, but the part cannot run");
       show();
       why.value = "";
       return;
@@ -234,7 +234,7 @@ export async function choose(
   }
 }
 
-/** A session of the manual into the text, or an own text. */
+/** Set the text: a session of the manual, or another text. */
 function take(name: string, own?: string): void {
   const session = part.value?.sessions.find((one) => one.name === name);
   chapter.value = own === undefined && session ? name : "";
@@ -242,14 +242,14 @@ function take(name: string, own?: string): void {
   journal.value = [];
 }
 
-/** A session of the manual that the reader has picked. */
+/** Start the session of the manual that the reader has selected. */
 export function pick(name: string): void {
   take(name);
   remember();
   start();
 }
 
-/** Run, for the reader; messages about the link are removed. */
+/** Start the session for the reader, and remove messages about the link. */
 export function start(): void {
   remark = "";
   if (able()) trouble.value = "";
@@ -282,7 +282,7 @@ export function setSpeed(value: number): void {
   ask({ kind: "speed", speed: value });
 }
 
-/** The link that makes this session again: what was typed and pressed, with the clk of each. */
+/** Return the link that repeats this session: the text, and each input and press with its cycle. */
 function link(): string {
   const own = journal.value.length > 0 || !chapter.value || text.value !== session()?.text;
   const whole = [text.value, ...journal.value].join("\n");
@@ -294,7 +294,7 @@ function session(): { text: string } | undefined {
   return part.value?.sessions.find((one) => one.name === chapter.value);
 }
 
-/** The link as the page's address, which it returns. */
+/** Make the link the address of the page, and return it. */
 export function share(): string {
   const address = new URL(link(), location.href);
   history.replaceState(null, "", address);
@@ -302,7 +302,7 @@ export function share(): string {
   return address.href;
 }
 
-/** What the reader has made of the page; it is kept with the entry of the browser's history, also over a reload. */
+/** Inputs of the reader, stored with the entry in the browser's history; a reload restores them. */
 interface Kept {
   part: string;
   chapter: string;
@@ -316,24 +316,24 @@ let due = 0;
 function keep(): void {
   clearTimeout(due);
   due = 0;
-  // A part whose tables are not there yet has no text.
+  // A part without its tables has no text.
   const whole = part.value ? { chapter: chapter.value, text: text.value } : { chapter: "", text: "" };
   const kept: Kept = { part: chosen.value, ...whole, now: now.value, speed: speed.value, places: places.value };
   try {
     history.replaceState({ openppmc: kept }, "");
   } catch {
-    // More than the browser keeps.
+    // The browser does not store this amount of data.
   }
 }
 
-/** The reader has changed something. */
+/** Store the inputs of the reader soon. */
 export function remember(): void {
   if (!due) due = window.setTimeout(keep, KEPT_MS);
 }
 
 addEventListener("beforeunload", () => due && keep());
 
-/** The page has another address, or is new: what was kept there, or what the address says. */
+/** The page is new or has another address: show the state that is stored for it, else the session in the address. */
 export function arrive(first = false): void {
   const kept = (history.state as { openppmc?: Kept } | null)?.openppmc;
   clearTimeout(due);
@@ -349,7 +349,7 @@ export function arrive(first = false): void {
     return;
   }
   if (!first && !isLink(hash) && (hash !== "" || opened === "")) {
-    keep(); // a place on this page: the text stays
+    keep(); // a position on this page: the text stays
     return;
   }
   opened = hash;

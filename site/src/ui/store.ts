@@ -1,4 +1,4 @@
-// All changes of all pins since power-up: what waves, speed and VCD are made of.
+// All changes of all pins since power-up, for waves, speed and VCD.
 
 import type { LogEntry, PartData, Port } from "../types";
 import { ROW } from "../engine/core";
@@ -6,16 +6,16 @@ import { Speed } from "../engine/speeds";
 
 const INPUT = 1 << 16;
 const STEP = 1 << 17;
-const MOST = 2_000_000; // changes that a pin keeps; the older half goes then
-const MOST_OF_ALL = 8_000_000; // of all pins together
-/** Log entries that only read: no reason for a motor to begin or end a move. */
+const MOST = 2_000_000; // changes of a pin; with more changes, the older half is discarded
+const MOST_OF_ALL = 8_000_000; // changes of all pins together
+/** Log entries that only read; they cannot start or end a move. */
 const READS = new Set(["st", "r", "<", "get", "axis", "count"]);
 
 export class Track {
   times = new Float64Array(256);
   values = new Uint32Array(256);
   count = 0;
-  /** Its oldest changes have gone. */
+  /** Whether its oldest changes have been discarded. */
   cut = false;
 
   add(t: number, value: number): void {
@@ -41,7 +41,7 @@ export class Track {
     this.values = values;
   }
 
-  /** The older half goes. */
+  /** Discard the older half. */
   halve(): void {
     const half = this.count >> 1;
     this.times.copyWithin(0, half);
@@ -50,7 +50,7 @@ export class Track {
     this.cut = true;
   }
 
-  /** Number of the last change at or before t; -1 before the first one. */
+  /** Return the index of the last change at or before t; -1 before the first change. */
   at(t: number): number {
     let low = 0;
     let high = this.count;
@@ -63,11 +63,11 @@ export class Track {
   }
 }
 
-/** A row of the waves: a bit, or all bits of a narrow port. */
+/** Row of the waves: one bit, or all bits of a narrow port. */
 export interface Row {
   name: string;
   track: Track;
-  /** Where its bits are in the words of a frame. */
+  /** Position of its bits in the words of a frame. */
   word: number;
   shift: number;
   mask: number;
@@ -75,7 +75,7 @@ export interface Row {
   input: boolean;
 }
 
-/** A word of the module, and the rows that have its bits. */
+/** Word of the module, with the rows of its bits. */
 interface Word {
   value: number;
   whole: Row | undefined;
@@ -125,7 +125,7 @@ export class Store {
     return row;
   }
 
-  /** Rows of a frame (core.cpp), and what the host did during it. */
+  /** Add the rows of a frame (core.cpp) and the log entries of the same time. */
   take(block: ArrayBuffer, end: number, log: readonly LogEntry[]): void {
     const view = new DataView(block);
     const writes = log.filter((one) => !READS.has(one.kind) && !(one.kind === "f" && one.text[0] === "j"));
@@ -171,7 +171,7 @@ function change(word: Word | undefined, t: number, value: number): void {
   word.value = value;
 }
 
-/** The level of a row in the words of a frame. */
+/** Return the level of a row in the words of a frame. */
 export function level(row: Row, words: readonly number[]): number {
   return (((words[row.word] ?? 0) >>> row.shift) & row.mask) >>> 0;
 }

@@ -1,4 +1,4 @@
-// The waves as a VCD file: ports as the RTL has them, times in ns of clk edges.
+// Writes the waves as a VCD file: ports of the RTL, times of the rising edges in ps.
 
 import type { Port } from "../types";
 import type { Row, Store } from "./store";

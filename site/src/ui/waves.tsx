@@ -111,7 +111,7 @@ export function Waves() {
     refresh();
   };
 
-  /** The edge of the row under the pointer that is nearest; else the time itself. */
+  /** Return the time of the nearest edge of the row under the pointer, else the time of the pointer. */
   const snapped = (x: number, y: number): number => {
     const element = canvas.current!;
     const look = view.current;
@@ -223,11 +223,11 @@ export function Waves() {
         {Number.isNaN(a)
           ? running.value
             ? " "
-            : "Click an edge for cursor A, another one for cursor B. Ctrl and wheel zoom, drag moves."
+            : "Click an edge for cursor A, another edge for cursor B. Zoom with Ctrl and wheel, drag to move."
           : `A ${nice(a / clk)}` +
             (Number.isNaN(b)
               ? ""
-              : `   B ${nice(b / clk)}   B − A = ${nice(gap / clk)} = ${gap} clk` +
+              : `   B ${nice(b / clk)}   B − A = ${nice(gap / clk)} = ${gap} cycles` +
                 (gap ? `   1/(B − A) = ${+Math.abs(clk / gap).toPrecision(7)} Hz` : ""))}
       </p>
     </section>

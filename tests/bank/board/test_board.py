@@ -1,4 +1,4 @@
-"""The virtual board with a bank: the RTL behind its bridge, moved by the driver and the command line."""
+"""The virtual board with a bank: the RTL with its bridge, moved by the driver and the command line."""
 
 from __future__ import annotations
 
@@ -14,12 +14,14 @@ from ...common.board.fixtures import SETUP, CommandLine, StartBoard
 
 @pytest.fixture
 def board(start_board: StartBoard, tmp_path: Path) -> SimBoard:
-    """Four axes as fast as it goes; the last begins near its limit. Its log: pulses.log."""
+    """Four axes at maximum speed; the last begins near its limit. The board logs to pulses.log."""
     return start_board(f"part=bank,axes=4,speed=max,start4=37900,log={tmp_path / 'pulses.log'}")
 
 
 def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
-    """Given moves of one and of three axes, then motors and positions agree, and the three begin together."""
+    """After moves of one and of three axes, motors and positions agree, and the three axes begin
+    together.
+    """
     with PpmcBank.open(board.port) as bank:
         assert bank.info() == (1, 4)
         for axis in bank.axes:
@@ -28,14 +30,14 @@ def test_axes_move_apart_and_together(board: SimBoard, tmp_path: Path) -> None:
         bank.together({1: 300, 3: -200, 4: 50})
         assert bank.positions() == {1: 300, 2: 500, 3: -200, 4: 50}
         assert [axis.position for axis in board.status().axes] == [4300, 4500, 3800, 37950]
-        bank.link.pause(2.5)  # the log is written when the board rests
+        bank.link.pause(2.5)  # the log is written when the board is idle
     pulses = [line.split() for line in (tmp_path / "pulses.log").read_text().splitlines()[1:]]
     first = [next(int(clk) for clk, *_, axis in pulses if axis == number) for number in "134"]
     assert len(set(first)) == 1
 
 
 def test_limits_and_stops(board: SimBoard) -> None:
-    """Given a slow-down limit and STOP, then they end motions, and the switches read as on the board."""
+    """A slow-down limit and STOP end motions, and the switches read as they are on the board."""
     with PpmcBank.open(board.port) as bank:
         for axis in bank.axes:
             axis.initialise(**SETUP)  # type: ignore[arg-type]
@@ -49,7 +51,7 @@ def test_limits_and_stops(board: SimBoard) -> None:
 
 
 def test_command_line(board: SimBoard, openppmc: CommandLine) -> None:
-    """Given a move on the command line, then a second call shows where all axes are."""
+    """After a move by the command line, a second call prints the positions of all axes."""
     code, out, _ = openppmc.run(board.port, "move", "100", "-50", "--axes", "3,1")
     assert code == 0 and out.splitlines() == [
         "axis 1: position -50, 50 pulses CCW: complete",

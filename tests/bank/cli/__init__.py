@@ -1,1 +1,1 @@
-"""The command line with a bank."""
+"""Tests of the command line with a bank."""

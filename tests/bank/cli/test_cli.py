@@ -78,7 +78,7 @@ def test_a_script(run: Run, tmp_path: Path) -> None:
         (("stop", "--now"), "nothing to stop: all axes are at rest", 1),
         (("stop", "--axis", "2", "--now"), "axis 2: nothing to stop", 1),
         (("--port", PORT + ",timing=DATASHEET", "info"), "timing=DATASHEET: a bank is always FAST", 1),
-        (("--port", PORT + ",clk=9000000", "info"), "clk=9000000: 4 clk must be a multiple of xtal", 1),
+        (("--port", PORT + ",clk=9000000", "info"), "clk=9000000: 4 * clk must be a multiple of xtal", 1),
         (
             ("--port", "model:part=bank,axes=32", "info"),
             "32 axes at xtal=16000000 need clk=32000000 at least",

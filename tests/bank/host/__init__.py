@@ -1,1 +1,1 @@
-"""The bank's driver."""
+"""Tests of the driver of the bank."""

@@ -1,4 +1,4 @@
-"""What the tests of the bank's driver share: a bank on the modelled board, in virtual time."""
+"""Common code of the tests of the bank's driver: a bank on the modelled board, in virtual time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SPEC = "model:speed=max,part=bank,axes=4"
 
 @contextmanager
 def opened(words: str = "", axes: int = 4) -> Iterator[PpmcBank]:
-    """A bank with all axes initialised."""
+    """Open a bank with all axes initialised."""
     with PpmcBank.open(f"{SPEC.replace('=4', f'={axes}')},{words}") as bank:
         for axis in bank.axes:
             axis.initialise(**SETUP)  # type: ignore[arg-type]
@@ -24,20 +24,22 @@ def opened(words: str = "", axes: int = 4) -> Iterator[PpmcBank]:
 
 
 def model(bank: PpmcBank) -> Carrier:
-    """The modelled board."""
+    """Return the modelled board."""
     assert isinstance(bank.link.port, ModelPort)
     assert isinstance(bank.link.port.board, Carrier)
     return bank.link.port.board
 
 
 def frames(bank: PpmcBank) -> int:
-    """Requests that the bridge has carried out."""
+    """Return the number of requests that the bridge has executed."""
     assert isinstance(bank.link.port, ModelPort)
     return bank.link.port.bridge.scripts
 
 
 def pulses(bank: PpmcBank) -> dict[int, list[int]]:
-    """A list per axis that gets the clk of each pulse, by looking over the board's shoulder."""
+    """Return a list per axis to which the cycle of each pulse is appended, observed inside the modelled
+    board.
+    """
     board = model(bank)
     seen: dict[int, list[int]] = {number: [] for number in bank.axis}
     real = board._step
@@ -57,7 +59,7 @@ def pulses(bank: PpmcBank) -> dict[int, list[int]]:
 
 
 def at(link: Link, number: int, script: Script) -> Script:
-    """Another program's access to an axis: it selects for itself, and tells nobody."""
+    """Access an axis as another program does: it selects the axis unknown to the driver."""
     whole = Script().write(3, number - 1).extend(script)
     link.execute(whole)
     return whole

@@ -1,4 +1,4 @@
-"""The bank's driver, axis by axis and all at a look, on the modelled board."""
+"""The driver of the bank, for one axis and for all axes, on the modelled board."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_info_that_is_none_of_ours(info: tuple[int, ...], text: str) -> None:
 
 
 def test_opening_takes_what_others_left() -> None:
-    """Given ends that nobody read and a MASK that nobody emptied, then neither disturbs."""
+    """Unread ends and a MASK that is not empty do not disturb a new driver."""
     with opened() as first:
         first.axis[2].start_move(10)
         first.axis[4].start_move(10)
@@ -190,7 +190,9 @@ def test_chopper_times_are_those_of_this_axis() -> None:
 
 
 def test_looks_at_64_axes_take_few_frames() -> None:
-    """Given 64 axes, then positions are two frames (252 bytes of 42), a look three, status one."""
+    """With 64 axes, `positions` takes two frames (252 bytes of 42 axes), `look` three, `status` and
+    `pending` one.
+    """
     with PpmcBank.open(SPEC.replace("axes=4", "axes=64,clk=64000000")) as bank:
         assert len(bank.axes) == 64 and bank.info().axes == 64
         for what, most in ((bank.positions, 2), (bank.look, 3), (bank.status, 1), (bank.pending, 1)):
@@ -228,7 +230,7 @@ def test_stop_all_of_another_program() -> None:
 
 
 def test_ends_of_several_axes_hide_no_other() -> None:
-    """Given axes that end one by one, then waiting for the last takes no safety poll after its end."""
+    """If axes end one by one, the wait for the last needs no safety poll after its end."""
     with opened() as bank:
         motions = [bank.axis[number].start_constant(200 * number, 2000) for number in (1, 2, 3)]
         begin = bank.link.clock()

@@ -1,4 +1,4 @@
-"""Motions of several axes of a bank that begin on the same clk, on the modelled board."""
+"""Motions of several axes of a bank that begin in the same cycle, on the modelled board."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tests.bank.host.bench import SETUP, SPEC, at, frames, model, opened, pulses
 
 
 def mask(bank: PpmcBank) -> int:
-    """MASK, byte 0."""
+    """Return byte 0 of MASK."""
     return bank.link.execute(Script().write(3, 0).read(8)).byte(0)
 
 
@@ -59,7 +59,9 @@ def test_start_together_and_together() -> None:
 
 
 def test_16_axes_are_loaded_in_two_frames() -> None:
-    """Given 16 moves, then one frame looks at BUSY, one fills MASK, two load, one starts, one looks."""
+    """For 16 moves, one frame reads BUSY, one writes MASK, two load the moves, one writes GO, one reads
+    the result.
+    """
     with opened(axes=16) as bank:
         before = frames(bank)
         seen = pulses(bank)
@@ -91,7 +93,7 @@ def test_an_exception_inside_moves_nothing() -> None:
 
 
 def test_go_refused_by_an_axis() -> None:
-    """Given an axis that another program took out of MASK, then it runs at once and refuses GO."""
+    """An axis that another program removed from MASK runs immediately and rejects GO."""
     with opened() as bank:
         with pytest.raises(GroupRefused, match="^axis 2: the part is busy with a motion") as told:  # noqa: PT012
             with bank.group((1, 2)):
@@ -104,7 +106,7 @@ def test_go_refused_by_an_axis() -> None:
 
 
 def test_go_finds_nothing_held() -> None:
-    """Given a motion out of MASK that is complete before GO, then GO is refused with that reason."""
+    """If a motion outside MASK is complete before GO, GO is rejected with this reason."""
     with opened() as bank:
         with pytest.raises(GroupRefused, match="axis 2: GO found no motion that it holds"):  # noqa: PT012
             with bank.group((2,)):
@@ -194,7 +196,7 @@ def test_groups_of_moving_axes_and_in_groups() -> None:
 
 
 def test_a_group_survives_a_new_driver() -> None:
-    """Given a program that ended inside a group, then the next one empties MASK and can stop what is held."""
+    """If a program ended inside a group, the next one empties MASK and can stop the held motions."""
     with PpmcBank.open(SPEC) as first:
         first.axis[1].initialise(**SETUP)  # type: ignore[arg-type]
         first.group((1,)).__enter__()

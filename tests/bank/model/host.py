@@ -12,7 +12,7 @@ INIT_B = "c 0A d 13 d 09 d 0A d 00"
 
 
 class Host:
-    """`t` is the next free edge. Eight axes at 100 MHz unless told: R = 8, W = 500, a quantum 25."""
+    """Host whose next free edge is `t`. Default: eight axes at 100 MHz, so R = 8, W = 500, a quantum 25."""
 
     def __init__(self, axes: int = 8, **parameters: int) -> None:
         self.model = PpmcBank(axes, **parameters)
@@ -23,25 +23,27 @@ class Host:
     # ------------------------------------------------------------------ accesses
 
     def write(self, axis: int, register: int, byte: int) -> int:
-        """Write cycle; returns its write event."""
+        """Make a write access and return its write event."""
         event = self.model.write(self.t, axis << 4 | register, byte) + 2
         self.t = event - 2 + GAP
         return event
 
     def write_at(self, event: int, axis: int, register: int, byte: int) -> None:
-        """Write cycle with its write event on this edge."""
+        """Make a write access with its write event on this edge."""
         assert event - 4 >= self.t, (event, self.t)
         self.t = event - 4
         assert self.write(axis, register, byte) == event
 
     def read(self, axis: int, register: int) -> int:
-        """Read cycle."""
+        """Make a read access."""
         value = self.model.read(self.t, axis << 4 | register)
         self.t += 6 + GAP
         return value
 
     def send(self, axis: int, script: str) -> int:
-        """Bytes "c XX d XX …", each when the one before is taken; returns the visit that took the last."""
+        """Send bytes "c XX d XX …", each when the previous one is accepted; return the visit that
+        accepted the last.
+        """
         words = script.split()
         for kind, byte in zip(words[::2], words[1::2], strict=True):
             self.write(axis, STATUS if kind == "c" else DATA, int(byte, 16))
@@ -56,30 +58,30 @@ class Host:
         self.t += 5000
 
     def answer(self, axis: int, code: int, count: int = 1) -> int:
-        """Read command and its bytes, low byte first."""
+        """Send a read command and return its bytes as a number, low byte first."""
         self.send(axis, f"c {code:02X}")
         return sum(self.read(axis, DATA) << 8 * place for place in range(count))
 
     def finish(self, axis: int) -> tuple[int, int]:
-        """Wait for the end; finish status and remaining pulses."""
+        """Wait for the end; return finish status and remaining pulses."""
         self.idle(axis)
         return self.answer(axis, 0x80), self.answer(axis, 0x83, 3)
 
     def mask(self, bits: int) -> None:
-        """All of MASK."""
+        """Write all bytes of MASK."""
         for k in range((self.axes + 7) // 8):
             self.write(k, MASK, bits >> 8 * k & 0xFF)
         self.t += self.model.round
 
     def position(self, axis: int) -> int:
-        """Position as four reads tell it, signed."""
+        """Return the position of four reads, signed."""
         value = sum(self.read(axis, POSITION + place) << 8 * place for place in range(4))
         return value - (value >> 31 << 32)
 
     # ------------------------------------------------------------------ time
 
     def sync(self) -> None:
-        """Run up to the present."""
+        """Run up to the present edge."""
         self.model.run_until(max(self.model.now, self.t - 1))
 
     def step(self) -> None:
@@ -94,36 +96,36 @@ class Host:
         self.t = max(self.t, edge + 1)
 
     def pin(self, edge: int, axis: int, **levels: int) -> None:
-        """Pin levels of one axis, first sampled by this edge."""
+        """Set pin levels of one axis, first sampled by this edge."""
         for name, level in levels.items():
             others = self.model.inputs[name] & ~(1 << axis)
             self.model.pins(edge, **{name: others | level << axis})
         self.t = max(self.t, edge + 1)
 
     def idle(self, axis: int) -> int:
-        """Run to the fall of BUSY; returns its edge."""
+        """Run to the fall of BUSY; return its edge."""
         self.sync()
         while self.model.busy(axis):
             self.step()
         return self.model.now
 
     def visit(self, axis: int, later: int = 40) -> int:
-        """A visit that lies some clk ahead."""
+        """Return a visit at least `later` cycles ahead."""
         return self.model.visit(axis, max(self.t, self.model.now + 1) + later)
 
-    # ------------------------------------------------------------------ what was seen
+    # ------------------------------------------------------------------ results
 
     def status(self, axis: int) -> int:
-        """Status register after edge `now`."""
+        """Return the status register after edge `now`."""
         return self.model.status(axis)
 
     def out(self, signal: str, axis: int) -> int:
-        """Present level of one axis's bits of an output."""
+        """Return the present level of the bits of one axis in an output."""
         width = 5 if signal == "s" else 1
         return self.model.outputs[signal] >> width * axis & ((1 << width) - 1)
 
     def changes(self, signal: str, axis: int, since: int) -> list[tuple[int, int]]:
-        """Changes of a motor pin from an edge on."""
+        """Return the changes of a motor pin from an edge on."""
         return self.model.bits(signal, axis, since)
 
 

@@ -1,4 +1,6 @@
-"""Bytes of the bank's model: which visit takes them, which codes are refused (BANK-HSK, BANK-GEN)."""
+"""Bytes of the bank's model: the visit that accepts them, the codes that are rejected (BANK-HSK,
+BANK-GEN).
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,7 @@ from tests.bank.model.host import CONFIG, DATA, GO, INIT_A, STATUS, Host
 
 @pytest.mark.parametrize("early, taken", [(8, 0), (7, 0), (6, 8)])
 def test_first_visit_that_sees_a_byte(early, taken):
-    """BANK-HSK-01: V >= w + 7."""
+    """The first visit V with V >= w + 7 accepts a byte (BANK-HSK-01)."""
     host = Host()
     visit = host.visit(3)
     host.write_at(visit - early, 3, STATUS, 0x87)
@@ -24,7 +26,9 @@ def test_first_visit_that_sees_a_byte(early, taken):
 
 @pytest.mark.parametrize("early, status", [(8, 0x20), (7, 0x20), (6, 0x80 | IBF), (0, 0x80 | IBF)])
 def test_byte_replaced(early, status):
-    """BANK-HSK-03: a visit takes the newest byte it sees; a newer one stays with IBF = 1."""
+    """A visit accepts the newest byte written at V - 7 or earlier; a newer one stays with IBF = 1
+    (BANK-HSK-03).
+    """
     host = Host(64)
     visit = host.visit(3)
     host.write_at(visit - 20, 3, STATUS, 0x87)
@@ -36,7 +40,7 @@ def test_byte_replaced(early, status):
 
 
 def test_status_read_with_a_byte_in_the_buffer():
-    """BANK-HSK-01, BANK-HSK-04: all bits change with the visit."""
+    """All bits of the status change with the visit that accepts a byte (BANK-HSK-01, BANK-HSK-04)."""
     host = Host(64)
     host.t = host.model.visit(9, 400) - 12
     host.write(9, STATUS, 0x84)
@@ -46,7 +50,7 @@ def test_status_read_with_a_byte_in_the_buffer():
 
 
 def test_end_of_a_motion_takes_the_visit():
-    """BANK-HSK-02: the byte waits for the visit after that which ends a motion."""
+    """A byte waits for the visit after the one that ends a motion (BANK-HSK-02)."""
     host = Host()
     host.ready(1)
     start = host.send(1, "c 42")
@@ -59,7 +63,7 @@ def test_end_of_a_motion_takes_the_visit():
 
 
 def test_completion_takes_the_visit():
-    """BANK-HSK-02, BANK-INI-02: bytes wait until the visit after the completion."""
+    """Bytes wait until the visit after the completion (BANK-HSK-02, BANK-INI-02)."""
     host = Host(64)
     last = host.send(1, "c 0A d 05 d 05 d 04 d 00")
     host.write_at(last + 20, 1, STATUS, 0x42)
@@ -70,7 +74,7 @@ def test_completion_takes_the_visit():
 
 
 def test_go_and_byte_at_one_visit():
-    """BANK-HSK-02, BANK-GRP-02."""
+    """A visit that detects GO accepts no byte (BANK-HSK-02, BANK-GRP-02)."""
     host = Host(64)
     host.mask(0b10)
     visit = host.visit(1)
@@ -86,7 +90,9 @@ def test_go_and_byte_at_one_visit():
 @pytest.mark.parametrize("round_before, waits", [(0, True), (1, False)])
 @pytest.mark.parametrize("quanta, rest, clk_hz", [(260, 0, 32 * 10**6), (260, 4, 10**8), (695, 7, 10**8)])
 def test_edge_of_the_chopper_takes_the_visit(quanta, rest, clk_hz, round_before, waits):
-    """BANK-HSK-02, BANK-CHP-01: a visit orders an edge on itself and on the R - 1 that follow."""
+    """A visit orders an edge of the chopper on itself and on the R - 1 following cycles, and then
+    accepts no byte (BANK-HSK-02, BANK-CHP-01).
+    """
     host = Host(4, clk_hz=clk_hz)
     last = host.send(3, "c 2A d 05 d 05 d 04 d 00")
     boundary = last + 8 + quanta * host.w // 20
@@ -102,7 +108,9 @@ def test_edge_of_the_chopper_takes_the_visit(quanta, rest, clk_hz, round_before,
 
 
 def test_answers():
-    """BANK-HSK-04: the next byte comes with OBF still 1; the last read clears it on edge 2 after its end."""
+    """The next byte is loaded with OBF still 1; the last read clears OBF on edge 2 after its end
+    (BANK-HSK-04).
+    """
     host = Host()
     host.send(2, "c 83")
     for left in (2, 1, 0):
@@ -117,7 +125,7 @@ def test_answers():
 
 @pytest.mark.parametrize("late, left", [(1, 0), (2, 0), (3, OBF), (8, OBF), (9, OBF)])
 def test_new_answer_while_the_old_one_is_read(late, left):
-    """BANK-HSK-04: an answer `late` clk after edge 0 of a read that did not show it stays."""
+    """An answer `late` cycles after edge 0 of a read that did not return it stays (BANK-HSK-04)."""
     host = Host(64)
     host.send(2, "c 80")
     visit = host.visit(2)
@@ -132,7 +140,9 @@ def test_new_answer_while_the_old_one_is_read(late, left):
 @pytest.mark.parametrize("rl", range(9, 13))
 @pytest.mark.parametrize("axis", [5, 6])
 def test_one_builder(axis, rl):
-    """BANK-HSK-05, BANK-INI-01: the last byte waits for the table of another axis, from D + 2 on it goes."""
+    """The last byte waits for the table of another axis; it is accepted from D + 2 on (BANK-HSK-05,
+    BANK-INI-01).
+    """
     host = Host()
     host.send(1, f"c 0A d {rl:02X} d 04 d 04")
     host.send(axis, "c 0A d 09 d 04 d 04")
@@ -146,7 +156,7 @@ def test_one_builder(axis, rl):
 
 
 def test_command_need_not_wait_for_the_builder():
-    """BANK-HSK-05."""
+    """A command does not wait for the builder and replaces a waiting last byte (BANK-HSK-05)."""
     host = Host()
     host.send(6, "c 0A d 09 d 04 d 04")
     built = host.send(1, INIT_A)
@@ -158,7 +168,7 @@ def test_command_need_not_wait_for_the_builder():
 
 
 def _defined(code: int) -> bool:
-    """Codes of the PPMC-104 that a bank has."""
+    """Return whether a code of the PPMC-104 exists in a bank."""
     if code < 0x40:
         return bool(code & 3) and not code & 0x10
     if code < 0x80:
@@ -167,7 +177,9 @@ def _defined(code: int) -> bool:
 
 
 def test_codes():
-    """BANK-GEN-03: all 256, each on an axis without initialisation."""
+    """Of all 256 codes, each on an axis without initialisation, exactly the defined ones are accepted
+    (BANK-GEN-03).
+    """
     host = Host()
     for code in range(256):
         host.send(code % 8, f"c {code:02X}")
@@ -176,7 +188,7 @@ def test_codes():
 
 
 def test_codes_while_busy():
-    """BANK-GEN-03: excitation off is error 1; the two stops are taken."""
+    """While BUSY = 1, excitation off is error 1; the two stops are accepted (BANK-GEN-03)."""
     host = Host()
     host.ready(0)
     host.send(0, "c 46")
@@ -191,7 +203,9 @@ def test_codes_while_busy():
 
 @pytest.mark.parametrize("early, slow", [(8, True), (7, True), (6, False)])
 def test_config_of_an_operation(early, slow):
-    """BANK-GEN-04: written at the latest 7 clk before the visit that starts it."""
+    """An operation uses CONFIG if written at least 7 cycles before the visit that starts it
+    (BANK-GEN-04).
+    """
     host = Host(64)
     host.ready(4)
     host.send(4, "c 44 d 09 d 01 d 00")

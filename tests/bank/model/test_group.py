@@ -8,7 +8,7 @@ from tests.bank.model.host import DATA, GO, INIT_B, MASK, STATUS, STOP, Host
 
 
 def held(axes: int, script: str = "c 45 d 63", count: int = 3) -> Host:
-    """Axes 0 .. count - 1 hold an operation."""
+    """Return a host on which axes 0 .. count - 1 hold an operation."""
     host = Host(axes)
     for axis in range(count):
         host.ready(axis, INIT_B)
@@ -19,14 +19,14 @@ def held(axes: int, script: str = "c 45 d 63", count: int = 3) -> Host:
 
 
 def first_pulse(go: int, host: Host) -> int:
-    """Edge of pulse 1 after the GO of an edge."""
+    """Return the edge of pulse 1 after a GO with its write event at `go`."""
     return go + 4 + host.model.round + host.w
 
 
 @pytest.mark.parametrize("early, holds", [(6, True), (5, True), (4, False)])
 @pytest.mark.parametrize("setting", [True, False])
 def test_mask_of_a_start(early, holds, setting):
-    """BANK-GRP-01: the bit as written at the latest at V - 5."""
+    """A start uses its MASK bit as written at V - 5 or earlier (BANK-GRP-01)."""
     host = Host(64)
     host.ready(4)
     if not setting:
@@ -42,7 +42,9 @@ def test_mask_of_a_start(early, holds, setting):
 
 @pytest.mark.parametrize("early, found", [(6, 0), (5, 0), (4, 64)])
 def test_first_visit_that_finds_go(early, found):
-    """BANK-GRP-02: V >= g + 5; here the refusal of an axis that holds nothing."""
+    """The first visit V with V >= g + 5 detects GO: tried with an axis without a held operation, which
+    rejects it (BANK-GRP-02).
+    """
     host = Host(64)
     host.mask(1 << 4)
     visit = host.visit(4)
@@ -55,7 +57,7 @@ def test_first_visit_that_finds_go(early, found):
 
 @pytest.mark.parametrize("axes", [4, 8, 32, 64])
 def test_go_starts_all_on_one_edge(axes):
-    """BANK-GRP-02: pulse 1 on edge g + 4 + R + W, from then on each for itself."""
+    """Pulse 1 of all axes is on edge g + 4 + R + W; after it each axis runs separately (BANK-GRP-02)."""
     host = held(axes)
     assert host.model.outputs["pout_n"] == (1 << axes) - 1
     go = host.write(2, GO, 0xFF)
@@ -67,7 +69,7 @@ def test_go_starts_all_on_one_edge(axes):
 
 
 def test_go_refused():
-    """BANK-GRP-02: error 1, 2 or 0; parameters that are waited for are dropped."""
+    """A rejected GO sets error 1, 2 or 0; expected parameters are dropped (BANK-GRP-02)."""
     host = held(8, count=2)
     host.ready(2)
     host.send(2, "c 44 d 01")
@@ -85,7 +87,9 @@ def test_go_refused():
 
 
 def test_held_operation_is_watched_and_stopped():
-    """BANK-GRP-01: limits, alarm and stops act; a flag makes pulse 1 the only one."""
+    """Limits, alarm and stops act on a held operation; with a deceleration flag it outputs only pulse 1
+    (BANK-GRP-01).
+    """
     host = held(8, "c 43 d E7 d 03 d 00", 5)
     host.pin(host.t, 0, l1_n=0)
     host.send(1, "c 40")
@@ -99,7 +103,9 @@ def test_held_operation_is_watched_and_stopped():
 
 
 def test_go_and_the_end_of_a_held_operation():
-    """BANK-GRP-02, BANK-MOT-03: before the end is known it goes on; the visit that ends it refuses."""
+    """Before a visit detects the end, a held operation continues with GO; the visit that ends it
+    rejects GO (BANK-GRP-02, BANK-MOT-03).
+    """
     for known, status in ((4, 0x00), (5, 0x80)):
         host = held(64)
         visit = host.visit(1)
@@ -112,7 +118,7 @@ def test_go_and_the_end_of_a_held_operation():
 
 
 def test_mask_taken_away_from_a_held_operation():
-    """BANK-GRP-02, -03: each visit of GO takes MASK as it was 5 clk before."""
+    """While GO acts, each visit uses the MASK of 5 cycles before it (BANK-GRP-02, -03)."""
     host = held(64)
     last = host.visit(2)
     host.write_at(last - 20, 0, GO, 0)
@@ -127,7 +133,10 @@ def test_mask_taken_away_from_a_held_operation():
 
 
 def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
-    """Axis 0 holds an operation that a GO (its edge) does not find, but those `gaps` clk later do."""
+    """Return a host whose axis 0 holds an operation that a GO does not detect, and the edge of this GO.
+
+    Further ones, `gaps` cycles later, detect it.
+    """
     host = held(64, count=1)
     host.mask(0)
     go = host.visit(0) - 6
@@ -139,7 +148,7 @@ def not_found_by_the_first(gaps: tuple[int, ...]) -> tuple[Host, int]:
 
 @pytest.mark.parametrize("gap, acts_at", [(5, 64), (63, 64), (64, 64), (65, 65)])
 def test_second_go_waits(gap, acts_at):
-    """BANK-GRP-03: for the end of the first one, R clk."""
+    """A second GO waits R cycles, for the end of the first one (BANK-GRP-03)."""
     host, go = not_found_by_the_first((gap,))
     host.go(go + 2000)
     assert host.model.pulses(0) == [first_pulse(go + acts_at, host)] and host.status(0) == 0x04
@@ -147,7 +156,7 @@ def test_second_go_waits(gap, acts_at):
 
 @pytest.mark.parametrize("third, status", [(20, 0x04), (63, 0x04), (64, 0x94), (70, 0x94)])
 def test_third_go(third, status):
-    """BANK-GRP-03: none while a second one waits; one that comes later waits for the second."""
+    """A third GO has no effect while a second one waits; a later one waits for the second (BANK-GRP-03)."""
     host, go = not_found_by_the_first((5, third))
     host.go(go + 6 + 64)
     assert host.status(0) == 0x04
@@ -159,7 +168,7 @@ def test_third_go(third, status):
 
 @pytest.mark.parametrize("offset, pulses", [(-1, 4), (0, 4), (1, 5)])
 def test_stop_acts_on_the_next_edge(offset, pulses):
-    """BANK-GRP-04: finish bit 6; running operations of all axes."""
+    """STOP ends running operations of all axes with finish bit 6 (BANK-GRP-04)."""
     host = Host()
     for axis in (1, 6):
         host.ready(axis)
@@ -173,7 +182,7 @@ def test_stop_acts_on_the_next_edge(offset, pulses):
 
 
 def test_stop_and_limit_on_one_edge():
-    """BANK-GRP-04, P104-LIM-09."""
+    """STOP and a limit on the same edge set both bits (BANK-GRP-04, P104-LIM-09)."""
     for late, status in ((0, 0xD5), (1, 0xC5), (-1, 0x95)):
         host = held(8, count=1)
         stop = host.t + 50
@@ -184,7 +193,9 @@ def test_stop_and_limit_on_one_edge():
 
 @pytest.mark.parametrize("after, stopped", [(0, True), (1, True), (30, True), (64, True), (65, False)])
 def test_operation_that_starts_after_stop(after, stopped):
-    """BANK-GRP-04: visits g + 1 .. g + R; at g it runs already."""
+    """STOP ends operations that start at visits g + 1 .. g + R; an operation started at g is already
+    running (BANK-GRP-04).
+    """
     host = Host(64)
     host.ready(4)
     visit = host.visit(4, 200)
@@ -199,7 +210,7 @@ def test_operation_that_starts_after_stop(after, stopped):
 
 
 def test_stop_at_rest_and_after_the_last_pulse():
-    """BANK-GRP-04, P104-END-05: no trace."""
+    """STOP at rest and after the last pulse has no effect (BANK-GRP-04, P104-END-05)."""
     host = Host()
     host.ready(1)
     host.write(0, STOP, 0)

@@ -1,4 +1,6 @@
-"""Motion of the bank's model, clk by clk: what comes on its edge and what waits for a visit (BANK-MOT)."""
+"""Motion of the bank's model, exact to the cycle: events on their edge, and events that wait for a
+visit (BANK-MOT).
+"""
 
 from __future__ import annotations
 
@@ -8,18 +10,20 @@ from openppmc.model.single.codes import IBF
 from tests.bank.model.host import DATA, GO, INIT_B, STATUS, Host
 
 SEEN = 2
-"""First edge that samples a switch to the edge that sees it."""
+"""Edges from the first edge that samples a switch to the edge that detects it."""
 
 
 def start(host: Host, axis: int, script: str, init: str = INIT_B) -> int:
-    """Initialise and start; returns the visit of the start."""
+    """Initialise and start; return the visit of the start."""
     host.ready(axis, init)
     return host.send(axis, script)
 
 
 @pytest.mark.parametrize("axes, clk_hz", [(8, 100_000_000), (32, 32_000_000), (64, 200_000_000)])
 def test_pins_change_on_the_edge_of_their_event(axes, clk_hz):
-    """BANK-MOT-01: start, pulse 1 after W, end of the low time; BANK-HLD-01: hold falls at the start."""
+    """Start, pulse 1 after W, and the end of the low time are on the edge of their event (BANK-MOT-01);
+    hold falls at the start (BANK-HLD-01).
+    """
     host = Host(axes, clk_hz=clk_hz)
     visit = start(host, 3, "c 4C d 09 d 01 d 00 d 00")
     host.idle(3)
@@ -35,7 +39,7 @@ def test_pins_change_on_the_edge_of_their_event(axes, clk_hz):
 @pytest.mark.parametrize("pin, status", [("l1_n", 0x97), ("alm_n", 0xA7), ("cnp_n", 0x87)])
 @pytest.mark.parametrize("offset, pulses", [(-1, 4), (0, 4), (1, 5)])
 def test_switches_act_to_the_clk(pin, status, offset, pulses):
-    """BANK-MOT-02: a pulse whose edge is that on which the level is seen does not come."""
+    """A pulse on the edge that detects the level is not output (BANK-MOT-02)."""
     host = Host()
     visit = start(host, 5, "c 47 d 13")
     due = visit + host.w + 4 * 160 * 25
@@ -47,7 +51,7 @@ def test_switches_act_to_the_clk(pin, status, offset, pulses):
 
 
 def test_bits_belong_to_the_deciding_clk():
-    """BANK-MOT-02: what comes a clk later leaves no trace."""
+    """A cause detected one cycle later sets no bit (BANK-MOT-02)."""
     for late, status in ((0, 0xB5), (1, 0x95)):
         host = Host()
         visit = start(host, 5, "c 45 d 13")
@@ -58,7 +62,7 @@ def test_bits_belong_to_the_deciding_clk():
 
 @pytest.mark.parametrize("early, busy_until", [(6, 0), (5, 0), (4, 8)])
 def test_end_without_low_time(early, busy_until):
-    """BANK-MOT-04, BANK-MOT-03: V >= e + 5."""
+    """If pout_n is high, the first visit V >= e + 5 ends the motion (BANK-MOT-04, BANK-MOT-03)."""
     host = Host()
     start(host, 5, "c 45 d 63")
     visit = host.visit(5, 5000)
@@ -70,7 +74,7 @@ def test_end_without_low_time(early, busy_until):
 
 @pytest.mark.parametrize("clk_hz, wait", [(100_000_000, 8), (32_000_000, 8)])
 def test_end_after_low_time(clk_hz, wait):
-    """BANK-MOT-04: V >= f + 1; here the low time ends on a visit."""
+    """The first visit V >= f + 1 ends the motion; here the low time ends on a visit (BANK-MOT-04)."""
     host = Host(clk_hz=clk_hz)
     visit = start(host, 5, "c 42")
     assert host.idle(5) == visit + 2 * host.w + wait
@@ -81,7 +85,7 @@ def test_end_after_low_time(clk_hz, wait):
 
 @pytest.mark.parametrize("late", range(8))
 def test_end_after_low_time_on_any_edge(late):
-    """BANK-MOT-04: V >= f + 1; GO moves the low time clk by clk."""
+    """The first visit V >= f + 1 ends the motion; GO shifts the low time by single cycles (BANK-MOT-04)."""
     host = Host()
     host.ready(5)
     host.mask(1 << 5)
@@ -95,7 +99,7 @@ def test_end_after_low_time_on_any_edge(late):
 
 
 def test_low_time_ends_first_in_an_immediate_end():
-    """BANK-MOT-04, P104-END-02."""
+    """An immediate end during the low time waits for its end (BANK-MOT-04, P104-END-02)."""
     host = Host()
     visit = start(host, 5, "c 45 d 63")
     host.pin(visit + 510, 5, l1_n=0)
@@ -107,7 +111,9 @@ def test_low_time_ends_first_in_an_immediate_end():
     "known, status, finish", [(4, 0x04, 0xD3), (5, 0x80 | IBF, 0x93), (6, 0x80 | IBF, 0x93)]
 )
 def test_decelerating_stop_after_an_end(known, status, finish):
-    """BANK-MOT-03: V < e + 5 takes it as if the motion went on, flag and bit 6 and no error 7."""
+    """A visit V < e + 5 accepts a decelerating stop as if the motion continued: with flag and bit 6,
+    without error 7 (BANK-MOT-03).
+    """
     host = Host(64)
     start(host, 5, "c 43 d E7 d 03 d 00")
     visit = host.visit(5, 3000)
@@ -126,7 +132,7 @@ def test_decelerating_stop_after_an_end(known, status, finish):
 
 @pytest.mark.parametrize("known, status, finish", [(4, 0x04, 0xD3), (5, 0xF4, 0x93), (6, 0xF4, 0x93)])
 def test_decelerating_stop_in_the_last_low_time(known, status, finish):
-    """BANK-MOT-03: error 7 from V = e + 5 on, while pout_n is still low."""
+    """A decelerating stop returns error 7 from V = e + 5 on, while pout_n is still low (BANK-MOT-03)."""
     host = Host(64)
     first = start(host, 5, "c 43 d E7 d 03 d 00") + host.w
     visit = host.model.visit(5, first + 100)
@@ -139,7 +145,9 @@ def test_decelerating_stop_in_the_last_low_time(known, status, finish):
 
 @pytest.mark.parametrize("code", [0x40, 0x41])
 def test_immediate_stop_after_an_end(code):
-    """The visit on the edge that decides the end still sets bit 6; later visits set none (BANK-MOT-03)."""
+    """An immediate stop at the visit on the edge that decides the end still sets bit 6; later visits do
+    not set it (BANK-MOT-03).
+    """
     for known, finish in ((0, 0xD5), (1, 0x95), (4, 0x95), (5, 0x95)):
         host = Host(64)
         first = start(host, 5, "c 45 d 63") + host.w
@@ -153,7 +161,9 @@ def test_immediate_stop_after_an_end(code):
 
 @pytest.mark.parametrize("seen, status, finish", [(0, 0xF4, 0x93), (1, 0xF4, 0x83)])
 def test_a_pulse_that_did_not_come_counts_until_the_end_is_known(seen, status, finish):
-    """BANK-MOT-03, BANK-WIN-07: the visit in between takes it for the last pulse of the motion."""
+    """A visit between a suppressed pulse and the detection of the end treats this pulse as the last one
+    of the motion (BANK-MOT-03, BANK-WIN-07).
+    """
     host = Host()
     due = start(host, 5, "c 43 d 00 d 00 d 00") + host.w
     visit = host.model.visit(5, due)
@@ -175,7 +185,9 @@ def test_a_pulse_that_did_not_come_counts_until_the_end_is_known(seen, status, f
 
 
 def test_interval_after_a_pulse_that_did_not_come():
-    """BANK-MOT-03: the engine takes it back, and what it had planned from it."""
+    """The engine withdraws a suppressed pulse and the interval that it had planned after it
+    (BANK-MOT-03).
+    """
     host = Host()
     due = start(host, 5, "c 43 d 09 d 00 d 00") + host.w
     host.pin(due - SEEN, 5, l1_n=0)
@@ -185,7 +197,7 @@ def test_interval_after_a_pulse_that_did_not_come():
 
 
 def test_interval_of_a_stopped_move_dies_with_it():
-    """BANK-MOT-02, BANK-WIN-07: no pulse of the old move in the next one, none counted."""
+    """No pulse of a stopped move is output or counted in the next move (BANK-MOT-02, BANK-WIN-07)."""
     host = Host()
     first = start(host, 5, "c 45 d FF") + host.w
     host.pin(first + 2000, 5, l1_n=0)
@@ -200,7 +212,9 @@ def test_interval_of_a_stopped_move_dies_with_it():
 
 @pytest.mark.parametrize("stop_at, pulses", [(-8, 1), (0, 1), (8, 2)])
 def test_immediate_stop_and_the_pulse_of_its_own_edge(stop_at, pulses):
-    """BANK-MOT-03, P104-LIM-09: a stop taken at V suppresses a pulse due at V and is not counted."""
+    """A stop accepted at V suppresses a pulse scheduled for V, which is not counted (BANK-MOT-03,
+    P104-LIM-09).
+    """
     host = Host(clk_hz=32_000_000)
     visit = start(host, 5, "c 45 d 63")
     due = visit + host.w + 800 * 8
@@ -214,7 +228,7 @@ def test_immediate_stop_and_the_pulse_of_its_own_edge(stop_at, pulses):
 
 
 def test_stop_and_limit_on_one_edge():
-    """P104-LIM-09."""
+    """A stop and a limit on the same edge set both bits (P104-LIM-09)."""
     host = Host()
     start(host, 5, "c 45 d 63")
     visit = host.visit(5, 3000)
@@ -225,7 +239,7 @@ def test_stop_and_limit_on_one_edge():
 
 @pytest.mark.parametrize("early, inputs", [(5, 0xC7), (4, 0xC7), (3, 0xCF)])
 def test_read_of_the_switches(early, inputs):
-    """BANK-MOT-05: 0x81 as they were seen on edge V - 4."""
+    """0x81 returns the levels detected on edge V - 4 (BANK-MOT-05)."""
     host = Host()
     visit = host.visit(5)
     host.write_at(visit - 8, 5, STATUS, 0x81)
@@ -236,7 +250,9 @@ def test_read_of_the_switches(early, inputs):
 
 @pytest.mark.parametrize("early, pulses", [(5, 6), (4, 6), (3, 8)])
 def test_slow_limit(early, pulses):
-    """BANK-MOT-05: seen on V - 4; the flag of visit V counts for a pulse on V itself."""
+    """A slow-down limit detected on V - 4 sets the flag at visit V, which acts on a pulse at V
+    (BANK-MOT-05).
+    """
     host = Host(clk_hz=32_000_000)
     visit = start(host, 5, "c 43 d E7 d 03 d 00")
     due = visit + host.w + (20 + 18 + 16) * 8 * 8
@@ -248,7 +264,9 @@ def test_slow_limit(early, pulses):
 
 @pytest.mark.parametrize("first, length, status", [(11, 7, 0x04), (12, 7, 0xF4), (11, 8, 0xF4)])
 def test_slow_limit_between_visits_is_not_seen(first, length, status):
-    """BANK-MOT-05: looked at in each visit only, V - 8 and V here, as seen 4 clk before."""
+    """The slow-down limit is checked only in each visit, here V - 8 and V, with the levels of 4 cycles
+    before (BANK-MOT-05).
+    """
     host = Host()
     start(host, 5, "c 43 d E7 d 03 d 00")
     visit = host.visit(5, 1000)
@@ -261,7 +279,9 @@ def test_slow_limit_between_visits_is_not_seen(first, length, status):
 
 
 def test_slow_limit_before_the_start_and_in_pulse_mode():
-    """BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05."""
+    """A slow-down limit before the start leads to one pulse; in POUT mode it acts from the
+    plateau on (BANK-MOT-05, P104-FDC-03, P104-LIM-04, P104-EX-05).
+    """
     for script, pulses in (("c 43 d E7 d 03 d 00", 1), ("c C3 d E7 d 03 d 00", 22)):
         host = Host()
         host.pin(host.t, 5, l3_n=0)
@@ -271,7 +291,7 @@ def test_slow_limit_before_the_start_and_in_pulse_mode():
 
 
 def test_slow_limit_of_the_high_part():
-    """P104-LIM-04, BANK-MOT-05: a level that comes in HIGH acts in pulse mode too."""
+    """A slow-down limit that becomes active in HIGH acts in POUT mode, too (P104-LIM-04, BANK-MOT-05)."""
     host = Host()
     visit = start(host, 5, "c C6")
     host.go(visit + 60_000)
@@ -282,7 +302,7 @@ def test_slow_limit_of_the_high_part():
 
 
 def test_both_requests_in_one_visit():
-    """P104-LIM-09 (3): bits 3 and 6, no error."""
+    """Both requests in one visit set bits 3 and 6, without an error (P104-LIM-09 (3))."""
     host = Host(64)
     start(host, 5, "c 43 d E7 d 03 d 00")
     visit = host.visit(5, 2000)
@@ -293,7 +313,7 @@ def test_both_requests_in_one_visit():
 
 
 def test_axes_do_not_disturb_each_other():
-    """BANK-MOT-01: the same move has the same edges beside 31 others."""
+    """The same move has the same edges alone and together with 31 others (BANK-MOT-01)."""
     alone, crowd = Host(32), Host(32)
     for axis in range(32):
         crowd.ready(axis, "c 0A d 05 d 05 d 04 d 00")

@@ -1,4 +1,4 @@
-"""What the bank's model does at rest: initialisation, chopper, hold (BANK-INI, BANK-CHP, BANK-HLD)."""
+"""The bank's model at rest: initialisation, chopper, hold (BANK-INI, BANK-CHP, BANK-HLD)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ FLAT = "c 2A d 05 d 05 d 04 d 00"
 
 @pytest.mark.parametrize("rl, rh", [(9, 4), (200, 20), (255, 0), (30, 29)])
 def test_completion(rl, rh):
-    """BANK-INI-01, -02: s at the visit of the last byte, the chopper from the completion on."""
+    """s changes at the visit of the last byte, and the chopper starts at the completion (BANK-INI-01,
+    -02).
+    """
     for axis in range(8):
         host = Host()
         last = host.send(axis, f"c 2A d {rl:02X} d {rh:02X} d 04 d 00")
@@ -25,13 +27,15 @@ def test_completion(rl, rh):
 
 @pytest.mark.parametrize("wait", [4, 3, 10])
 def test_completion_to_the_clk(wait, monkeypatch):
-    """BANK-INI-02: the first visit from D + 3 on; builds that end 2, 3 and 4 clk before a visit."""
+    """The first visit from D + 3 on completes: tried with builds that end 2, 3 and 4 cycles before a visit
+    (BANK-INI-02).
+    """
     build = 4000 - wait
     monkeypatch.setattr(part, "Latency", lambda **rest: Latency(build_clk=lambda rl, rh, pa: build, **rest))
     host = Host()
     last = host.send(2, "c 0A d 14 d 0A d 04 d 00")
     host.write_at(last + 20, 2, STATUS, 0x42)
-    # The visit that completes takes no byte; the next one does.
+    # The visit that completes accepts no byte; the next one accepts it.
     started = last + build + wait + 8
     host.go(started - 1)
     assert not host.model.busy(2)
@@ -40,7 +44,7 @@ def test_completion_to_the_clk(wait, monkeypatch):
 
 
 def test_chopper_after_completion_and_after_a_motion():
-    """BANK-CHP-01, P104-SW-02..04: exact to the clk."""
+    """The chopper is exact to the cycle (BANK-CHP-01, P104-SW-02..04)."""
     host = Host()
     complete = host.send(3, FLAT) + 8
     host.go(complete + 1000 * 25)
@@ -59,7 +63,7 @@ def test_chopper_after_completion_and_after_a_motion():
 
 @pytest.mark.parametrize("early, off", [(8, 115), (7, 115), (6, 132)])
 def test_config_of_a_phase(early, off):
-    """BANK-GEN-04: a phase takes vsel as written 7 clk before the visit that orders its first edge."""
+    """A phase uses vsel as written 7 cycles before the visit that orders its first edge (BANK-GEN-04)."""
     host = Host()
     host.send(3, "c 84 d 00 d 00")
     complete = host.send(3, FLAT) + 8
@@ -72,7 +76,7 @@ def test_config_of_a_phase(early, off):
 
 
 def test_reinitialisation_keeps_chopping_until_it_completes():
-    """P104-INI-08, BANK-INI-02, BANK-CHP-01."""
+    """A re-initialisation keeps the chopping until it completes (P104-INI-08, BANK-INI-02, BANK-CHP-01)."""
     host = Host()
     complete = host.send(3, FLAT) + 8
     host.go(complete + 5000)
@@ -88,7 +92,9 @@ def test_reinitialisation_keeps_chopping_until_it_completes():
 
 @pytest.mark.parametrize("init", ["c 0A d 05 d 05 d 04 d 00", FLAT])
 def test_hold(init):
-    """BANK-HLD-01, P104-END-08: rises at the visit CYC(544000) after the end, whether it chops or not."""
+    """hold rises at the visit CYC(544000) cycles after the end, with and without chopping (BANK-HLD-01,
+    P104-END-08).
+    """
     host = Host(4, clk_hz=32_000_000)
     host.ready(1, init)
     host.send(1, "c 42")
@@ -102,13 +108,15 @@ def test_hold(init):
 
 
 def _on_time(on: int, off: int) -> bool:
-    """Whether an edge of the chopper comes 136 000 quanta after its start."""
+    """Return whether an edge of the chopper is 136 000 quanta after its start."""
     return 136_000 % (on + off) in (0, on)
 
 
 @pytest.mark.parametrize("hit", [True, False])
 def test_hold_on_an_edge_of_the_chopper(hit):
-    """BANK-HLD-01: not at a visit that orders one; the next does it."""
+    """hold does not rise at a visit that orders an edge of the chopper, but at the next one
+    (BANK-HLD-01).
+    """
     p_on, p_off = next((a, b) for a in range(256) for b in range(256) if _on_time(12 * a + 100, 12 * b + 115))
     host = Host(4, clk_hz=32_000_000)
     host.write(1, CONFIG, 0b01)
@@ -123,7 +131,9 @@ def test_hold_on_an_edge_of_the_chopper(hit):
 
 
 def test_excitation_off_and_second_initialisation():
-    """P104-INI-05, P104-AUX-04 on an axis of a bank: pins at once, the others untouched."""
+    """On an axis of a bank, excitation off acts immediately and does not change the other axes
+    (P104-INI-05, P104-AUX-04).
+    """
     host = Host()
     host.ready(2)
     off = host.send(2, "c C0")
@@ -135,7 +145,7 @@ def test_excitation_off_and_second_initialisation():
 
 
 def test_output_register_shows_pins_of_its_axis():
-    """P104-RD-06 on an axis of a bank: S1 S2 or S4 S1, hold, dir."""
+    """0x82 of an axis of a bank returns its own phases, hold and dir (P104-RD-06)."""
     host = Host()
     for axis, code in ((0, 0x42), (2, 0x4A)):
         host.ready(axis)

@@ -1,4 +1,6 @@
-"""An axis of the bank against a PPMC-104 of its own: the same moves, the same edges but for a constant."""
+"""An axis of the bank compared with a PPMC-104: the same moves have the same edges, with a constant
+offset.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +16,15 @@ from tests.common.model.host import ModelHost
 
 AXES = 32
 Seen = tuple[list[tuple[int, int]], list[tuple[int, int]], tuple[int, int]]
-"""Changes of pout_n and of s in clk after the start, finish status and remaining pulses."""
+"""Changes of pout_n and of s in cycles after the start, finish status and remaining pulses."""
 
 
 @dataclass(frozen=True)
 class Move:
-    """config: csel and vsel. cut: a stop code taken, or a switch seen, so many rounds after the start."""
+    """Configuration and commands of a move.
+
+    `config`: csel and vsel. `cut`: a stop code or a switch, and its time in rounds after the start.
+    """
 
     config: int
     init: tuple[int, ...]
@@ -28,13 +33,13 @@ class Move:
 
 
 def script(code: tuple[int, ...]) -> str:
-    """A command with its data bytes."""
+    """Return a command with its data bytes as a script."""
     return " ".join(f"{'d' if place else 'c'} {byte:02X}" for place, byte in enumerate(code))
 
 
 @st.composite
 def moves(draw: st.DrawFn) -> Move:
-    """Ramps and constant speed, phase and pulse mode, both directions, all clocks, to the end or not."""
+    """Draw ramps and constant speeds, phase and POUT mode, both directions, all clocks, complete or cut."""
     rl = draw(st.integers(0, 40))
     rh, pa = draw(st.integers(0, rl)), draw(st.integers(4, 30))
     motor = draw(st.sampled_from((0x01, 0x02, 0x03, 0x05, 0x0E, 0x0F)))
@@ -59,13 +64,13 @@ def moves(draw: st.DrawFn) -> Move:
 
 
 def seen(changes: list[list[tuple[int, int]]], start: int, end: tuple[int, int]) -> Seen:
-    """What a side has shown; `s` from the first pulse on."""
+    """Return the results of one side; `s` from the first pulse on."""
     pout_n, s = ([(t - start, level) for t, level in found if t > start] for found in changes)
     return pout_n, s, end
 
 
 def alone(move: Move, clk_hz: int) -> Seen:
-    """The PPMC-104; its motor pins are one clk behind the inside."""
+    """Run the move on the PPMC-104; its motor pins follow by one cycle."""
 
     class Single(ModelHost):
         MODEL = Ppmc104
@@ -90,7 +95,7 @@ def alone(move: Move, clk_hz: int) -> Seen:
 
 
 def in_bank(move: Move, clk_hz: int, axis: int) -> Seen:
-    """An axis of the bank."""
+    """Run the move on an axis of the bank."""
     host = Host(AXES, clk_hz=clk_hz)
     host.write(axis, CONFIG, move.config)
     host.send(axis, script(move.init))
@@ -112,13 +117,17 @@ def in_bank(move: Move, clk_hz: int, axis: int) -> Seen:
 @settings(max_examples=100)
 @given(move=moves(), axis=st.integers(0, AXES - 1))
 def test_same_edges(clk_hz, move, axis):
-    """BANK-MOT-01, BANK-MOT-02, BANK-GEN-02: every edge of pout_n and s, and how the motion ended."""
+    """Every edge of pout_n and s and the end of the motion are equal (BANK-MOT-01, BANK-MOT-02,
+    BANK-GEN-02).
+    """
     assert in_bank(move, clk_hz, axis) == alone(move, clk_hz)
 
 
 @pytest.mark.parametrize("config", range(4))
 def test_same_ramp(config):
-    """BANK-GEN-04, BANK-MOT-01: the worked example of the ramp at all four settings of csel and vsel."""
+    """The worked example of the ramp is equal for all four values of csel and vsel (BANK-GEN-04,
+    BANK-MOT-01).
+    """
     move = Move(config, (0x0A, 0x13, 0x09, 0x0A, 0), (0x43, 0x40, 0, 0), None)
     pout_n, _, end = in_bank(move, 100_000_000, 7)
     assert (pout_n, end) == alone(move, 100_000_000)[::2] and len(pout_n) == 2 * 65
@@ -126,7 +135,7 @@ def test_same_ramp(config):
 
 @pytest.mark.parametrize("code", [0x01, 0x05, 0x0A, 0x0E, 0x23, 0x0F])
 def test_same_patterns(code):
-    """BANK-MOT-01 with every motor: one turn and back is where it was."""
+    """For every motor, the patterns of one turn and back are equal (BANK-MOT-01)."""
     for way in (0, 8):
         move = Move(3, (code, 5, 5, 4, 0), (0x44 | way, 3, 11, 0, 0), None)
         assert in_bank(move, 32_000_000, 31)[0:3:2] == alone(move, 32_000_000)[0:3:2]

@@ -23,21 +23,21 @@ from tests.bank.model.host import CONFIG, DATA, GO, MASK, POSITION, STATUS, STOP
     ],
 )
 def test_parameters_that_are_refused(parameters):
-    """BANK-GEN-01, BANK-GEN-02."""
+    """Invalid parameters raise ValueError (BANK-GEN-01, BANK-GEN-02)."""
     with pytest.raises(ValueError, match="|".join(parameters)):
         PpmcBank(**parameters)
 
 
 @pytest.mark.parametrize("axes, clk_hz", [(4, 8_000_000), (32, 32_000_000), (64, 64_000_000)])
 def test_slowest_clocks(axes, clk_hz):
-    """BANK-GEN-01, BANK-GEN-02: CYC(16) is a round."""
+    """At the lowest clock frequency, CYC(16) is a round (BANK-GEN-01, BANK-GEN-02)."""
     bank = PpmcBank(axes, clk_hz)
     assert bank.round == max(axes, 8) == bank.timebase.cyc(16)
     assert bank.visit(3, 0) == 3 + 8 + bank.round and bank.visit(3, 12 + bank.round) == 11 + 2 * bank.round
 
 
 def test_reset_levels():
-    """BANK-GEN-05, P104-PORT-03."""
+    """A reset sets all outputs to their reset levels (BANK-GEN-05, P104-PORT-03)."""
     for idle in (0, 1):
         host = Host(4, phase_idle=idle)
         rest = {"d_o": 0, "d_oe": 0, "int_n": 1, "pout_n": 15, "dir": 0, "hold": 15}
@@ -57,7 +57,7 @@ def test_reset_levels():
 
 @pytest.mark.parametrize("after, status, config", [(14, 2, 0), (15, 0, 3)])
 def test_not_ready(after, status, config):
-    """BANK-GEN-05: edge R + 7 makes the bank ready. A snapshot is that after edge 2 of the read."""
+    """The bank is ready from edge R + 7 on; a read returns the state after its edge 2 (BANK-GEN-05)."""
     for register, value in ((STATUS, status), (CONFIG, config), (DATA, 0), (0x3, 0xFF)):
         host = Host()
         host.t = after - 2
@@ -66,7 +66,7 @@ def test_not_ready(after, status, config):
 
 @pytest.mark.parametrize("event, mask", [(15, 0), (16, 5)])
 def test_writes_before_ready_do_nothing(event, mask):
-    """BANK-GEN-05."""
+    """Writes before the bank is ready have no effect (BANK-GEN-05)."""
     host = Host()
     host.t = 4
     host.write_at(event, 0, MASK, 5)
@@ -75,7 +75,9 @@ def test_writes_before_ready_do_nothing(event, mask):
 
 
 def test_addresses():
-    """BANK-WIN-01, BANK-WIN-02, BANK-WIN-03."""
+    """Each address accesses its register; absent axes and registers read as FF (BANK-WIN-01,
+    BANK-WIN-02, BANK-WIN-03).
+    """
     host = Host(16)
     for register in (0x3, 0xD, 0xE, 0xF):
         assert host.read(2, register) == 0xFF
@@ -94,7 +96,7 @@ def test_addresses():
 
 
 def test_mask_has_a_byte_for_eight_axes():
-    """BANK-WIN-03: index k = a[6:4]; bits of axes that are not there stay 0."""
+    """MASK has the index k = a[6:4]; bits of absent axes stay 0 (BANK-WIN-03)."""
     host = Host(16)
     host.write(8, MASK, 0x81)
     host.write(1, MASK, 0x42)
@@ -108,7 +110,9 @@ def test_mask_has_a_byte_for_eight_axes():
 @pytest.mark.parametrize("strobe", [1, 2, 3, 6])
 @pytest.mark.parametrize("event", [0, 1, 2])
 def test_snapshot_of_a_read(strobe, event):
-    """BANK-WIN-04, BANK-WIN-05: d_oe on edge 2, d_o on edge 4 what stood after edge 2; too short: nothing."""
+    """d_oe = 1 on edge 2, and d_o on edge 4 has the state after edge 2; a strobe that is too short
+    returns nothing (BANK-WIN-04, BANK-WIN-05).
+    """
     model, edge, address = Host().model, 60, 0x20 | CONFIG
     model.pins(edge + event - 4, cs_n=0, wr_n=0, a=address, d_i=2)
     if event < 2:
@@ -121,7 +125,7 @@ def test_snapshot_of_a_read(strobe, event):
 
 
 def test_write_event():
-    """BANK-WIN-06: on edge 2; the last sample with the strobe counts."""
+    """The write event is on edge 2; the last sample with the strobe is used (BANK-WIN-06)."""
     host = Host()
     t = host.t
     host.model.pins(t, cs_n=0, wr_n=0, a=0x20, d_i=1)
@@ -137,7 +141,7 @@ def test_write_event():
 
 
 def test_position_counts_at_the_visit_that_orders():
-    """BANK-WIN-07: at most R - 1 clk before the edge."""
+    """A pulse is counted at most R - 1 cycles before its edge (BANK-WIN-07)."""
     host = Host()
     host.ready(2)
     start = host.send(2, "c 4A")
@@ -151,7 +155,9 @@ def test_position_counts_at_the_visit_that_orders():
 
 
 def test_position_of_pulse_mode_and_both_directions():
-    """BANK-WIN-07: POUT mode included, without a change by initialisation or excitation off."""
+    """The position counts POUT mode too, and initialisation and excitation off do not change it
+    (BANK-WIN-07).
+    """
     host = Host()
     host.ready(0)
     for script, position in (
@@ -167,7 +173,7 @@ def test_position_of_pulse_mode_and_both_directions():
 
 
 def test_position_byte_0_keeps_the_others():
-    """BANK-WIN-07: for the reads that follow, whichever axis they name."""
+    """A read of byte 0 latches the other bytes for the following reads, at any axis (BANK-WIN-07)."""
     host = Host()
     host.ready(0)
     host.send(0, "c 4A")
@@ -178,7 +184,7 @@ def test_position_byte_0_keeps_the_others():
 
 
 def test_interrupt_map():
-    """BANK-WIN-08, P104-END-07."""
+    """The map has a bit per axis with a pending interrupt (BANK-WIN-08, P104-END-07)."""
     host = Host(16)
     for axis in (3, 9, 12):
         host.ready(axis)

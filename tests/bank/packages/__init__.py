@@ -1,1 +1,1 @@
-"""The C driver of the bank."""
+"""Tests of the C driver of the bank."""

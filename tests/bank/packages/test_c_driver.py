@@ -1,4 +1,4 @@
-"""The C driver of the bank, as a library whose access functions are bus cycles of the golden model."""
+"""The C driver of the bank, as a library whose access functions make bus accesses to the golden model."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def library() -> ctypes.CDLL:
 
 
 class Bench:
-    """A model, the driver on it, and its axes. Calls are by the names of the C functions."""
+    """A model, the driver on it, and its axes. Methods have the names of the C functions."""
 
     def __init__(self, lib: ctypes.CDLL, axes: int = AXES) -> None:
         self.lib, self.model, self.t = lib, PpmcBank(axes, CLK_HZ), 200
@@ -67,7 +67,7 @@ class Bench:
             READ(lambda _, address: self.read(address)),
             WRITE(lambda _, address, byte: self.write(address, byte)),
         )
-        # The structures, with room to spare.
+        # The structures, with spare space.
         self.bank = ctypes.create_string_buffer(256)
         self.parts = [ctypes.create_string_buffer(256) for _ in range(axes)]
         self.refused = ctypes.c_uint64()
@@ -78,50 +78,50 @@ class Bench:
         self.t += 2
 
     def read(self, address: int) -> int:
-        """A read cycle of 6 clk and a gap of 3."""
+        """Make a read access of 6 cycles, followed by a pause of 3."""
         self._at(address)
         byte = self.model.read(self.t, address, 6)
         self.t += 9
         return byte
 
     def write(self, address: int, byte: int) -> None:
-        """A write cycle of 2 clk and a gap of 3."""
+        """Make a write access of 2 cycles, followed by a pause of 3."""
         self._at(address)
         self.model.write(self.t, address, byte, 2)
         self.t += 5
 
     def open(self) -> int:
-        """ppmc_bank_open and, if that is fine, every ppmc_bank_axis."""
+        """Call ppmc_bank_open and, if it succeeds, ppmc_bank_axis for each axis."""
         result = self.lib.ppmc_bank_open(self.bank, *self._functions, None)
         for number, part in enumerate(self.parts if result == OK else ()):
             assert self.lib.ppmc_bank_axis(self.bank, number, part) == OK
         return result
 
     def init(self, *numbers: int) -> None:
-        """ppmc104_init of these axes."""
+        """Call ppmc104_init for these axes."""
         for number in numbers:
             assert self.lib.ppmc104_init(self.parts[number], ctypes.byref(Config(**INIT))) == OK
 
     def wait(self, number: int) -> Finish:
-        """ppmc104_wait."""
+        """Call ppmc104_wait."""
         finish = Finish()
         assert self.lib.ppmc104_wait(self.parts[number], ctypes.byref(finish)) == OK
         return finish
 
     def position(self, number: int) -> int:
-        """ppmc_bank_position."""
+        """Call ppmc_bank_position."""
         value = ctypes.c_int32()
         assert self.lib.ppmc_bank_position(self.bank, number, ctypes.byref(value)) == OK
         return value.value
 
     def go(self) -> int:
-        """ppmc_bank_go."""
+        """Call ppmc_bank_go."""
         return self.lib.ppmc_bank_go(self.bank, ctypes.byref(self.refused))
 
 
 @pytest.fixture
 def bench(library: ctypes.CDLL) -> Bench:
-    """Open, with axes 0, 3, 9 and 15 initialised."""
+    """An open bank, with axes 0, 3, 9 and 15 initialised."""
     made = Bench(library)
     assert made.open() == OK
     made.init(0, 3, 9, 15)
@@ -130,7 +130,7 @@ def bench(library: ctypes.CDLL) -> Bench:
 
 @pytest.mark.parametrize("axes", [4, 8, 16])
 def test_opening(library: ctypes.CDLL, axes: int) -> None:
-    """Given a bank with a MASK that others left, then the driver knows its axes and empties MASK."""
+    """The driver finds the axes of a bank and empties a MASK that another program left."""
     bench = Bench(library, axes)
     bench.write(0x008, 0x0F)
     assert bench.open() == OK
@@ -140,7 +140,7 @@ def test_opening(library: ctypes.CDLL, axes: int) -> None:
 
 @pytest.mark.parametrize("info", [(0xFF,) * 3, (0x42, 2, 8), (0x42, 1, 5), (0x42, 1, 0), (0, 1, 8)])
 def test_what_is_no_bank(library: ctypes.CDLL, info: tuple[int, ...]) -> None:
-    """Given an INFO that is none of ours, then there is no part, and no axis."""
+    """With an INFO of another device, the driver finds no part and no axis."""
     bench = Bench(library)
     real: Callable[[int], int] = bench.read
     bench.read = lambda address: info[address >> 4] if address & 15 == 12 else real(address)  # type: ignore[method-assign]
@@ -149,7 +149,9 @@ def test_what_is_no_bank(library: ctypes.CDLL, info: tuple[int, ...]) -> None:
 
 
 def test_axes_are_parts(bench: Bench) -> None:
-    """Given moves by the functions of ppmc104.h, then pulses, positions, ends and pending bits are theirs."""
+    """Moves with the functions of ppmc104.h set pulses, positions, ends and pending bits of their own
+    axis.
+    """
     lib = bench.lib
     assert lib.ppmc104_move(bench.parts[9], 0, 25) == OK
     assert lib.ppmc_bank_busy(bench.bank) == 1 << 9
@@ -170,14 +172,14 @@ def test_axes_are_parts(bench: Bench) -> None:
 
 
 def test_what_a_bank_does_not_have(bench: Bench) -> None:
-    """Given an external clock or AUX, then the part refuses it as unknown."""
+    """The part rejects an external clock and AUX as unknown."""
     config = Config(**INIT, external_clock=True)
     assert bench.lib.ppmc104_init(bench.parts[1], ctypes.byref(config)) == Error.UNDEFINED + 1
     assert bench.lib.ppmc104_aux(bench.parts[0], True) == Error.UNDEFINED + 1
 
 
 def test_config(bench: Bench) -> None:
-    """Given the slow base clock for an axis, then its pulses are four times as far apart."""
+    """With the slow base clock for an axis, its pulses are four times as far apart."""
     lib = bench.lib
     for number in (0, 3):
         assert lib.ppmc_bank_config(bench.bank, 3, number == 3, True) == OK
@@ -189,7 +191,7 @@ def test_config(bench: Bench) -> None:
 
 
 def test_a_group_begins_on_one_clk(bench: Bench) -> None:
-    """Given three loaded motions, then nothing moves before GO, and all begin on one clk after it."""
+    """Three loaded motions do not move before GO, and begin in the same cycle after it."""
     lib = bench.lib
     assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 9 | 1 << 15) == OK
     assert lib.ppmc104_move(bench.parts[0], 0, 20) == OK
@@ -211,7 +213,7 @@ def test_a_group_begins_on_one_clk(bench: Bench) -> None:
 
 
 def test_who_was_not_ready(bench: Bench) -> None:
-    """Given axes without a motion, one of them not initialised, then GO tells them, and the other runs."""
+    """GO reports axes without a motion, one of them not initialised; the other axis moves."""
     lib = bench.lib
     assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 1 | 1 << 3) == OK
     assert lib.ppmc104_move(bench.parts[3], 0, 5) == OK
@@ -224,7 +226,7 @@ def test_who_was_not_ready(bench: Bench) -> None:
 
 
 def test_groups_that_are_none(bench: Bench) -> None:
-    """Given no axis, one that is not there or one that moves, then there is no group, and no GO."""
+    """A group without axes, with an absent axis or with a moving axis is rejected, and so is its GO."""
     lib = bench.lib
     hold = lib.ppmc_bank_hold
     assert hold(bench.bank, 0) == hold(bench.bank, 1 << AXES) == BAD_ARGUMENT
@@ -235,7 +237,7 @@ def test_groups_that_are_none(bench: Bench) -> None:
 
 
 def test_a_group_called_off(bench: Bench) -> None:
-    """Given a loaded group, then calling it off ends its motions without a pulse, and others go on."""
+    """Cancelling a loaded group ends its motions without a pulse; other motions continue."""
     lib = bench.lib
     assert lib.ppmc104_jog(bench.parts[15], 0, 30) == OK
     assert lib.ppmc_bank_hold(bench.bank, 1 << 0 | 1 << 3) == OK

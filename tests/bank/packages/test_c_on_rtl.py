@@ -1,4 +1,4 @@
-"""The C driver of the bank on the Verilated bank, by cycles of its window."""
+"""The C driver of the bank on the Verilated bank, through accesses to its window."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ NO_PART = 17
 
 @pytest.fixture(scope="module")
 def lines() -> Lines:
-    """What tb/cdriver/bank_test.c printed: first word(s) -> its lines, each as name -> value."""
+    """Output of tb/cdriver/bank_test.c: first word(s) -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "ppmc_bank.c", BENCH / "bank_test.c", BENCH / "window_bus.cpp"]
     params = ("-GAXES=8", "-GCLK_HZ=16000000")
     return simulate("cdriver_bank_rtl", "ppmc_bank", part_design("bank", B8), sources, params)
 
 
 def test_opening(lines: Lines) -> None:
-    """Given a bank in reset, then there is none; after it, all axes are found and MASK is emptied."""
+    """During reset the driver finds no bank; after it, it finds all axes and empties MASK."""
     assert result(lines, "absent")[0] == NO_PART
     assert result(lines, "open") == (0, "ok")
     assert (lines["found"][0]["axes"], lines["found"][0]["mask"]) == ("8", "0")
@@ -48,15 +48,16 @@ def test_opening(lines: Lines) -> None:
 def test_motion(
     lines: Lines, name: str, cw: int, ccw: int, rate: int | None, raw: int, position: int
 ) -> None:
-    """Given a motion by the driver, then count, direction, every interval and the position are the
-    model's."""
+    """Count, direction, every interval and the position of a motion by the driver are those of the
+    predictor.
+    """
     assert pulses(lines, name) == (cw, ccw, predict_move(INIT, cw + ccw, rate).intervals)
     end = ending(lines, name)
     assert (end["raw"], end["left"], end["where"], end["position"]) == (raw, 0, 0, position)
 
 
 def test_interrupts(lines: Lines) -> None:
-    """Given two motions, then busy and pending axes are told, and the pin follows the pending ones."""
+    """Busy and pending axes of two motions are reported, and the pin follows the pending ones."""
     both = 1 << 7 | 1 << 3
     assert (lines["both"][0]["busy"], lines["both"][0]["irq"]) == (str(both), "0")
     assert (lines["ended"][0]["pending"], lines["ended"][0]["irq"]) == (str(both), "1")
@@ -64,19 +65,19 @@ def test_interrupts(lines: Lines) -> None:
 
 
 def test_base_clock_of_an_axis(lines: Lines) -> None:
-    """Given the slow base clock, then intervals are four times as long; others keep theirs."""
+    """With the slow base clock, intervals of this axis are four times as long; other axes keep theirs."""
     assert [line["result"] for line in lines["config"]] == ["0", "0"]
     assert pulses(lines, "slow") == (4, 0, [1280] * 3)
 
 
 def test_positions(lines: Lines) -> None:
-    """Given all positions at once, then each is what its axis has made; an axis without ramp refuses."""
+    """A read of all positions returns the pulses of each axis; an axis without a ramp rejects a step."""
     assert [int(line["pulses"]) for line in lines["position"]] == [0, 0, 0, -8, 0, 0, 0, 30]
     assert result(lines, "step")[0] == Error.NOT_INITIALISED + 1
 
 
 def test_group(lines: Lines) -> None:
-    """Given three loaded motions, then none moves before GO, and all begin on one clk."""
+    """Three loaded motions do not move before GO, and begin in the same cycle."""
     assert pulses(lines, "held")[:2] == (0, 0)
     assert result(lines, "go") == (0, "ok") and lines["started"][0]["refused"] == "0"
     begins = [next(line for line in lines[name] if "cw" in line) for name in ("first", "second", "third")]
@@ -84,7 +85,7 @@ def test_group(lines: Lines) -> None:
 
 
 def test_who_was_not_ready(lines: Lines) -> None:
-    """Given a member that cannot move, then GO names it; a group that is called off makes no pulse."""
+    """GO names a member that cannot move; a cancelled group outputs no pulse."""
     assert result(lines, "go alone")[0] == Error.NOT_INITIALISED + 1
     assert lines["alone"][0]["refused"] == str(1 << 1)
     end = ending(lines, "dropped")
@@ -94,7 +95,9 @@ def test_who_was_not_ready(lines: Lines) -> None:
 
 @pytest.mark.parametrize(("name", "total", "raw"), [("limit", 100, 0x93), ("stopped", 1000, 0xC3)])
 def test_ends(lines: Lines, name: str, total: int, raw: int) -> None:
-    """Given a limit, or a stop of all axes, then pulses, remainder, position and intervals fit."""
+    """After a limit, or a stop of all axes, pulses, remaining count, position and intervals are
+    consistent.
+    """
     cw, ccw, got = pulses(lines, name)
     end = ending(lines, name)
     assert (end["raw"], cw + ccw + end["left"], end["position"]) == (raw, total, cw - ccw)
@@ -102,7 +105,7 @@ def test_ends(lines: Lines, name: str, total: int, raw: int) -> None:
 
 
 def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
-    """Given a jog, when all axes are stopped, then it ends behind the pulse that was counted."""
+    """When all axes are stopped, a jog ends after the pulse that was counted."""
     cw, ccw, got = pulses(lines, "jog")
     assert (ending(lines, "jog")["raw"], ccw, cw) == (0xC5, 0, ending(lines, "jog")["position"])
     assert cw in (9, 10) and got == predict_move(INIT, cw, 30).intervals
@@ -110,5 +113,5 @@ def test_jog_is_stopped_with_the_others(lines: Lines) -> None:
 
 @pytest.mark.parametrize("name", ["reset", "reset left"])
 def test_reset_in_a_motion(lines: Lines, name: str) -> None:
-    """A reset of the bank in a motion is an unconfirmed end, not "complete" (P104-END-04)."""
+    """A reset of the bank during a motion is an unconfirmed end, not "complete" (P104-END-04)."""
     assert result(lines, name) == (19, "the part does not confirm the end of the motion")

@@ -65,7 +65,7 @@ def test_a_difference_is_an_error(wired: Path, run: Run, tmp_path: Path) -> None
     """With another crystal in the map, edges differ, the exit status is 1, and the first edge is named."""
     (tmp_path / "map.yml").write_text(MAP + "crystal: 8000000\n")
     outcome = run("decode", str(wired), "--map", str(tmp_path / "map.yml"), "--compare")
-    assert "inputs that were not captured: " in outcome.err
+    assert "inputs not captured: " in outcome.err
     assert outcome.code == 1 and "edges differ, the first at 0.00" in outcome.err.splitlines()[-1]
 
 

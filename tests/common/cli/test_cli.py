@@ -45,8 +45,8 @@ def test_init(run: Run) -> None:
     values = json.loads(run("init", "--start", "50000", "--high", "100000", "--ramp", "4", "--json").out)
     assert values["bytes"] == [0x0A, 9, 4, 4, 0]
     outcome = run("init", "--start", "3333", "--high", "8000")
-    assert "3333.33 pps (rate 149), asked 3333 pps" in outcome.out
-    assert "nothing to remember" in outcome.err
+    assert "3333.33 pps (rate 149), requested 3333 pps" in outcome.out
+    assert "the set-up is not stored" in outcome.err
 
 
 @pytest.mark.parametrize(
@@ -113,9 +113,9 @@ def test_ports(run: Run) -> None:
         (["bogus"], 2, "No such command"),
         (["--bogus", "info"], 2, "No such option"),
         (["jog", "up"], 2, "'up'"),
-        (["jog", "cw", "--ramped", "--speed", "1000"], 2, "not both"),
+        (["jog", "cw", "--ramped", "--speed", "1000"], 2, "exclude each other"),
         (["jog", "cw", "--seconds", "-1"], 2, "--seconds"),
-        (["move", "5", "--speed", "1000", "--pulse-only"], 2, "leave --speed out"),
+        (["move", "5", "--speed", "1000", "--pulse-only"], 2, "omit --speed"),
         (["monitor", "--count", "0"], 2, "--count"),
         (["init", "--start", "7"], 1, "start speed 7 pps is outside 488.281 to 125000 pps"),
         (["init", "--ramp", "3"], 1, "ramp of 3 pulses is outside 4 to 11220 pulses"),
@@ -127,7 +127,7 @@ def test_ports(run: Run) -> None:
         (["move", "50000"], 1, "slow-down limit ended the motion"),
         (["plan", "0"], 1, "a move has 1 to"),
         (["plan", "2000000", "--plot", "x.png"], 1, "up to 1000000 pulses"),
-        (["plan", "20", "--plot", "x.bmp"], 1, "ends in .png"),
+        (["plan", "20", "--plot", "x.bmp"], 1, "unsupported suffix of a plot; use .png"),
         (["plan", "20", "--plot", "/nowhere/x.png"], 1, "cannot be written"),
         (["stop"], 1, "nothing to stop"),
         (["--port", "", "info"], 1, "--port or OPENPPMC_PORT"),
@@ -137,7 +137,7 @@ def test_ports(run: Run) -> None:
         (["--port", FAST + ",alarm=4100..4200", "move", "1000"], 1, "alarm input ended the motion"),
         (["--baud", "9600", "info"], 1, "9600 baud is not a rate"),
         (["script", "/nowhere.txt"], 1, "/nowhere.txt: cannot be read"),
-        (["selftest", "--yes"], 1, "name its port, or sim:"),
+        (["selftest", "--yes"], 1, "use the port of a board, or sim:"),
     ],
 )
 def test_refusals_are_one_line(run: Run, words: list[str], code: int, text: str) -> None:
@@ -156,7 +156,7 @@ def test_a_fault_of_the_program_is_one_line_too(run: Run, monkeypatch: pytest.Mo
     outcome = run("ports")
     assert outcome.code == 1
     assert outcome.err == (
-        "error: a fault of this program (ZeroDivisionError: oops): OPENPPMC_DEBUG=1 shows where\n"
+        "error: fault of this program (ZeroDivisionError: oops); set OPENPPMC_DEBUG=1 to see where\n"
     )
     monkeypatch.setenv("OPENPPMC_DEBUG", "1")
     with pytest.raises(ZeroDivisionError):
@@ -250,7 +250,7 @@ def test_a_script(run: Run, tmp_path: Path) -> None:
         ("jog cw fast 2", 1, "jog needs: jog cw|ccw"),
         ("jog up for 2", 1, "neither cw nor ccw"),
         ("jog cw for -2", 1, "outside 0 to 86400"),
-        ("repeat\nend", 1, "how often is missing"),
+        ("repeat\nend", 1, "number of repetitions is missing"),
         ("repeat 0\nmove 1\nend", 1, "outside 1 to"),
         ("repeat 2\nmove 1", 1, "repeat without end"),
         ("repeat 2\nend", 2, "nothing to repeat"),

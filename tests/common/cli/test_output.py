@@ -22,7 +22,7 @@ from openppmc.cli.common import output, session
 from openppmc.host import Ppmc104
 from tests.common.cli import all_commands
 
-FAULT = "a fault of this program"
+FAULT = "fault of this program"
 ENCODINGS = ("ascii", "latin-1", "cp1252", "cp437", "cp864")
 NARROW = 40
 posix = pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs fork and /dev/full")

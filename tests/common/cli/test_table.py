@@ -46,7 +46,7 @@ def test_every_command_of_a_part_has_a_row() -> None:
 def test_options_in_front_state_what_the_library_has() -> None:
     """The default rate in the help of --baud is that of the link; `axes` of a row is that of the device."""
     shown = CliRunner().invoke(app, ["--help"], env={"COLUMNS": "200"}).output
-    assert f"line rate to work with ({DEFAULT_BAUD};" in shown
+    assert f"line rate in bit/s ({DEFAULT_BAUD};" in shown
     rows = parts.having("number", "kind")
     assert {row.name: row.axes for row in rows} == {row.name: kind_of(row.name).axes for row in rows}
 

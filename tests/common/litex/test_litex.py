@@ -149,16 +149,16 @@ def test_other_clock_than_the_plain_verilog(tmp_path):
     wanted = r"^ppmc104.v was made with CLK_HZ = 16000000, .*: make verilog TOP=ppmc104 PARAMS=CLK_HZ=25"
     with pytest.raises(SourcesError, match=wanted):
         PpmcPart(Bench(), 25e6, tmp_path)
-    with pytest.raises(SourcesError, match="PHASE_IDLE = 1'b1, this SoC wants 0"):
+    with pytest.raises(SourcesError, match="PHASE_IDLE = 1'b1, this SoC needs 0"):
         PpmcPart(Bench(), 16e6, tmp_path, PHASE_IDLE=0)
     (tmp_path / "ppmc_bank.v").write_text("")
-    with pytest.raises(SourcesError, match="ppmc_wishbone.v was made with AddrBits = 1, this SoC wants 10"):
+    with pytest.raises(SourcesError, match="ppmc_wishbone.v was made with AddrBits = 1, this SoC needs 10"):
         PpmcPart(Bench(), 16e6, tmp_path, part="bank")
 
 
 def test_bad_input(tmp_path):
     """Missing sources, or an unknown device, parameter or pad, cause an error of one line."""
-    with pytest.raises(SourcesError, match="neither packages/ppmc104.f nor ppmc104.v is there"):
+    with pytest.raises(SourcesError, match="neither packages/ppmc104.f nor ppmc104.v"):
         PpmcPart(Bench(), 16e6, tmp_path)
     with pytest.raises(SourcesError, match="part stmc: expected ppmc104 or bank"):
         PpmcPart(Bench(), 16e6, ROOT, part="stmc")

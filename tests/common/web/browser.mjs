@@ -214,7 +214,7 @@ const checks = {
     await page.focus(".pg-waves canvas");
     for (const key of ["+", "+", "a", "ArrowRight", "ArrowRight", "b"]) await page.keyboard.press(key);
     await page.waitForFunction(() =>
-      /B − A = .* clk/.test(document.querySelector(".pg-measured")?.textContent),
+      /B − A = .* cycles/.test(document.querySelector(".pg-measured")?.textContent),
     );
     return [page];
   },
@@ -264,7 +264,7 @@ const checks = {
     truth(/version 0/.test(await message(page)), "an old link");
     await page.waitForSelector(".pg-names li");
     for (const [text, wrong] of [
-      ["c 4G", "4G is no byte"],
+      ["c 4G", "4G: not a byte"],
       ["c 43 d E7\nhello", "no such statement: hello"],
       ["set l1_n=7", "l1_n has 1 bit"],
     ]) {
@@ -313,7 +313,7 @@ const checks = {
     for (const text of ["wait 100\nset l1_n=0\nwait 100", "set l1_n=0"]) {
       await type(page, text);
       const told = await message(page);
-      truth(/the part has stopped: .*l1_n is low.*power it up anew/s.test(told), `it says: ${told}`);
+      truth(/the part has stopped: .*l1_n is low.*power it up again/s.test(told), `it says: ${told}`);
       // After the stop, a new session runs on a new core, and the message is gone.
       await type(page, "c 0A d C7 d 31 d 64 d 00\nc 43 d 03 d 00 d 00");
       await rest(page);
@@ -323,7 +323,7 @@ const checks = {
     // A click on the pin instead of a typed command; after the stop, the core can be neither paused nor stepped.
     await page.click(".pg-pins >> text=l1_n");
     await page.click("text=Next pulse");
-    truth(/power it up anew/.test(await message(page)), "no message for a pin");
+    truth(/power it up again/.test(await message(page)), "no message for a pin");
     return [page];
   },
   async "a click before the part is there"() {

@@ -118,18 +118,18 @@ def test_speed_plot(name):
 
 
 WRONG = (
-    ("c 4G", "line 1: 4G is no byte"),
-    ("c 0A\nc", "line 2: nothing is no byte"),
+    ("c 4G", "line 1: 4G: not a byte"),
+    ("c 0A\nc", "line 2: missing word: not a byte"),
     ("hello", "line 1: no such statement: hello"),
     ("set l9_n=0", "line 1: PPMC-104 has no input l9_n"),
-    ("set l1_n=2", "line 1: l1_n has 1 bit: not 2"),
-    ("set l1_n", "line 1: l1_n is no level"),
+    ("set l1_n=2", "line 1: l1_n has 1 bit(s): 2 is out of range"),
+    ("set l1_n", "line 1: l1_n: not a level"),
     ("wait 5 parsec", "line 1: no such statement: parsec"),
-    ("wait 5m", "line 1: 5m is no time"),
+    ("wait 5m", "line 1: 5m: not a time"),
     ("until smoke 1", "line 1: PPMC-104 has no output smoke"),
     ("pulse 3 2", "line 1: there is no axis 2"),
-    ("machine on 1 2", "line 1: a machine has six places"),
-    ("@x set l1_n=0", "line 1: @x is no clk"),
+    ("machine on 1 2", "line 1: machine: write six positions"),
+    ("@x set l1_n=0", "line 1: @x: not a number of cycles"),
     ("# " + "x" * 200_000, "200000 at most"),
 )
 

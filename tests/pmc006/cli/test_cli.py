@@ -50,7 +50,7 @@ def test_scan(run: Run) -> None:
     assert [one["address"] for one in found] == [1, 2] and found[0]["line"]["silent"] == 0
     out = run(*PART, "--port", "model:speed=max,address=3,twin=3", "scan").out
     assert "at rest" in out  # equal replies overlap
-    assert "no controller replies: are they powered" in run(
+    assert "no controller replies; check power" in run(
         *PART, "--port", "model:speed=max,baud=19200", "scan"
     ).only_line.replace("\n", "")
 
@@ -179,7 +179,7 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
     image = tmp_path / "read.bin"
     assert run(*PART, *port, "program", "read", *ONE, "-o", str(image)).out == ""
     assert Program.from_image(image.read_bytes()) == assemble(SHUTTLE)
-    assert run(*PART, "program", "try", "--at", "5", *ONE).out == "instruction 5 carried out\n"
+    assert run(*PART, "program", "try", "--at", "5", *ONE).out == "instruction 5 executed\n"
     assert run(*PART, "program", "run", "--at", "5", *ONE).out == "running\n"
     port = ("--port", "model:speed=max")
     assert run(*PART, *port, "program", "burn", "--address", "255").out == "burned\n"
@@ -191,7 +191,7 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
         (("move", "5", *ONE[:1], "7"), "controller 7: no reply to 5 frames: is it there"),
         (("move", "5", "--address", "0"), "addresses are 1 to 120, factory-new controllers have 255"),
         (("move", "5", "--address", "121-123"), "addresses are 1 to 120"),
-        (("move", "5", "--address", "x"), "addresses are 3, 0,2,5 or 1-4"),
+        (("move", "5", "--address", "x"), "--address 'x': not a list of addresses; write 3, 0,2,5 or 1-4"),
         (("move",), "Missing argument"),
         (("move", "5", "--speed", "20000", *ONE), "max_speed 20000: there are 1 to 16000 steps/s"),
         (
@@ -200,7 +200,7 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
         ),
         (("move", "3000000000", *ONE), "a move has 1 to 2147483647 steps"),
         (("jog", "cw", *ONE), "is not one of"),
-        (("jog", "forward", "--seconds", "-1", *ONE), "not a time from 0 on"),
+        (("jog", "forward", "--seconds", "-1", *ONE), "not a valid time; use 0 or more"),
         (("speed", "17000", *ONE), "max_speed 17000: there are 1 to 16000 steps/s"),
         (("home", "--switch", "3", *ONE), "Invalid value for '--switch'"),
         (("home", "--speed", "30", *ONE), "speed 30 is outside 65 to 3000 steps/s"),
@@ -209,9 +209,9 @@ def test_programs(run: Run, shuttle: str, tmp_path: Path) -> None:
         (("set", "current=much", *ONE), "current=much: not a whole number"),
         (("set", "current=399", *ONE), "current 399: there are 400 to 4000 mA"),
         (("set", "microsteps=3", *ONE), "microsteps 3: there are 1, 2, 4, 8"),
-        (("io", "gpo6=1", *ONE), "write gpo1=0"),
+        (("io", "gpo6=1", *ONE), "not an output level; write gpo1=0"),
         (("address", "121", *ONE), "address 121 is outside 1 to 120"),
-        (("address", "5", "--address", "1,2"), "this is for one controller at a time"),
+        (("address", "5", "--address", "1,2"), "the command is for one controller"),
         (("program", "load", "none.asm", *ONE), "none.asm: No such file"),
         (("program", "run", "--at", "100", *ONE), "instruction 100: there are 0 to 99"),
         (("program", "walk"), "No such command 'walk'"),
@@ -304,7 +304,7 @@ def test_script_and_monitor(run: Run, tmp_path: Path) -> None:
         ("move", ":1: number of steps is missing"),
         ("jog cw for 1", ":1: 'cw' is neither forward nor backward"),
         ("set colour=5", ":1: no setting 'colour'"),
-        ("out gpo9=1", ":1: 'gpo9=1': write gpo1=0"),
+        ("out gpo9=1", ":1: 'gpo9=1': not an output level; write gpo1=0"),
         ("home forward switch=3", ":1: switch 3 is outside 1 to 2"),
         ("init start=5", ":1: unknown command 'init'"),
         ("move 3 address=9", "controller 9: no reply"),

@@ -1,1 +1,1 @@
-"""The PPMC-104's driver."""
+"""Tests of the driver of the PPMC-104."""

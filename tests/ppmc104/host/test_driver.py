@@ -1,4 +1,4 @@
-"""The driver on the modelled board, in virtual time."""
+"""The driver of the PPMC-104 on the modelled board, in virtual time."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ timing = "FAST"
 
 @pytest.fixture(autouse=True, params=["FAST", "DATASHEET"])
 def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every test runs in both timings."""
+    """Run every test in both timings."""
     monkeypatch.setitem(globals(), "timing", request.param)
 
 
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Ppmc104]:
-    """An initialised axis; `setup={}` as keyword arguments of initialise."""
+    """Yield an initialised axis; `setup` has the keyword arguments of `initialise`."""
     with Ppmc104.open(f"model:speed=max,timing={timing},{plant}") as axis:
         axis.initialise(**setup)  # type: ignore[arg-type]
         yield axis
@@ -58,7 +58,7 @@ def axis() -> Iterator[Ppmc104]:
 
 
 def motor(axis: Ppmc104) -> int:
-    """Where the modelled motor is."""
+    """Return the position of the modelled motor."""
     assert isinstance(axis.link.port, ModelPort)
     return axis.link.port.board.position
 
@@ -87,7 +87,9 @@ def test_initialise_tells_what_is_reached() -> None:
     ],
 )
 def test_the_motor_runs_at_the_speed_that_was_told(arguments: dict[str, object], base_hz: int) -> None:
-    """Straps included: the time of a long constant move, read from the part's own pulses."""
+    """The time of a long constant move, read from the part's own pulses, is that of the reported speed;
+    straps included.
+    """
     with board(**arguments) as axis:
         assert axis.setup is not None
         assert axis.setup.clock.hertz == base_hz
@@ -102,7 +104,9 @@ def test_the_motor_runs_at_the_speed_that_was_told(arguments: dict[str, object],
 
 
 def test_a_speed_of_the_other_base_clock() -> None:
-    """Constant speeds take the base clock that reaches them, and the next ramp has its own again."""
+    """A constant speed selects the base clock that reaches it; the next ramp uses its own base clock
+    again.
+    """
     with board(start_pps=1000, high_pps=5000) as axis:
         assert isinstance(axis.link.port, ModelPort)
         part = axis.link.port.board.part
@@ -365,7 +369,7 @@ def test_home_from_a_switch_that_sticks() -> None:
 
 
 def test_every_error_number_is_raised_as_its_own_exception(axis: Ppmc104) -> None:
-    """Straight from the golden part, by scripts that provoke them."""
+    """Each error number, provoked by a script on the golden model, raises its own exception."""
     link = axis.link
     rest: list[tuple[type[CommandRefused], int, Script]] = [
         (NothingToStop, 0x80, Script().call(0x40)),
@@ -461,7 +465,7 @@ def test_excitation_off(axis: Ppmc104) -> None:
 
 
 def test_datasheet_timing() -> None:
-    """A part with the old chip's processing times: initialisation takes 17 to 163 ms."""
+    """With the processing times of the old chip, an initialisation takes 17 to 163 ms."""
     with board("timing=DATASHEET", ramp_pulses=11_000) as axis:
         before = axis.link.clock()
         assert axis.move(300).complete
@@ -472,7 +476,7 @@ def test_datasheet_timing() -> None:
 
 
 def test_a_look_before_busy_rises() -> None:
-    """With DATASHEET timing BUSY rises 112 us after the command; a fast host looks earlier."""
+    """With DATASHEET timing, BUSY rises 112 us after the command; a fast host polls before that."""
     with Ppmc104.open("model:speed=max,timing=DATASHEET", baud=3_000_000) as axis:
         axis.initialise()
         axis.move(1)
@@ -485,7 +489,9 @@ def test_a_look_before_busy_rises() -> None:
 
 
 def test_excitation_off_right_after_a_start() -> None:
-    """Refused, although the part with DATASHEET timing is not BUSY yet and would take the code for AUX ON."""
+    """Excitation off directly after a start is rejected, although the part with DATASHEET timing is not
+    BUSY yet and would accept the code as AUX ON.
+    """
     with Ppmc104.open(f"model:speed=max,timing={timing}", baud=3_000_000) as axis:
         axis.initialise(start_pps=5000, high_pps=9000)
         axis.move(1)
@@ -517,7 +523,7 @@ def test_wrong_part() -> None:
 
 
 def test_noise_on_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every fifth transfer loses a byte; the moves are made exactly once each."""
+    """If every fifth transfer loses a byte, each move is still made exactly once."""
     port = ModelPort("speed=max")
     axis = Ppmc104.open(port)
     count = 0
@@ -538,7 +544,7 @@ def test_noise_on_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_ctrl_c_in_the_middle_of_a_request(axis: Ppmc104, monkeypatch: pytest.MonkeyPatch) -> None:
-    """KeyboardInterrupt may strike between request and answer; the next command works."""
+    """After a KeyboardInterrupt between request and answer, the next command works."""
     axis.jog(CW, 2000)
     read = axis.link.port.read
 

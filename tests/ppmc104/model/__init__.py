@@ -1,1 +1,1 @@
-"""The PPMC-104's golden model: acceptance checks, edges of rules, properties."""
+"""Tests of the golden model of the PPMC-104: acceptance checks, edges of rules, properties."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from openppmc.model import Latency, Ppmc104
 from tests.common.model.host import ModelHost
 
-# A core of its own, so that tests of single edges do not move with the constants of the RTL.
+# Separate latencies, so that tests of single edges do not change with the constants of the RTL.
 NOMINAL = Latency(
     c_event=2,
     window_open=1,
@@ -30,6 +30,6 @@ INIT_B = "c 0A d 13 d 09 d 0A d 00"
 
 
 class Host(ModelHost):
-    """As ModelHost."""
+    """`ModelHost` of the PPMC-104."""
 
     MODEL = Ppmc104

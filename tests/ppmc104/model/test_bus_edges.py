@@ -1,4 +1,4 @@
-"""Bus, mailbox and output queue of the golden model, clk by clk (P104-BUS, P104-HSK)."""
+"""Bus, mailbox and output queue of the golden model, exact to the cycle (P104-BUS, P104-HSK)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def test_write_event_and_c_event_edges():
 
 @pytest.mark.parametrize("after", range(8))
 def test_a_written_byte_is_never_invisible(after):
-    """P104-BUS-07: a status read right behind a write shows IBF or the byte's effect."""
+    """A status read directly after a write returns IBF = 1 or the effect of the byte (P104-BUS-07)."""
     model = Ppmc104()
     edge0 = model.write(10, 1, 0xFF)
     assert model.read(edge0 + after, 1) in ((0x02,) if after < 3 else (0x02, 0x80))
@@ -51,7 +51,7 @@ def test_either_pin_ends_a_write(ending):
 
 
 def test_read_strobe_ends_a_write():
-    """P104-BUS-02: rd_n falling under a write strobe ends it; nothing is read."""
+    """rd_n that falls during a write strobe ends the write; no read takes place (P104-BUS-02)."""
     model = Ppmc104()
     model.pins(10, cs_n=0, wr_n=0, a0=1, d_i=0xC1)
     model.pins(12, rd_n=0)
@@ -60,7 +60,9 @@ def test_read_strobe_ends_a_write():
 
 
 def test_replacement_in_the_window_and_on_the_c_event_edge():
-    """P104-HSK-02: the newest byte counts; on one edge with a C-event the old one goes first."""
+    """The newest byte is accepted; on the same edge as a C-event, the old one is consumed first
+    (P104-HSK-02).
+    """
     model = AnyModel(latency=replace(NOMINAL, build_clk=lambda rl, rh, pa: 500))
     t = 10
     for i, byte in enumerate((0x0A, 9, 4, 4, 0)):
@@ -71,7 +73,7 @@ def test_replacement_in_the_window_and_on_the_c_event_edge():
     assert model.log.of("aux_n") == [] and model.status == 0x10
 
     model = Ppmc104()
-    # Write events at 14 and 16; the first is taken at 16, the second at 18.
+    # Write events at 14 and 16; the first byte is accepted at 16, the second at 18.
     model.write(10, 1, 0xC1)
     assert model.write(13, 1, 0xC2, strobe=1) == 14
     model.run_until(30)
@@ -117,7 +119,7 @@ def test_three_byte_answer():
 
 
 def test_read_command_beats_a_byte_on_its_way_out():
-    """P104-HSK-08: the new answer replaces what a data read is just taking."""
+    """A new answer replaces the byte that a data read is just consuming (P104-HSK-08)."""
     for wait in range(6):
         host = ModelHost()
         host.run("c 81")
@@ -132,7 +134,7 @@ def test_read_command_beats_a_byte_on_its_way_out():
 
 
 def test_output_survives_motion():
-    """P104-HSK-08, P104-BAD-22."""
+    """A motion does not change an unread byte (P104-HSK-08, P104-BAD-22)."""
     host = ModelHost()
     host.run(INIT_A + " c 81 c 44 d 63 d 02 d 00 d 00")
     assert host.read(1) == 0x05 and host.fetch() == 0xCF
@@ -140,7 +142,9 @@ def test_output_survives_motion():
 
 
 def test_reset_between_two_edges_and_short():
-    """rst_n low and high again before one edge still resets; edges carry the next edge."""
+    """A low level of rst_n between two edges resets the core; its output changes have the number of the
+    next edge.
+    """
     host = ModelHost(phase_idle=0)
     assert host.out("s") == 0
     host.run(INIT_A + " c C1 c 4A")
@@ -169,7 +173,7 @@ def test_strobe_across_reset_release():
 
 
 def test_quantum_counter_starts_at_the_release():
-    """Chopping after a reset has the same phases as after power-up, whatever the edge of the release."""
+    """After a reset, the chopper has the same phases as after power-up, for any edge of the release."""
 
     def chopped(release: int) -> list[int]:
         model = Ppmc104()

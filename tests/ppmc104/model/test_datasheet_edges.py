@@ -1,4 +1,4 @@
-"""DATASHEET times of the golden model, to the clk, on a core without offsets of its own (section 8)."""
+"""DATASHEET times of the golden model, exact to the cycle, without latencies of a core (section 8)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ModelHost = partial(AnyHost, latency=NOMINAL, timing="DATASHEET")
 
 
 def ready(init: str = INIT_B, **pins: int) -> AnyHost:
-    """Initialised, the pins set, and long since open again."""
+    """Return an initialised host with the pins set and the mailbox open."""
     host = ModelHost()
     host.run(init)
     host.pause(270_000)
@@ -37,7 +37,9 @@ def ready(init: str = INIT_B, **pins: int) -> AnyHost:
     ],
 )
 def test_start(move, busy, first):
-    """P104-DS-03..06: BUSY, hold and dir together, then pulse 1; the pins are one clk behind."""
+    """BUSY, hold and dir change together, then pulse 1 follows; the pins follow by one cycle
+    (P104-DS-03..06).
+    """
     host = ready()
     host.run(move)
     event = host.written
@@ -50,7 +52,7 @@ def test_start(move, busy, first):
 
 
 def test_bytes_wait_for_the_start():
-    """P104-DS-03: closed until BUSY rises; the byte is judged with BUSY = 1."""
+    """The mailbox is closed until BUSY rises; then the byte is checked with BUSY = 1 (P104-DS-03)."""
     host = ready()
     host.run("c 46")
     event = host.written
@@ -70,7 +72,9 @@ def test_bytes_wait_for_the_start():
     ],
 )
 def test_forced_deceleration_flag_comes_late(code, fall, delay, pulses):
-    """P104-DS-10: 17 us after the write event, 12 us or 17 us (plateau) after the level was seen."""
+    """The flag is set 17 us after the write event, or 12 us (plateau: 17 us) after the level was
+    detected (P104-DS-10).
+    """
     for offset, expected in zip((-1, 0), pulses, strict=True):
         host = ready()
         host.run("c 43 d E7 d 03 d 00")
@@ -106,7 +110,7 @@ def test_second_decelerating_stop_waits_for_the_first():
 
 @pytest.mark.parametrize("move, closed", [("c C3", False), ("c 43", True)])
 def test_speed_limit_depends_on_the_mode(move, closed):
-    """P104-DS-12: 112 quanta are fast for the phases, not for pulses alone."""
+    """112 quanta are too fast in phase mode, but not in POUT mode (P104-DS-12)."""
     host = ready("c 0A d 0D d 0D d 04 d 00")
     host.run(move + " d 63 d 00 d 00")
     host.fall(10, 20)
@@ -118,7 +122,7 @@ def test_speed_limit_depends_on_the_mode(move, closed):
 
 
 def test_speed_limit_ends_with_the_fast_part():
-    """Bytes are taken again in the first slow interval of the deceleration."""
+    """Bytes are accepted again in the first slow interval of the deceleration."""
     host = ready("c 0A d 27 d 09 d 04 d 00")
     host.run("c 43 d 13 d 00 d 00")
     host.fall(8, 20)
@@ -144,7 +148,9 @@ def test_speed_limit_ends_with_the_fast_part():
     ],
 )
 def test_end(move, pulses, disturb, end, opened):
-    """P104-DS-06..08: BUSY and INT, then the mailbox, from the last pulse or from the deciding edge."""
+    """BUSY and INT, then the mailbox, follow the last pulse or the deciding edge by their times
+    (P104-DS-06..08).
+    """
     host = ready(INIT_A, **({"l3_n": 0} if disturb == "l3_n" else {}))
     host.run(move)
     since = host.fall(pulses)
@@ -162,7 +168,7 @@ def test_end(move, pulses, disturb, end, opened):
 
 
 def test_auxiliary_output_and_excitation_off_roles():
-    """P104-DS-11: 14 us for the outputs, 18 us for Excitation OFF, 14 us in its AUX ON role."""
+    """The outputs take 14 us, Excitation OFF 18 us, and 14 us when it acts as AUX ON (P104-DS-11)."""
     host = ready()
     host.run("c 86 d 0A")
     event = host.written

@@ -1,4 +1,4 @@
-"""Examples of the manual, and what is behind acceptance checks but too long for the RTL, on the model."""
+"""Examples of the manual, and parts of acceptance checks that are too long for the RTL, on the model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Invariants of the golden model under random hosts, limits and clocks."""
+"""Invariants of the golden model with random hosts, limits and clocks."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ action = st.one_of(
 
 
 def play(host: Host, actions: list[tuple[str, int, int]]) -> dict[str, list[tuple[int, int]]]:
-    """Run random actions; returns the pin history."""
+    """Run random actions; return the history of the pins."""
     history: dict[str, list[tuple[int, int]]] = {pin: [(-1, 1)] for pin in GUARD_PINS}
     for kind, wait, value in actions:
         host.pause(wait)
@@ -100,7 +100,7 @@ OPERATIONS = {2: 0, 3: 3, 4: 4, 5: 1, 6: 0, 7: 1}
 
 @st.composite
 def moves(draw: st.DrawFn) -> dict:
-    """One operation with its ramp and at most one disturbance between pulse events."""
+    """Draw one operation with its ramp and at most one disturbance between pulse events."""
     operation = draw(st.sampled_from([2, 3, 3, 4, 5, 6, 7]))
     pulse_only = operation in (3, 6) and draw(st.booleans())
     rl = draw(st.integers(0, 30))
@@ -145,7 +145,7 @@ def test_one_move_with_one_disturbance(move):
         edge = host.fall(target)
         length = 4 * host.model.intervals[target - 1].quanta
         if length >= 64:
-            # Keep away from pulse events: their neighbourhood has tests of its own.
+            # Keep a distance to pulse events, which have separate tests.
             host.go(edge + 5 + move["after"] % (length - 30))
             flag_after = target
             if cause.startswith("0x"):
@@ -156,7 +156,7 @@ def test_one_move_with_one_disturbance(move):
         host.command(0x40)
     ignored = False
     if endless:
-        # A cause that the operation ignores leaves it running.
+        # A cause that the operation ignores does not end it.
         host.pause(30_000)
         host.sync()
         if host.model.busy:
@@ -209,7 +209,9 @@ def test_one_move_with_one_disturbance(move):
     ramp=st.booleans(),
 )
 def test_external_clock_counts_edges(n, rate, periods, vsel, ramp):
-    """Any external clock gives N pulses, none earlier than (rate + 1) edges after the one before."""
+    """With any external clock N pulses are output, each at least (rate + 1) edges after the previous
+    one.
+    """
     host = Host()
     host.run(f"c 1E d {rate:02X} d {rate // 2:02X} d 04 d 00")
     host.pins(vsel=vsel)
@@ -244,7 +246,7 @@ def test_external_clock_counts_edges(n, rate, periods, vsel, ramp):
 
 @given(st.lists(st.tuples(st.integers(1, 6), st.integers(0, 1), st.integers(0, 1)), max_size=60))
 def test_any_bus_noise_stores_whole_bytes_only(changes):
-    """Strobes of any length: a byte that stood on the bus comes through, or none."""
+    """With strobes of any length, a byte that was on the bus is stored completely, or no byte is stored."""
     model, t = Ppmc104(), 5
     for wait, wr_n, rd_n in changes:
         model.pins(t, cs_n=0, wr_n=wr_n, rd_n=rd_n, a0=1, d_i=0x87)

@@ -1,4 +1,4 @@
-"""Times that no acceptance check fixes, on the model: external pulse widths, DATASHEET delays."""
+"""Times that no acceptance check specifies, on the model: external pulse widths, DATASHEET delays."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ EXTERNAL = "c 1A d 09 d 04 d 04 d 00"
 
 
 def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
-    """So many periods of the external clock, high for half of each."""
+    """Output this number of periods of the external clock, high for half of each."""
     start = host.t + phase
     for i in range(edges):
         host.model.pins(start + i * period, clock=1)
@@ -17,7 +17,7 @@ def clock_run(host: Host, period: int, edges: int, phase: int = 0) -> None:
 
 
 def test_tim_05_external_pulse_width():
-    """Cases b and c: cut at a base edge, cut at the falling clock edge."""
+    """Cases b and c: the low time ends at a base edge, or at the falling clock edge (P104-TIM-05)."""
     for rate, period, low in (
         (1, 64, 64),
         (3, 16, 32),
@@ -80,7 +80,7 @@ def test_ds_08_immediate_and_forced_ends():
 
 
 def test_ds_10_flag_comes_late():
-    """A flag that finds the move slowing down by itself leaves no cause bit."""
+    """A flag that is set only after the natural deceleration began sets no cause bit."""
     host = datasheet(INIT_B)
     host.run("c 43 d E7 d 03 d 00")
     host.fall(3, 400)

@@ -1,1 +1,1 @@
-"""The PPMC-2104's virtual board with both axes."""
+"""Tests of the virtual board of the PPMC-2104 with both axes."""

@@ -1,4 +1,4 @@
-"""The virtual board with a PPMC-2104: both axes at once, coordinated starts, Ctrl-C, pulled cables."""
+"""The virtual board with a PPMC-2104: both axes together, coordinated starts, Ctrl-C, unplugged cables."""
 
 from __future__ import annotations
 
@@ -37,26 +37,28 @@ def board(start_board: StartBoard) -> SimBoard:
 
 
 def initialise(part: Ppmc2104, **changes: int) -> None:
-    """Both axes."""
+    """Initialise both axes."""
     for axis in (part.x, part.y):
         axis.initialise(**{**SETUP, **changes})
 
 
 def positions(board: SimBoard) -> tuple[int, int]:
-    """Of both motors."""
+    """Return the positions of both motors."""
     now = board.status()
     assert now.second is not None
     return now.position, now.second.position
 
 
 def edges(log: Path, axis: int) -> list[tuple[int, int]]:
-    """Clk and position of the pulses of an axis."""
+    """Return cycle and position of the pulses of an axis."""
     rows = [line.split() for line in log.read_text().splitlines()[1:]]
     return [(int(clk), int(at)) for clk, _, at, of in rows if int(of) == axis]
 
 
 def test_info_and_wrong_driver(board: SimBoard) -> None:
-    """The bridge tells the part; the driver of another part is refused, and a fresh part as well."""
+    """The bridge reports the part and rejects the driver of another part; the driver rejects a move before
+    initialisation.
+    """
     with pytest.raises(WrongDevice, match="PPMC-2104, not a PPMC-104"):
         Ppmc104.open(board.port)
     with Ppmc2104.open(board.port) as part:
@@ -70,7 +72,7 @@ def test_info_and_wrong_driver(board: SimBoard) -> None:
 
 
 def test_both_at_once(board: SimBoard) -> None:
-    """Moves of both axes overlap; each makes its own pulses and ends by itself."""
+    """Moves of both axes overlap; each outputs its own pulses and ends separately."""
     with Ppmc2104.open(board.port) as part:
         initialise(part)
         long = part.y.start_move(4000)
@@ -83,7 +85,7 @@ def test_both_at_once(board: SimBoard) -> None:
 
 @pytest.mark.parametrize("timing", ["FAST", "DATASHEET"])
 def test_coordinated_start(start_board: StartBoard, tmp_path: Path, timing: str) -> None:
-    """Both begin on the same clk, and every interval of both is the predicted number of clk."""
+    """Both axes begin in the same cycle, and every interval of both is the predicted number of cycles."""
     log = tmp_path / "pulses.txt"
     board = start_board(part="ppmc2104", log=log, timing=timing)
     with Ppmc2104.open(board.port) as part:
@@ -109,7 +111,7 @@ def test_coordinated_start(start_board: StartBoard, tmp_path: Path, timing: str)
 
 
 def test_fast_pulses_of_both(start_board: StartBoard, tmp_path: Path) -> None:
-    """250 000 pulses a second on both axes at once: the pulse counters of the bridge miss none."""
+    """At 250 000 pulses per second on both axes, the pulse counters of the bridge miss no pulse."""
     log = tmp_path / "pulses.txt"
     board = start_board(part="ppmc2104", log=log, cw=99_000, slow_cw=99_000, cw2=99_000, slow_cw2=99_000)
     with Ppmc2104.open(board.port) as part:
@@ -123,7 +125,7 @@ def test_fast_pulses_of_both(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_a_limit_stops_both(start_board: StartBoard) -> None:
-    """In a coordinated move the axis that is not at its limit stops as well, with its ramp."""
+    """In a coordinated move, an axis that is not at its limit stops as well, with its ramp."""
     board = start_board(part="ppmc2104", slow_cw2=6000)
     with Ppmc2104.open(board.port) as part:
         initialise(part)
@@ -137,7 +139,7 @@ def test_a_limit_stops_both(start_board: StartBoard) -> None:
 
 
 def test_home_and_refused_starts(start_board: StartBoard) -> None:
-    """Homing of axis 2 from its switch; a start into the limit is refused by the part, not made."""
+    """Homing of axis 2 starts on its switch; the part rejects a start into the limit."""
     board = start_board(part="ppmc2104", start2=-150, start=40_000)
     with Ppmc2104.open(board.port) as part:
         initialise(part)
@@ -150,7 +152,7 @@ def test_home_and_refused_starts(start_board: StartBoard) -> None:
 
 
 def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
-    """Errors of one axis during motions of both change neither."""
+    """Errors of one axis during motions of both do not change either motion."""
     with Ppmc2104.open(board.port) as part:
         initialise(part)
         motions = part.start_together(3000, 3500)
@@ -163,12 +165,12 @@ def test_refused_while_moving_disturbs_nothing(board: SimBoard) -> None:
 
 
 def yank(part: Ppmc2104) -> None:
-    """What a crash of the host or a pulled cable looks like."""
+    """Close the port, as a crash of the host or an unplugged cable does."""
     part.link.port._serial.close()
 
 
 def test_unplugged_in_a_coordinated_move(board: SimBoard, until: Wait) -> None:
-    """Both motors make their pulses without a host; the next one finds them where they belong."""
+    """Without a host, both motors make their pulses; the next host reads the right positions."""
     part = Ppmc2104.open(board.port)
     initialise(part)
     part.start_together(8000, -3000)
@@ -182,7 +184,9 @@ def test_unplugged_in_a_coordinated_move(board: SimBoard, until: Wait) -> None:
 
 
 def test_host_dies_between_the_commands(board: SimBoard, until: Wait) -> None:
-    """An axis waits for RUN and its host is gone: nothing turns when the next one opens."""
+    """If the host of an axis that waits for RUN is gone, no motor moves when the next host opens the
+    board.
+    """
     part = Ppmc2104.open(board.port)
     initialise(part)
     part.link.execute(Script().straps(0xF3).call(0x43, 0xE7, 3, 0))
@@ -199,7 +203,7 @@ def test_host_dies_between_the_commands(board: SimBoard, until: Wait) -> None:
 
 
 def axes_at_rest(port: str) -> list[int]:
-    """Positions of both axes, which must rest."""
+    """Return the positions of both axes, which must be at rest."""
     with Ppmc2104.open(port) as part:
         assert not any(part.status().busy)
         axes: tuple[Axis, ...] = part.axes
@@ -210,11 +214,11 @@ def axes_at_rest(port: str) -> list[int]:
 def test_ctrl_c_stops_with_ramps(
     board: SimBoard, openppmc: CommandLine, until: Wait, words: tuple[str, ...]
 ) -> None:
-    """Ctrl-C brings everything to rest that the command had started."""
+    """Ctrl-C stops all motions that the command has started."""
     process = openppmc.begin(board.port, *words, *SLOW)
 
     def pulses() -> list[int]:
-        """Of the axes that move."""
+        """Return the pulse counts of the moving axes."""
         now = board.status()
         assert now.second is not None
         return [now.pulses, now.second.pulses] if words[0] == "move" else [now.second.pulses]
@@ -235,7 +239,7 @@ def test_ctrl_c_stops_with_ramps(
 
 
 def test_commands(board: SimBoard, openppmc: CommandLine, tmp_path: Path) -> None:
-    """A session in single commands: the part is what IDENT says, set-ups are remembered an axis."""
+    """In a session of single commands, the part is that of IDENT, and set-ups are stored per axis."""
     for words in (
         ("init", *SLOW),
         ("init", "--axis", "2", "--start", "2000", "--high", "9000"),
@@ -252,7 +256,7 @@ def test_commands(board: SimBoard, openppmc: CommandLine, tmp_path: Path) -> Non
 
 
 def test_another_part_was_named(board: SimBoard, openppmc: CommandLine) -> None:
-    """`--part` is checked against the board."""
+    """`--part` is compared with the part of the board."""
     code, _, err = openppmc.run(board.port, "--part", "ppmc104", "info")
     assert code == 1 and one_line(err) and "PPMC-2104, not a PPMC-104" in err
     code, out, err = openppmc.run(board.port, "--part", "ppmc2104", "info")
@@ -260,7 +264,7 @@ def test_another_part_was_named(board: SimBoard, openppmc: CommandLine) -> None:
 
 
 def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
-    """`--part ppmc2104 --port sim:` builds the board with that part; a script moves both axes."""
+    """`--part ppmc2104 --port sim:` builds the board with that part, and a script moves both axes."""
     log, script = tmp_path / "pulses.txt", tmp_path / "demo.txt"
     script.write_text("move 300 400\nmove -50 axis=2\nposition\n")
     code, out, err = openppmc.run(f"sim:part=ppmc2104,log={log}", "script", str(script), *SLOW)
@@ -278,13 +282,13 @@ def test_sim_port(openppmc: CommandLine, tmp_path: Path) -> None:
     ],
 )
 def test_bad_text(openppmc: CommandLine, port: str, expected: str) -> None:
-    """A mistake after `sim:` is one line that says what is known."""
+    """A mistake after `sim:` is reported in one line with the known words."""
     code, _, err = openppmc.run(port, "info")
     assert code == 1 and one_line(err) and expected in err, err
 
 
 def test_straps_and_pins(start_board: StartBoard) -> None:
-    """The straps reach ERRINT, CSEL and RUN of each axis, and choose whose pins PINS shows."""
+    """The straps reach ERRINT, CSEL and RUN of each axis, and select the axis whose pins PINS returns."""
     board = start_board(part="ppmc2104", start2=-450)
     with Ppmc2104.open(board.port) as part:
         initialise(part)

@@ -1,1 +1,1 @@
-"""The command line with two axes."""
+"""Tests of the command line with two axes."""

@@ -79,13 +79,13 @@ def test_plan(run: Run) -> None:
     ("words", "line", "code"),
     [
         (("move", "1", "2", "3"), "axis 3: a PPMC-2104 has axes 1 to 2", 1),
-        (("move", "1", "2", "--axis", "1"), "one number for each axis", 2),
+        (("move", "1", "2", "--axis", "1"), "--axis 1: only for one value and without --axes", 2),
         (("move", "1", "--axis", "3"), "axis 3: a PPMC-2104 has axes 1 to 2", 1),
         (("move", "1", "--axis", "65"), "Invalid value for '--axis'", 2),
-        (("move", "1", "--axis", "1", "--axes", "1"), "one number for each axis", 2),
-        (("move", "1", "2", "--axes", "1"), "--axes 1: 1 axes, but 2 numbers", 2),
-        (("move", "1", "2", "--axes", "1,1"), "--axes 1,1: an axis stands there twice", 2),
-        (("move", "1", "2", "--axes", "1,b"), "--axes 1,b: wants numbers with commas", 2),
+        (("move", "1", "--axis", "1", "--axes", "1"), "--axis 1: only for one value and without --axes", 2),
+        (("move", "1", "2", "--axes", "1"), "--axes 1: 1 axes for 2 values", 2),
+        (("move", "1", "2", "--axes", "1,1"), "--axes 1,1: an axis occurs twice", 2),
+        (("move", "1", "2", "--axes", "1,b"), "--axes 1,b: not a list of axes; write 1,2,5", 2),
         (("--part", "ppmc999", "info"), "'ppmc999' is not one of 'ppmc104', 'ppmc2104', 'stmc'", 2),
         (("--port", "model:speed=max", "move", "1", "2"), "axis 2: a PPMC-104 has one axis", 1),
         (("--port", "model:speed=max", "jog", "cw", "--axis", "2"), "axis 2: a PPMC-104 has one axis", 1),
@@ -167,7 +167,7 @@ def test_a_script_for_one_axis_leaves_the_other_off(run: Run, tmp_path: Path) ->
         (TWO, "move 1\nauxo 4", 2, "outputs 4 is outside 0 to 3"),
         (TWO, "move 1 axis=3", 1, "axis 3: a PPMC-2104 has axes 1 to 2"),
         (TWO, "move 1 axis=65", 1, "axis 65 is outside 1 to 64"),
-        (TWO, "move 1 2 axis=2", 1, "two numbers are for both axes"),
+        (TWO, "move 1 2 axis=2", 1, "two numbers move both axes; omit axis="),
         (TWO, "wait 1 axis=2", 1, "'axis=2' does not belong here"),
         (TWO, "init logic=positive axis=2", 1, "positive logic: a PPMC-2104"),
         (TWO, "repeat 2\ninit start=5000 high=5000\nend", 2, "too close together"),
@@ -190,7 +190,9 @@ def test_bad_lines(run: Run, tmp_path: Path, port: str, text: str, line: int, me
 
 @pytest.mark.parametrize("again", [False, True])
 def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool) -> None:
-    """The second Ctrl-C during the deceleration halts both."""
+    """Ctrl-C stops both axes with their ramps; a second Ctrl-C during the deceleration stops both
+    immediately.
+    """
     with Ppmc2104.open(TWO) as part:
         for axis in (part.x, part.y):
             axis.initialise(start_pps=1000, high_pps=1200, ramp_pulses=11_000)
@@ -212,12 +214,12 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")
         low, high = (0, 500) if again else (1900, 2300)
         assert all(low <= b - a <= high for a, b in zip(before, after, strict=True))
-        assert again or abs(after[0] - after[1]) < 5  # the two stops follow each other at once
+        assert again or abs(after[0] - after[1]) < 5  # the second stop follows the first directly
         assert not any(part.status().busy)
 
 
 def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
-    """`openppmc move X Y`, interrupted: one line, status 130."""
+    """An interrupted `openppmc move X Y` prints one line and exits with status 130."""
     env = {**os.environ, "OPENPPMC_STATE": str(tmp_path)}
     words = [sys.executable, "-m", "openppmc.cli", "--port", "model:part=ppmc2104"]
     process = subprocess.Popen(
@@ -229,19 +231,19 @@ def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
     )
     assert process.stdout is not None
     assert process.stdout.readline().endswith("positions 0 and 0\n")
-    time.sleep(0.5)  # the motion that follows runs in real time
+    time.sleep(0.5)  # the next motion runs in real time
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=30)
     assert process.returncode == 130
     told = re.fullmatch(r"interrupted: stopped, axis 1: position (-?\d+), axis 2: position (-?\d+)\n", err)
     assert told is not None, err
     x, y = map(int, told.groups())
-    # One command an axis: how far apart they stop depends on how busy this machine is.
+    # One command per axis: the distance between the stops depends on the load of this computer.
     assert 0 <= x < 8000 and 0 <= y < 8000
 
 
 def test_stop_what_another_program_left(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """`stop` is about every axis that moves; a constant speed wants --now."""
+    """`stop` stops every moving axis; a constant speed requires --now."""
     with Ppmc2104.open(TWO) as part:
         for axis in (part.x, part.y):
             axis.initialise()

@@ -1,1 +1,1 @@
-"""The PPMC-2104's driver."""
+"""Tests of the driver of the PPMC-2104."""

@@ -47,7 +47,7 @@ SETUP = {"start_pps": 2000, "high_pps": 20_000, "ramp_pulses": 100}
 
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Ppmc2104]:
-    """A part with both axes initialised; `setup` as keyword arguments of initialise."""
+    """Yield a part with both axes initialised; `setup` has the keyword arguments of `initialise`."""
     with Ppmc2104.open(f"model:speed=max,part=ppmc2104,{plant}") as part:
         for axis in (part.x, part.y):
             axis.initialise(**{**SETUP, **setup})  # type: ignore[arg-type]
@@ -61,14 +61,16 @@ def part() -> Iterator[Ppmc2104]:
 
 
 def model(part: Ppmc2104) -> Carrier:
-    """The modelled board."""
+    """Return the modelled board."""
     assert isinstance(part.link.port, ModelPort)
     assert isinstance(part.link.port.board, Carrier)
     return part.link.port.board
 
 
 def first_pulses(part: Ppmc2104) -> list[list[int]]:
-    """A list per axis that gets the clk of each pulse, by looking over the board's shoulder."""
+    """Return a list per axis to which the cycle of each pulse is appended, observed inside the modelled
+    board.
+    """
     seen: list[list[int]] = [[], []]
     real = model(part)._follow
     levels = [1, 1]
@@ -111,12 +113,12 @@ def test_a_part_without_a_driver() -> None:
 
 
 def test_opening_clears_what_others_left() -> None:
-    """Errors of both axes, a command that waits for data, an unread answer: all gone."""
+    """Opening clears errors of both axes, a command that waits for data, and an unread answer."""
     port = ModelPort("part=ppmc2104,speed=max")
     link = Link(port)
     for script in (
         Script().post(1, b"\x07").post(1, b"\xa7"),  # undefined codes: error 1 of either axis
-        Script().post(1, b"\x02").post(0, b"\x63"),  # two bytes of an initialisation, and no more
+        Script().post(1, b"\x02").post(0, b"\x63"),  # only two bytes of an initialisation
         Script().post(1, b"\x83").post(1, b"\x22"),  # an unread answer, then a command of axis 2
     ):
         link.execute(script)
@@ -146,7 +148,9 @@ def test_a_motion_of_another_program_goes_on() -> None:
 
 @pytest.mark.parametrize("early", [True, False])
 def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
-    """int_n is low from a motion of another program, ended before the opening or after it."""
+    """An unread end of another program's motion, which keeps int_n low, does not hide other ends,
+    whether it ended before or after the opening.
+    """
     first = Ppmc2104.open("model:part=ppmc2104,speed=max")
     first.x.initialise(**SETUP)
     first.x.start_move(50 if early else 2000)
@@ -161,8 +165,9 @@ def test_ends_that_nobody_read_hide_no_other(early: bool) -> None:
 
 
 def test_an_axis_left_waiting_for_run_does_not_start() -> None:
-    """A program died between the commands of a coordinated start: the next one opens, uses the other axis,
-    and only ends the wait when it is asked to."""
+    """If a program ended between the commands of a coordinated start, the next one can open the part
+    and use the other axis. It ends the wait only when a stop is requested.
+    """
     port = ModelPort("part=ppmc2104,speed=max")
     first = Ppmc2104.open(port)
     for axis in (first.x, first.y):
@@ -216,7 +221,7 @@ def test_a_move_of_one_axis_leaves_the_other_alone(part: Ppmc2104) -> None:
 
 
 def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> None:
-    """int_n stays low while an end is unread: the wait for one axis reads the other's as well."""
+    """int_n stays low while an end is unread, so the wait for one axis also reads the end of the other."""
     short, long = part.x.start_move(100), part.y.start_move(2000)
     before = part.link.clock()
     end = long.wait()
@@ -227,7 +232,9 @@ def test_the_end_of_the_other_axis_does_not_hide_this_one(part: Ppmc2104) -> Non
 
 @pytest.mark.parametrize("setups", [({}, {}), ({}, {"start_pps": 1000}), ({"start_pps": 1000}, {})])
 def test_together_begins_on_one_clk(setups: tuple[dict[str, int], dict[str, int]]) -> None:
-    """Ramps of different base clocks as well: the straps of both are set for it."""
+    """Coordinated starts work with ramps of different base clocks, too: the driver sets the straps of
+    both axes.
+    """
     with board() as part:
         for axis, setup in zip((part.x, part.y), setups, strict=True):
             axis.initialise(**{**SETUP, **setup})
@@ -243,7 +250,7 @@ def test_together_begins_on_one_clk(setups: tuple[dict[str, int], dict[str, int]
 
 
 def test_together_at_constant_speeds(part: Ppmc2104) -> None:
-    """One axis with the slow base clock, the other with the fast one."""
+    """In a coordinated start, one axis can use the slow base clock and the other the fast one."""
     seen = first_pulses(part)
     part.together(40, 300, 1000, 100_000)
     assert seen[0][0] == seen[1][0]
@@ -322,7 +329,9 @@ def test_stop_with_a_ramp(part: Ppmc2104) -> None:
 
 
 def test_stop_at_constant_speed_is_immediate(part: Ppmc2104) -> None:
-    """The part refuses a decelerating stop there (P2104-STP-03)."""
+    """At constant speed the part rejects a decelerating stop, and the driver stops immediately
+    (P2104-STP-03).
+    """
     part.x.jog(CCW, 2000)
     part.link.pause(0.3)
     before = part.x.position
@@ -348,7 +357,7 @@ def test_stop_twice_and_stop_at_rest(part: Ppmc2104) -> None:
 
 
 def test_stop_while_the_part_waits_for_run(part: Ppmc2104) -> None:
-    """A RUN pin that somebody holds low: no pulses, and a stop is not refused for ever."""
+    """If a RUN pin is held low externally, no pulse is output, and a stop ends the motion."""
     model(part).set_pins(run=0)
     model(part).straps = lambda levels: None  # type: ignore[method-assign]
     motion = part.x.start_move(500)
@@ -380,7 +389,7 @@ def test_limits_and_starts_on_them(part: Ppmc2104) -> None:
     assert model(part).position == 40_000
     assert part.x.inputs().active == ["limit cw", "slow cw"]
     assert part.y.inputs().active == []
-    # The part refuses such a start (error 7); for the user it is the same as on a PPMC-104.
+    # The part rejects such a start (error 7); for the user it is the same as on a PPMC-104.
     with pytest.raises(LimitReached, match="after 0 of 1 pulses") as caught:
         part.x.step(CW)
     assert caught.value.end.pulses == 0
@@ -419,7 +428,9 @@ def test_home(start: int, how: dict[str, bool]) -> None:
 
 
 def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
-    """Straight from the golden part, by scripts that provoke them on axis 2; each is cleared at once."""
+    """Each error number, provoked by a script on axis 2 of the golden model, raises its exception and
+    is cleared immediately.
+    """
     link = part.link
     model(part).set_pins(bl_n=0b01)
     rest: list[tuple[int, type[CommandRefused], Script]] = [
@@ -455,7 +466,7 @@ def test_every_error_number_has_its_exception(part: Ppmc2104) -> None:
 
 
 def test_too_fast_with_datasheet_timing() -> None:
-    """Errors 12 and 13 (P2104-DS-30)."""
+    """With DATASHEET timing, rates above the limits return errors 12 and 13 (P2104-DS-30)."""
     with board("timing=DATASHEET", high_pps=10_000) as part:
         with pytest.raises(TooFast, match="axis 1: .* one axis cannot run so fast"):
             part.x.start_constant(5, 250_000)
@@ -549,7 +560,7 @@ def test_reset(part: Ppmc2104) -> None:
 
 
 def test_noise_during_coordinated_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every fifth transfer loses a byte; each pair of moves is made exactly once."""
+    """If every fifth transfer loses a byte, each pair of moves is still made exactly once."""
     with board() as part:
         port = part.link.port
         write, count = port.write, 0
@@ -568,7 +579,9 @@ def test_noise_during_coordinated_starts(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_ctrl_c_in_the_middle_of_a_coordinated_start(part: Ppmc2104, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Only the answer was not awaited: both axes run, and are brought to rest first."""
+    """If Ctrl-C interrupts only the wait for the answer, both axes run, and the driver stops them
+    before it raises.
+    """
     read = part.link.port.read
 
     def strike(timeout: float) -> bytes:

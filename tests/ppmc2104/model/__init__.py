@@ -1,1 +1,1 @@
-"""The PPMC-2104's golden model: acceptance checks, errors, inputs, examples, properties."""
+"""Tests of the golden model of the PPMC-2104: acceptance checks, errors, inputs, examples, properties."""

@@ -10,19 +10,20 @@ from tests.common.model.host import ModelHost
 B1 = "c 02 d 63 d 13 d 0A d 00"
 B2 = "c 22 d 63 d 13 d 0A d 00"
 LONG = " c 43 d E7 d 03 d 00"
-# Rates of the ramp B1 and B2 set up, index 0..10.
+# Rates of the ramp that B1 and B2 set, index 0..10.
 RAMP = [99, 53, 41, 34, 30, 27, 24, 23, 21, 20, 19]
 
 
 def clk(rates: list[int], base: int = 32) -> list[int]:
-    """Intervals in clk at 16 MHz: base 32 (500 kHz) or 128 (125 kHz)."""
+    """Return intervals in cycles at 16 MHz: base 32 (500 kHz) or 128 (125 kHz)."""
     return [base * (rate + 1) for rate in rates]
 
 
 class Host(ModelHost):
-    """As ModelHost. Scripts may also say e1, e2 (error code read), idle (both axes at rest), ready (no CMND).
+    """`ModelHost` of the PPMC-2104. Scripts may also contain e1, e2 (error code read), idle (both axes
+    at rest), ready (no CMND).
 
-    `axis` (1 or 2) is the one that pulses(), intervals(), lows(), fall() look at.
+    `axis` (1 or 2) is the axis of pulses(), intervals(), lows() and fall().
     """
 
     MODEL = Ppmc2104
@@ -36,7 +37,7 @@ class Host(ModelHost):
         self.run(script)
 
     def run(self, script: str) -> list[int]:
-        """Returns what r, e1 and e2 read."""
+        """Run a script; return the bytes that r, e1 and e2 read."""
         words, got = script.split(), []
         while words:
             word = words.pop(0)
@@ -55,38 +56,38 @@ class Host(ModelHost):
         return got
 
     def idle(self) -> None:
-        """Wait for BUSY = 0 of both axes without touching the bus."""
+        """Wait for BUSY = 0 of both axes without a bus access."""
         self.sync()
         while self.model.busy(1) or self.model.busy(2):
             self.step()
 
     def pin(self, name: str, level: int, axis: int = 1) -> None:
-        """One axis's bit of an input port."""
+        """Set the bit of one axis in an input port."""
         other = self.model.inputs[name] & ~(1 << (axis - 1))
         self.pins(**{name: other | level << (axis - 1)})
 
     def bit(self, signal: str, axis: int | None = None) -> int:
-        """One axis's bit of an output port."""
+        """Return the bit of one axis in an output port."""
         return self.out(signal) >> ((axis or self.axis) - 1) & 1
 
     def pulses(self) -> list[int]:
-        """Pulses of `axis` since `mark`."""
+        """Return the pulses of `axis` since `mark`."""
         return self.model.pulses(self.axis, self.mark)
 
     def lows(self) -> list[int]:
-        """Low times of the pulses since `mark`."""
+        """Return the low times of the pulses since `mark`."""
         return low_times(self.model.bits("pout_n", self.axis, self.mark))
 
     def phases(self) -> list[str]:
-        """Levels that the phase pins of `axis` took since `mark`, as five digits S5..S1."""
+        """Return the levels of the phase pins of `axis` since `mark`, as five digits S5..S1."""
         return [f"{value:05b}" for _, value in self.model.log.of(f"s{self.axis}_n", self.mark)]
 
     def status(self) -> int:
-        """Status read."""
+        """Read the status."""
         return self.read(1)
 
     def end(self) -> tuple[int, int]:
-        """Wait for the end of `axis`; end status and remaining value as the host reads them."""
+        """Wait for the end of `axis`; return end status and remaining value as the host reads them."""
         base = 0x20 * (self.axis - 1)
         mark = self.mark
         self.poll(BUSY[self.axis - 1], 0)

@@ -1,4 +1,4 @@
-"""Acceptance checks AC-01 to AC-85 on the golden model: those of the RTL, which stand once."""
+"""Acceptance checks AC-01 to AC-85 on the golden model: the same code as for the RTL."""
 
 from __future__ import annotations
 

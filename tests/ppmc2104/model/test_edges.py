@@ -1,4 +1,4 @@
-"""Single edges of the golden model that no acceptance check looks at: bus, table builds, switching."""
+"""Single edges of the golden model that no acceptance check covers: bus, table builds, switching."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_ac_79_three_bytes(busc):
 @verifies("P2104-BUS-01", "P2104-BUS-02", "P2104-BAD-11", "P2104-BAD-12")
 def test_what_makes_a_strobe():
     def shows(busc: int, first: int, second: int) -> tuple[int, int]:
-        """d_oe in a strobe with these levels, error after it (the byte is an undefined code)."""
+        """Return d_oe in a strobe with these levels, and ERROR after it (the byte is an undefined code)."""
         host = Host(busc=busc)
         host.pins(cs_n=0, ds_wrs_n=first, rw_rds_n=second, a0=1, d_i=0x87)
         host.pause(6)
@@ -82,7 +82,7 @@ def test_shared_builder_queues():
 
 @pytest.mark.parametrize("early, taken", [(0, 1), (1, 1), (-1, 1), (-2, 2)])
 def test_code_that_meets_the_end_of_the_build(early, taken):
-    """CMND falls on one edge, a code that waited is taken on the next; later ones are not delayed."""
+    """CMND falls on one edge, and a waiting code is accepted on the next; later codes are not delayed."""
     host = Host(B1)
     while host.model.status & 0x10:
         host.step()

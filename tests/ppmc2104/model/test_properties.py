@@ -1,4 +1,4 @@
-"""Invariants of the PPMC-2104 golden model under random hosts, switches and clocks."""
+"""Invariants of the golden model of the PPMC-2104 with random hosts, switches and clocks."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ action = st.one_of(
 
 
 def play(host: Host, actions: list[tuple[str, int, int]]) -> dict[str, list[tuple[int, int]]]:
-    """Run random actions; returns the pin history."""
+    """Run random actions; return the history of the pins."""
     history: dict[str, list[tuple[int, int]]] = {pin: [(-1, 3)] for pin in SWITCHES}
     for kind, wait, value in actions:
         host.pause(wait)
@@ -118,13 +118,13 @@ axis_1_action = st.one_of(
 
 
 def axis_2_edges(model: Ppmc2104) -> list[tuple[int, str, int]]:
-    """Everything axis 2 shows."""
+    """Return all output edges of axis 2."""
     shared = [(t, signal, bit) for signal in AXIS_2_OUTPUTS for t, bit in model.bits(signal, 2)]
     return sorted(shared + [(t, "s2_n", value) for t, value in model.log.of("s2_n")])
 
 
 def two_runs(moves: list, traffic: list | None, clk_hz: int) -> Ppmc2104:
-    """Axis 2 makes its moves at fixed edges; between them axis 1 gets its traffic, if any."""
+    """Run the moves of axis 2 at fixed edges, with traffic to axis 1 between them, if any."""
     host = Host("c 36 d 09 d 04 d 04 d 00 ready", clk_hz=clk_hz)
     start, rest = 20_000, iter(traffic or [])
     for place, (code, data, pin, offset) in enumerate(moves):
@@ -183,8 +183,8 @@ def axis_2_move() -> st.SearchStrategy:
     st.sampled_from([16_000_000, 11_059_200]),
 )
 def test_axis_1_never_changes_axis_2(moves, traffic, clk_hz):
-    """P2104-OPR-10, P2104-BCK-05, P2104-STP-06."""
-    # A pin change of axis 2 must meet the same edge in both runs: traffic stops short of it.
+    """Traffic to axis 1 never changes the edges of axis 2 (P2104-OPR-10, P2104-BCK-05, P2104-STP-06)."""
+    # A pin change of axis 2 must be on the same edge in both runs, so traffic ends before it.
     alone = two_runs(moves, None, clk_hz)
     beside = two_runs(moves, traffic, clk_hz)
     assert [e[1:] for e in axis_2_edges(alone)] and axis_2_edges(alone) == axis_2_edges(beside)
@@ -205,7 +205,9 @@ def test_axis_1_never_changes_axis_2(moves, traffic, clk_hz):
     after=st.integers(6, 500),
 )
 def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, after):
-    """P2104-END-05, -06: m = N - j, and bits 6-3 tell a complete move from a cut one."""
+    """The remaining value follows m = N - j, and bits 6-3 distinguish a complete move from a cut one
+    (P2104-END-05, -06).
+    """
     rh = max(1, rl - span)
     host = Host(f"c 02 d {rl:02X} d {rh:02X} d {pa:02X} d 00 ready")
     rate = " d 09" if code & 7 in (4, 5, 7) else ""
@@ -247,7 +249,7 @@ def test_pulses_and_remaining_value_add_up(n, rl, span, pa, code, cause, fall, a
     )
 )
 def test_interrupt_latches(steps):
-    """P2104-INT-01..05 against a bookkeeping of what was raised and read."""
+    """int_n follows a reference model of raised and read interrupts (P2104-INT-01..05)."""
     host = Host(B1 + " c 22 d 63 d 13 d 0A d 00 ready")
     errint, pending = 1, set()
     for code, wait in steps:

@@ -1,1 +1,1 @@
-"""The C driver of the PPMC-2104, compiled and run."""
+"""Tests of the C driver of the PPMC-2104, compiled and run."""

@@ -1,4 +1,4 @@
-"""The C driver of the PPMC-2104 on the Verilated part, bus cycle by bus cycle."""
+"""The C driver of the PPMC-2104 on the Verilated part, one bus access after the other."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ pytestmark = pytest.mark.xdist_group("cdriver_2104")  # one worker builds and ru
 
 INIT = bytes([99, 49, 10, 0])
 OK, BAD_ARGUMENT, UNCONFIRMED, UNKNOWN_POSITION, ERROR = 0, 18, 19, 20, 32
-"""ERROR: results of the part's error numbers are that much higher."""
+"""ERROR: offset of the results for the error numbers of the part."""
 
 
 @pytest.fixture(scope="module", params=TIMINGS)
 def lines(request) -> Lines:
-    """Lines that tb/cdriver/axes_test.c printed: first word(s) -> its lines, each as name -> value."""
+    """Output of tb/cdriver/axes_test.c: first word(s) -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "ppmc2104.c", BENCH / "axes_test.c", BENCH / "axes_bus.cpp"]
     design = part_design("ppmc2104", F16)
     return simulate(
@@ -37,7 +37,7 @@ def lines(request) -> Lines:
 
 
 def position(lines: Lines, name: str) -> tuple[int, int]:
-    """(result, position) of a line."""
+    """Return (result, position) of a line."""
     return int(lines[name][0]["result"]), int(lines[name][0]["position"])
 
 
@@ -95,7 +95,7 @@ def test_no_axis_starts_if_one_is_rejected(lines):
     [("fl", 0x10, 0xC7), ("bl", 0x10, 0xCD), ("alm", 0x20, 0x8F), ("fhl", 0x08, 0xCB)],
 )
 def test_switch_ends_the_move(lines, name, bit, inputs):
-    """A switch in a move of 100 pulses: cause, remainder and pulses agree.
+    """A switch in a move of 100 pulses ends it with consistent cause, remaining count and pulses.
 
     P2104-LIM-03, P2104-LIM-04, P2104-LIM-05.
     """
@@ -105,7 +105,9 @@ def test_switch_ends_the_move(lines, name, bit, inputs):
 
 
 def test_origin_and_stops(lines):
-    """Origin search, jog and run end by the origin or a stop; a stop with nothing to slow down is error 8."""
+    """Origin search, jog and run end by the origin or a stop; a decelerating stop without a ramp is
+    error 8.
+    """
     raws = [ending(lines, name)["raw"] for name in ("home", "jog", "run")]
     assert raws == [0x87, 0xC5, 0xC6]
     assert result(lines, "at home")[0] == ERROR + 7
@@ -167,7 +169,7 @@ def test_reset_in_a_motion(lines):
 
 
 def test_time_out(lines):
-    """Without a part, or with a motion longer than the wait, each wait ends and states which."""
+    """Without a part, or with a motion longer than the wait, each wait ends with its own error."""
     assert result(lines, "dead ones")[0] == 17
     assert result(lines, "dead zeros")[0] == 16
     assert result(lines, "dead held")[0] == 17

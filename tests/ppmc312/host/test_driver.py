@@ -173,8 +173,8 @@ def test_words_of_the_machine() -> None:
     for text, complaint in (
         ("block=5", "block=5: only a ppmc312 has an encoder"),
         ("part=stmc,index=5", "index=5: only a ppmc312 has an encoder"),
-        ("part=ppmc312,index=-5", "index=-5: the pulses of a turn"),
-        ("part=ppmc312,origin=5..1", "the first position is behind the last one"),
+        ("part=ppmc312,index=-5", "index=-5: must not be negative; use the pulses of a turn"),
+        ("part=ppmc312,origin=5..1", "the first position must not exceed the last one"),
     ):
         with pytest.raises(ValueError, match=complaint):
             parse_machine(text)

@@ -29,7 +29,7 @@ def test_scan(run: Run) -> None:
     assert [one["station"] for one in found] == [0, 1, 2]
     assert found[0]["errors"] == {"framing": 0, "overrun": 0, "checksum": 0} and not found[0]["trouble"]
     assert run(*PART, "--port", "model:speed=max,baud=83333", "scan").only_line.startswith(
-        "error: model:speed=max,baud=83333: no station replies: are they powered"
+        "error: model:speed=max,baud=83333: no station replies; check power"
     )
 
 
@@ -110,13 +110,13 @@ def test_init_stop_reset(run: Run, tmp_path: Path) -> None:
     [
         (("move", "5", "--axis", "7"), "no station 7: is it powered"),
         (("move", "5", "--axis", "16"), "stations have numbers from 0 to 15"),
-        (("move", "5", "--axis", "a"), "stations are 3, 0,2,5 or 0-7"),
+        (("move", "5", "--axis", "a"), "--axis 'a': not a list of stations; write 3, 0,2,5 or 0-7"),
         (("move", "5", "--axis", "3-1"), "stations have numbers"),
         (("move", "5"), "Missing option '--axis'"),
         (("table",), "table: not with --part ppmc312-serial"),
         (("table",), "table: not with --part ppmc312-serial"),
-        (("jog", "cw", "--axis", "0", "--ramped", "--speed", "100"), "not both"),
-        (("jog", "cw", "--axis", "0", "--seconds", "-1"), "not a time from 0 on"),
+        (("jog", "cw", "--axis", "0", "--ramped", "--speed", "100"), "exclude each other"),
+        (("jog", "cw", "--axis", "0", "--seconds", "-1"), "not a valid time; use 0 or more"),
         (("init", "--axis", "0", "--curve", "x.csv"), "free curves: a PPMC-312 in serial mode"),
         (("init", "--axis", "0", "--stop", "500"), "a deceleration of its own: a PPMC-312 in serial mode"),
         (("--baud", "9600", "scan"), "9600 bit/s is no speed of a line"),
@@ -188,10 +188,10 @@ def test_script_monitor_and_info(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("move 4", ":1: move: which station? add axis=N"),
-        ("move 4 5", ":1: move: which station? add axis=N"),
+        ("move 4", ":1: move: no station; add axis=N"),
+        ("move 4 5", ":1: move: no station; add axis=N"),
         ("move 4 axis=16", ":1: station 16: a line has stations 0 to 15"),
-        ("position\nauxo 3", ":2: auxo: not on a line"),
+        ("position\nauxo 3", ":2: auxo: not supported on a line"),
         ("move 4 axis=7", "no station 7"),
     ],
 )

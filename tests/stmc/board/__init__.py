@@ -1,1 +1,1 @@
-"""The STMC's virtual board."""
+"""Tests of the virtual board of the STMC."""

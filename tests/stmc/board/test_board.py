@@ -15,11 +15,11 @@ from ...common.board.fixtures import CommandLine, StartBoard
 
 FAST = {"start_pps": 2000, "high_pps": 9000, "ramp_pulses": 100}
 TICK = 8_000_000 / 48_675
-"""clk of the board's step clock."""
+"""Period of the step clock of the board in cycles."""
 
 
 def test_every_motor(start_board: StartBoard) -> None:
-    """For each type, mode and logic the motor (plant), the counter (RTL) and the command agree."""
+    """For each type, mode and logic, the motor (plant), the counter (RTL) and the command agree."""
     board = start_board(part="stmc", speed="max")
     with Stmc.open(board.port) as axis:
         for phases, half, positive in product((3, 4, 5), (False, True), (True, False)):
@@ -37,7 +37,9 @@ def test_every_motor(start_board: StartBoard) -> None:
 
 
 def test_edges_exact(start_board: StartBoard, tmp_path: Path) -> None:
-    """Every gap between steps: exact with the internal clock, without drift with that of the board."""
+    """Every gap between steps is exact with the internal clock, and without drift with that of the
+    board.
+    """
     log = tmp_path / "steps.txt"
     board = start_board(part="stmc", speed="max", log=log)
     with Stmc.open(board.port) as axis:
@@ -59,7 +61,7 @@ def test_edges_exact(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_switches(start_board: StartBoard) -> None:
-    """Reference point, limits and MON reach the part; the bridge knows it."""
+    """Reference point, limits and MON reach the part, and the bridge identifies it."""
     board = start_board(part="stmc", speed="max", start=500, ccw=-400, alarm="700..800")
     with Stmc.open(board.port) as axis:
         assert (axis.link.identity.part, axis.link.identity.counter, axis.read_map) == (105, True, "FAMILY")
@@ -107,7 +109,7 @@ def test_bad_text(text: str, expected: str) -> None:
 
 
 def test_parameters() -> None:
-    """What the text says goes to the top module."""
+    """The values of the text are passed to the top module."""
     spec = sim.parse_spec("part=stmc,read_map=family,xtal=20000000,timing=datasheet")
     assert spec.parameters == {
         "CLK_HZ": 8_000_000,

@@ -1,1 +1,1 @@
-"""The STMC's commands."""
+"""Tests of the commands of the STMC."""

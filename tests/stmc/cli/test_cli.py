@@ -34,14 +34,14 @@ def test_init_and_plan(run: Run, tmp_path: Path) -> None:
     words = ("--start", "345", "--high", "825", "--ramp", "400")
     assert json.loads(run("init", *words, "--json").out)["bytes"] == [0x1A, 141, 59, 0x90, 1]
     out = run("plan", "801", *words).out
-    assert "345.213 pps (divisor 141), asked 345 pps" in out and "48675 Hz (external)" in out
+    assert "345.213 pps (divisor 141), requested 345 pps" in out and "48675 Hz (external)" in out
     plot = tmp_path / "x.svg"
     values = json.loads(run("plan", "801", *words, "--json", "--plot", str(plot)).out)
     # Example W9 of the rules: 66 634 ticks.
     assert values["move"]["seconds"] == pytest.approx(66_634 / 48_675)
     assert plot.stat().st_size > 1000
     flat = ("plan", "5", *words[:4], "--ramp", "0")
-    assert "none: high speed at once" in run(*flat).out
+    assert "none: high speed immediately" in run(*flat).out
     assert json.loads(run(*flat, "--json").out)["move"]["seconds"] == pytest.approx(4 * 59 / 48_675)
     assert json.loads(run("plan", "5", "--speed", "345", "--json").out)["move"]["seconds"] == pytest.approx(
         4 * 141 / 48_675

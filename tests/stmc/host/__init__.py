@@ -1,1 +1,1 @@
-"""The STMC's driver."""
+"""Tests of the driver of the STMC."""

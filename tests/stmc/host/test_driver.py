@@ -1,4 +1,7 @@
-"""The driver of the STMC on the modelled board, in virtual time. What it shares is in test_driver.py."""
+"""The driver of the STMC on the modelled board, in virtual time.
+
+Functions common to all parts are tested in test_driver.py.
+"""
 
 from __future__ import annotations
 
@@ -51,13 +54,13 @@ timing = "FAST"
 
 @pytest.fixture(autouse=True, params=["FAST", "DATASHEET"])
 def _timing(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every test runs in both timings."""
+    """Run every test in both timings."""
     monkeypatch.setitem(globals(), "timing", request.param)
 
 
 @contextmanager
 def board(plant: str = "", **setup: object) -> Iterator[Stmc]:
-    """An initialised part; `setup` as keyword arguments of initialise."""
+    """Yield an initialised part; `setup` has the keyword arguments of `initialise`."""
     with Stmc.open(f"model:speed=max,part=stmc,timing={timing},{plant}") as axis:
         axis.initialise(**setup)  # type: ignore[arg-type]
         yield axis
@@ -70,14 +73,14 @@ def axis() -> Iterator[Stmc]:
 
 
 def model(axis: Stmc) -> Carrier:
-    """The modelled board."""
+    """Return the modelled board."""
     assert isinstance(axis.link.port, ModelPort)
     assert isinstance(axis.link.port.board, Carrier)
     return axis.link.port.board
 
 
 def gaps(axis: Stmc, steps: int, pps: speeds.Number | None = None) -> list[int]:
-    """clk between the phase changes of a move, by looking over the board's shoulder."""
+    """Return the cycles between the phase changes of a move, observed inside the modelled board."""
     seen: list[int] = []
     machine = model(axis)
     real = machine._follow
@@ -101,13 +104,13 @@ def gaps(axis: Stmc, steps: int, pps: speeds.Number | None = None) -> list[int]:
 
 
 def test_the_worked_examples_of_the_sheet() -> None:
-    """345/s and 825/s at 48 675 Hz: the doctests of `clock` are run, and there are some."""
+    """The doctests of `clock` pass: 345/s and 825/s at 48 675 Hz, at least five examples."""
     failed, attempted = doctest.testmod(stmc)
     assert not failed and attempted >= 5
 
 
 def test_bytes_of_an_initialisation() -> None:
-    """00sc plmm, then D1, D2, PA (section 3.1 of the rules)."""
+    """The bytes of an initialisation are 00sc plmm, then D1, D2, PA (section 3.1 of the rules)."""
     examples: list[tuple[dict[str, object], str]] = [
         ({"start_pps": 345, "high_pps": 825, "ramp_pulses": 400}, "1A 8D 3B 90 01"),
         ({"start_pps": 100, "high_pps": 2500, "ramp_pulses": 65_535}, "0A 7D 05 FF FF"),
@@ -152,14 +155,16 @@ def test_impossible_setups_are_refused_before_the_part_hears_of_them(
 
 
 def test_steps_with_the_internal_clock() -> None:
-    """Exactly 1280 clk a tick at 16 MHz."""
+    """On the internal clock, a tick is exactly 1280 cycles at 16 MHz."""
     with board(start_pps=625, high_pps=2500, ramp_pulses=8, base_clock=12_500) as axis:
         assert gaps(axis, 20) == [1280 * ticks for ticks in W1]
         assert gaps(axis, -4, 1250) == [12_800] * 3
 
 
 def test_steps_with_the_clock_of_the_board() -> None:
-    """48 675 Hz without drift: the last gap ends where the sum of the ticks says, give or take two clk."""
+    """On the 48 675 Hz clock, gaps have no drift: each step is within two cycles of the sum of its
+    ticks.
+    """
     with board(start_pps=2433.75, high_pps=9735, ramp_pulses=8) as axis:
         assert axis.setup is not None and axis.setup.data[:2] == bytes([20, 5])
         seen = gaps(axis, 20)
@@ -212,7 +217,7 @@ def test_open_part() -> None:
 @pytest.mark.parametrize("read_map", ["SHEET", "FAMILY"])
 @pytest.mark.parametrize("moving", [False, True])
 def test_read_codes_are_found_out(read_map: str, moving: bool) -> None:
-    """At rest, or while a motion of another program runs, which goes on."""
+    """The driver detects the read codes at rest and during a motion of another program, which continues."""
     with board(f"read_map={read_map}") as first:
         if moving:
             first.jog(CCW, 1000)
@@ -230,7 +235,9 @@ def test_read_codes_are_found_out(read_map: str, moving: bool) -> None:
 
 
 def test_other_read_codes_are_not_sent(axis: Stmc, monkeypatch: pytest.MonkeyPatch) -> None:
-    """84h and above are undefined in the default map; 81h, which finds the map out, is sent only once."""
+    """The driver does not send 84h and above, undefined in the default map; it sends 81h, which
+    identifies the map, only once.
+    """
     sent: list[int] = []
     real = model(axis).write
     monkeypatch.setattr(
@@ -258,7 +265,7 @@ def test_moves(axis: Stmc) -> None:
 
 
 def test_the_end_comes_as_a_message(axis: Stmc) -> None:
-    """`int_n` wakes the driver up; the look at BUSY every half second is not needed."""
+    """`int_n` reports the end to the driver; the polling of BUSY every half second is not needed."""
     before = axis.link.clock()
     assert axis.move(300).complete
     assert axis.link.clock() - before < 0.15
@@ -300,7 +307,7 @@ def test_limits() -> None:
 
 
 def test_motor_off() -> None:
-    """MON stands where the sister parts have an alarm."""
+    """The MON input is reported in place of the alarm of related devices."""
     with board("alarm=4500..4600") as axis:
         text = "MON input ended the motion at position 500 after 500 of 2000 pulses: switch the motor on"
         with pytest.raises(AlarmStop, match=text) as caught:
@@ -324,7 +331,7 @@ def test_home_finds_the_same_place_from_everywhere(start: int, how: dict[str, bo
 
 
 class Flag(Plant):
-    """The reference point is a flag of 21 steps."""
+    """Plant whose reference point is a flag of 21 steps."""
 
     def levels(self, position: int) -> dict[str, int]:
         return {**super().levels(position), "origin": int(not -20 <= position <= 0)}
@@ -332,7 +339,9 @@ class Flag(Plant):
 
 @pytest.mark.parametrize("how", [{"fast": True}, {"to_limit": True}])
 def test_home_comes_back_to_a_flag_it_has_passed(how: dict[str, bool]) -> None:
-    """The sheet's start-up: to the end of the travel, then command 7 back to the reference point."""
+    """The start-up of the data sheet finds the flag: to the end of the travel, then command 7 back to
+    the reference point.
+    """
     with board("start=300", start_pps=2000, high_pps=8000, ramp_pulses=100) as axis:
         model(axis).plants = (Flag(ccw=-1000, slow_ccw=-200),)
         assert axis.home(CCW, **how).cause is Cause.ORIGIN
@@ -340,7 +349,7 @@ def test_home_comes_back_to_a_flag_it_has_passed(how: dict[str, bool]) -> None:
 
 
 def test_a_flag_on_the_other_side_is_not_found(axis: Stmc) -> None:
-    """A search from below the flag ends at the deceleration limit (ruling R-19), and says so."""
+    """A search that starts below the flag ends at the deceleration limit and reports it (ruling R-19)."""
     model(axis).plants = (Flag(start=-100, ccw=-1000, slow_ccw=-200),)
     model(axis).positions[0] = -100
     with pytest.raises(OriginNotFound, match="home in the other direction") as caught:
@@ -352,7 +361,9 @@ def test_a_flag_on_the_other_side_is_not_found(axis: Stmc) -> None:
 
 
 def test_every_error_number_is_raised_as_its_own_exception(axis: Stmc) -> None:
-    """Straight from the golden part, by scripts that provoke them; number 4 does not exist."""
+    """Each error number, provoked by a script on the golden model, raises its own exception; number 4
+    does not exist.
+    """
     rest: list[tuple[type[CommandRefused], int, Script]] = [
         (NothingToStop, 0x80, Script().call(0x40)),
         (NothingToStop, 0x80, Script().call(0xC0)),
@@ -385,7 +396,7 @@ def test_every_error_number_is_raised_as_its_own_exception(axis: Stmc) -> None:
 
 
 def test_reset_is_no_step(axis: Stmc) -> None:
-    """The first pattern after a reset is where counting begins again."""
+    """After a reset, counting continues from the first pattern."""
     axis.move(1)
     axis.reset()
     axis.initialise()

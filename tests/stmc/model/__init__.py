@@ -1,1 +1,1 @@
-"""The STMC's golden model: acceptance checks, examples, data sheet times, properties."""
+"""Tests of the golden model of the STMC: acceptance checks, examples, data sheet times, properties."""

@@ -6,19 +6,19 @@ from openppmc.model.chip import Square
 from openppmc.model.stmc.part import Stmc
 from tests.common.model.host import ModelHost
 
-# Period of the external clock of the acceptance checks, in clk.
+# Period of the external clock of the acceptance checks, in cycles.
 EXT16 = 16
 TICK = 1280
 SWITCHES = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "mon")
 
 
 def init(code: int, d1: int, d2: int, pa: int) -> str:
-    """Script of an initialisation; the numbers are decimal."""
+    """Return the script of an initialisation; the arguments are numbers."""
     return f"c {code:02X} d {d1:02X} d {d2:02X} d {pa & 0xFF:02X} d {pa >> 8:02X} "
 
 
 def count(value: int) -> str:
-    """Script of three data bytes, low first."""
+    """Return the script of three data bytes, low byte first."""
     return " ".join(f"d {byte:02X}" for byte in value.to_bytes(3, "little")) + " "
 
 
@@ -27,7 +27,7 @@ INTERNAL = init(0x0A, 20, 5, 8)
 
 
 class Clocked(Stmc):
-    """The model with an external clock that runs by itself; `ext` = 0: the pin is left alone."""
+    """The model with a free-running external clock; `ext` = 0: the pin is not driven."""
 
     def __init__(self, ext: int = EXT16, **parameters: object) -> None:
         super().__init__(**parameters)
@@ -49,7 +49,10 @@ class Clocked(Stmc):
 
 
 class Host(ModelHost):
-    """As ModelHost. The script is run at once; scripts may also say idle (wait for BUSY = 0)."""
+    """`ModelHost` of the STMC.
+
+    It runs its script immediately; scripts may also contain idle (wait for BUSY = 0).
+    """
 
     MODEL = Clocked
 
@@ -58,7 +61,7 @@ class Host(ModelHost):
         self.run(script)
 
     def run(self, script: str) -> list[int]:
-        """Returns what r read."""
+        """Run a script; return the bytes that r reads."""
         got = []
         for part in script.replace("idle", "|idle|").split("|"):
             if part == "idle":
@@ -68,30 +71,32 @@ class Host(ModelHost):
         return got
 
     def start(self, script: str) -> None:
-        """A motion command; steps count from here."""
+        """Send a motion command; steps are counted from here."""
         mark = self.t
         self.run(script)
         self.mark = mark
 
     def move(self, script: str) -> tuple[int, int]:
-        """A motion command up to its end; FIN and REM."""
+        """Send a motion command and wait for its end; return FIN and REM."""
         self.start(script)
         return self.finish()
 
     def pulses(self) -> list[int]:
-        """Steps since `mark`: changes of `s`."""
+        """Return the steps since `mark`: changes of `s`."""
         return [t for t, _ in self.model.log.of("s", self.mark)]
 
     def gaps(self, tick: int = EXT16) -> list[int]:
-        """Gaps since `mark` in ticks of so many clk; the external clock may be off by one clk."""
+        """Return the gaps since `mark` in ticks of `tick` cycles; the external clock may deviate by one
+        cycle.
+        """
         return [round(gap / tick) for gap in self.intervals()]
 
     def in_gap(self, i: int, after: int = 40) -> None:
-        """Go on to `after` clk after step i, the one that opens gap i."""
+        """Run to `after` cycles after step i, the step that begins gap i."""
         self.fall(i + 1, after)
 
     def finish(self) -> tuple[int, int]:
-        """Wait for the end; FIN and REM as the host reads them."""
+        """Wait for the end; return FIN and REM as the host reads them."""
         self.idle()
         mark = self.mark
         (status,) = self.run("c 80 r")
@@ -100,15 +105,15 @@ class Host(ModelHost):
         return status, low | mid << 8 | high << 16
 
     def blip(self, clocks: int, **levels: int) -> None:
-        """Levels for so many clk, then the idle ones."""
+        """Set levels for this number of cycles, then the idle levels."""
         self.pins(**levels)
         self.pause(clocks - 1)
         self.pins(**{pin: self.model.INPUTS[pin] for pin in levels})
 
     def phases(self) -> list[str]:
-        """Levels that `s` took since `mark`."""
+        """Return the levels of `s` since `mark`."""
         return [f"{value:05b}" for _, value in self.model.log.of("s", self.mark)]
 
     def status(self) -> int:
-        """Status read."""
+        """Read the status."""
         return self.read(1)

@@ -1,4 +1,6 @@
-"""DATASHEET times of the STMC (STMC-DS-01..14) on the golden model: -0/+16 clk, plus the way to the pins."""
+"""DATASHEET times of the STMC (STMC-DS-01..14) on the golden model: -0/+16 cycles, plus the delay to
+the pins.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ def sheet(script: str = INTERNAL, **parameters: object) -> Host:
 
 
 def ready(host: Host) -> Host:
-    """The initialisation has completed."""
+    """Wait until the initialisation is complete."""
     host.run("c 80 r")
     return host
 
@@ -25,7 +27,7 @@ def near(got: int, nominal: int, slack: int = 0) -> bool:
 
 
 def taken(host: Host) -> int:
-    """Edge on which a waiting byte is taken."""
+    """Return the edge on which a waiting byte is accepted."""
     host.pause(4)
     host.sync()
     while host.model.status & 2:
@@ -34,7 +36,7 @@ def taken(host: Host) -> int:
 
 
 def command_and_times(host: Host, script: str) -> tuple[int, int, int]:
-    """Write event of the last byte, fall of hold, first step, relative to the event."""
+    """Return the write event of the last byte, and the fall of hold and the first step relative to it."""
     *head, last = script.split("/")
     host.start(" ".join(head))
     reg, byte = last.split()

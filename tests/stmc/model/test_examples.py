@@ -62,7 +62,7 @@ def divisor(d1: int, d2: int, pa: int, k: int) -> int:
 
 
 def threshold(d1: int, d2: int, pa: int, x: int) -> int:
-    """E(x) of STMC-RMP-02."""
+    """Return E(x) of STMC-RMP-02."""
     top = pa * (4 * d1**2 - (2 * x - 1) ** 2) * d2**2
     return 1 + top // ((d1**2 - d2**2) * (2 * x - 1) ** 2)
 

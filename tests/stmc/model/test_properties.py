@@ -1,4 +1,4 @@
-"""Invariants of the STMC golden model under random hosts, switches and clocks; the board around it."""
+"""Invariants of the golden model of the STMC with random hosts, switches and clocks, and of its board."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_requests_in_any_gap(setting, n, data):
 
 
 def host_level(setting: tuple[int, int, int], k: int) -> int:
-    """x(k) by whole numbers: the smallest r with 4Y < (2r + 1)^2 (STMC-RMP-01)."""
+    """Return x(k) with integers: the smallest r with 4Y < (2r + 1)^2 (STMC-RMP-01)."""
     d1, d2, pa = setting
     if pa == 0 or d1 == d2:
         return d2
@@ -149,7 +149,7 @@ def test_times_scale_with_the_crystal():
 
 
 class Isa:
-    """ISA cycles on the board's model."""
+    """ISA accesses to the model of the board."""
 
     def __init__(self, **parameters: int) -> None:
         self.model = J105Stmc(**parameters)

@@ -1,1 +1,1 @@
-"""The C driver of the STMC, compiled and run."""
+"""Tests of the C driver of the STMC, compiled and run."""

@@ -25,19 +25,19 @@ from tests.common.packages.c_programs import (
 pytestmark = pytest.mark.xdist_group("cdriver_stmc")  # one worker builds and runs the programs
 
 INIT = bytes([20, 5, 8, 0])
-TICK = 16  # clk of the external clock here
+TICK = 16  # cycles of the external clock here
 
 
 def gaps(steps: int, divisor: int | None = None, init: bytes = INIT) -> list[int]:
-    """Intervals in clk of a move with the external clock."""
+    """Return the intervals in cycles of a move with the external clock."""
     return [TICK * rate for rate in predict_move(init, steps, divisor, part="stmc").rates]
 
 
 @pytest.fixture(scope="module", params=TIMINGS)
 def lines(request) -> Lines:
-    """What tb/cdriver/stmc_test.c printed: first word(s) -> its lines, each as name -> value."""
+    """Output of tb/cdriver/stmc_test.c: first word(s) -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "stmc.c", BENCH / "stmc_test.c", BENCH / "isa_bus.cpp"]
-    # A fast "external" clock, because every clk is computed.
+    # A fast "external" clock, because every cycle is simulated.
     design = part_design("j105_stmc", F16)
     params = ("-GEXT_HZ=1000000", timed(request.param))
     return simulate(f"cdriver_stmc_{request.param.lower()}", "j105_stmc", design, sources, params)
@@ -48,7 +48,7 @@ def lines(request) -> Lines:
     [("move", 20, None, 0, 3), ("constant", 5, 7, 1, 4), ("step", 1, 1, 1, 2), ("internal", 4, None, 0, 3)],
 )
 def test_motion_makes_the_steps_of_the_model(lines, name, count, divisor, ccw, op):
-    """Given a motion by the driver, then count, direction and every gap are the predicted ones."""
+    """Count, direction and every gap of a motion by the driver are the predicted ones."""
     assert result(lines, name) == (0, "ok")
     want = gaps(count, divisor)
     if name == "internal":
@@ -61,19 +61,19 @@ def test_motion_makes_the_steps_of_the_model(lines, name, count, divisor, ccw, o
 
 
 def test_both_bytes_of_the_ramp(lines):
-    """Given a ramp of 259 steps, then a short move climbs as slowly as that."""
+    """With a ramp of 259 steps, a short move accelerates at the rate of this long ramp."""
     assert pulses(lines, "long") == (60, 0, gaps(60, init=bytes([20, 5, 3, 1])))
 
 
 def test_ports(lines):
-    """Given the accessors at 3B0h and 3B1h, then the part answers, and its registers read as they should."""
+    """Through the accessors at 3B0h and 3B1h the part responds, and its registers read as documented."""
     assert result(lines, "probe") == result(lines, "outputs") == result(lines, "inputs") == (0, "ok")
-    # Phases 1 and 2 on, at rest, cw; no switch active, motor on.
+    # Phases 1 and 2 on, at standstill, cw; no switch active, motor on.
     assert (lines["levels"][0]["out"], lines["levels"][0]["in"]) == ("c4", "cf")
 
 
 def test_read_codes_are_found_out(lines):
-    """Probing finds the codes of the default map, and those of READ_MAP = "SHEET" (R-01)."""
+    """The probe detects the codes of the default map, and those of READ_MAP = "SHEET" (R-01)."""
     assert lines["default"][0]["map"] == "1"
     assert result(lines, "sheet probe") == (0, "ok")
     found = lines["sheet"][3]
@@ -84,7 +84,9 @@ def test_read_codes_are_found_out(lines):
 
 
 def test_interrupt(lines):
-    """Given moves without and with interrupt, then IRQ comes with the last step, the finish read lifts it."""
+    """IRQ is asserted with the last step of a move with interrupt, not of one without, and the read of
+    the finish status deasserts it.
+    """
     assert lines["irq"][0]["quiet"] == "0" and pulses(lines, "quiet")[0] == 3
     values = lines["irq"][1]
     assert (values["running"], values["steps"], values["raw"], values["lifted"]) == ("0", "12", "83", "1")
@@ -92,7 +94,9 @@ def test_interrupt(lines):
 
 
 def test_interrupt_served_after_the_restart(lines):
-    """Given a routine that comes when the next motion runs, then it is refused; the end of that lifts IRQ."""
+    """The read of an interrupt routine that runs during the next motion is rejected; the read after
+    the end of this motion deasserts IRQ.
+    """
     assert result(lines, "late") == result(lines, "late again") == (0, "ok")
     assert result(lines, "late service")[0] == Error.NOT_WHILE_BUSY + 1
     assert result(lines, "late wait") == (0, "ok")
@@ -112,9 +116,11 @@ def test_interrupt_served_after_the_restart(lines):
     ],
 )
 def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
-    """Given a switch after 30 steps of 100, then cause, remainder and steps fit each other and the model."""
+    """A switch after 30 of 100 steps leads to cause, remaining count and steps that agree with each
+    other and with the model.
+    """
     end, (cw, back, got) = ending(lines, name), pulses(lines, name)
-    # At once, or the running gap and the eight of the ramp (STMC-DEC-04).
+    # Immediately, or after the running gap and the eight of the ramp (STMC-DEC-04).
     count = 30 + (9 if cause == "slow" else 0)
     assert (cw, back) == ((0, count) if ccw else (count, 0))
     assert end["raw"] == 0x83 | bit and end[cause] == 1 and end["left"] == 100 - count
@@ -125,7 +131,7 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
 
 
 def test_reference_point_and_stops(lines):
-    """Given home, jog and run, when the reference point or a stop comes, then they end and say why."""
+    """Home, jog and run end by the reference point or a stop and report it."""
     ends = {name: ending(lines, name) for name in ("home", "there", "jog", "run")}
     assert [end["raw"] for end in ends.values()] == [0x87, 0x87, 0xC5, 0xC6]
     assert pulses(lines, "home") == (0, 7, gaps(7, 10))
@@ -153,14 +159,14 @@ def test_reference_point_and_stops(lines):
     ],
 )
 def test_error_number(lines, name, number):
-    """Given a byte that the part refuses, then the driver returns its error number plus one and the text."""
+    """For a byte that the part rejects, the driver returns the error number plus one and the text."""
     value, text = result(lines, name)
     assert value == number + 1 and text.startswith(f"error {int(number)}: ")
     assert ("divisor" in text) == (number == Error.BAD_RAMP)
 
 
 def test_errors_disturb_nothing(lines):
-    """Given refused bytes during a move, then the move goes on to its decelerating stop."""
+    """Rejected bytes during a move do not affect it; it continues to its decelerating stop."""
     for name in ("E init", "E start", "E stop slowly"):
         assert result(lines, name) == (0, "ok")
     end, (cw, ccw, got) = ending(lines, "E"), pulses(lines, "E")
@@ -175,7 +181,7 @@ def test_reset_in_a_motion(lines, name):
 
 
 def test_bad_arguments(lines):
-    """Given values out of range, then the driver says so and sends nothing."""
+    """The driver reports values out of range and sends no byte."""
     named = [name for name in lines if name.startswith("A ") and "result" in lines[name][0]]
     assert len(named) == 11
     assert {result(lines, name) for name in named} == {(18, "argument out of range")}
@@ -183,14 +189,16 @@ def test_bad_arguments(lines):
 
 
 def test_time_out(lines):
-    """Given ports where nobody answers, or a motion longer than the wait, then each wait ends and says so."""
+    """If no device responds at the ports, or a motion is longer than the wait, each wait ends with its
+    own error.
+    """
     assert result(lines, "dead ports")[0] == result(lines, "dead init")[0] == 17
     assert result(lines, "short wait")[0] == 16
     assert [line.get("result", "0") for line in lines["again"]] == ["0"] * 5
 
 
 def test_speeds(lines):
-    """Given speeds, then the driver finds the nearest divisor and its speed as exact arithmetic does."""
+    """For each speed, the driver finds the nearest divisor and its speed, as exact arithmetic does."""
     good = 0
     for line in lines["speed"]:
         clock, speed = int(line["clock"]), int(line["speed"])

@@ -1,4 +1,4 @@
-"""The commands for a line of PPMC-312 in serial mode: `openppmc --part ppmc312-serial …`."""
+"""Commands for a line of PPMC-312 in serial mode: `openppmc --part ppmc312-serial …`."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from . import show as show_line
 from .session import Session, opened
 
 Axis = Annotated[
-    str, typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3 or 0,2,5 or 0-7")
+    str, typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3, 0,2,5 or 0-7")
 ]
 AnyAxis = Annotated[
     str | None,
-    typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3 or 0,2,5 or 0-7 (all)"),
+    typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3, 0,2,5 or 0-7 (all)"),
 ]
 
 
-# ---------------------------------------------------------------------- who is there
+# ---------------------------------------------------------------------- scan and status
 
 
 def scan(as_json: Json = False) -> None:
-    """ppmc312-serial, pmc006: who is on the line; clears the error counters of ppmc312."""
+    """ppmc312-serial, pmc006: List devices. Clears the error counters of ppmc312."""
     with opened() as session:
         found = session.scan()
     if as_json:
@@ -50,7 +50,7 @@ def poll(
         float, typer.Option(min=0.0, max=3600, metavar="S", help="seconds between rounds")
     ] = 0.1,
 ) -> None:
-    """ppmc312-serial: poll stations and print what they report, until Ctrl-C."""
+    """ppmc312-serial: Poll stations, print reports until Ctrl-C."""
     with opened() as session:
         axes = session.chosen(axis)
         for turn in range(count or 10**9):
@@ -67,7 +67,7 @@ def poll(
 
 
 def status(axis: AnyAxis = None, as_json: Json = False) -> None:
-    """Position, switches, state of stations. Disturbs nothing."""
+    """Print position, switches and state of stations without side effects."""
     with opened() as session:
         axes = session.chosen(axis)
         if as_json:
@@ -77,7 +77,7 @@ def status(axis: AnyAxis = None, as_json: Json = False) -> None:
 
 
 def reset(axis: Axis) -> None:
-    """ppmc312-serial: reset stations by their instruction: pulses end at once, no table, position 0."""
+    """ppmc312-serial: Reset stations. Pulses end immediately; table and position are cleared."""
     with opened() as session:
         for one in session.chosen(axis):
             one.reset()
@@ -88,7 +88,7 @@ def reset(axis: Axis) -> None:
 
 
 def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any]) -> list[Any]:
-    """Initialise stations, all plans made before the first."""
+    """Make all plans, then initialise the stations; return the reached set-ups."""
     xtal_hz = session.bus.line.identity.xtal_hz
     plans: list[Any] = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
     reached = []
@@ -100,7 +100,7 @@ def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any])
 
 @with_setup
 def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
-    """Initialise stations, and remember the set-up for this port."""
+    """Initialise stations and store the set-up for this port."""
     with opened() as session:
         axes = session.chosen(axis)
         setups = _initialise(session, axes, typed)
@@ -113,7 +113,7 @@ def init(typed: dict[str, Any], axis: Axis, as_json: Json = False) -> None:
     output.console.print(output.table(VIEW.setup_rows(setups[0])))
     output.say(f"initialised: station{'s' if len(axes) > 1 else ''} {_list(axes)}")
     if not lasting(BOARD.port):
-        output.note("(a virtual board is new each time: nothing to remember)")
+        output.note("(a virtual board is new each time; the set-up is not stored)")
 
 
 @with_setup
@@ -123,9 +123,9 @@ def move(
     axis: Axis,
     to: Annotated[bool, typer.Option("--to", help="move to this position")] = False,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed, no ramp")] = None,
-    keep: Annotated[bool, typer.Option("--keep", help="leave the table as `init` made it")] = False,
+    keep: Annotated[bool, typer.Option("--keep", help="keep the table that `init` loaded")] = False,
 ) -> None:
-    """Move stations so many pulses, all at the same time."""
+    """Move stations by PULSES, all at the same time."""
     with opened() as session:
         axes = session.chosen(axis)
         if not keep:
@@ -142,7 +142,10 @@ def move(
 
 
 def _finish(session: Session, motions: list[Any], asked: int | None = None) -> None:
-    """Wait for all, print where they stand, tell the first that ended early."""
+    """Wait for all motions and print their ends.
+
+    asked: unless it is None, raise an error for the first motion that ended early.
+    """
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()
     for end in ends:
@@ -156,15 +159,15 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
 @with_setup
 def jog(
     typed: dict[str, Any],
-    direction: Annotated[Side, typer.Argument(help="where to")],
+    direction: Annotated[Side, typer.Argument(help="direction of rotation")],
     axis: Axis,
     speed: Annotated[float | None, typer.Option(metavar="PPS", help="constant speed (start speed)")] = None,
-    ramped: Annotated[bool, typer.Option("--ramped", help="ramp up to the high speed")] = False,
-    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after so long")] = None,
+    ramped: Annotated[bool, typer.Option("--ramped", help="accelerate to the high speed")] = False,
+    seconds: Annotated[float | None, typer.Option(metavar="S", help="stop after this time")] = None,
 ) -> None:
     """Run stations until Ctrl-C, a limit switch or the alarm."""
     if ramped and speed is not None:
-        raise typer.BadParameter("either --speed or --ramped, not both")
+        raise typer.BadParameter("--speed and --ramped exclude each other; omit one")
     check_seconds(seconds)
     with opened() as session:
         axes = session.chosen(axis)
@@ -183,11 +186,13 @@ def home(
     axis: Axis,
     direction: Annotated[Side, typer.Option(help="towards the origin switch")] = Side.CCW,
     search: Annotated[float | None, typer.Option(metavar="PPS", help="search speed (start speed)")] = None,
-    fast: Annotated[bool, typer.Option("--fast", help="a zero return at high speed first")] = False,
-    to_limit: Annotated[bool, typer.Option("--to-limit", help="to the hard limit first")] = False,
-    index: Annotated[bool, typer.Option("--index", help="to the encoder's index on it")] = False,
+    fast: Annotated[bool, typer.Option("--fast", help="first a zero return at high speed")] = False,
+    to_limit: Annotated[bool, typer.Option("--to-limit", help="first run to the hard limit")] = False,
+    index: Annotated[
+        bool, typer.Option("--index", help="origin is the first encoder index on the switch")
+    ] = False,
 ) -> None:
-    """Find the origin switch of stations, one after the other, and call it position 0."""
+    """Find the origin switch of each station in turn, and set the position to 0 there."""
     with opened() as session:
         axes = session.chosen(axis)
         _initialise(session, axes, typed)
@@ -199,9 +204,9 @@ def home(
 
 def stop(
     axis: AnyAxis = None,
-    now: Annotated[bool, typer.Option("--now", help="at once, without a ramp")] = False,
+    now: Annotated[bool, typer.Option("--now", help="stop immediately, without a ramp")] = False,
 ) -> None:
-    """Stop stations that were left running; without --axis all."""
+    """Stop stations that are still running; without --axis, all."""
     with opened() as session:
         axes = session.chosen(axis)
         ends = session.bus.stop([one.number for one in axes], now)

@@ -1,4 +1,4 @@
-"""Commands that look at a line of PPMC-312 as those of one part do."""
+"""Commands that read the state of a line of PPMC-312."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .session import opened
 
 
 def info(as_json: Json = False) -> None:
-    """What line is at the port: its speed, the stations that answer, their versions."""
+    """Print the speed of the line, the stations that reply, and their versions."""
     with opened() as session:
         line, found = session.bus.line, session.scan()
     if not found:
@@ -42,12 +42,12 @@ def info(as_json: Json = False) -> None:
 def monitor(
     axis: Annotated[
         str | None,
-        typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3 or 0,2,5 or 0-7 (all)"),
+        typer.Option("--axis", metavar="N", help="ppmc312-serial: stations, as 3, 0,2,5 or 0-7 (all)"),
     ] = None,
     count: Count = None,
     every: Every = 0.2,
 ) -> None:
-    """Watch position and switches until Ctrl-C."""
+    """Show position and switches until Ctrl-C."""
     with opened() as session:
         axes = session.chosen(axis)
 

@@ -1,4 +1,4 @@
-"""Script files on a line of PPMC-312: the words of a board, each line with the station that it is for."""
+"""Script files on a line of PPMC-312: the words of a board; each line names its station."""
 
 from __future__ import annotations
 
@@ -31,19 +31,19 @@ from .session import Session, opened
 
 
 class LineView:
-    """What a script asks of a view, for stations."""
+    """The methods of a view that a script needs, for stations."""
 
     def busy(self, part: Ppmc312Bus, axes: Sequence[Station312]) -> tuple[Station312, ...]:
-        """Those of these stations that move."""
+        """Return the stations that are moving."""
         return tuple(axis for axis in axes if axis.busy_now())
 
     def reports(self, part: Ppmc312Bus, tell: Callable[[str], None]) -> None:
-        """What stations said meanwhile."""
+        """Pass the reports of the stations to `tell`. Raise the first error among them."""
         show.reports(part.axes, tell)
 
 
 class LineSession:
-    """A line as a script sees it; stations are axes. used: those that the script names."""
+    """Line for a script; its stations are the axes. used: stations that the script names."""
 
     kind = KIND
     view = LineView()
@@ -54,28 +54,33 @@ class LineSession:
 
     @property
     def xtal_hz(self) -> int:
-        """Crystal of the stations."""
+        """Crystal frequency of the stations in Hz."""
         return self.part.line.identity.xtal_hz
 
     def axis(self, number: int = 1) -> Any:
-        """A station."""
+        """Return a station."""
         return self.part.axis(number)
 
     def chosen(self, number: int | None) -> Sequence[Any]:
-        """That station, or all of the script."""
+        """Return the station with this number; for None all stations of the script."""
         return [self.axis(one) for one in ([number] if number is not None else self.used)]
 
 
 def check_line(steps: Iterable[Step], name: str) -> None:
-    """ScriptError for what cannot be said on a line: no station, two at once, pins of one part."""
+    """Raise ScriptError for steps that a line does not support.
+
+    These are a motion without a station, two numbers for both axes, and words of one part.
+    """
     for step in steps:
         where = f"{name}:{step.line}: "
         if step.word in OF_AXES and step.word not in OF_ALL_AXES and step.axis is None:
-            raise ScriptError(f"{where}{step.word}: which station? add axis=N")
+            raise ScriptError(f"{where}{step.word}: no station; add axis=N")
         if step.values.get("second") is not None:
-            raise ScriptError(f"{where}two numbers are for both axes of a part: a line for each station")
+            raise ScriptError(
+                f"{where}two numbers: only for a part with two axes; write a line for each station"
+            )
         if step.word in own_words():
-            raise ScriptError(f"{where}{step.word}: not on a line")
+            raise ScriptError(f"{where}{step.word}: not supported on a line")
         check_line(step.body, name)
 
 
@@ -84,7 +89,7 @@ def script(
     typed: dict[str, Any],
     file: Annotated[Path, typer.Argument(help="text file, one command a line; - for standard input")],
 ) -> None:
-    """Carry out a file of commands."""
+    """Execute a file of commands."""
     name, text = read_file(file)
     steps = read_program(text, name, numbered=Numbered(low=0))
     check_line(steps, name)
@@ -104,5 +109,5 @@ def script(
 
 
 def _names(steps: Iterable[Step], number: int) -> bool:
-    """Whether a line is for this station."""
+    """Return whether a line of the script names this station."""
     return any(step.axis == number or _names(step.body, number) for step in steps)

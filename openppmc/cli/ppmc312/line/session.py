@@ -1,4 +1,4 @@
-"""A line of PPMC-312 while a command talks to it."""
+"""A line of PPMC-312 during a command."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ...common.session import Guard
 
 
 def parse_stations(text: str) -> list[int]:
-    """`3`, `0,2,5` or `0-7`, in the order given. BadParameter."""
+    """Parse `3`, `0,2,5` or `0-7`, in the order given. Raise BadParameter."""
     last = STATIONS - 1
     return parse_numbers("--axis", text, range(STATIONS), f"stations have numbers from 0 to {last}", "0-7")
 
 
 def line_options(text: str) -> dict[str, Any]:
-    """Arguments of `Ppmc312Bus.open` from the text of --line. BadParameter."""
+    """Return arguments of `Ppmc312Bus.open` from the text of --line. Raise BadParameter."""
     options = line_session.line_options(text, LINE_WORDS)
     if "sum_mode" in options:
         options["sum_mode"] = SumMode(options["sum_mode"])
@@ -38,7 +38,7 @@ class Session:
     guard: Guard
 
     def chosen(self, text: str | None) -> list[Station312]:
-        """The stations that --axis names (they must answer); without it, all that answer."""
+        """Return the stations that --axis names, which must reply; without it, all that reply."""
         if text is not None:
             numbers = parse_stations(text)
             self.bus.check(numbers)
@@ -47,7 +47,7 @@ class Session:
         return [self.bus.axis(number) for number in numbers]
 
     def scan(self) -> list[Found]:
-        """Who is there, with a bar where it takes long."""
+        """Return all stations that reply; show a bar during the search."""
         found = self.bus.scan(progress=self._scanning)
         self.guard.bar_off()
         return found
@@ -59,7 +59,7 @@ class Session:
 
 @contextmanager
 def opened() -> Iterator[Session]:
-    """The line, and Ctrl-C under control."""
+    """Open the line; a signal stops the motors and ends with status 128 + n."""
     options = line_options(BOARD.line)
     if BOARD.baud is not None:
         options["speed"] = BOARD.baud

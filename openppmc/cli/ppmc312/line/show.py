@@ -1,4 +1,4 @@
-"""What commands print about a line of PPMC-312."""
+"""Output of commands for a line of PPMC-312."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _HEADS = ("station", "version", "state", "position", "framing", "overrun", "chec
 
 
 def found_table(found: Iterable[Found]) -> Table:
-    """Stations with their own error counters and those of the master."""
+    """Return a table of stations with their error counters and those of the master."""
     from rich.table import Table
 
     grid = Table(box=None, pad_edge=False)
@@ -39,7 +39,7 @@ def found_table(found: Iterable[Found]) -> Table:
 
 
 def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
-    """For JSON."""
+    """Return the values for JSON."""
     return [
         {
             "station": one.station,
@@ -55,12 +55,12 @@ def found_values(found: Iterable[Found]) -> list[dict[str, Any]]:
 
 
 def status_values(axis: Station312) -> dict[str, Any]:
-    """Everything that may be read at any time, and what went wrong on the line."""
+    """Return all values that may be read at any time, and the error counters of the line."""
     return {**axis_values(axis), "line": asdict(axis.counters)}
 
 
 def status_table(axes: Iterable[Station312]) -> Table:
-    """A line a station."""
+    """Return a table with one row for each station."""
     from rich import box
     from rich.table import Table
 
@@ -83,7 +83,7 @@ def status_table(axes: Iterable[Station312]) -> Table:
 
 
 def status_line(axis: Station312) -> str:
-    """A station in one line."""
+    """Return the state of a station as one line."""
     values = axis_values(axis)
     active = [name.replace("_", " ") for name, on in values["inputs"].items() if on]
     return (
@@ -93,22 +93,19 @@ def status_line(axis: Station312) -> str:
 
 
 def nobody(port: str) -> str:
-    """When no station replies."""
-    return (
-        f"{port}: no station replies: are they powered, are speed (MOD, --baud), MODE "
-        "and the two wires right?"
-    )
+    """Return the message for a line without a reply."""
+    return f"{port}: no station replies; check power, speed (MOD, --baud), MODE and the two wires"
 
 
 def report_line(number: int, report: Report) -> str:
-    """One line for a report of a station."""
+    """Return a report of a station as one line."""
     text = report_text(report)
     who = f"station {number}: "
     return text if text.startswith(who) else who + text
 
 
 def reports(axes: Iterable[Station312], tell: Callable[[str], None] = output.say) -> None:
-    """What stations said meanwhile. Raises what went wrong, after all of it."""
+    """Pass each new report to `tell` as a line; then raise the first error among them."""
     trouble: PpmcError | None = None
     for axis in axes:
         for report in axis.poll():
