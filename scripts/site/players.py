@@ -120,7 +120,7 @@ class FramePlayer(Player):
                 byte |= side.level("txd") << place - 1
             got.append(byte & 0xFF)
         if sum(got[:7]) & 0xFF != got[7]:
-            raise ScriptError(f"{bytes(got).hex(' ')} is no reply")
+            raise ScriptError(f"{bytes(got).hex(' ')}: not a valid reply")
         return int.from_bytes(bytes(got[3:7]), "little")
 
     async def frame(self, words: list[str]) -> list[str]:

@@ -46,7 +46,7 @@ class Pauses:
     async def next(self) -> None:
         """Wait for one pause."""
         if self.side.now > self.end:
-            raise ScriptError("it does not come")
+            raise ScriptError("the polled status does not occur before the time limit")
         self.count += 1
         if self.count >= DENSE:
             self.pause = min(LONGEST, self.pause * 5 // 4 + 1)
@@ -113,7 +113,7 @@ class Player:
         """Return a time in cycles."""
         found = LENGTH.fullmatch(text)
         if not found:
-            raise ScriptError(f"{text} is no time: 400, 5us, 2ms")
+            raise ScriptError(f"{text}: not a time; write 400, 5us or 2ms")
         unit = UNITS[found[2] or "clk"]
         return round(float(found[1]) * self.part.config.clk_hz / unit) if unit else int(float(found[1]))
 
