@@ -1,5 +1,5 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/isa_4axis.f; a --top-module after it selects a top of your own.
+// verilator -F packages/isa_4axis.f; a --top-module after it selects your own top.
 --top-module isa_4axis
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv

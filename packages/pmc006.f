@@ -1,5 +1,5 @@
 // Written by `make packages` from rtl/files.yml; change that, not this.
-// verilator -F packages/pmc006.f; a --top-module after it selects a top of your own.
+// verilator -F packages/pmc006.f; a --top-module after it selects your own top.
 --top-module pmc006
 +incdir+../rtl/common
 ../rtl/common/ppmc_pkg.sv

@@ -1,6 +1,6 @@
 # Written by `make packages` from rtl/files.yml; change that, not this.
 # Not run by this project's tests, which have no vendor tools; please report what does not work.
-# Plain Verilog-2005 of one part, bridge or board, written before by
+# Plain Verilog-2005 of one part, bridge or board, written earlier by
 #   make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>
 # Vivado, in a project: set top ppmc104; source .../packages/vivado.tcl
 if {![info exists root]} {set root [file normalize [file join [file dirname [info script]] ..]]}

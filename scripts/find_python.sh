@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs Python with $2, $3, …: that of .venv, else the one that $1 names, else the first of the usual names. It has to
-# be 3.10 or newer; without one this prints a line `error: …`.
+# Runs Python with the arguments $2, $3, …: the Python of .venv; else the one that $1 names; if $1 is empty, the
+# first of the usual names. Python must be 3.10 or newer; if there is none, this prints a line `error: …`.
 asked=$1
 shift
 new_enough() { "$1" -c 'import sys; sys.exit(sys.version_info < (3, 10))' </dev/null >/dev/null 2>&1; }

@@ -1,7 +1,7 @@
 """Print the shell text of a make target: ``python -m scripts.run GOAL GOAL … NAME=VALUE …``.
 
-It is that of the first goal; the words after it are all goals and variables of this `make`. If one of them is
-wrong, the first fault is printed instead, as one line that begins with "error:". Standard library only.
+The text is that of the first goal. The words after it are all goals and variables of this `make`. If one of
+them is wrong, only the first fault is printed, as one line that begins with "error:". Standard library only.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
 
 
 class WrongError(Exception):
-    """What is wrong and what to do, in one line."""
+    """Wrong goal, variable or machine: one line that states what is wrong and what to do."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Words that name the nearest known name, or no words."""
+    """Return a hint that names the most similar known name, or an empty text."""
     near = get_close_matches(word, list(known), 1, 0.7)
     return f"; nearest: {OLD.get(near[0], near[0])}" if near else ""
 
 
 class Goal:
-    """A goal with its row of the table and the values of its variables. WrongError if there is no such goal.
+    """A goal with its row of the table and the values of its variables; WrongError if there is no such goal.
 
-    given: variables of the command line. Those of the environment count, too, if the target has them.
+    given: variables of the command line. Variables of the environment are used, too, if the target has them.
     """
 
     def __init__(self, word: str, given: Mapping[str, str]) -> None:
@@ -57,7 +57,7 @@ class Goal:
         self.given = {name: given.get(name, os.environ.get(name) or None) for name in self.known}
 
     def check(self) -> None:
-        """WrongError for the first value that is wrong."""
+        """Raise WrongError for the first wrong value."""
         given = {name: value for name, value in self.given.items() if value is not None}
         values = {**self.target.defaults, **given}
         for name in VARIABLES:
@@ -65,7 +65,7 @@ class Goal:
                 raise WrongError(f"{name}={values[name]}: {text}")
 
     def command(self) -> str:
-        """The shell text."""
+        """Return the shell text."""
 
         def optional(part: re.Match[str]) -> str:
             marks = MARK.findall(part[0])
@@ -90,8 +90,8 @@ class Goal:
 
 
 def check_machine(python: str | None) -> None:
-    """WrongError if the folder, the tools or the Python cannot make the environment."""
-    # Spaces and letters of any language do; these end a name in PATH, or in the scripts that pip writes.
+    """Raise WrongError if the folder, the tools or the Python cannot be used to make the environment."""
+    # Spaces and letters of any language work. These characters end a name in PATH or in the scripts of pip.
     if re.search(r"[:\"$`\\\x00-\x1f\x7f]", str(ROOT)):
         shown = re.sub(r"[\x00-\x1f\x7f]", "?", str(ROOT))
         raise WrongError(f"the project's folder must not have : \" $ ` or \\ in its path: {shown}")
@@ -114,7 +114,7 @@ def check_machine(python: str | None) -> None:
 
 
 def plan(words: list[str]) -> str:
-    """The shell text of the first word. WrongError for the first fault of any."""
+    """Return the shell text of the first word; raise WrongError for the first fault of any word."""
     given = dict(word.split("=", 1) for word in words if "=" in word)
     goals = [Goal(word, given) for word in words if "=" not in word]
     known = set().union(*(goal.known for goal in goals))

@@ -1,15 +1,15 @@
 r"""The table of make targets and their variables; ``python -m scripts.targets`` prints it (`make help`).
 
-A row of TABLE: name | groups of packages that the target needs | line of help. Below it is the command, shell
-text with these marks, which scripts/run.py replaces:
+A row of TABLE: name | groups of packages that the target needs | line of help. The command follows: shell
+text with the following marks, which scripts/run.py replaces:
 
-    {NAME} {NAME:text}   the value of a variable, quoted; `text` if it is not given
+    {NAME} {NAME:text}   the value of a variable, quoted; the default `text` if it is not given
     {NAME/or}            the same with " or " in place of commas
-    [… {NAME} …]         only if the variable is given; of a flag only if it is 1, without the mark
-    {py} and the like    SHORT
+    [… {NAME} …]         only if the variable is given; for a flag, only if it is 1, and without the mark
+    {py} and others      abbreviations in SHORT
 
-A name with a variable (`prove NIGHT=1`) is what the target does with this value; `NAME=`: with any value.
-`make` reads this before there is an environment, so it needs the standard library only.
+A name with a variable (`prove NIGHT=1`) is the row of the target for this value; `NAME=`: for any value.
+`make` reads this table before the environment exists, so this module needs the standard library only.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SHORT = {
         f"[-G {name}={{{name}}}]"
         for name in ("XTAL_HZ", "TIMING", "PHASE_IDLE", "PHASE_ON", "READ_MAP", "BAUD", "RECORD")
     ),
-    # pytest ends with 5 if it has collected no test.
+    # The exit code of pytest is 5 if it has collected no test.
     "else": "|| { code=$?; test $code != 5 || echo 'error: no test matches' [T={T}] [CLK_HZ={CLK_HZ}] >&2;"
     " exit $code; }",
     "clean": "rm -rf build .pytest_cache .ruff_cache .hypothesis &&"
@@ -44,7 +44,7 @@ help | | Print this list.
     {python} -m scripts.targets
 setup | dev campaign | Make the whole environment; other targets make what they need.
     :
-demo | sim | Move a part; show what was sent and answered, plot, waveforms.
+demo | sim | Move a part; show the bus traffic, a plot and waveforms.
     {py} -m scripts.demo --part {PART:ppmc104}
 waves | | Open the demo's waveforms in GTKWave or Surfer.
     ./scripts/waves.sh
@@ -64,7 +64,7 @@ site | site | Build all documents and the playground; needs Node.js.
     {py} -m scripts.site
 
 work
-test WITH=campaign | campaign | Test the runner of campaigns.
+test WITH=campaign | campaign | Test the campaign runner.
     {pytest} tests/*/campaign [-k {T/or}]
 test WITH=ophyd | ophyd | Test openppmc.ophyd with bluesky.
     {pytest} tests/*/lab -n {J:2} [-k {T/or}]
@@ -87,9 +87,9 @@ lint | dev | Check all sources.
     {py} -m scripts.measure.lint
 lint VERILATOR= | dev | Check the packages with another Verilator.
     {py} -m scripts.fpga.packages --try --verilator {VERILATOR}
-format | dev | Lay out RTL and Python.
+format | dev | Format RTL and Python.
     {py} -m scripts.measure.lint --fix
-docs | sim | Write pictures and tables of the manuals.
+docs | sim | Write the pictures and tables of the manuals.
     {py} -m scripts.pages
 boards | dev | Write tops, constraints and tables of the boards.
     {py} -m scripts.fpga.boards
@@ -97,10 +97,10 @@ packages | dev | Write FuseSoC cores and file lists.
     {py} -m scripts.fpga.packages
 rom | dev | Assemble the planner's program of the PMC006B4.
     {py} -m scripts.fpga.rom.calc_rom
-trace | sim | Write each rule with its tests; fails on a gap.
+trace | sim | List each rule with its tests; a missing test fails.
     { test -d build/trace || {pytest} -n 2; } &&
     for part in {PART:{folders}}; do {py} -m scripts.measure.trace $part || exit 1; done
-release | dev site release | Write everything of this version into dist/.
+release | dev site release | Build all files of a release in dist/.
     {py} -m scripts.release [--skip {SKIP}] [--only {ONLY}]
 clean | | Remove what was built.
     {clean}
@@ -118,23 +118,23 @@ size | dev | Compare changed designs with docs/sizes.json; 5 % growth fails.
     {py} -m scripts.measure.sizes --check [--fresh {FRESH}] [--part {PART}]
 bench | sim | Measure the speed of all simulations.
     {py} -m scripts.measure.bench --part {PART:ppmc104}
-mutate | dev campaign | Count the small faults of the RTL that a proof or test finds.
+mutate | dev campaign | Count the RTL mutants that a proof or test finds.
     {py} -m scripts.measure.mutants.made {on} [-k {T}] [--count {COUNT}] [--quick {QUICK}]
-coverage | campaign | Count what tests reach of the RTL and the data sheets.
+coverage | campaign | Measure coverage of the RTL and the data sheets.
     {py} -m scripts.measure.coverage {on} [-k {T}]
 soak | campaign | Compare random hosts with the golden model; PART=all: each part.
     [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.soak {PART:ppmc104}
     --seed {SEED:1} --count {COUNT:1000} {on}
-fuzz | campaign | Send random characters into each deframer and its model.
+fuzz | campaign | Send random characters to each deframer and its model.
     {py} -m scripts.measure.fuzz [--seed {SEED}] [--count {COUNT}] {on}
 nightly | dev campaign | Run fuzz, soak, coverage, mutate, test-gates and prove for hours.
     code=0; for work in 'fuzz --count 100000000' 'soak all --seed {SEED:1000000} --count {COUNT:2000}'
     coverage mutants.made gates; do echo "== nightly: $work";
     {py} -m scripts.measure.$work {on} || code=1; done;
     echo '== nightly: proofs'; {py} -m scripts.measure.prove --night -n {J:2} || code=1; exit $code
-replay | sim | Repeat a failed random test on RTL and golden model.
+replay | sim | Repeat a failed random test on the RTL and the golden model.
     {py} -m scripts.measure.replay {FILE}
-scheduler | campaign | Start a scheduler for workers of other machines, port 8786.
+scheduler | campaign | Start a scheduler for workers on other machines, port 8786.
     {py} -m scripts.measure.campaign scheduler
 worker | campaign | Start workers of this checkout for a scheduler.
     {py} -m scripts.measure.campaign worker --scheduler {SCHEDULER} -n {J:2}
@@ -151,36 +151,36 @@ OLD = {
 # Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
 VARIABLE_TABLE = """
 PYTHON | any | Python (3.10 or newer) that makes the environment
-PART | part tops | part
+PART | part tops | part name
 BOARD | board | FPGA board
 HOST | host | host interface that the board has for the part: uart, bus or spi
 T | tests | parts of test names, separated by commas
-SEED | 0..4294967295 | (first) random seed; of bitstream: of place and route
+SEED | 0..4294967295 | (first) random seed; for bitstream: of place and route
 COUNT | 1..1000000000 | number of seeds, characters, or mutants of a folder
 CLK_HZ | 8000000..200000000 | only tests with this clock rate
 J | 1..64 | number of workers
 WITH | campaign ophyd litex fusesoc versions | tests that need other packages
 WAVES | 0..1 | 1: keep the waveforms of passing tests
-INSIDE | 0..1 | 1: show inner signals in the waveforms
+INSIDE | 0..1 | 1: record internal signals in the waveforms
 MODEL | 0..1 | 1: run directed tests on the golden model
-SIM_MAIN | own cocotb | main program of simulations
+SIM_MAIN | own cocotb | main program of the simulations
 SCHEDULER | scheduler | use the workers of this scheduler, tcp://host:port
 FRESH | 0..1 | 1: ignore results of earlier runs
 QUICK | 0..1 | 1: only the first tests of each mutant
-BREAK | 0..1 | 1: break the RTL of each proof, which must fail
-NIGHT | 0..1 | 1: all proofs, also the long ones
+BREAK | 0..1 | 1: break the RTL of each proof; the proof must then fail
+NIGHT | 0..1 | 1: all proofs, including the long ones
 FILE | any | recording of a failed random test
-SIM | any | of board: its settings (docs/virtual_board.md); of test-verilog: icarus
+SIM | any | for board: its settings (docs/virtual_board.md); for test-verilog: icarus
 VERILATOR | any | another Verilator
 TOP | any | only this top module
 PARAMS | any | parameters of TOP: NAME=VALUE,…
-PEERS | any | folder of other open designs
-SKIP | any | what a trial of a release leaves out
-ONLY | any | bitstreams of a trial of a release
+PEERS | any | folder of other open designs to compare
+SKIP | any | steps that a trial release omits
+ONLY | any | bitstreams of a trial release
 XTAL_HZ | 1000000..16000000 | crystal of the replaced chip in Hz
 TIMING | FAST DATASHEET | processing times
 PHASE_IDLE | 0..1 | level of the phases before the first initialisation
-PHASE_ON | 0..1 | level of a phase that is switched on
+PHASE_ON | 0..1 | level of an energised phase
 READ_MAP | SHEET FAMILY | read codes of the STMC
 BAUD | 1200..3000000 | rate of the UART after reset
 RECORD | record | 2**RECORD records; 0: no recorder
@@ -192,7 +192,7 @@ OTHER_VALUES = {
     "trace": ("PART", "part folders"),
     "test-verilog": ("SIM", "icarus own cocotb"),
 }
-"""Target -> a variable and the values that it has there."""
+"""Target -> a variable and its values for this target."""
 
 FORMS = {
     "any": ("(?s:.*)", ""),
@@ -200,10 +200,10 @@ FORMS = {
     "record": ("0|[4-9]|1[0-6]", "0, or 4 to 16"),
     "tests": (
         r"(?!(and|or|not)$)[A-Za-z0-9_.:-]+(,[A-Za-z0-9_.:-]+)*",
-        "(a part of) a test's name, of letters, digits and _ . : -, or some with commas",
+        "parts of test names (letters, digits and _ . : -), separated by commas",
     ),
 }
-"""Form of a value -> its pattern, and the words of an error."""
+"""Form of a value -> its pattern, and its description in an error."""
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ class Target:
 
     @property
     def defaults(self) -> dict[str, str]:
-        """Each variable of the command with its default, which may be empty."""
+        """Each variable of the command with its default; the default may be empty."""
         found: dict[str, str] = {}
         for name, default in re.findall(r"\{([A-Z_]+)(?:/or|:([^}]*))?\}", self.command):
             found[name] = found.get(name) or default
@@ -226,14 +226,14 @@ class Target:
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable of the command line with its values: a range, words, or what `fault` knows."""
+    """A variable of the command line with its values: a range, words, or a key that `fault` resolves."""
 
     values: str
     says: str
 
     @property
     def flag(self) -> bool:
-        """1 switches something on."""
+        """True if the variable is a flag: 1 switches an option on."""
         return self.says.startswith("1: ")
 
 
@@ -256,7 +256,7 @@ VARIABLES = {
 
 
 def boards() -> dict[str, dict[str, list[str]]]:
-    """Board -> part -> hosts, for the names below `devices` of the descriptions; read without PyYAML."""
+    """Return board -> part -> hosts from `devices` in the board descriptions; PyYAML is not used."""
     found = {}
     for path in sorted(ROOT.glob("constraints/*/board.yml")):
         text = path.read_text(encoding="utf-8")
@@ -271,7 +271,7 @@ def boards() -> dict[str, dict[str, list[str]]]:
 
 
 def limits(name: str, part: str, default: str) -> list[int]:
-    """The range of a variable; of a parameter that of the header of the part's top ("1e6 .. 20e6")."""
+    """Return the range of a variable; for a parameter, from the header of the part's top ("1e6 .. 20e6")."""
     if part in parts.PARTS:
         figure = r"(\d+(?: \d{3})*(?:e\d+)?)"
         for path in ROOT.glob(f"rtl/*/{parts.PARTS[part].top}.sv"):
@@ -282,7 +282,7 @@ def limits(name: str, part: str, default: str) -> list[int]:
 
 
 def part_names(columns: list[str]) -> list[str]:
-    """Names of the parts that have one of these columns in their table; or those of its `tops`, `folders`."""
+    """Return the parts that have one of these columns in their table, or their `tops` or `folders`."""
     if columns in (["tops"], ["folders"]):
         return [row.name for row in (parts.tops() if columns == ["tops"] else parts.folders())]
     found = [row.name for row in parts.PARTS.values() if any(getattr(row, column) for column in columns)]
@@ -290,7 +290,7 @@ def part_names(columns: list[str]) -> list[str]:
 
 
 def fault(name: str, values: Mapping[str, str], target: str) -> str:
-    """What is wrong with the value of a variable, or an empty text. values: those of all variables."""
+    """Return what is wrong with the value of a variable, or an empty text. values: of all variables."""
     value, allowed = values[name], VARIABLES[name].values
     other, there = OTHER_VALUES.get(target, ("", ""))
     kind, *words = (there if other == name else allowed).split()
@@ -299,7 +299,7 @@ def fault(name: str, values: Mapping[str, str], target: str) -> str:
         return "" if value in names else f"no such {kind} (known: {','.join(names)})"
     if kind == "host":
         board, part = values["BOARD"], values["PART"]
-        # The build reports a part that the board does not carry.
+        # The build reports a part that the board does not support.
         hosts = boards()[board].get(part, [value])
         return (
             "" if value in hosts else f"{board} with {part} has only {','.join(hosts)}; choose one of these"

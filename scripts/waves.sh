@@ -1,5 +1,5 @@
 #!/bin/sh
-# Opens the waveforms of the last demo with the saved view of whichever viewer is installed.
+# Opens the waveforms of the last demo, with their saved view, in GTKWave or else in Surfer.
 cd "$(dirname "$0")/.." || exit 1
 dir=build/demo
 vcd=$(ls "$dir"/*.vcd 2>/dev/null | head -n 1)

@@ -1,1 +1,1 @@
-"""`make demo`: a part seen from the host bus to the motor pins."""
+"""`make demo`: a part from the host bus to the motor pins."""

@@ -1,4 +1,4 @@
-"""`make demo`: build a part's RTL, drive it as a host would, compare it with the golden model, show it."""
+"""`make demo`: build a part's RTL, drive it like a host, compare it with the golden model, show it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MOST = 11  # bytes of a block that are printed
 
 
 def last_line(path: Path) -> str:
-    """Last line of a file that may not be there yet."""
+    """Return the last line of a file; empty if the file does not exist yet."""
     try:
         lines = path.read_text(errors="replace").strip().splitlines()
     except OSError:
@@ -41,24 +41,24 @@ def last_line(path: Path) -> str:
 
 
 def newest_build(part: str) -> str:
-    """How far the Verilator build is: the object files made so far."""
+    """Return the progress of the Verilator build: the number of object files."""
     folders = sorted((BUILD / "sim").glob(f"{part}-*/"), key=lambda path: path.stat().st_mtime)
     count = len(list(folders[-1].glob("*.o"))) if folders else 0
     return f"{count} object files" if count else "reading SystemVerilog"
 
 
 def repro(demo: Demo) -> str:
-    """The line that repeats the demo."""
+    """Return the command that repeats the demo."""
     return "make demo" if demo.name == "ppmc104" else f"make demo PART={demo.name}"
 
 
 def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]:
-    """Build and run; the recording and the chapters."""
+    """Build and run; return the recording and the chapters."""
     design = part_design(demo.part, demo.config)
     steps.run("build the RTL with Verilator", lambda: build(design), lambda: newest_build(demo.part))
     item = Item(demo.module, demo.test, demo.config, demo.part, ())
     steps.run(
-        "drive it as a host would",
+        "drive it like a host",
         lambda: run_sim(design, item, seed=1, folder=RUN, repro=repro(demo)),
         lambda: last_line(RUN / "progress"),
     )
@@ -68,22 +68,22 @@ def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]
 
 
 def hexes(data: list[int]) -> str:
-    """Bytes as hex pairs; a long block loses its end."""
+    """Return bytes as pairs of hex digits; a long block is truncated."""
     text = " ".join(f"{byte:02X}" for byte in data[:MOST])
     return text + (" …" if len(data) > MOST else "")
 
 
 def show_talk(demo: Demo, recording: Recording, chapters: list[dict[str, Any]]) -> None:
-    """The table of what the host sent and what came back."""
+    """Print the table of bytes sent by the host and the responses."""
     clk_hz = int(str(recording.params["CLK_HZ"]))
     table = Table(title="Host and chip", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     table.add_column("ms", justify="right")
     table.add_column("sent", no_wrap=True)
-    table.add_column("in words", overflow="fold")
+    table.add_column("meaning", overflow="fold")
     table.add_column("polls", justify="right")
-    table.add_column("status seen")
+    table.add_column("status read")
     table.add_column("answer", no_wrap=True)
-    table.add_column("in words", overflow="fold")
+    table.add_column("meaning", overflow="fold")
     for chapter in chapters:
         inside = [a for a in recording.accesses if chapter["begin"] <= a.t < chapter["end"]]
         rows = demo.words.exchanges(inside)
@@ -103,15 +103,15 @@ def show_talk(demo: Demo, recording: Recording, chapters: list[dict[str, Any]]) 
 
 
 def show_comparison(comparison: Comparison) -> None:
-    """The table RTL against golden model, output by output."""
+    """Print the comparison of RTL and golden model for each output."""
     table = Table(
-        title="RTL against golden model, to the clk",
+        title="RTL compared with the golden model, every cycle",
         title_justify="left",
         box=box.SIMPLE_HEAD,
         pad_edge=False,
     )
     table.add_column("output")
-    for head in ("edges of the RTL", "edges of the model", "without a twin"):
+    for head in ("edges of the RTL", "edges of the model", "differences"):
         table.add_column(head, justify="right")
     total = 0
     for name, actual in comparison.actual.items():
@@ -127,12 +127,12 @@ def show_comparison(comparison: Comparison) -> None:
 
 
 def spread(first: float, second: float) -> str:
-    """Two figures as a range, one if they are the same."""
+    """Return two figures as a range, or one figure if they are equal."""
     return f"{first:g}" if first == second else f"{first:g} … {second:g}"
 
 
 def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> None:
-    """What the motors were made to do, from the pins."""
+    """Print the motions of the motors, measured at the pins."""
     recording = comparison.recording
     clk_hz = int(str(recording.params["CLK_HZ"]))
     motors = waves.motor_pulses(comparison, demo.view)
@@ -152,7 +152,7 @@ def show_moves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]
 
 
 def write_waves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any]]) -> list[Path]:
-    """Write the VCD and its saved views; their paths."""
+    """Write the VCD and its saved views; return their paths."""
     vcd, gtkw, sucl = (FOLDER / f"{demo.name}.{suffix}" for suffix in ("vcd", "gtkw", "sucl"))
     waves.write_vcd(comparison, demo.view, vcd)
     period = 1_000_000_000_000 // int(str(comparison.recording.params["CLK_HZ"]))
@@ -163,16 +163,18 @@ def write_waves(demo: Demo, comparison: Comparison, chapters: list[dict[str, Any
 
 
 def part_of(arguments: list[str] | None) -> str:
-    """The part that the command line names."""
-    parser = argparse.ArgumentParser(prog="demo", description="A part through a move, compared and drawn.")
+    """Return the part that the command line names."""
+    parser = argparse.ArgumentParser(
+        prog="demo", description="Move a part, compare it with the golden model, draw it."
+    )
     parser.add_argument("--part", default="ppmc104")
     return str(parser.parse_args(arguments).part)
 
 
 def chosen(arguments: list[str] | None) -> Demo | Callable[[], int]:
-    """The demo of the part that the command line names, or a function that plays it all by itself.
+    """Return the demo of the part that the command line names, or a function that runs a separate demo.
 
-    ProjectError lists the parts that have one.
+    If the part has no demo, ProjectError lists the parts that have one.
     """
     name = part_of(arguments)
     known = [row.name for row in parts.having("demo")]
@@ -183,25 +185,25 @@ def chosen(arguments: list[str] | None) -> Demo | Callable[[], int]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the demo; 0 when RTL and golden model agree in every edge."""
+    """Run the demo; return 0 if RTL and golden model agree in every edge."""
     demo = chosen(arguments)
     return play(demo) if isinstance(demo, Demo) else demo()
 
 
 def play(demo: Demo) -> int:
-    """Run a demo on the pins of a part; 0 when RTL and golden model agree in every edge."""
+    """Run a demo on the pins of a part; return 0 if RTL and golden model agree in every edge."""
     steps = Steps()
     begin = time.monotonic()
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
         recording, chapters = simulate(demo, steps)
-        comparison = steps.run("ask the golden model", lambda: compare_recording(recording))
+        comparison = steps.run("run the golden model", lambda: compare_recording(recording))
         saved = write_waves(demo, comparison, chapters)
         picture = FOLDER / "profile.png"
         try:
             steps.run("draw the picture", lambda: demo.draw(comparison, chapters, picture))
         except (IndexError, StopIteration):
-            # Wrong RTL may lack the very edges that the close-ups are about.
+            # Faulty RTL may lack the edges that the close-ups show.
             if comparison.mismatch is None:
                 raise
     except SimError as error:

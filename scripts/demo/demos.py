@@ -1,4 +1,4 @@
-"""What a demo is: what is played, in which words, and how its waves and picture look.
+"""Description of a demo: its test, the wording of host accesses, its waveforms and its picture.
 
 Each part has its own in scripts/<part>/demo.py, named in the table of parts.
 """
@@ -19,9 +19,11 @@ from scripts.demo.scenes import Changes, access_text, falls
 
 @dataclass(frozen=True)
 class View:
-    """The VCD: `split` names the single bits of a vector, lowest first; `motors` maps a scope to the pin or
-    vector in which `pulses` finds its pulses; `groups` are (title, signals) of the saved views; `access` is
-    the text of a host access.
+    """Content of the VCD.
+
+    `split`: names of the single bits of a vector, lowest first. `motors`: scope -> the pin or vector in
+    which `pulses` finds the pulses of that motor. `groups`: (title, signals) of the saved views. `access`:
+    returns the text of a host access.
     """
 
     split: Mapping[str, Sequence[str]]
@@ -33,9 +35,9 @@ class View:
 
 @dataclass(frozen=True)
 class Demo:
-    """One demo of PART=`name`, which is played on `part`.
+    """One demo of PART=`name`, which runs on `part`.
 
-    `picture` gives what the usual picture shows; `own` draws another one instead. `config`: its build.
+    `picture` returns the content of the standard picture; `own` draws another one. `config`: its build.
     `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves.
     """
 

@@ -1,4 +1,4 @@
-"""`make demo PART=pmc006`: what is played, how the bus is shown, waves and picture."""
+"""`make demo PART=pmc006`: test, display of the bus, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ CHOPPER = (
 
 
 class Motor:
-    """Both windings on the bridges as they were recorded, up to edge `end`."""
+    """Both windings, simulated from the recorded half bridges up to edge `end`."""
 
     def __init__(self, comparison: Any, end: int) -> None:
         self.hz = int(comparison.recording.params["CLK_HZ"])
@@ -50,7 +50,7 @@ class Motor:
                     winding.look(t / self.hz, levels)
 
     def curve(self, name: str, begin: int, end: int, count: int = 1500) -> list[tuple[int, float, float]]:
-        """(edge, current, reference in A) of so many samples."""
+        """Return `count` samples (edge, current in A, reference in A)."""
         winding = self.windings[name]
         edges = [begin + (end - begin) * n // (count - 1) for n in range(count)]
         return [(t, winding.current(t / self.hz), winding.reference(t / self.hz)) for t in edges]
@@ -65,7 +65,7 @@ class Step(NamedTuple):
 
 
 def way(steps: Sequence[int], forward: Changes, chapters: By, hz: int) -> list[Step]:
-    """Where the motor is and how fast."""
+    """Return the position and the speed of the motor at each step."""
     fine = {f"move{micro}": micro for micro, _ in MOVES} | {"program": FINE}
     begins = sorted((chapters[key]["begin"], micro) for key, micro in fine.items())
     turns, found = [(0, 1), *forward], []
@@ -81,7 +81,7 @@ def way(steps: Sequence[int], forward: Changes, chapters: By, hz: int) -> list[S
 
 
 def overview(axes: Axes, steps: Sequence[Step], comparison: Any, by_key: By, ms: float) -> None:
-    """Way and speed of everything, switch and output."""
+    """Draw position and speed of the whole demo, the switch and the output."""
     speed = axes.twinx()
     xs = [step.t / ms for step in steps]
     speed.plot(xs, [step.speed for step in steps], color=PALE, linewidth=1.1, zorder=1)
@@ -123,13 +123,11 @@ def overview(axes: Axes, steps: Sequence[Step], comparison: Any, by_key: By, ms:
     speed.set_ylabel("full steps/s (grey)", fontsize=9, color=GREY, loc="bottom")
     axes.set_ylabel("full steps from the start", fontsize=9, color=GREY)
     axes.set_xlabel("ms", fontsize=9, color=GREY, labelpad=1)
-    heading(
-        axes, "Three moves of the same way over the line, then a program that homes and shuttles by itself"
-    )
+    heading(axes, "Three equal moves over the line, then a program that homes and shuttles without a host")
 
 
 def currents(axes: Axes, motor: Motor, begin: int, end: int, title: str, references: bool) -> None:
-    """Both phases from `begin` to `end`."""
+    """Draw both phases from `begin` to `end`."""
     scale = motor.hz / 1000
     for name, colour in PHASES.items():
         rows = motor.curve(name, begin, end)
@@ -146,7 +144,7 @@ def currents(axes: Axes, motor: Motor, begin: int, end: int, title: str, referen
 
 
 def cycle(steps: Sequence[Step], chapter: Mapping[str, Any]) -> tuple[int, int]:
-    """Edges of four full steps in the middle of a move."""
+    """Return the first and last edge of four full steps in the middle of a move."""
     inside = [step for step in steps if chapter["begin"] <= step.t < chapter["end"]]
     low = min(inside[0].place, inside[-1].place)
     middle = [step for step in inside if abs(step.place - low - WAY / 2) <= 2.001]
@@ -154,7 +152,7 @@ def cycle(steps: Sequence[Step], chapter: Mapping[str, Any]) -> tuple[int, int]:
 
 
 def chopper(axes: Axes, motor: Motor, comparison: Any, begin: int) -> None:
-    """Current against reference, and the half bridges of phase A."""
+    """Draw the current with its reference, and the half bridges of phase A."""
     us, end = motor.hz / 1e6, begin + motor.hz // 1800
     rows = motor.curve("a", begin, end, 3000)
     xs = [(t - begin) / us for t, *_ in rows]
@@ -204,7 +202,7 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     currents(
         middle, motor, first["begin"], first["end"], f"Phase currents: {first['title']}", references=False
     )
-    # Above the curves, which fill their axes, in the line of the heading.
+    # Placed in the line of the heading, because the curves fill their axes.
     middle.legend(
         loc="lower right",
         bbox_to_anchor=(1, 0.98),

@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc104`: what is played, how the bus is shown, waves and picture."""
+"""`make demo PART=ppmc104`: test, display of the bus, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ TITLES = {
     "move": "1000 pulses:\naccelerate, run, decelerate",
     "pause": "rest",
     "limit": "continuous,\nlimit L1",
-    "rest": "at rest: phases chopped, HOLD rises after 34 ms",
+    "rest": "at standstill: phases chopped, HOLD rises after 34 ms",
 }
 
 
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
-    """Phases, pulses and flags, and the limit switch that the demo presses."""
+    """Return phases, pulses, flags, and the limit switch that the demo presses."""
     rows = [Trace(f"S{n}", initial["s"] >> (n - 1) & 1, bit(outputs["s"], n - 1)) for n in range(1, 6)]
     rows += [
         Trace(name, initial[pin], outputs[pin])
@@ -35,7 +35,7 @@ def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any])
 def zooms(
     outputs: Levels, stimulus: Sequence[Any], chapters: Mapping[str, Any], pulses: Sequence[int], clk_hz: int
 ) -> list[Section]:
-    """Start of the ramp, limit stop, chopped rest."""
+    """Return the close-ups: start of the ramp, limit stop, chopped standstill."""
     us = clk_hz // 1_000_000
     begin = chapters["move"]["begin"]
     start = next(t for t, level in outputs["hold"] if level == 0 and t >= begin)
@@ -54,7 +54,7 @@ def zooms(
         "limit stop",
         press - 330 * us,
         press + 170 * us,
-        f"no pulse after L1; INT {done - press} clk later, until the finish status is read",
+        f"no pulse after L1; INT {done - press} cycles later, until the finish status is read",
         marks=[(press, "L1 closes")],
         spans=spans(before, clk_hz),
     )
@@ -71,7 +71,7 @@ def zooms(
 
 
 def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
-    """The picture of a comparison's recording."""
+    """Return the picture of a comparison's recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
     pulses = [t for t, level in outputs["pout_n"] if level == 0]

@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc2104`: what is played, how the bus is shown, waves and picture."""
+"""`make demo PART=ppmc2104`: test, display of the bus, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LINKED = "#1b7f79"
 def axis_traces(
     axis: int, outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]
 ) -> list[Trace]:
-    """Phases, pulses, HOLD and the switch of one axis, named as in the data sheet."""
+    """Return phases, pulses, HOLD and the switch of one axis, named as in the data sheet."""
     phases, colour = f"s{axis}_n", COLOURS[axis]
     rows = [
         Trace(f"S{n}{axis}*", initial[phases] >> (n - 1) & 1, bit(outputs[phases], n - 1), colour)
@@ -39,17 +39,17 @@ def axis_traces(
 
 
 def falls(outputs: Levels, axis: int) -> list[int]:
-    """Pulses of an axis."""
+    """Return the edges of the pulses of an axis."""
     return [t for t, level in bit(outputs["pout_n"], axis - 1) if level == 0]
 
 
 def first(changes: Changes, level: int, since: int) -> int:
-    """Edge of the first change to a level."""
+    """Return the edge of the first change to a level."""
     return next(t for t, value in changes if value == level and t >= since)
 
 
 def start(pulses: Mapping[int, list[int]], run: int, clk_hz: int) -> Section:
-    """RUN lets both axes go."""
+    """Return the close-up of RUN, which starts both axes."""
     after = {axis: [t for t in found if t >= run][:6] for axis, found in pulses.items()}
     us = clk_hz // 1_000_000
     together = "on one edge" if after[1][0] == after[2][0] else "NOT on one edge"
@@ -65,7 +65,7 @@ def start(pulses: Mapping[int, list[int]], run: int, clk_hz: int) -> Section:
 def ends(
     pulses: Mapping[int, list[int]], outputs: Levels, chapter: Mapping[str, Any], clk_hz: int
 ) -> Section:
-    """Two ends, one interrupt."""
+    """Return the close-up of two motion ends with one interrupt."""
     us = clk_hz // 1_000_000
     last = {axis: [t for t in found if t < chapter["end"]][-1] for axis, found in pulses.items()}
     calls = [t for t, _ in outputs["int_n"] if t >= last[1]][:4]
@@ -85,7 +85,7 @@ def ends(
 
 
 def limit(pulses: Mapping[int, list[int]], outputs: Levels, press: int, clk_hz: int) -> Section:
-    """Axis 1 runs into its limit, axis 2 does not notice."""
+    """Return the close-up of axis 1 at its limit; axis 2 continues."""
     us = clk_hz // 1_000_000
     before = [t for t in pulses[1] if press - 310 * us < t < press]
     done = first(outputs["int_n"], 0, press)
@@ -93,14 +93,14 @@ def limit(pulses: Mapping[int, list[int]], outputs: Levels, press: int, clk_hz: 
         "limit of axis 1",
         press - 330 * us,
         press + 400 * us,
-        f"no pulse of axis 1 after FL1; INT {done - press} clk later; axis 2 goes on",
+        f"no pulse of axis 1 after FL1; INT {done - press} cycles later; axis 2 continues",
         marks=[(press, "FL1 closes")],
         spans=spans(before, clk_hz),
     )
 
 
 def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
-    """The picture of a comparison's recording."""
+    """Return the picture of a comparison's recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
     pulses = {axis: falls(outputs, axis) for axis in COLOURS}
@@ -149,7 +149,7 @@ _PER_AXIS = (
 
 
 def _name(port: str, axis: int) -> str:
-    """Name of one axis's pin: pout_n becomes pout1_n, run becomes run1."""
+    """Return the name of one axis's pin: pout_n becomes pout1_n, run becomes run1."""
     return f"{port.removesuffix('_n')}{axis}{'_n' if port.endswith('_n') else ''}"
 
 

@@ -1,4 +1,4 @@
-"""What the pictures of all parts use: single bits, closures of switches, times in words."""
+"""Functions for the pictures of all parts: single bits, pin changes, accesses and times as text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Levels = Mapping[str, Changes]
 
 
 def bit(changes: Sequence[tuple[int, int]], index: int) -> Changes:
-    """Changes of one bit of a vector."""
+    """Return the changes of one bit of a vector."""
     found: Changes = []
     for t, value in changes:
         level = value >> index & 1
@@ -24,52 +24,52 @@ def bit(changes: Sequence[tuple[int, int]], index: int) -> Changes:
 
 
 def falls(changes: Changes) -> list[int]:
-    """Edges on which a pin becomes low: the pulses of a pulse output."""
+    """Return the edges on which a pin becomes low: the pulses of a pulse output."""
     return [t for t, level in changes if level == 0]
 
 
 def rises(changes: Changes) -> list[int]:
-    """Edges on which a pin becomes high."""
+    """Return the edges on which a pin becomes high."""
     return [t for t, level in changes if level == 1]
 
 
 def access_text(access: Any) -> str:
-    """A host access as a word: C43 command, DE7 data, S04 status read, R83 data read."""
+    """Return a host access as a word: C43 command, DE7 data, S04 status read, R83 data read."""
     return f"{('DC' if access.kind == 'write' else 'RS')[access.reg]}{access.byte:02X}"
 
 
 def register_text(access: Any) -> str:
-    """An access to named registers: the name with `:=` for a write, and the byte."""
+    """Return an access to named registers as text: the name, with `:=` for a write, and the byte."""
     return f"{access.kind.removesuffix(' read')} {access.byte:02X}"
 
 
 def frame_text(access: Any) -> str:
-    """A frame of a serial host, or its reply, with the data."""
+    """Return a frame of a serial host, or its reply, as text with the data."""
     return f"{access.kind} {access.byte:X}"
 
 
 def pin(stimulus: Sequence[Any], name: str) -> Changes:
-    """Changes of an input pin."""
+    """Return the changes of an input pin."""
     return [(change.t, change.value) for change in stimulus if change.pin == name]
 
 
 def micros(clk: int, clk_hz: int) -> str:
-    """A time in µs without needless digits."""
+    """Return a time in µs without unnecessary digits."""
     return f"{clk * 1e6 / clk_hz:.6g} µs"
 
 
 def spans(edges: Sequence[int], clk_hz: int) -> list[tuple[int, int, str]]:
-    """Dimension lines from edge to edge."""
+    """Return dimension lines from edge to edge."""
     return [(a, b, micros(b - a, clk_hz)) for a, b in zip(edges, edges[1:], strict=False)]
 
 
 def heading(axes: Axes, text: str) -> None:
-    """A title in the style of the close-ups."""
+    """Write a title in the style of the close-ups."""
     axes.set_title(text, loc="left", fontsize=10.5, fontweight="bold", color=INK)
 
 
 def subtitle(comparison: Any, clk_hz: int) -> str:
-    """What the picture shows, and the verdict of the comparison."""
+    """Return the content of the picture and the result of the comparison as text."""
     verdict = "no difference" if comparison.mismatch is None else "DIFFERENT, see compare.txt"
     return (
         f"RTL in simulation at {clk_hz / 1e6:g} MHz. {comparison.edges_compared} edges of all "

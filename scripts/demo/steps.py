@@ -1,4 +1,4 @@
-"""The steps of a demo on the terminal: what runs, how far it is, what is done."""
+"""The steps of a demo on the terminal: running step, its progress, completed steps."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ T = TypeVar("T")
 
 
 class Steps:
-    """The list of steps with a spinner at the running one; plain lines where there is no terminal."""
+    """The list of steps with a spinner at the running step; plain lines if there is no terminal."""
 
     def __init__(self) -> None:
         self.done: list[str] = []
 
     def lines(self, running: str, detail: str, seconds: float) -> Text:
-        """What the live display shows."""
+        """Return the text of the live display."""
         text = Text("\n".join(self.done) + ("\n" if self.done else ""), style="green")
         mark = "⠋⠙⠹⠸⠼⠴⠦⠧⠇⠏"[int(seconds * 10) % 10]
         return text.append(f"{mark} {running} … {seconds:.0f} s  ", style="bold").append(detail, style="dim")
 
     def run(self, what: str, work: Callable[[], T], detail: Callable[[], str] = lambda: "") -> T:
-        """Do `work` in a thread, show `what` with its detail; returns its result, raises what it raised."""
+        """Run `work` in a thread and show `what` and its detail; return its result or raise its exception."""
         outcome: dict[str, Any] = {}
 
         def inner() -> None:
             try:
                 outcome["result"] = work()
-            except BaseException as error:  # handed to the caller, SystemExit of a runner among them
+            except BaseException as error:  # raised again in the caller, including SystemExit of a runner
                 outcome["error"] = error
 
         begin, shown = time.monotonic(), ""
@@ -59,7 +59,7 @@ class Steps:
 
     @contextmanager
     def display(self) -> Iterator[Callable[[Text], None]]:
-        """A live area on a terminal, nothing elsewhere."""
+        """Provide a live area on a terminal; elsewhere the updates are ignored."""
         if not console.is_terminal:
             yield lambda text: None
             return

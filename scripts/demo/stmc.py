@@ -1,4 +1,4 @@
-"""`make demo PART=stmc`: what is played, how the bus is shown, waves and picture."""
+"""`make demo PART=stmc`: test, display of the bus, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scripts.demo.scenes import Levels, bit, micros, pin, spans, subtitle
 
 TITLES = {
     "move": "300 steps:\naccelerate, run, decelerate",
-    "limit": "to the limit: slow down\nat L3, stop at L1",
+    "limit": "to the limit: decelerate\nat L3, stop at L1",
     "reference": "back to the\nreference point",
     "rest": "at rest",
 }
@@ -22,7 +22,7 @@ SWITCHES = (("L3*", "l3_n"), ("L1*", "l1_n"), ("CNP*", "cnp_n"))
 
 
 def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any]) -> list[Trace]:
-    """Driver outputs and flags, and the switches that the demo presses."""
+    """Return driver outputs, flags, and the switches that the demo presses."""
     rows = [
         Trace(f"DRV{n}", initial["drv"] >> (n - 1) & 1, bit(outputs["drv"], n - 1), COLOURS[f"S{n}"])
         for n in range(1, 5)
@@ -32,12 +32,12 @@ def traces(outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any])
 
 
 def first(changes: Sequence[tuple[int, int]], level: int, since: int) -> int:
-    """Edge of the first change to a level from `since` on."""
+    """Return the edge of the first change to a level from `since` on."""
     return next(t for t, value in changes if value == level and t >= since)
 
 
 def start(outputs: Levels, moves: Sequence[int], begin: int, clk_hz: int) -> Section:
-    """The first steps of the ramp."""
+    """Return the close-up of the first steps of the ramp."""
     us = clk_hz // 1_000_000
     fall = first(outputs["hold"], 0, begin)
     shown = [t for t in moves if t >= fall][:5]
@@ -51,22 +51,22 @@ def start(outputs: Levels, moves: Sequence[int], begin: int, clk_hz: int) -> Sec
 
 
 def stop(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Section:
-    """The stop limit in the ramp down."""
+    """Return the close-up of the stop limit in the deceleration ramp."""
     us = clk_hz // 1_000_000
     before = [t for t in moves if t < press][-4:]
     end = first(outputs["irq"], 1, press)
     return Section(
-        "stop limit in the ramp down",
+        "stop limit in the deceleration ramp",
         before[0] - 150 * us,
         press + 600 * us,
-        f"no step after L1; IRQ {end - press} clk later, until the finish status is read",
+        f"no step after L1; IRQ {end - press} cycles later, until the finish status is read",
         marks=[(press, "L1 closes")],
         spans=spans(before, clk_hz),
     )
 
 
 def reference(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) -> Section:
-    """The reference point, then chopping."""
+    """Return the close-up of the reference point, then chopping."""
     us = clk_hz // 1_000_000
     before = [t for t in moves if t < press][-3:]
     off = [t for t, level in outputs["drv"] if t > press][:3]
@@ -82,7 +82,7 @@ def reference(outputs: Levels, moves: Sequence[int], press: int, clk_hz: int) ->
 
 
 def picture(comparison: Any, chapters: Sequence[Mapping[str, Any]]) -> Run:
-    """The picture of a comparison's recording."""
+    """Return the picture of a comparison's recording."""
     recording, outputs = comparison.recording, comparison.actual
     clk_hz = int(recording.params["CLK_HZ"])
     moves = steps(outputs["drv"])

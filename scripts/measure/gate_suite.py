@@ -1,5 +1,6 @@
-"""Which tests run on netlists: the part tests as they are, on every family that the part is made for, mostly
-in every configuration. What each part leaves out, and why, stands in its cocotb_tests/<part>/gates.py.
+"""Tests that run on netlists: the unchanged part tests, on every family of the part.
+
+Most tests run in every configuration. Exceptions of each part, with reasons: cocotb_tests/<part>/gates.py.
 """
 
 from __future__ import annotations
@@ -19,19 +20,20 @@ from openppmc import parts
 from scripts.fpga.flow import gates, plain
 
 QUICK = "quick"
-# The quick subset: what each part lists, in one build on all families of the part, and the board on this one.
+# The quick subset: the tests listed by each part, in one build on all its families, and the board on this
+# family.
 QUICK_BOARD = "ice40"
 
-TOO_BIG = "the part does not fit into this family"
+TOO_BIG = "the part does not fit in this family"
 
 
 def suites() -> list[PartTests]:
-    """The tests of each part that has some for netlists, from the table of parts."""
+    """Return the tests of each part with tests for netlists, from the table of parts."""
     return [row.load("gates") for row in parts.having("gates")]
 
 
 def families(of: PartTests) -> list[str]:
-    """What there is of the part: netlists for the FPGA families that it is made for, plain Verilog."""
+    """Return the FPGA families for which the part has netlists, and plain Verilog."""
     made = project.part(of.name).families if of.netlists else ()
     return [*(family for family in gates.FAMILIES if family in made), plain.FAMILY]
 
@@ -56,7 +58,7 @@ class GateTest:
         return board.TOP if self.item.module == board.MODULE else project.part(self.item.part).top
 
     def design(self) -> Design:
-        """What is simulated; synthesizes the netlist if there is none."""
+        """Return the simulated design; synthesise the netlist if it is missing."""
         config = self.item.config
         if self.top == board.TOP:
             folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
@@ -65,21 +67,23 @@ class GateTest:
 
     @property
     def group(self) -> tuple[str, str]:
-        """Family, and the top with its configuration."""
+        """Family, and top with its configuration."""
         return self.family, f"{self.top} {self.item.config.name}"
 
 
 def left_out() -> dict[str, str]:
-    """Tests of the parts' test modules that do not run on netlists, with the reason.
+    """Return the tests of the parts' test modules that do not run on netlists, with the reason.
 
-    ProjectError for a test function that has no reason: nothing is left out unseen.
+    ProjectError for a test function without a reason, so that no test is omitted by mistake.
     """
     every = suites()
     reasons: dict[str, str] = {}
     for part in every:
         found = [name for name in part.functions if name not in part.simulating]
         if unknown := [name for name in found if name not in part.not_applicable]:
-            raise ProjectError(f"gates.py of {part.name} does not say why {', '.join(unknown)} is left out")
+            raise ProjectError(
+                f"gates.py of {part.name} gives no reason why {', '.join(unknown)} is left out"
+            )
         reasons |= {name: part.not_applicable[name] for name in found}
     for part in every:
         reasons |= part.too_long
@@ -121,7 +125,7 @@ def _board(family: str) -> list[GateTest]:
 
 
 def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> list[GateTest]:
-    """All tests of these families, those of one netlist side by side; `seed` chooses another random host."""
+    """Return all tests of these families, grouped by netlist; `seed` selects another random host."""
     tests = []
     every = suites()
     for family in of:
@@ -133,9 +137,9 @@ def everything(seed: int | None = None, of: Sequence[str] = gates.FAMILIES) -> l
 
 
 def chosen(tests: Sequence[GateTest], word: str | None, four_state: bool = False) -> list[GateTest]:
-    """The tests whose name holds `word`, or one of several with commas between them (case does not count).
+    """Return the tests whose name contains `word`, or one of several words separated by commas (any case).
 
-    `quick` stands for the quick subset, or for that of a simulator with X.
+    `quick` selects the quick subset, or that of a simulator with X.
     """
     if word is None:
         return list(tests)

@@ -1,9 +1,11 @@
-"""`make test-gates`: the part's tests on the netlists of both FPGA families, and the board top's by its UART.
-`make test-verilog` (--plain): the same tests on plain Verilog, as `make verilog` writes it.
+"""`make test-gates`: the part tests on the netlists of both FPGA families, and the tests of the board top.
 
-First the netlists and simulators that the chosen tests need are built, then the tests run, J at a time, as a
-campaign: after an interruption the next run does the rest. At the end a table lists what each netlist
-passed. Exit code 0 only if all chosen tests ran and passed.
+The board top is tested through its UART. `make test-verilog` (--plain) runs the same tests on the plain
+Verilog of `make verilog`.
+
+First, the netlists and simulators for the selected tests are built. Then the tests run, J at a time, as a
+campaign: after an interruption, the next run continues. Finally, a table lists the results of each netlist.
+The exit code is 0 only if all selected tests ran and passed.
 """
 
 from __future__ import annotations
@@ -28,9 +30,9 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
 from scripts.measure.campaign.run import run
 from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
 
-# A failing test runs again with waves, which needs another build: only when few tests were asked for.
+# Up to this number of tests, a failing test runs again with waves, which needs another build.
 WAVES_UP_TO = 20
-# Wall-clock limit of a simulation in s: a netlist takes five times as long as the RTL.
+# Wall-clock limit of a simulation in s; a netlist takes five times as long as the RTL.
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 
@@ -48,7 +50,7 @@ class Row:
 
 
 def _measured(work: Callable[[], str]) -> Result:
-    """A result with the message of a failure, and s of the clock and of all processors."""
+    """Return a result with the message of a failure, wall time and processor time in s."""
     begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     message = work()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -57,7 +59,7 @@ def _measured(work: Callable[[], str]) -> Result:
 
 
 def build_one(test: GateTest) -> Result:
-    """Make netlist and simulator of this test's row."""
+    """Build the netlist and the simulator of this test's row."""
 
     def work() -> str:
         try:
@@ -70,7 +72,7 @@ def build_one(test: GateTest) -> Result:
 
 
 def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
-    """Run one test: with this seed of simulations, and with waves if it fails."""
+    """Run one test. what: test, seed of simulations, waves if it fails."""
     test, seed, waves = what
 
     def work() -> str:
@@ -83,15 +85,15 @@ def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
 
 
 def _named(campaign: str) -> str:
-    """Results of one main program or simulator say nothing of another."""
+    """Return the name of a campaign for the current main program or simulator; results are not shared."""
     return campaign if sim_main() == "own" else f"{campaign}-{sim_main()}"
 
 
 def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], workers: Workers) -> None:
-    """Build each row's netlist; one that cannot be built fails all its tests."""
+    """Build each row's netlist; if a build fails, all its tests fail."""
     first = {" ".join(test.group): test for test in reversed(tests)}
     jobs = [Job(name, test) for name, test in first.items()]
-    # What is built is on disk, and an earlier result says nothing of that.
+    # Always fresh: builds are on disk, and an earlier result does not show that they still exist.
     for done in run(
         Campaign(_named("gates-build"), build_one, jobs, len(jobs), "building netlists"), workers, True
     ):
@@ -108,7 +110,7 @@ def build_all(tests: Sequence[GateTest], rows: dict[tuple[str, str], Row], worke
 def run_all(
     tests: Sequence[GateTest], seed: int | None, workers: Workers, fresh: bool = False
 ) -> dict[tuple[str, str], Row]:
-    """Build, then run. Failures are printed at once."""
+    """Build, then run; print failures immediately."""
     rows: dict[tuple[str, str], Row] = {}
     for test in tests:
         rows.setdefault(test.group, Row()).tests += 1
@@ -135,7 +137,7 @@ def _add(row: Row, test: GateTest, done: Done) -> None:
 
 
 def table(rows: dict[tuple[str, str], Row], title: str = "gate-level tests") -> Table:
-    """Family x configuration, and the sum."""
+    """Return the table of families and configurations, with the total."""
     shown = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD)
     for head in ("family", "configuration"):
         shown.add_column(head)
@@ -160,21 +162,21 @@ def table(rows: dict[tuple[str, str], Row], title: str = "gate-level tests") -> 
 
 
 def arguments() -> argparse.Namespace:
-    """The command line."""
+    """Parse the command line."""
     parser = argparse.ArgumentParser(
         prog="python -m scripts.measure.gates", description=(__doc__ or "").split("\n")[0]
     )
     add_arguments(parser)
-    parser.add_argument(
-        "-k", metavar="T", help="only tests whose name holds T; quick: the sample that CI runs"
-    )
+    parser.add_argument("-k", metavar="T", help="only tests whose name contains T; quick: the sample of CI")
     parser.add_argument("--plain", action="store_true", help="plain Verilog instead of netlists")
-    parser.add_argument("--seed", type=int, help="seed of all simulations; of the random hosts only this one")
+    parser.add_argument(
+        "--seed", type=int, help="seed of all simulations; only the random host with this seed"
+    )
     return parser.parse_args()
 
 
 def main() -> int:
-    """Entry point."""
+    """Run the command line."""
     args = arguments()
     try:
         four_state = sim_main() == ICARUS
@@ -188,7 +190,7 @@ def main() -> int:
     what = "tests on plain Verilog" if args.plain else "gate-level tests"
     tests = chosen(everything(args.seed, families), args.k, four_state)
     if not tests:
-        raise ProjectError(f"{what}: none matches T={args.k}")
+        raise ProjectError(f"{what}: no test matches T={args.k}")
     reasons = left_out()
     begin = time.monotonic()
     rows = run_all(tests, args.seed, workers, args.fresh)

@@ -1,6 +1,6 @@
 """`make lint`: every check of the sources; all findings are printed, then one summary line.
 
-With ``--fix`` (`make format`) the layout of RTL and Python is put right instead.
+With ``--fix`` (`make format`) it formats RTL and Python instead.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ BANKS = (
     (32, 100_000_000, 16_000_000),
     (64, 200_000_000, 16_000_000),
 )
-"""AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
+"""Checked sets of AXES, CLK_HZ, XTAL_HZ of a part with many axes (BANK-GEN-02)."""
 CONTRACTS = ("--no-logo", "--cache-dir", "build/import-linter")
 FORMAT_FLAGS = "--flagfile=.verible-format.flags"
 TEXT_SUFFIXES = {".sv", ".svh", ".py", ".sh", ".md", ".yml", ".toml", ".txt", ".vlt", ".json", ".asm"}
@@ -53,7 +53,7 @@ MARKS = tuple(a + b for a, b in (("TO", "DO"), ("FIX", "ME"), ("XX", "X"), ("HA"
 
 @dataclass(frozen=True)
 class Check:
-    """One check: the tool, what it looks at, and a function returning its findings (empty: all is well)."""
+    """One check: the tool, its target, and a function that returns its findings (empty: no finding)."""
 
     tool: str
     target: str
@@ -61,7 +61,7 @@ class Check:
 
 
 def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = None) -> str:
-    """Run a tool from the project's root; its output when it failed or, unless `ok_output`, said anything."""
+    """Run a tool from the project's root; return its output, with `ok_output` only if the tool failed."""
     try:
         done = subprocess.run(
             command,
@@ -82,7 +82,7 @@ def tool(*command: str, ok_output: bool = False, env: dict[str, str] | None = No
 
 
 def rtl_files(*suffixes: str) -> list[str]:
-    """All SystemVerilog files below rtl/ and tb/formal/, relative to the root."""
+    """Return all SystemVerilog files below rtl/ and tb/formal/, relative to the root."""
     folders = (project.RTL, project.ROOT / "tb" / "formal")
     return sorted(
         relative(path) for suffix in suffixes for room in folders for path in room.rglob(f"*{suffix}")
@@ -90,7 +90,7 @@ def rtl_files(*suffixes: str) -> list[str]:
 
 
 def python_paths() -> list[str]:
-    """Folders and files that ruff looks at."""
+    """Return the folders and files that ruff checks."""
     return [
         name
         for name in ("openppmc", "scripts", "cocotb_tests", "tests", "conftest.py")
@@ -99,25 +99,25 @@ def python_paths() -> list[str]:
 
 
 def ruff(*arguments: str) -> str:
-    """Findings of ruff in all Python of the project."""
+    """Return ruff's findings in all Python of the project."""
     return tool(sys.executable, "-m", "ruff", *arguments, "-q", *python_paths())
 
 
 def verible_lint() -> str:
-    """Style of the RTL."""
+    """Check the style of the RTL."""
     return tool("verible-verilog-lint", "--rules_config=.rules.verible_lint", *rtl_files(".sv", ".svh"))
 
 
 def verible_format() -> str:
-    """Layout of the RTL: names the files that `make format` would change."""
+    """Check the format of the RTL; return the files that `make format` would change."""
     text = tool("verible-verilog-format", FORMAT_FLAGS, "--verify", "--inplace", *rtl_files(".sv"))
     return "\n".join(line for line in text.splitlines() if line.strip())
 
 
 def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
-    """Verilator -Wall of one top for one set of parameters, assertions as in simulation.
+    """Run Verilator -Wall on one top for one set of parameters, with assertions as in simulation.
 
-    It goes as far as C++, because --lint-only does not see combinational loops.
+    It generates C++, because --lint-only does not detect combinational loops.
     """
     folder = project.BUILD / "lint" / "-".join([top, *map(str, params.values())])
     folder.mkdir(parents=True, exist_ok=True)
@@ -127,12 +127,12 @@ def verilator(top: str, files: list[Path], params: dict[str, int | str]) -> str:
         words.append(f'-G{name}="{value}"' if isinstance(value, str) else f"-G{name}={value}")
     words += ["lint/verilator.vlt", "lint/verilator_newer.vlt", *(relative(path) for path in files)]
     text = tool(*verilator_command(words, project.ROOT), env=verilator_environment(project.ROOT))
-    # What begins with a dash is statistics.
+    # Lines that begin with a dash are statistics.
     return "\n".join(line for line in text.splitlines() if not line.startswith("- "))
 
 
 def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
-    """Elaboration by yosys' read_slang, assertions included, then yosys' own checks; warnings count."""
+    """Elaborate with yosys' read_slang, with assertions, then run yosys' checks; warnings are findings."""
     job = {
         "includes": [relative(path) for path in project.include_dirs()],
         "sources": [relative(path) for path in files],
@@ -156,7 +156,7 @@ def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
 
 
 def listed() -> str:
-    """Every RTL file is in rtl/files.yml, once, and every listed one exists."""
+    """Check that rtl/files.yml lists every RTL file once, and that every listed file exists."""
     groups = project.listed()
     names = [path for group in groups.values() for path in group.files]
     found = [
@@ -176,12 +176,12 @@ def listed() -> str:
 
 
 def walled() -> str:
-    """No file names a module or package of a group that its own does not need; no need is for nothing."""
+    """Check that files use only modules and packages of groups in `needs`, and that no `needs` is unused."""
     return "\n".join(walls(project.listed()))
 
 
 def text_files() -> list[Path]:
-    """Text files of the project: what git knows and would add; without git all but what is built."""
+    """Return the text files of the project: tracked or new in git; without git, all except build files."""
     listing = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
         cwd=project.ROOT,
@@ -199,7 +199,7 @@ def text_files() -> list[Path]:
 
 
 def texts() -> str:
-    """No leftover marks, tabs, or spaces at line ends."""
+    """Check for leftover marks, tabs, and spaces at line ends."""
     found = []
     for path in text_files():
         if path.suffix == ".json" or path.name == "Makefile":
@@ -216,7 +216,7 @@ def texts() -> str:
 
 
 def locked() -> str:
-    """Every installed package has the version of requirements.lock."""
+    """Check that every installed package has the version of requirements.lock."""
     lines = (project.ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
     rows = [Requirement(line) for line in lines if not line.startswith("#")]
     versions = {
@@ -228,14 +228,14 @@ def locked() -> str:
     for installed in distributions(path=[sysconfig.get_path("purelib")]):
         name = canonicalize_name(installed.metadata["Name"])
         version = versions.get(name, "no version")
-        # venv installs a setuptools of its own before Python 3.12.
+        # Before Python 3.12, venv installs its own setuptools.
         if installed.version != version and name != "setuptools":
             found.append(f"{name} {installed.version} is installed, requirements.lock has {version}")
     return "\n".join(sorted(found))
 
 
 def board_checks() -> list[Check]:
-    """The board tops and what they share, with each host that they can be built for."""
+    """Return the checks of the board tops and of their shared carrier, with each host that they support."""
     every = []
     on_boards = [path.stem for path in project.listed()["boards"].files if path.stem.startswith("board_")]
     for top in ["ppmc104_carrier", *on_boards]:
@@ -249,7 +249,7 @@ def board_checks() -> list[Check]:
 
 
 def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
-    """With which parameters a part's top is looked at, each with words for the summary."""
+    """Yield the parameter sets for checks of a part's top, each with a label for the summary."""
     known = header.parameters(project.top_file(part))
     if "AXES" in known:
         for index, (axes, clk_hz, xtal_hz) in enumerate(BANKS):
@@ -262,14 +262,14 @@ def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
             params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
             label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
             if "PHASE_IDLE" in known:
-                # Both levels with both timings without doubling the runs.
+                # Covers both levels with both timings without doubling the number of runs.
                 params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
                 label += f" PHASE_IDLE={params['PHASE_IDLE']}"
             yield label, params
 
 
 def checks() -> list[Check]:
-    """All checks, the slow ones first so that two workers end together."""
+    """Return all checks, the slow ones first, so that the workers end at about the same time."""
     every = []
     for part in tops():
         files = project.sources(part)
@@ -293,22 +293,26 @@ def checks() -> list[Check]:
         Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
         Check("figures", "docs/sizes.json", lambda: "\n".join(figures.stale(figures.read()))),
         Check("rtl/files.yml", "complete", listed),
-        Check("rtl/files.yml", "walls between groups", walled),
+        Check("rtl/files.yml", "dependencies of groups", walled),
         Check("modules", "ports and lines", all_findings),
-        Check("tables", "netlists as simulations", lambda: differences(project.BUILD / "lint" / "tables")),
+        Check(
+            "tables",
+            "equal in netlist and simulation",
+            lambda: differences(project.BUILD / "lint" / "tables"),
+        ),
         Check(
             "docs",
-            "pictures and tables fresh",
+            "pictures and tables up to date",
             lambda: tool(sys.executable, "-m", "scripts.pages", "--check", ok_output=True),
         ),
         Check(
             "rom",
-            "fresh",
+            "up to date",
             lambda: tool(sys.executable, "-m", "scripts.fpga.rom.calc_rom", "--check", ok_output=True),
         ),
         Check(
             "packages",
-            "fresh",
+            "up to date",
             lambda: tool(sys.executable, "-m", "scripts.fpga.packages", "--check", ok_output=True),
         ),
         Check(
@@ -318,7 +322,7 @@ def checks() -> list[Check]:
         ),
         Check(
             "boards",
-            "fresh",
+            "up to date",
             lambda: tool(sys.executable, "-m", "scripts.fpga.boards", "--check", ok_output=True),
         ),
         Check("requirements.lock", "installed packages", locked),
@@ -328,7 +332,7 @@ def checks() -> list[Check]:
 
 
 def guarded(check: Check) -> str:
-    """A check's findings, a ProjectError among them."""
+    """Return a check's findings; a ProjectError is a finding."""
     try:
         return check.run()
     except ProjectError as error:
@@ -336,7 +340,7 @@ def guarded(check: Check) -> str:
 
 
 def fix() -> int:
-    """Lay out RTL and Python in place."""
+    """Format RTL and Python in place."""
     problems = [
         tool("verible-verilog-format", FORMAT_FLAGS, "--inplace", *rtl_files(".sv"), ok_output=True),
         ruff("check", "--output-format=concise", "--fix", "--select", "I"),
@@ -345,15 +349,15 @@ def fix() -> int:
     for text in filter(None, problems):
         console.print(escape(text))
     console.print(
-        "format: done" if not any(problems) else "[bold red]format: not everything could be laid out[/]"
+        "format: done" if not any(problems) else "[bold red]format: some files could not be formatted[/]"
     )
     return int(any(problems))
 
 
 def main() -> int:
-    """Run all checks; exit code 1 when any of them found something."""
+    """Run all checks; return 1 if a check has findings."""
     parser = argparse.ArgumentParser(prog="lint.py", description=__doc__)
-    parser.add_argument("--fix", action="store_true", help="lay out the sources instead of checking them")
+    parser.add_argument("--fix", action="store_true", help="format the sources instead of checking them")
     os.chdir(project.ROOT)
     if parser.parse_args().fix:
         return fix()

@@ -1,7 +1,7 @@
 """Run tests of the parts on both main programs of simulations: `python -m scripts.measure.mains WORD`.
 
-Both must record the same pins, host accesses and output edges. WORD is a part of the names of the tests, as
-with `make test T=`.
+Both must record the same pins, host accesses and output edges. WORD is a part of a test name, as for
+`make test T=`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from scripts.measure.gate_suite import suites
 
 
 def items() -> Iterator[Item]:
-    """Directed tests, and random hosts by their seeds."""
+    """Yield the directed tests, and the random hosts with their seeds."""
     for part in suites():
         yield from part.items
         for make, seeds in part.sample.items():
@@ -28,7 +28,7 @@ def items() -> Iterator[Item]:
 
 
 def compare(item: Item) -> Result:
-    """How a test went, in words."""
+    """Run a test on both main programs; return the result with a line about it."""
     try:
         return Result(True, {"message": f"{item.id}: the same, recordings: {check_mains(item)}"})
     except AssertionError as error:
@@ -36,7 +36,7 @@ def compare(item: Item) -> Result:
 
 
 def main() -> int:
-    """Command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.mains")
     parser.add_argument("word")
     add_arguments(parser)

@@ -1,6 +1,6 @@
-"""What `make lint` asks of inner modules: few ports, each with its meaning beside it, a file one can read.
+"""Rules of `make lint` for inner modules: few ports, each with a comment, and a file of limited length.
 
-Tops and carriers are left out: their ports are the pins of a part, which its manual explains.
+The rules do not apply to tops and carriers: their ports are the pins of a part, described in its manual.
 """
 
 from __future__ import annotations
@@ -14,24 +14,24 @@ from openppmc.parts import tops
 MOST_PORTS, MOST_LINES = 30, 350
 PORT = re.compile(r"^ +(?:input|output|inout)\b(?P<rest>.*)")
 PLAIN = re.compile(r"\b(?:clk_i|rst_ni)\b")
-"""Ports that mean the same everywhere."""
+"""Ports that have the same meaning everywhere."""
 
 
 def findings(name: str, text: str) -> list[str]:
-    """What is wrong with the file of a module; packages have no ports."""
+    """Return the findings in the file of a module; packages have no ports."""
     found = (
         [f"{name}: {count} lines, at most {MOST_LINES}"] if (count := text.count("\n")) > MOST_LINES else []
     )
     _, module, rest = text.partition("\nmodule ")
     ports = [match["rest"] for line in rest.partition("\n);")[0].split("\n") if (match := PORT.match(line))]
     if module and len(ports) > MOST_PORTS:
-        found.append(f"{name}: {len(ports)} ports, at most {MOST_PORTS}: bundle what travels together")
+        found.append(f"{name}: {len(ports)} ports, at most {MOST_PORTS}: combine related ports in a struct")
     bare = [port.split("//")[0].strip(" ,") for port in ports if "//" not in port and not PLAIN.search(port)]
-    return [*found, *(f"{name}: {port}: its meaning is not beside it" for port in bare)]
+    return [*found, *(f"{name}: {port}: comment is missing" for port in bare)]
 
 
 def inner_modules() -> list[Path]:
-    """Files below rtl/ but those of tops, carriers and FPGA boards."""
+    """Return the files below rtl/, except tops, carriers and FPGA boards."""
     outer = {row.top for row in tops()}
     return [
         path
@@ -43,7 +43,7 @@ def inner_modules() -> list[Path]:
 
 
 def all_findings() -> str:
-    """Findings of all inner modules, a line each."""
+    """Return the findings of all inner modules, one on each line."""
     return "\n".join(
         line
         for path in inner_modules()

@@ -31,7 +31,7 @@ NEUTRAL = "X"
 SLASHES = {".sv", ".svh", ".c", ".h", ".cpp", ".ts", ".tsx", ".mjs", ".css"}
 HASHES = {".yml", ".toml", ".sh", ".txt"}
 LONGEST = 30
-"""Words of a sentence."""
+"""Maximum number of words in a sentence."""
 SHARES = {
     "markdown": 15,
     "header": 10,
@@ -66,7 +66,7 @@ class Row:
 
 @cache
 def rows() -> tuple[Row, ...]:
-    """The word list."""
+    """Return the word list."""
     found = []
     for line in WORDS.read_text(encoding="utf-8").splitlines():
         if line and not line.startswith("#"):
@@ -175,7 +175,7 @@ def python(file: str, text: str) -> Iterator[Item]:
 
 
 def items_of(path: Path) -> list[Item]:
-    """The passages of a file, without lines that are marked `prose: ok`."""
+    """Return the passages of a file, without lines that are marked `prose: ok`."""
     file = path.relative_to(ROOT).as_posix()
     if path.name == "traceability.md" or path.suffix not in {".md", ".py", *SLASHES, *HASHES}:
         return []
@@ -197,7 +197,7 @@ def items_of(path: Path) -> list[Item]:
 
 
 def all_items() -> list[Item]:
-    """The passages of all files that git tracks."""
+    """Return the passages of all files that git tracks."""
     listing = subprocess.run(["git", "ls-files"], cwd=ROOT, text=True, capture_output=True, check=True)
     return [item for name in listing.stdout.splitlines() for item in items_of(ROOT / name)]
 
@@ -214,12 +214,12 @@ def findings(item: Item) -> Iterator[tuple[str, str]]:
 
 
 def errors(items: list[Item]) -> Counter[str]:
-    """Errors of each file."""
+    """Return the number of errors of each file."""
     return Counter(item.file for item in items for level, _ in findings(item) if level == "error")
 
 
 def worse() -> str:
-    """Name the files that have more errors than the baseline allows (none without a baseline)."""
+    """Return the errors of files that have more errors than the baseline allows (0 without a baseline)."""
     allowed = json.loads(BASELINE.read_text(encoding="utf-8")) if BASELINE.is_file() else {}
     items = all_items()
     grown = {file for file, number in errors(items).items() if number > allowed.get(file, 0)}
@@ -230,7 +230,7 @@ def worse() -> str:
 
 
 def commits() -> list[Item]:
-    """The last 300 commit messages."""
+    """Return the last 300 commit messages."""
     log = subprocess.run(
         ["git", "log", "-300", "--format=%h%n%B%x00"], cwd=ROOT, text=True, capture_output=True, check=True
     )
@@ -239,7 +239,7 @@ def commits() -> list[Item]:
 
 
 def sample(number: int, seed: int) -> list[Item]:
-    """Draw passages at random, of each kind its share."""
+    """Draw random passages, of each kind its share."""
     rng = random.Random(seed)
     every = all_items() + commits()
     drawn = []

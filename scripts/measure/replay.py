@@ -1,7 +1,7 @@
-"""`make replay FILE=…/recording.json`: what a failing test has left, on RTL and golden model once more.
+"""`make replay FILE=…/recording.json`: repeat the recording of a failed test on RTL and golden model.
 
-The pin changes of the file go to both, each fresh out of reset, and every output edge is compared. Exit code
-1 at a difference, which is then told; the folder of the run has its waveforms.
+Both are reset, receive the pin changes of the file, and every output edge is compared. If there is a
+difference, it is reported and the exit code is 1; the folder of the run has the waveforms.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from openppmc.check.records import Recording
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line: the file; returns the exit code."""
+    """Run the command line, which names the file; return the exit code."""
     given = sys.argv[1:] if arguments is None else list(arguments)
     file = Path(given[0] if given else "")
     try:
         recording = Recording.from_json(file.read_text(encoding="utf-8"))
     except (OSError, ValueError, KeyError, TypeError) as error:
-        console.print(f"error: FILE={file}: no recording ({error})", markup=False)
+        console.print(f"error: FILE={file}: not a recording ({error})", markup=False)
         return 2
     env = {REPLAY: str(file.resolve()), REPRO: replay_line(file)}
     if message := attempt(replay_item(recording), env=env):
         console.print(message, markup=False)
         return 1
-    console.print(f"every output edge up to edge {recording.end} as in the golden model")
+    console.print(f"all output edges up to edge {recording.end} equal the golden model")
     return 0
 
 

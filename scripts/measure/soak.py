@@ -1,10 +1,9 @@
-"""`make soak PART= SEED= COUNT=`: random hosts, as many as you like, each against the golden model.
+"""`make soak PART= SEED= COUNT=`: compare any number of random-host runs with the golden model.
 
-What a seed is, each part says in its column `soak` of the table of parts; PART=all are all of them, one part
-after the other. The seeds are one campaign, in blocks: what has passed is taken over
-when the same part is asked for again on the same sources, with more seeds or after an interruption. A failure
-does not stop the rest; at the end the failing seeds are listed with the line that repeats each. Exit code 1
-if any failed.
+The column `soak` of the table of parts defines what a seed is; PART=all runs all parts one after the other.
+The seeds are one campaign, in blocks. A later run of the same part on the same sources, with more seeds or
+after an interruption, reuses passed blocks. A failure does not stop the other seeds. At the end, the failing
+seeds are listed with the command that repeats each. The exit code is 1 if a seed failed.
 """
 
 from __future__ import annotations
@@ -26,41 +25,43 @@ from scripts.measure.campaign.run import run
 
 ALL = "all"
 BLOCK, LARGE_BLOCK = 25, 250
-"""Seeds in a job, and from LARGE seeds on: more of one build in a simulation, and fewer rows on file."""
+"""Seeds in a job, and in a job of LARGE or more seeds: more seeds in one simulation, fewer stored results."""
 LARGE = 10_000
 
 
 class Hosts(Protocol):
-    """What a part has in its column `soak`: `RandomItems`, or what does more with a seed."""
+    """Type of the column `soak` of a part: `RandomItems`, or a class that does more with a seed."""
 
     def some(self, seeds: Sequence[int]) -> Played:
-        """Play these seeds in this process."""
+        """Run these seeds in this process."""
         ...
 
 
 def hosts(part: str) -> Hosts:
-    """Those of a part; ProjectError if it has none."""
+    """Return the random hosts of a part; raise ProjectError if it has no random hosts."""
     known = names()
     if part not in known:
-        raise ProjectError(f"PART={part}: no random hosts of it (there are of {', '.join(known)}, {ALL})")
+        raise ProjectError(
+            f"PART={part}: no random hosts for this part (there are for {', '.join(known)}, {ALL})"
+        )
     found: Hosts = parts.part(part).load("soak")
     return found
 
 
 def names() -> list[str]:
-    """The parts with random hosts."""
+    """Return the parts with random hosts."""
     return [row.name for row in parts.having("soak")]
 
 
 def some(what: tuple[str, int, int]) -> Result:
-    """Play a block of seeds: part, first seed, how many."""
+    """Run a block of seeds. what: part, first seed, number of seeds."""
     part, first, count = what
     played = hosts(part).some(range(first, first + count))
     return Result(not played.failures, {"failures": played.failures, "compared": dict(played.compared)})
 
 
 def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
-    """(first seed, how many) of each job; where blocks begin does not depend on `first` and `count`."""
+    """Yield (first seed, number) of each job; the limits of blocks do not depend on `first` and `count`."""
     size, end = (LARGE_BLOCK if count >= LARGE else BLOCK), first + count
     while first < end:
         last = min(end, (first // size + 1) * size)
@@ -69,7 +70,7 @@ def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
 
 
 def soak(part: str, first: int, count: int, workers: Workers, fresh: bool = False) -> int:
-    """Play the seeds of a part; returns the exit code."""
+    """Run the seeds of a part; return the exit code."""
     every = list(blocks(first, count))
     jobs = [Job(f"{begin}+{size}", (part, begin, size)) for begin, size in every]
     title = f"{part}, seeds {first}…{first + count - 1} in blocks"
@@ -87,27 +88,25 @@ def soak(part: str, first: int, count: int, workers: Workers, fresh: bool = Fals
         if lost := done.data.get("message"):
             failures.append((done.key, "", lost))
     if old:
-        console.print(f"{old} of them in earlier runs on the same sources (FRESH=1 plays them again)")
+        console.print(f"{old} of them in earlier runs on the same sources (FRESH=1 repeats them)")
     if failures:
         console.print(f"[red]{len(failures)} of {count} seeds of {part} failed[/red]; to repeat one:")
         for seed, name, _ in sorted(failures):
             line = f"make test T={name} SEED={seed}" if name else f"block {seed} ended its workers"
             console.print(f"  {line}", markup=False)
         return 1
-    console.print(f"{part}: {counts_text(compared)}, all as in the golden model")
+    console.print(f"{part}: {counts_text(compared)}, all equal to the golden model")
     return 0
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line; returns the exit code."""
+    """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m scripts.measure.soak", description=(__doc__ or "").splitlines()[0]
     )
     parser.add_argument("part", nargs="?", default="ppmc104")
     parser.add_argument("--seed", type=int, default=1, help="first seed (default 1)")
-    parser.add_argument(
-        "--count", type=int, default=1000, help="number of seeds, of each part (default 1000)"
-    )
+    parser.add_argument("--count", type=int, default=1000, help="number of seeds of each part (default 1000)")
     add_arguments(parser)
     given = parser.parse_args(arguments)
     if given.count < 1 or given.seed < 0:

@@ -1,4 +1,4 @@
-"""slang's syntax trees of the RTL: nodes, their kinds, where they stand."""
+"""slang's syntax trees of the RTL: nodes, their kinds, their places."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import Any
 
 
 def _hidden(text: str) -> str:
-    """The text without what is not for synthesis, every other letter in its place: slang counts bytes, so a
-    letter is one."""
+    """Return the text with code that is not for synthesis blanked; all other letters keep their places.
+
+    slang counts bytes, so each letter is one byte.
+    """
 
     def blank(match: re.Match[str]) -> str:
         return re.sub(r"[^\n]", " ", match[0])
@@ -20,36 +22,36 @@ def _hidden(text: str) -> str:
 
 
 def tree(text: str) -> Any:
-    """The syntax tree."""
+    """Return the syntax tree."""
     from pyslang import syntax
 
     return syntax.SyntaxTree.fromText(_hidden(text)).root
 
 
 def findings(text: str) -> list[str]:
-    """What slang has against a text, as it is written."""
+    """Return slang's diagnostics for a text."""
     from pyslang import syntax
 
     return [str(found.code) for found in syntax.SyntaxTree.fromText(_hidden(text)).diagnostics]
 
 
 def kind(node: Any) -> str:
-    """Such as "AddExpression"."""
+    """Return the kind of a node, such as "AddExpression"."""
     return str(node.kind).rpartition(".")[2]
 
 
 def span(node: Any) -> tuple[int, int]:
-    """Where a node stands."""
+    """Return the start and end of a node."""
     return node.sourceRange.start.offset, node.sourceRange.end.offset
 
 
 def children(node: Any) -> Iterator[Any]:
-    """The nodes right below."""
+    """Yield the direct children of a node."""
     return (child for child in node if hasattr(child, "sourceRange") and hasattr(child, "getFirstToken"))
 
 
 def found(node: Any, *kinds: str) -> Iterator[Any]:
-    """The nodes of these kinds from this one downwards, none inside another."""
+    """Yield the nodes of these kinds, from this one downwards; nodes inside a found node are skipped."""
     if kind(node) in kinds:
         yield node
         return
@@ -58,5 +60,5 @@ def found(node: Any, *kinds: str) -> Iterator[Any]:
 
 
 def function_name(function: Any) -> str:
-    """Of a FunctionDeclaration."""
+    """Return the name of a FunctionDeclaration."""
     return str(function.prototype.name.getLastToken().valueText)

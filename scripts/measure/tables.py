@@ -1,8 +1,9 @@
-"""What synthesis puts into each table of the RTL against what a simulation has in it, word by word.
+"""Compare each table of the RTL in synthesis and in simulation, word by word.
 
-The front end of the synthesis runs `initial` blocks itself; a function with branches called in one came out
-wrong in three tables, and simulations, which read the RTL, could not see it. A check of `make lint`; started
-as ``python -m scripts.measure.tables FOLDER`` it makes the netlists, in a separate process for yosys.
+The front end of the synthesis evaluates `initial` blocks itself. A function with branches in such a block
+produced wrong values in three tables, which simulations of the RTL could not detect. `make lint` runs this
+check. Started as ``python -m scripts.measure.tables FOLDER``, this module makes the netlists, in a separate
+process for yosys.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ MEMORIES = {
 }
 """Module -> its table."""
 CLEARED = {"ppmc_ram", "ppmc_bank_window", "ppmc_bank_engine"}
-"""Their `initial` blocks write zeros alone."""
+"""Modules whose `initial` blocks write only zeros."""
 
 VERILATOR = ("--binary", "--no-timing", "-Wno-fatal", "-Wno-lint", "--top", "bench")
 PAIR = """
@@ -43,18 +44,18 @@ PAIR = """
 
 
 def sources() -> list[str]:
-    """The modules with tables and all packages."""
+    """Return the modules with tables and all packages."""
     every = [path for group in project.listed().values() for path in group.files]
     return [relative(path) for path in every if path.stem.endswith("_pkg") or path.stem in MEMORIES]
 
 
 def includes() -> list[str]:
-    """Options of both tools."""
+    """Return the include options of both tools."""
     return [f"-I{relative(path)}" for path in project.include_dirs()]
 
 
 def run(*command: str) -> str:
-    """What it says; ProjectError with the end of it if it fails."""
+    """Return the output of a command; raise ProjectError with its end if the command fails."""
     done = subprocess.run(
         command,
         cwd=project.ROOT,
@@ -70,7 +71,7 @@ def run(*command: str) -> str:
 
 
 def differences(folder: Path) -> str:
-    """Words that differ, a line each; it works in `folder`. ProjectError if a tool fails."""
+    """Return the words that differ, one on each line; `folder`: work folder. ProjectError if a tool fails."""
     folder.mkdir(parents=True, exist_ok=True)
     run(sys.executable, "-m", "scripts.measure.tables", relative(folder))
     pairs = "".join(PAIR.format(top=top, memory=memory) for top, memory in MEMORIES.items())
@@ -83,7 +84,7 @@ def differences(folder: Path) -> str:
 
 
 def main() -> int:
-    """Verilog of each module as the synthesis reads it, its table with the words; it is called net_<name>."""
+    """Write each module as Verilog after elaboration, with the words of its table and the name net_<name>."""
     import pyosys.libyosys as ys
 
     for top in MEMORIES:

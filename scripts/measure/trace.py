@@ -1,9 +1,9 @@
-"""`make trace`: which test checks which rule, and does it pass.
+"""`make trace`: list the tests of each rule and their results.
 
-The rules are the rows `| P104-ABC-NN | text |` and `| AC-NN | text |` of docs/<part>/README.md (of stmc also
-`| J105-NN | text |`), the results are build/trace/results.jsonl, written by the last test runs. The outcome
-is docs/<part>/traceability.md. Exit code 1, with a list, if a rule has no passing test, a test names an
-unknown rule, or a test failed.
+The rules are the rows `| P104-ABC-NN | text |` and `| AC-NN | text |` of docs/<part>/README.md (for stmc also
+`| J105-NN | text |`). The results are in build/trace/results.jsonl, written by the last test runs. The output
+is docs/<part>/traceability.md. The exit code is 1, with a list, if a rule has no passing test, a test names
+an unknown rule, or a test failed.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Record = Mapping[str, Any]
 
 @dataclass
 class Group:
-    """All runs of one test function: its configurations, how often it ran and passed."""
+    """All runs of one test function: its configurations, numbers of runs and passes."""
 
     name: str
     configs: set[str] = field(default_factory=set)
@@ -47,7 +47,7 @@ class Group:
 
 @dataclass
 class Trace:
-    """Rules joined with results; `problems` is empty when everything is covered and passes."""
+    """Rules joined with results; `problems` is empty if every rule has tests and all pass."""
 
     rules: dict[str, str]
     groups: dict[str, list[Group]]
@@ -55,12 +55,12 @@ class Trace:
     proofs: Mapping[str, Sequence[Proof]] = field(default_factory=dict)
 
     def proved(self, rule: str) -> str:
-        """Names of its proofs (docs/proofs.md), with the clk that a bounded one holds for."""
-        bound = {one.name: f" ({one.bound} clk)" if one.bound else "" for one in self.proofs.get(rule, ())}
+        """Return the names of a rule's proofs (docs/proofs.md), with the cycles of a bounded proof."""
+        bound = {one.name: f" ({one.bound} cycles)" if one.bound else "" for one in self.proofs.get(rule, ())}
         return "<br>".join(f"`{name}`{words}" for name, words in bound.items())
 
     def result(self, rule: str) -> str:
-        """Word for the table: pass, FAIL or NO TEST."""
+        """Return the word for the table: pass, FAIL or NO TEST."""
         groups = self.groups.get(rule, [])
         if not groups:
             return "NO TEST"
@@ -68,13 +68,13 @@ class Trace:
 
 
 def _part(record: Record) -> str:
-    """Part whose manual a record is about, as far as its rules do not say so."""
+    """Return the part whose manual a record refers to, if its rules do not name it."""
     row = PARTS.get(record["part"])
     return row.folder if row else str(record["part"])
 
 
 def load_records(path: Path, part_name: str) -> list[Record]:
-    """Records of one part, in order of test ID."""
+    """Return the records of one part, in order of test ID."""
     if not path.is_file():
         raise ProjectError("no test results yet: run `make test` first")
     records = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
@@ -94,7 +94,7 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
         if record["outcome"] != "passed":
             failed.append(f"test {record['outcome']}: {record['test']}")
         for rule in record["rules"]:
-            # AC-NN is numbered by each part for itself.
+            # Each part numbers its rules AC-NN separately.
             if (part_of_rule(rule) or _part(record)) != part_name:
                 continue
             if rule not in rules:
@@ -116,7 +116,7 @@ def join(rules: dict[str, str], records: Iterable[Record], part_name: str) -> Tr
 
 
 def unproved(proofs: Mapping[str, Sequence[Proof]], rules: Mapping[str, str], part_name: str) -> list[str]:
-    """Problems of the proofs of a part: rules that it does not have, proofs whose last run has failed."""
+    """Return the problems of a part's proofs: unknown rules, proofs whose last run has failed."""
     own = {rule: every for rule, every in proofs.items() if part_of_rule(rule) == part_name}
     strange = [
         f"unknown rule {rule}: named by proof {every[0].name}"
@@ -128,7 +128,7 @@ def unproved(proofs: Mapping[str, Sequence[Proof]], rules: Mapping[str, str], pa
 
 
 def at_home(statement: str) -> str:
-    """A statement of docs/<part>/README.md with its links as seen from the page beside it."""
+    """Return a statement of docs/<part>/README.md with links relative to the page in the same folder."""
     return re.sub(r"\]\(#", "](README.md#", statement)
 
 
@@ -142,7 +142,7 @@ def _table(trace: Trace, rules: Sequence[str], part_name: str) -> list[str]:
 
 
 def page(trace: Trace, part_name: str) -> str:
-    """The Markdown page; the same results always give the same text."""
+    """Return the Markdown page; equal results produce equal text."""
     checks = [rule for rule in trace.rules if CHECK.match(rule)]
     rules = [rule for rule in trace.rules if not CHECK.match(rule)]
     passing = sum(trace.result(rule) == "pass" for rule in rules)
@@ -169,7 +169,7 @@ def page(trace: Trace, part_name: str) -> str:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line; returns the exit code."""
+    """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m scripts.measure.trace", description=(__doc__ or "").splitlines()[0]
     )

@@ -1,7 +1,7 @@
-"""`make test WITH=versions`: the package with oldest and newest dependencies, each in its own environment.
+"""`make test WITH=versions`: test the package with oldest and newest dependencies in separate environments.
 
-The lowest version of each dependency of pyproject.toml is tried on the oldest Python that is found (3.10 or
-newer), the newest versions on the newest Python.
+The lowest version of each dependency of pyproject.toml is tested with the oldest Python that is found (3.10
+or newer), the newest versions with the newest Python.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ FOUND = "import sys, venv, ensurepip; print(*sys.version_info[:2], sys.executabl
 
 
 class VersionsError(Exception):
-    """No Python, or a step that failed, in one line."""
+    """No suitable Python, or a failed step; the text is one line."""
 
 
 def pythons(names: Iterable[str]) -> list[tuple[tuple[int, int], str]]:
-    """Versions and paths of the interpreters that can make an environment, oldest first."""
+    """Return versions and paths of the interpreters that can make an environment, oldest first."""
     found: dict[tuple[int, int], str] = {}
     for name in names:
         try:
@@ -52,19 +52,19 @@ def pythons(names: Iterable[str]) -> list[tuple[tuple[int, int], str]]:
 
 
 def candidates() -> list[str]:
-    """Interpreters on PATH and in the folder of pyenv."""
+    """Return the interpreters on PATH and in the folder of pyenv."""
     pyenv = os.environ.get("PYENV_ROOT") or os.path.expanduser("~/.pyenv")
     names = ["python3", *(f"python3.{minor}" for minor in range(10, 30))]
     return [*names, *glob.glob(f"{glob.escape(pyenv)}/versions/*/bin/python")]
 
 
 def lowest(project: str) -> list[str]:
-    """Constraints `name==version`, one for each `name>=version` of a pyproject.toml."""
+    """Return constraints `name==version`, one for each `name>=version` of a pyproject.toml."""
     return [f"{name}=={version}" for name, version in re.findall(r'"([\w-]+)>=([\w.]+)"', project)]
 
 
 def step(what: str, words: list[str], folder: Path = ROOT) -> None:
-    """Run a command. VersionsError if it fails."""
+    """Run a command; raise VersionsError if it fails."""
     env = {**os.environ, "PIP_REQUIRE_VIRTUALENV": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
     env["OPENPPMC_STATE"] = str(WORK / "state")
     if subprocess.run(words, cwd=folder, env=env, check=False).returncode:
@@ -72,7 +72,7 @@ def step(what: str, words: list[str], folder: Path = ROOT) -> None:
 
 
 def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> None:
-    """Build the package, install it with these constraints, and run a command and the tests."""
+    """Build the package, install it with these constraints, run a command and the tests."""
     folder = WORK / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -87,15 +87,15 @@ def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> N
     tools = [line for line in lines if TOOLS.fullmatch(line)]
     step(name, [*pip, "-c", str(limits), f"{wheel}{EXTRAS}", "bluesky", *tools])
     step(name, [own, "-m", "pip", "list", "--format", "freeze"])
-    # The installed package, not the one of the tree.
+    # Test the installed package, not the one of the source tree.
     step(name, [str(folder / "env/bin/openppmc"), "--port", "model:speed=max", "status"], folder)
     step(name, [own, "-m", "pytest", "-n", "0", "-q", "-W", "ignore", *tests])
 
 
 def main(words: list[str] | None = None) -> int:
-    """Try both; returns the exit status."""
+    """Test both; return the exit status."""
     parser = argparse.ArgumentParser(prog="make test WITH=versions", description=__doc__)
-    parser.add_argument("-k", default="", help="names of tests; `quick` is the sample that CI runs")
+    parser.add_argument("-k", default="", help="names of tests; `quick`: the sample of CI")
     asked = parser.parse_args(words).k
     tests = list(QUICK) if asked == "quick" else [path for one in TESTS for path in glob.glob(one)]
     if asked not in ("", "quick"):
@@ -103,7 +103,7 @@ def main(words: list[str] | None = None) -> int:
     found = pythons(candidates())
     try:
         if not found:
-            raise VersionsError("no Python 3.10 or newer with venv: install one, or put it on PATH")
+            raise VersionsError("no Python 3.10 or newer with venv; install one, or add it to PATH")
         for name, (version, python), constraints in (
             ("lowest", found[0], lowest((ROOT / "pyproject.toml").read_text(encoding="utf-8"))),
             ("newest", found[-1], []),

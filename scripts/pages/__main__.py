@@ -1,7 +1,7 @@
-"""Redraw the pictures of docs/: WaveDrom JSON and plots to docs/<part>/img/, computed tables into the manual.
+"""Generate the pictures of docs/ (WaveDrom JSON and plots, in docs/<part>/img/) and the tables of manuals.
 
-`python -m scripts.pages` (`make docs`) writes; `--check` writes nothing, lists what is stale and
-exits with 1 if anything is. The files are the same byte for byte on each run.
+`python -m scripts.pages` (`make docs`) writes the files. `--check` writes nothing, lists outdated files and
+exits with 1 if there is one. The files are identical on each run.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from scripts.pages.wiring import pages as wiring
 
 
 def image(name: str) -> Path:
-    """Where the picture "<part>/<what>", or "<what>" of pages about the whole, stands."""
+    """Return the path of the picture "<part>/<what>", or of "<what>" of pages about the whole project."""
     part, _, what = name.rpartition("/")
     return DOCS / part / "img" / f"{what}.svg"
 
 
 def wanted() -> dict[Path, bytes]:
-    """Path and content of every generated file of docs/."""
+    """Return path and content of every generated file of docs/."""
     files: dict[Path, bytes] = {}
     for source in sorted(DOCS.glob("*/wavedrom/*.json")):
         try:
@@ -59,7 +59,7 @@ def wanted() -> dict[Path, bytes]:
 
 
 def stale(files: dict[Path, bytes]) -> list[Path]:
-    """Generated files that are missing or differ, and pictures of a part that have lost their source."""
+    """Return generated files that are missing or differ, and pictures of a part without a source."""
     changed = [path for path, content in files.items() if not path.is_file() or path.read_bytes() != content]
     kept = sorted(DOCS.glob("**/img/*.svg"))
     kept += sorted(wiring.FOLDER.glob("*.md"))
@@ -67,9 +67,9 @@ def stale(files: dict[Path, bytes]) -> list[Path]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Command line; returns the exit code."""
-    parser = argparse.ArgumentParser(prog="docs", description="Redraw the pictures of docs/.")
-    parser.add_argument("--check", action="store_true", help="change nothing, fail if something is stale")
+    """Run the command line; return the exit code."""
+    parser = argparse.ArgumentParser(prog="docs", description="Generate the pictures and tables of docs/.")
+    parser.add_argument("--check", action="store_true", help="write nothing, fail if a file is outdated")
     check = parser.parse_args(arguments).check
     try:
         files = wanted()
@@ -77,9 +77,11 @@ def main(arguments: list[str] | None = None) -> int:
         return fail(str(error))
     found = stale(files)
     for path in found:
-        console.print(f"{'stale' if check else 'written' if path in files else 'removed'}: {relative(path)}")
+        console.print(
+            f"{'outdated' if check else 'written' if path in files else 'removed'}: {relative(path)}"
+        )
     if check:
-        console.print(f"{len(files)} generated files, {len(found)} stale")
+        console.print(f"{len(files)} generated files, {len(found)} outdated")
         return 1 if found else 0
     for path in found:
         if path in files:

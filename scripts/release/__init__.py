@@ -1,1 +1,1 @@
-"""`make release`: what people can take of a version, in dist/; the same bytes from the same commit (D-83)."""
+"""`make release`: all files of a version, in dist/; the same commit gives the same bytes (D-83)."""

@@ -1,4 +1,4 @@
-"""`make release [SKIP=…] [ONLY=…]`: everything of this version into dist/, or nothing."""
+"""`make release [SKIP=…] [ONLY=…]`: build all files of this version in dist/, or none if a step fails."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from scripts.release.state import Release, present
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
 SLOW = ("bitstreams", "site")
-"""What SKIP may leave out of a trial."""
+"""Steps that SKIP may omit in a trial."""
 
 
 Job = Callable[[Release, Path, Path], None]
-"""Puts its files into the first folder; the second one is to work in."""
+"""Function that writes its files to the first folder; the second one is its work folder."""
 
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
-    """Name -> what makes it; the quick ones first, the notes last."""
+    """Return name -> function of each step; fast steps first, the notes last."""
     from scripts.release import sbom
 
     return {
@@ -42,11 +42,11 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
 
 
 def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = SCRATCH, made_by=jobs) -> None:
-    """All jobs into a folder of `scratch`, which becomes `dist` when all are done."""
+    """Run all steps into a folder of `scratch`, which becomes `dist` when all are done."""
     shutil.rmtree(scratch, ignore_errors=True)
     out = scratch / "dist"
     out.mkdir(parents=True)
-    # What tools write as their time (setuptools, MkDocs), and as modes of files.
+    # Time that tools write (setuptools, MkDocs), and modes of files.
     os.environ["SOURCE_DATE_EPOCH"] = str(release.epoch)
     os.umask(0o022)
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
@@ -72,10 +72,10 @@ def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = S
 
 
 def main() -> int:
-    """Entry point."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m scripts.release", description=__doc__)
     parser.add_argument("--skip", default="", help=f"for a trial: {', '.join(SLOW)}")
-    parser.add_argument("--only", default="", help="for a trial: names of bitstreams, with commas between")
+    parser.add_argument("--only", default="", help="for a trial: names of bitstreams, separated by commas")
     args = parser.parse_args()
     skip = set(args.skip.replace(",", " ").split())
     if strange := sorted(skip - set(SLOW)):

@@ -13,7 +13,7 @@ from scripts.release.state import Release
 
 
 def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
-    """Name -> board and host; ProjectError for a name that there is not. only: these; none: all."""
+    """Return name -> board and host. only: names of bitstreams, empty: all. ProjectError: unknown name."""
     every = {
         on.stem(host): (on, host) for boards in BY_PART.values() for on in boards.values() for host in on.top
     }
@@ -24,7 +24,7 @@ def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
 
 
 def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None]) -> None:
-    """The archive into `out`; `say` is told which one is being built."""
+    """Write the archive to `out`; `say` is called with the bitstream that is being built."""
     files: dict[str, Path | bytes] = {}
     chosen = wanted(release.only)
     for number, (name, (on, host)) in enumerate(chosen.items(), 1):
@@ -36,4 +36,4 @@ def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None])
         files[f"{name}/report.json"] = (on.folder(host) / "report.json").read_bytes()
     zipped(out / release.name("bitstreams", ".zip"), files, release.epoch)
     if release.only:
-        release.missing.append(f"Of the bitstreams there are only {', '.join(chosen)} (ONLY).")
+        release.missing.append(f"Only these bitstreams are included: {', '.join(chosen)} (ONLY).")

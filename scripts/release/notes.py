@@ -1,4 +1,4 @@
-"""The release's own words: its part of CHANGELOG.md, what is missing, what each file is; and the digests."""
+"""Release notes: the section of CHANGELOG.md, missing files, a description of each file; and digests."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ WHAT = (
     ("-verilog-", "each part, bridge and board as one file of plain Verilog-2005, with default parameters"),
     ("-rtl-", "SystemVerilog with FuseSoC cores, Bender manifest, lists for vendor tools, C drivers"),
     ("-bitstreams-", "bitstreams of the boards, each with its report"),
-    ("-site-", "all documents and the playground, to be opened as files"),
+    ("-site-", "all documents and the playground, for use as local files"),
     (".pdf", "data sheet"),
-    (".cdx.json", "what it is made of (CycloneDX)"),
+    (".cdx.json", "bill of materials (CycloneDX)"),
     (".tar.gz", "Python package as sources"),
 )
 
 
 def notes(release: Release, names: list[str]) -> str:
-    """The text for a release of these files."""
+    """Return the notes of a release with these files."""
     rows = [(name, next((text for word, text in WHAT if word in name), "")) for name in names]
     lines = [f"# OpenPPMC {release.version}", ""]
     if release.trial:
@@ -40,7 +40,7 @@ def notes(release: Release, names: list[str]) -> str:
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
-    """Notes and digests of all that is in `out`."""
+    """Write notes and digests of all files in `out`."""
     names = sorted(path.name for path in out.iterdir())
     (out / NOTES).write_text(notes(release, names), encoding="utf-8")
     rows = [

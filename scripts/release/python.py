@@ -1,4 +1,4 @@
-"""Wheel and sdist of the Python package, from what git knows, checked by twine."""
+"""Wheel and sdist of the Python package, from the files in git, checked by twine."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def _run(*words: str, folder: Path) -> None:
 
 
 def set_version(tree: Path, version: str) -> None:
-    """Write a version into a copy of the package: that of a trial is not the checkout's."""
+    """Write a version into a copy of the package, because a trial has another version than the checkout."""
     path = tree / "openppmc" / "__init__.py"
     line = f'__version__ = "{__version__}"'
     text = path.read_text(encoding="utf-8")
@@ -33,7 +33,7 @@ def set_version(tree: Path, version: str) -> None:
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
-    """Both into `out`."""
+    """Write wheel and sdist to `out`."""
     tree = scratch / "python"
     for path in tracked(*SOURCES):
         copy = tree / path

@@ -1,4 +1,4 @@
-"""What it is made of, as CycloneDX: RTL files with their digests, packages of the lock."""
+"""Bill of materials as CycloneDX: RTL files with their digests, packages of the lock."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ LICENCE = "Apache-2.0"
 
 
 def pinned(text: str) -> Iterator[tuple[str, str]]:
-    """Name and version of each package of a lock."""
+    """Yield name and version of each package of a lock."""
     for line in text.splitlines():
         if match := _PINNED.match(line):
             yield match[1], match[2]
 
 
 def _packages() -> Iterator[Component]:
-    """Tools and tests; the package itself depends on what its metadata names."""
+    """Yield the packages for tools and tests; dependencies of the Python package are in its metadata."""
     for name, version in pinned((ROOT / "requirements.lock").read_text(encoding="utf-8")):
         purl = PackageURL("pypi", name=name.lower().replace("_", "-"), version=version)
         yield Component(
@@ -59,7 +59,7 @@ def _sources(release: Release) -> Iterator[Component]:
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
-    """The bill of materials into `out`. Tools have the scope `excluded`: nothing of them is in it."""
+    """Write the bill of materials to `out`. Tools are `excluded`: the release contains no part of them."""
     bom = Bom(serial_number=uuid5(NAMESPACE_URL, f"openppmc:{release.version}:{release.commit}"))
     bom.metadata.timestamp = datetime.fromtimestamp(release.epoch, timezone.utc)
     bom.metadata.component = Component(

@@ -1,4 +1,4 @@
-"""The site as an archive, and the data sheets as PDF if there is a browser."""
+"""The site as an archive, and the data sheets as PDF if a browser is installed."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ NO_PDF = "No data sheets as PDF: there was no browser."
 
 
 def dated(pdf: bytes, epoch: int) -> bytes:
-    """A PDF with this time in place of that of its making; no byte moves."""
+    """Return a PDF with another creation time of the same length."""
     when = time.strftime("%Y%m%d%H%M%S", time.gmtime(epoch)).encode()
     return _DATE.sub(lambda match: match[0][: -len(match[1])] + when, pdf)
 
 
 def check() -> None:
-    """ProjectError if what the site needs beside Python is not there; asked before anything is made."""
+    """Raise ProjectError if a tool of the site, other than Python, is missing; called before all steps."""
     if shutil.which("npm") is None:
         raise ProjectError(
-            "npm is not installed: the site needs Node.js (Debian: apt-get install npm), or SKIP=site"
+            "npm is not installed; install Node.js (Debian: apt-get install npm), or use SKIP=site"
         )
 
 
@@ -59,7 +59,7 @@ def run(say: Callable[[str], None], scratch: Path) -> None:
 
 
 def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None]) -> None:
-    """Archive and PDFs into `out`; one line if there is no browser. `say` gets the progress."""
+    """Write archive and PDFs to `out`; print a line if there is no browser. `say` receives the progress."""
     check()
     run(say, scratch)
     sheets = sorted((HTML / "pdf").glob("*.pdf"))

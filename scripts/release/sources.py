@@ -24,10 +24,10 @@ BELOW = (
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
-    """The archive into `out`; ProjectError if a core or a list is not as `make packages` writes it."""
+    """Write the archive to `out`; raise ProjectError if a core or a list is outdated."""
     for path, text in {**core_files(), **list_files()}.items():
         if not path.is_file() or path.read_text() != text:
-            raise ProjectError(f"{relative(path)} is not fresh: run `make packages`")
+            raise ProjectError(f"{relative(path)} is outdated; run `make packages`")
     folder = f"openppmc-{release.version}"
     files = {f"{folder}/{path.as_posix()}": ROOT / path for path in tracked(*BELOW)}
     tar_gz(out / release.name("rtl", ".tar.gz"), files, release.epoch)

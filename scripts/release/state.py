@@ -1,4 +1,4 @@
-"""What a release is of: version, commit, time; and whether this checkout can make one."""
+"""Version, commit and time of a release, and the checks of the checkout."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _HEADING = re.compile(r"^## \[([^\]\n]+)\].*$", re.M)
 
 @dataclass
 class Release:
-    """version without v; commit in hex; epoch: its time in s, which is that of every file.
+    """A release. version: without v; commit: in hex; epoch: its time in s, used for every file.
 
-    missing: what this release has not, one sentence each, for its notes. only: names of the bitstreams that
-    are made; empty: all. trial: it is not to be published, and its version ends in +trial.
+    missing: one sentence for each missing part, for the notes. only: names of the built bitstreams; empty:
+    all. trial: must not be published; the version ends in +trial.
     """
 
     version: str
@@ -31,12 +31,12 @@ class Release:
     trial: bool = False
 
     def name(self, what: str, suffix: str) -> str:
-        """File name of a piece, such as openppmc-site-1.2.3.tar.gz."""
+        """Return the file name of a part of the release, such as openppmc-site-1.2.3.tar.gz."""
         return f"openppmc-{what}-{self.version}{suffix}"
 
 
 def git(*words: str) -> str:
-    """Output of git; ProjectError with its last line if it fails or is not there."""
+    """Return the output of git; raise ProjectError with its last line if it fails or is not installed."""
     try:
         done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=False)
     except FileNotFoundError:
@@ -47,9 +47,9 @@ def git(*words: str) -> str:
 
 
 def section(changelog: str, version: str, trial: bool = False) -> str:
-    """Return the text below the newest heading of a changelog; ProjectError unless that is of this version.
+    """Return the text below the newest heading of a changelog; ProjectError unless it is of this version.
 
-    [Unreleased] may be above it, without text. In a trial its text is returned if there is any.
+    [Unreleased] may be above it, without text. In a trial, its text is returned if there is any.
     """
     found = list(_HEADING.finditer(changelog))
     ends = [match.start() for match in found[1:]] + [len(changelog)] * bool(found)
@@ -67,35 +67,36 @@ def section(changelog: str, version: str, trial: bool = False) -> str:
     if newest != version:
         raise ProjectError(f"version {version}, but the newest heading of CHANGELOG.md is [{newest}]")
     if not parts[0][1]:
-        raise ProjectError(f"CHANGELOG.md says nothing below [{version}]")
+        raise ProjectError(f"CHANGELOG.md has no text below [{version}]")
     return parts[0][1]
 
 
 def check_tag(version: str, commit: str, tagged: str) -> None:
-    """ProjectError if the tag of this version is on another commit; tagged: that commit, "" without a tag."""
+    """Raise ProjectError if the tag of this version is on another commit. tagged: that commit, or ""."""
     if tagged and tagged != commit:
         raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")
 
 
 def present(only: tuple[str, ...] = (), trial: bool = False) -> Release:
-    """Return the release that this checkout makes; ProjectError says in a line why it cannot.
+    """Return the release of this checkout; raise ProjectError if it cannot make one.
 
-    A trial needs a commit only: there may be text below [Unreleased], and a tag of the version elsewhere.
+    A trial only needs a commit: text below [Unreleased] and a tag of the version on another commit are
+    permitted.
     """
     changed = git("status", "--porcelain").splitlines()
     if changed:
-        raise ProjectError(f"{changed[0][2:].strip()} is not committed: a release is of a commit")
+        raise ProjectError(f"{changed[0][2:].strip()} is not committed; a release needs a clean commit")
     commit = git("rev-parse", "HEAD")
     name = f"refs/tags/v{__version__}"
     if not trial:
         tagged = git("rev-parse", f"{name}^{{commit}}") if git("tag", "-l", name[10:]) else ""
         check_tag(__version__, commit, tagged)
     notes = section(CHANGELOG.read_text(encoding="utf-8"), __version__, trial)
-    # A local version (PEP 440): PyPI rejects it.
+    # A local version (PEP 440), which PyPI rejects.
     version = f"{__version__}+trial" if trial else __version__
     return Release(version, commit, int(git("log", "-1", "--format=%ct")), notes, only, trial=trial)
 
 
 def tracked(*below: str) -> list[Path]:
-    """Files that git knows below these names, sorted, from the root."""
+    """Return the files in git below these names, sorted, relative to the root."""
     return sorted(Path(name) for name in git("ls-files", "--", *below).splitlines())

@@ -1,4 +1,4 @@
-"""Plain Verilog as `make verilog` writes it, the library of the boards included, in one archive."""
+"""Plain Verilog of `make verilog`, including the library of the boards, in one archive."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scripts.release.state import Release
 
 
 def make(release: Release, out: Path, scratch: Path) -> None:
-    """The archive into `out`."""
+    """Write the archive to `out`."""
     files = {f"{top}.v": write(top, scratch / "verilog") for top in plain.tops()}
     boards = write_library(folder=scratch / "boards").parent
     files |= {f"boards/{name}": path for name, path in files_below(boards).items()}

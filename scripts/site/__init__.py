@@ -1,1 +1,1 @@
-"""The site: parts as WebAssembly, sessions, words for bytes, pages (`make site`, `make test-web`)."""
+"""The site: parts as WebAssembly, sessions, meanings of bytes, pages (`make site`, `make test-web`)."""

@@ -37,7 +37,7 @@ API = {
     "Host: PPMC-312": ("openppmc.host.ppmc312.part",),
     "Host: PMC006B4": ("openppmc.host.pmc006.part", "openppmc.host.pmc006.axis"),
     "Host: bank": ("openppmc.host.bank.part", "openppmc.host.bank.axis", "openppmc.host.bank.group"),
-    "Host: what all have": ("openppmc.host.part", "openppmc.host.units", "openppmc.host.axis"),
+    "Host: common classes": ("openppmc.host.part", "openppmc.host.units", "openppmc.host.axis"),
     "Golden models": ("openppmc.model.ppmc104", *(f"openppmc.model.{part}.part" for part in
                       ("ppmc2104", "stmc", "ppmc312", "pmc006", "bank"))),
     "Predictions": ("openppmc.model.single.predict", *(f"openppmc.model.{part}.carrier" for part in
@@ -53,7 +53,7 @@ if (window.Worker !== Own) window.Worker = function (url, options) {
 };
 })();
 """
-"""The shim for the search worker. A page from a file can start a worker from a blob (the playground)."""
+"""The shim of the search worker. A page from a file can start a worker from a blob (the playground)."""
 APP = """---
 hide: [navigation, toc, footer]
 title: Playground
@@ -72,7 +72,7 @@ title: Playground
 
 
 def linked(page: Path) -> Iterator[Path]:
-    """Files of the checkout that a page names."""
+    """Yield the files of the checkout to which a page links."""
     for target in LINK.findall(page.read_text(encoding="utf-8")):
         path = (page.parent / target).resolve()
         if path.is_file() and path.is_relative_to(ROOT):
@@ -80,7 +80,7 @@ def linked(page: Path) -> Iterator[Path]:
 
 
 def stage() -> None:
-    """All that MkDocs reads into PAGES, each file where it is in the checkout: links stay as they are."""
+    """Copy all inputs of MkDocs to PAGES; each file has its path in the checkout, so links are unchanged."""
     shutil.rmtree(PAGES, ignore_errors=True)
     sources = [*(ROOT / name for name in OTHERS), *(p for p in (ROOT / "docs").rglob("*") if p.is_file())]
     for source in dict.fromkeys([*sources, *(p for s in sources if s.suffix == ".md" for p in linked(s))]):
@@ -93,7 +93,7 @@ def stage() -> None:
     )
     shutil.copytree(playground(), PAGES / "playground", ignore=shutil.ignore_patterns("index.html"))
     shutil.copy(SITE / "site.css", PAGES)
-    # Search in pages that are files; MkDocs Material would fetch this one from elsewhere.
+    # For the search in local files; MkDocs Material would load this script from another host.
     shim = (SITE / "node_modules/iframe-worker/shim/index.js").read_text(encoding="utf-8")
     (PAGES / "iframe-worker.js").write_text(SHIM.replace("SHIM", shim), encoding="utf-8")
     folder = PAGES / "api"
@@ -108,18 +108,18 @@ def stage() -> None:
 
 
 def browser() -> bool:
-    """Whether there can be PDFs; says why not in a line."""
+    """Return whether PDFs can be made; print the reason if not."""
     try:
         packages(SITE / "browser")
         node("node", "pdf.mjs", str(HTML), folder=SITE / "browser")
     except ProjectError as error:
-        print(f"no PDFs of the manuals, as there is no browser: {error}")
+        print(f"no PDFs of the manuals, because there is no browser: {error}")
         return False
     return True
 
 
 def build(with_pdf: bool = True, out: Path = HTML) -> Path:
-    """Build the whole site in `out`; ProjectError names the first warning of MkDocs."""
+    """Build the whole site in `out`; raise ProjectError with the first warning of MkDocs."""
     stage()
     if with_pdf:
         say("browser for the data sheets as PDF")
@@ -143,7 +143,7 @@ def build(with_pdf: bool = True, out: Path = HTML) -> Path:
 
 
 def main() -> int:
-    """Build it and say where it is; exit code."""
+    """Build the site, print its path and return the exit code."""
     try:
         folder = build()
     except (ProjectError, ValueError) as error:

@@ -35,11 +35,11 @@ def _ends(orders: Iterable[Order]) -> list[str]:
 _ALL, _ONE = ORDERS[:AXES], ORDERS[3:4]
 _TOGETHER = [
     *_setup(_ALL),
-    "# all of them wait for GO",
+    "# all axes wait for GO",
     f"axis 0; put {MASK} {(1 << AXES) - 1:02X}",
     *_moves(_ALL),
     "wait 1000",
-    f"axis 0; put {GO} 00  # all pulses begin on one clk",
+    f"axis 0; put {GO} 00  # pulse 1 of all axes is at the same edge",
     *_ends(_ALL),
 ]
 _LIMIT = ["c 45 d 31", "pulse 60 3", "set l1_n[3]=0", "idle", "c 80 r 95", "c 4D d 31", "pulse 20 3", "c 40"]

@@ -1,4 +1,4 @@
-"""What the page needs of each part: pins, words, sessions, module; as scripts, which also load from a file.
+"""Data of each part for the page: pins, words, sessions, module; as scripts, which also load from a file.
 
 python -m scripts.site.export [PART …]          into build/site/playground
 """
@@ -29,12 +29,12 @@ LENGTHS = {
     "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
     "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
 }
-"""clk of the halves of an access, as the hosts of `players` have them."""
+"""Cycles of each section of an access, equal to the hosts of `players`."""
 PLAYGROUND = wasm.OUT / "playground"
 
 
 def ports(part: WebPart, names: Sequence[str], levels: dict[str, int]) -> list[dict[str, object]]:
-    """Ports in the order of the module's words."""
+    """Return the ports in the order of the module's words."""
     found, word = [], 0
     for name in names:
         width = part.part.width(name)
@@ -51,7 +51,7 @@ def ports(part: WebPart, names: Sequence[str], levels: dict[str, int]) -> list[d
 
 
 def style(part: WebPart) -> dict[str, Any]:
-    """How its host speaks, and what the page shows of it."""
+    """Return the bus style of the host, and the display settings of the page."""
     found: dict[str, Any] = {"hint": part.hint, "bits": list(part.bits), "phaseOn": part.phase_on}
     found |= {"settle": part.settle, "first": part.first}
     if part.part.styles:
@@ -71,7 +71,7 @@ def style(part: WebPart) -> dict[str, Any]:
 
 
 def data(part: WebPart, module: str) -> dict[str, Any]:
-    """The tables of a part (PartData in site/src/types.ts)."""
+    """Return the tables of a part (PartData in site/src/types.ts)."""
     row = PARTS[part.name]
     pins = part.part
     levels = {**pins.inputs, **part.idle}
@@ -111,7 +111,7 @@ def _script(path: Path, room: str, key: str, value: object) -> None:
 
 
 def export(name: str, out: Path = PLAYGROUND) -> None:
-    """A part's tables and module into the playground's folder."""
+    """Write the tables and the module of a part to the playground's folder."""
     part = WEB_PARTS[name]
     built = wasm.build(name)
     module = f"wasm/{name}.wasm"

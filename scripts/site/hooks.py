@@ -1,4 +1,4 @@
-"""What MkDocs does with a page of ours: a link to the playground where a session can be run."""
+"""Hooks of MkDocs: they add a link to the playground to each session that can be run."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 RUN = re.compile(r"^<!-- run: .*? -->$", re.M | re.S)
 CHAPTER = re.compile(r"^## (\d+) ", re.M)
 PDF = "OPENPPMC_PDF"
-"""Tells MkDocs that there will be PDFs."""
+"""Environment variable that is set if the site will have PDFs."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
 BASE = (
     '<script>document.write(\'<base href="\'+(location.protocol==="file:"?".":"/")+\'">\')</script>'
@@ -26,19 +26,19 @@ PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
 
 
 def data_sheet(part: str) -> str:
-    """The manual of a part as a PDF, seen from the site's root."""
+    """Return the path of a part's manual as PDF, relative to the site's root."""
     return f"pdf/{part}.pdf"
 
 
 def button(source: str, part: str, run: str, words: str) -> str:
-    """A link from this page to a session of a part, which begins at once."""
+    """Return a link from a page to a session of a part, which starts immediately."""
     up = os.path.relpath("playground.html", os.path.dirname(source))
     go = f"&run={run}&go=1" if run else ""
     return f'<a class="md-button run-this" href="{up}#v=1&part={part}{go}">{words}</a>'
 
 
 def run_links(source: str, markdown: str) -> str:
-    """The text of a page: links in place of its comments, and behind the title of manuals and first page."""
+    """Return a page with links in place of its comments, and after the title of manuals and first page."""
     if source == START:
         title, _, rest = markdown.partition("\n")
         return f"{title}\n\n{button(source, PARTS[0], '2', 'Try it in the browser')}\n{rest}"
@@ -92,7 +92,7 @@ def on_page_context(context: Any, page: Any, nav: Any, **_: Any) -> Any:
 
 
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
-    """Called by MkDocs for each page."""
+    """Add links and settings to a page; called by MkDocs for each page."""
     if page.file.src_uri == START:
-        page.meta["hide"] = ["navigation"]  # there is one page in it
+        page.meta["hide"] = ["navigation"]  # the navigation has only one page
     return run_links(page.file.src_uri, markdown)

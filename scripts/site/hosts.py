@@ -1,4 +1,4 @@
-"""Random hosts on the golden model: what each puts on the pins, and which edges must come."""
+"""Random hosts on the golden model: pin changes of each host, and the expected edges."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from openppmc.check.records import Recording
 from scripts.site.webparts import WebPart
 
 IN_MOTION = 3
-"""Hosts of the bank that keep all axes in motion: each makes 50 000 intervals."""
+"""Number of hosts of the bank that keep all axes in motion; each makes 50 000 intervals."""
 
 
 def _items(part: WebPart) -> RandomItems:
@@ -23,7 +23,7 @@ def _items(part: WebPart) -> RandomItems:
 
 
 def seeds(part: WebPart) -> Iterator[int]:
-    """Seeds of `make test` whose build is that of the playground, then those of `make soak`."""
+    """Return seeds of `make test` with the build of the playground, then those of `make soak`."""
     items = _items(part)
     fitting = (seed for seed in count(1) if items.takes(seed) and items.build(seed) == part.config)
     if part.name != "bank":
@@ -34,7 +34,7 @@ def seeds(part: WebPart) -> Iterator[int]:
 
 
 def recorded(part: WebPart, seed: int) -> Recording:
-    """The host of a seed, played on the golden model."""
+    """Run the host of a seed on the golden model; return the recording."""
     item = _items(part)(seed)
     test = getattr(importlib.import_module(item.module), item.test)
     on_model(test.func(OnModel(item.config, seed)))

@@ -1,4 +1,4 @@
-"""A part's module in this process: WebAssembly by wasmtime, or its native twin by ctypes."""
+"""A part's module in this process: WebAssembly with wasmtime, or the equal native library with ctypes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ROW = struct.Struct("<dII")
 INPUT = 1 << 16
 """Added to the number of a word of an input in a row."""
 QUEUE = 1 << 16
-"""Changes to come that a module has room for."""
+"""Number of future changes that a module can store."""
 Call = Callable[..., Any]
 _KINDS = {
     "power_up": (None, []),
@@ -37,7 +37,7 @@ _KINDS = {
 
 
 class Module:
-    """One part just powered up. `call` has its functions by name (site/core/core.cpp)."""
+    """One part after power-up. `call`: name -> function (site/core/core.cpp)."""
 
     def __init__(self, part: WebPart, path: Path) -> None:
         pins = part.part
@@ -75,13 +75,13 @@ class Module:
         self._write = lambda at, data: memory.write(store, data, at)
 
     def rows(self) -> Iterator[tuple[int, int, int]]:
-        """(t, pin, value) since the last call; see core.cpp."""
+        """Yield (t, pin, value) since the last call; see core.cpp."""
         count = self.call["take"]()
         for t, pin, value in ROW.iter_unpack(self._bytes(self.call["row_at"](), count * ROW.size)):
             yield int(t), pin, value
 
     def play(self, recording: Recording) -> list[Edge]:
-        """Its pin changes from a reset on; the output edges. The bits of a wide port are put together."""
+        """Apply the pin changes from a reset on; return the output edges; wide ports have complete levels."""
         self.call["power_up"]()
         levels = self.part.reset_levels(recording.params)
         changes = self._changes(recording.stimulus)
@@ -89,7 +89,7 @@ class Module:
         while True:
             self._write(self.call["queue_rows"](), b"".join(ROW.pack(*row) for row in left))
             self.call["queued"](len(left))
-            # What is not queued yet may not come too late.
+            # Stop before the first change that is not in the queue yet.
             more = list(islice(changes, QUEUE))
             end = min(recording.end + 1, int(more[0][0]) if more else recording.end + 1)
             while (now := int(self.call["clk_now"]())) < end:

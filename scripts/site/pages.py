@@ -21,10 +21,10 @@ SITE = ROOT / "site"
 
 
 def node(*command: str, folder: Path = SITE) -> None:
-    """Run a tool of node; ProjectError with the first line of what is wrong."""
+    """Run a tool of Node.js; raise ProjectError with the name of the log if it fails."""
     if shutil.which(command[0]) is None:
         raise ProjectError(
-            f"{command[0]} is not installed: the site needs Node.js 18 or newer (apt install npm)"
+            f"{command[0]} is not installed; the site needs Node.js 18 or newer (apt install npm)"
         )
     log = wasm.OUT / f"{command[0]}.log"
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -37,9 +37,10 @@ def node(*command: str, folder: Path = SITE) -> None:
 
 
 def packages(folder: Path) -> None:
-    """What a package-lock.json names, once for each state of it, by one process at a time.
+    """Install the packages of a package-lock.json, once for each of its states, by one process at a time.
 
-    `npm ci` empties node_modules first: another process would find half of it."""
+    `npm ci` empties node_modules first, so another process would find an incomplete folder.
+    """
     lock, mark = folder / "package-lock.json", folder / "node_modules/.openppmc"
     with locked(wasm.OUT / f"{folder.name}.lock"):
         if not mark.is_file() or mark.read_bytes() != lock.read_bytes():
@@ -49,7 +50,7 @@ def packages(folder: Path) -> None:
 
 @cache
 def playground() -> Path:
-    """Build what has changed; the folder. Safe against other processes doing the same."""
+    """Build all that has changed; return the folder. Safe for several processes."""
     with locked(wasm.OUT / "playground.lock"):
         return _made()
 
@@ -67,7 +68,7 @@ def _made() -> Path:
 
 
 def main() -> int:
-    """Build it; exit code."""
+    """Build the playground; return the exit code."""
     try:
         print(relative(playground() / "index.html"))
     except ProjectError as error:

@@ -1,4 +1,4 @@
-"""Hosts of parts with a window of registers, with blocks, and with frames on a line; see `script`."""
+"""Hosts of parts with a register window, with blocks, and with frames on a line; see `script`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from scripts.site.webparts import WebPart
 
 
 class WindowPlayer(BytePlayer):
-    """The bank: `axis 3` chooses whose registers 0 and 1 are meant; `put 9 01`, `get 4 00`: others of its."""
+    """The bank: `axis 3` selects the axis; `put 9 01`, `get 4 00`: its registers other than 0 and 1."""
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
@@ -22,7 +22,7 @@ class WindowPlayer(BytePlayer):
         self.words |= {"axis": self.axis, "put": self.put, "get": self.get}
 
     async def axis(self, words: list[str]) -> list[str]:
-        """Counts from 0, as in the window."""
+        """Select an axis; axes count from 0, as in the window."""
         self.host.base = int(words[0]) << 4
         return words[1:]
 
@@ -32,12 +32,12 @@ class WindowPlayer(BytePlayer):
         return words[2:]
 
     async def get(self, words: list[str]) -> list[str]:
-        """Read one."""
+        """Read a register."""
         return self.check("register", await self.host.read(int(words[0])), words[1:])
 
 
 class BlockPlayer(Player):
-    """The PPMC-312: `w 3 15`, `r 3 3D` a register; `> 03 01 40`, `< 03 02 40 12` blocks; `count 30`."""
+    """The PPMC-312: `w 3 15`, `r 3 3D`: a register; `> 03 01 40`, `< 03 02 40 12`: blocks; `count 30`."""
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
@@ -56,7 +56,7 @@ class BlockPlayer(Player):
         return words[2:]
 
     async def read(self, words: list[str]) -> list[str]:
-        """Read one."""
+        """Read a register."""
         return self.check("register", await self.host.read(int(words[0])), words[1:])
 
     async def _ready(self, bit: int) -> None:
@@ -65,7 +65,7 @@ class BlockPlayer(Player):
             await pauses.next()
 
     async def block(self, words: list[str]) -> list[str]:
-        """Write a block when there is room; the rest of the statement."""
+        """Write a block when the mailbox is free; return the rest of the statement."""
         content = bytes.fromhex("".join(words))[::-1]
         await self._ready(MWEF)
         await self.host.write(WCR, 0x20)
@@ -84,7 +84,7 @@ class BlockPlayer(Player):
         return []
 
     async def count(self, words: list[str]) -> list[str]:
-        """So many pulses since the beginning or the last `count`."""
+        """Check the number of pulses since the beginning or the last `count`."""
         found = self.pulses(self.part.motors[0])
         self.mark = self.side.now
         if found != int(words[0]):
@@ -93,7 +93,7 @@ class BlockPlayer(Player):
 
 
 class FramePlayer(Player):
-    """The PMC006B4: `f v 2000` a frame and its reply; `f j = 0` with the data that it must have; `idle`."""
+    """The PMC006B4: `f v 2000`: a frame and its reply; `f j = 0`: with the expected data; `idle`."""
 
     ADDRESS = 0xFF
 
@@ -120,11 +120,11 @@ class FramePlayer(Player):
                 byte |= side.level("txd") << place - 1
             got.append(byte & 0xFF)
         if sum(got[:7]) & 0xFF != got[7]:
-            raise ScriptError(f"{bytes(got).hex(' ')} is no reply")
+            raise ScriptError(f"{bytes(got).hex(' ')}: not a valid reply")
         return int.from_bytes(bytes(got[3:7]), "little")
 
     async def frame(self, words: list[str]) -> list[str]:
-        """A frame, and what its reply holds."""
+        """Send a frame and check the data of its reply."""
         letter, rest = words[0], words[1:]
         data = 0
         if rest and rest[0] != "=":
@@ -139,7 +139,7 @@ class FramePlayer(Player):
         return rest
 
     async def idle(self, words: list[str]) -> list[str]:
-        """Ask for status 1 until the motor is at rest, every millisecond."""
+        """Read status 1 every millisecond until the motor is stopped."""
         while await self._ask("j", 0) & 1:
             await self.side.clocks(self.part.config.clk_hz // 1000)
         return words
@@ -154,5 +154,5 @@ PLAYERS: dict[str, type[Player]] = {
 
 
 def player(part: WebPart, **pins: int) -> Player:
-    """A part just powered up, and the host of its kind."""
+    """Return a part after power-up with the host of its bus."""
     return PLAYERS[part.bus](part, **pins)

@@ -20,7 +20,7 @@ SESSIONS = {
     "A move in microsteps": f"{_SET}\nf s 1024\nidle\nf c = 1024       # the position",
     "Stopped by an emergency input": f"""
 {_SET}
-f f 3              # both inputs act
+f f 3              # both inputs are active
 f s 100000
 pulse 200
 set ext1=0
@@ -35,7 +35,7 @@ f A 0
 f A 0
 f L {START * FINE}
 f S {START * FINE}
-f z                # it looks for the switch at EXT1, then moves to and fro
+f z                # it searches the switch at EXT1, then moves to and fro
 pulse 160
 set ext1=0
 wait 3ms

@@ -1,8 +1,8 @@
-"""Progress lines of `make site`, each printed when its work begins."""
+"""Progress lines of `make site`, each printed when its step begins."""
 
 from __future__ import annotations
 
 
 def say(text: str) -> None:
-    """Print a progress line at once, also into a pipe."""
+    """Print a progress line immediately, also to a pipe."""
     print(f"site: {text}", flush=True)

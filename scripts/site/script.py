@@ -1,7 +1,7 @@
-"""Sessions as the playground plays them (site/src/engine), here on the golden model: what must come of each.
+"""Sessions of the playground (site/src/engine) on the golden model: the expected result of each session.
 
-A line holds statements; `;` ends one, `#` begins a comment. docs/playground.md has the list. A session on the
-part and the same one here put the same levels on the pins on the same clk.
+A line contains statements; `;` ends a statement, `#` begins a comment. docs/playground.md has the list. A
+session on the part and the same session here apply the same levels to the pins in the same cycle.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000
-"""Polls that follow each other at once; clk before the next one, which grow by a quarter up to the last."""
+"""Number of polls without a pause; first pause in cycles, which grows by a quarter; longest pause."""
 PATIENCE = 400_000_000
-"""clk that a statement waits at most."""
+"""Longest wait of a statement in cycles."""
 RESET = 16
-"""clk of a reset."""
+"""Length of a reset in cycles."""
 UNITS = {"clk": 0, "us": 1_000_000, "ms": 1_000}
 LENGTH = re.compile(r"(\d+(?:\.\d+)?)(clk|us|ms)?")
 
 
 class ScriptError(ValueError):
-    """A line that is no statement, or an answer that is not the one in the line."""
+    """A line that is not a statement, or an answer that differs from the one in the line."""
 
 
 def statements(text: str) -> Iterator[tuple[int, list[str]]]:
-    """(line, words) of each statement, one word of a kind and what belongs to it."""
+    """Yield (line, words) of each statement; the words are a keyword and its arguments."""
     for number, line in enumerate(text.splitlines(), 1):
         for part in line.partition("#")[0].split(";"):
             if words := part.split():
@@ -38,15 +38,15 @@ def statements(text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 class Pauses:
-    """Between polls, that grow; ScriptError when it takes too long."""
+    """Growing pauses between polls; ScriptError if PATIENCE is exceeded."""
 
     def __init__(self, side: ModelBench) -> None:
         self.side, self.end, self.count, self.pause = side, side.now + PATIENCE, 0, FIRST
 
     async def next(self) -> None:
-        """Let one pass."""
+        """Wait for one pause."""
         if self.side.now > self.end:
-            raise ScriptError("it does not come")
+            raise ScriptError("the polled status does not occur before the time limit")
         self.count += 1
         if self.count >= DENSE:
             self.pause = min(LONGEST, self.pause * 5 // 4 + 1)
@@ -54,7 +54,7 @@ class Pauses:
 
 
 class Player:
-    """Plays the text of a session. got: bytes that were read, in order."""
+    """Interpreter of a session's text. got: bytes that were read, in order."""
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         self.part = part
@@ -72,7 +72,7 @@ class Player:
         }
 
     def play(self, text: str) -> Recording:
-        """The whole text; ScriptError names a line."""
+        """Run the whole text; raise ScriptError with the line of an error."""
         on_model(self._play(text))
         return self.side.recording()
 
@@ -88,7 +88,7 @@ class Player:
                     raise ScriptError(f"line {number}: {' '.join(words)}: {error}") from None
 
     def check(self, what: str, got: int, words: list[str]) -> list[str]:
-        """A byte, compared with the one that the text expects, if it does."""
+        """Store a byte; compare it with the byte in the text, if there is one; return the remaining words."""
         self.got.append(got)
         if words and re.fullmatch("[0-9A-Fa-f]{2}", words[0]):
             if got != int(words[0], 16):
@@ -96,29 +96,29 @@ class Player:
             return words[1:]
         return words
 
-    # ------------------------------------------------------------------ what all parts have
+    # ------------------------------------------------------------------ common statements
 
     async def set_pins(self, words: list[str]) -> list[str]:
-        """Levels of input pins: `set l1_n=0 csel=1`."""
+        """Set levels of input pins: `set l1_n=0 csel=1`."""
         levels = dict(word.split("=") for word in words)
         self.side.set(**{pin: int(level, 0) for pin, level in levels.items()})
         return []
 
     async def wait(self, words: list[str]) -> list[str]:
-        """`wait 400`, `wait 5us`, `wait 2ms`."""
+        """Wait for a time: `wait 400`, `wait 5us`, `wait 2ms`."""
         await self.side.clocks(self.length(words[0]))
         return words[1:]
 
     def length(self, text: str) -> int:
-        """A time in clk."""
+        """Return a time in cycles."""
         found = LENGTH.fullmatch(text)
         if not found:
-            raise ScriptError(f"{text} is no time: 400, 5us, 2ms")
+            raise ScriptError(f"{text}: not a time; write 400, 5us or 2ms")
         unit = UNITS[found[2] or "clk"]
         return round(float(found[1]) * self.part.config.clk_hz / unit) if unit else int(float(found[1]))
 
     async def pulse(self, words: list[str]) -> list[str]:
-        """`pulse 10`, `pulse 10 2`: until so many pulses of an axis since the last command."""
+        """Wait for a number of pulses of an axis since the last command: `pulse 10`, `pulse 10 2`."""
         first = self.part.first
         axis = int(words[1]) if len(words) > 1 and words[1].isdigit() else first
         motor = self.part.motors[axis - first]
@@ -128,11 +128,11 @@ class Player:
 
     @staticmethod
     def output(motor: Motor) -> str:
-        """The output that tells a motor's steps."""
+        """Return the output with a motor's steps."""
         return motor.step.partition("[")[0] if motor.phases else motor.step
 
     def pulses(self, motor: Motor) -> int:
-        """Steps of a motor since the mark."""
+        """Return the number of steps of a motor since the mark."""
         output = self.output(motor)
         edges = self.side.edges(output, self.mark)
         if not motor.phases:
@@ -141,13 +141,13 @@ class Player:
         return len(steps([*before[-1:], *edges]))
 
     async def until(self, words: list[str]) -> list[str]:
-        """`until int_n 0`: an output has this level."""
+        """Wait until an output has a level: `until int_n 0`."""
         if self.side.level(words[0]) != int(words[1]):
             await self.side.edge(words[0], int(words[1]), timeout=PATIENCE)
         return words[2:]
 
     async def reset(self, words: list[str]) -> list[str]:
-        """rst_n low for a while."""
+        """Set rst_n low for RESET cycles."""
         self.side.set(rst_n=0)
         await self.side.clocks(RESET)
         self.side.set(rst_n=1)
@@ -156,7 +156,7 @@ class Player:
         return words
 
     async def clock(self, words: list[str]) -> list[str]:
-        """`clock ext_clk 329`: a square wave from now on, so many clk a period; 0 ends it."""
+        """Start a square wave with a period in cycles: `clock ext_clk 329`; 0 ends it."""
         pin, period, now = words[0], int(words[1]), self.side.now
 
         def changes() -> Iterator[tuple[int, dict[str, int]]]:
@@ -176,7 +176,7 @@ class Player:
 
 
 class BytePlayer(Player):
-    """Parts with a data register and one for commands and status."""
+    """Parts with a data register and a register for commands and status."""
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
@@ -192,7 +192,7 @@ class BytePlayer(Player):
         }
 
     async def poll(self, mask: int, value: int) -> int:
-        """Read the status until these bits are so."""
+        """Read the status until the bits of `mask` have this value; return the status."""
         pauses = Pauses(self.side)
         while (status := await self.host.status()) & mask != value:
             await pauses.next()

@@ -1,11 +1,11 @@
-"""The sessions that the manuals print, as texts for the playground.
+"""The sessions in the manuals, as texts for the playground.
 
-A chapter of docs/<part>/examples.md that can be run has a comment behind its title:
+A chapter of docs/<part>/examples.md that can be run has a comment after its title:
 
     <!-- run: after 1; @; until int_n 0; @ -->
 
-`@` stands for the next block of the chapter or what is left of it, `@2` for its next two lines, `after N` for
-chapter N; the rest are statements (`script`).
+`@` is the next block of the chapter or the rest of it, `@2` its next two lines, `after N` the statements of
+chapter N; all other words are statements (`script`).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ LINE = re.compile(r"((?:[cdw] [0-9A-F]{2} +st [0-9A-F]{2}|r [0-9A-F]{2}|p? +st [
 
 @dataclass(frozen=True)
 class Session:
-    """A session: `name` in links (its chapter), its title, and its text."""
+    """A session: `name` in links (the chapter), title and text."""
 
     name: str
     title: str
@@ -32,7 +32,7 @@ class Session:
 
 
 def _line(line: str) -> str:
-    """A line of the manual as statements; what it says of them is a comment."""
+    """Return a line of the manual as statements, with its explanation as a comment."""
     if re.match(r"[wr] \d |[<>=] |(?:pin|at|ms) ", line):
         return _block_line(line)
     found = LINE.fullmatch(line.rstrip())
@@ -40,13 +40,13 @@ def _line(line: str) -> str:
         raise ValueError(f"cannot read {line!r}")
     words = re.sub(r" +", " ", found[1].strip())
     words = re.sub(r"^p st", "p", words)
-    # A single step may be over before a slow host looks.
+    # A single step may end before a slow host reads the status.
     words = re.sub(r"^(c [4-7][2A]) st ..", r"\1 st", words)
     return f"{words:<12}  # {found[2]}" if found[2] else words
 
 
 def _block_line(line: str) -> str:
-    """A line of the PPMC-312's page; two blanks begin what it says of it."""
+    """Return a line of the PPMC-312's page as statements; two blanks begin the explanation."""
     words, _, comment = line.strip().partition("  ")
     kind, _, rest = words.partition(" ")
     if kind == "pin":
@@ -58,7 +58,7 @@ def _block_line(line: str) -> str:
 
 
 def sessions(part: str) -> list[Session]:
-    """Those of a part, in the order of its page; ValueError names what cannot be read."""
+    """Return the sessions of a part, in the order of its page; raise ValueError for an invalid line."""
     page = ROOT / "docs" / part / "examples.md"
     if not page.is_file():
         return own_sessions(part)
@@ -87,7 +87,7 @@ def sessions(part: str) -> list[Session]:
 
 
 def own_sessions(part: str) -> list[Session]:
-    """Of a part whose manual prints none: those of scripts/<part>/playground.py."""
+    """Return the sessions of scripts/site/<part>.py, for a part without sessions in its manual."""
     module = importlib.import_module(f"scripts.site.{part}")
     return [
         Session(str(number), f"{number} {title}", text.strip())

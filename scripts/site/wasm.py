@@ -2,8 +2,8 @@
 
     python -m scripts.site.wasm [PART …]
 
-A module has no imports but those of WASI that Verilator's messages need. What has not changed is not built
-anew: build/site/objects has the run-time library, build/site/wasm the modules.
+A module imports only the WASI functions that Verilator's messages need. Unchanged files are not built again:
+build/site/objects has the run-time library, build/site/wasm the modules.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from scripts.site.webparts import WEB_PARTS, WebPart
 CORE = ROOT / "site/core"
 BOARD = ROOT / "tb/board"
 OUT = ROOT / "build/site"
-# Without assertions: they would cost a third of the speed, and `make test` has them all. $fatal stays.
+# Without assertions, because they cost a third of the speed and `make test` checks them. $fatal remains.
 VERILATE = "--cc -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0 -Wno-fatal"
 VERILATE += " -Wno-lint -Wno-style --prefix Vpart"
 COMPILE = "-target wasm32-wasi -O2 -fno-exceptions -std=c++20 -DVL_IGNORE_UNKNOWN_ARCH -DVL_USER_STOP"
@@ -43,14 +43,14 @@ COMPILE += " -D_WASI_EMULATED_SIGNAL -w"
 LINK = "-target wasm32-wasi -O2 -s -mexec-model=reactor"
 NATIVE = "-O2 -fPIC -fno-exceptions -std=c++20 -DVL_USER_STOP -DVL_USER_FATAL -DVL_USER_FINISH -w"
 SAME_EVERYWHERE = "-ffile-prefix-map={}=."
-"""Paths below this folder, which __FILE__ tells, become relative: each checkout makes the same module."""
+"""Makes paths in __FILE__ relative to this folder, so that each checkout makes the same module."""
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")
 MOST = 200 * 1024
-"""Bytes of a packed module at most."""
+"""Maximum size of a packed module in bytes."""
 
 
 def _bit(part: WebPart, pin: str, table: list[tuple[str, int]]) -> str:
-    """C++ for a bit of a port: its word and place; {-1, 0} for none."""
+    """Return C++ for a bit of a port: its word and place; {-1, 0} if there is no pin."""
     if not pin:
         return "{-1, 0}"
     port, place = part.part.locate(pin)
@@ -59,7 +59,7 @@ def _bit(part: WebPart, pin: str, table: list[tuple[str, int]]) -> str:
 
 
 def pins_h(part: WebPart) -> str:
-    """pins.h of a part: its ports as words of 32 bits, and its motors."""
+    """Return pins.h of a part: its ports as words of 32 bits, and its motors."""
     pins = part.part
     inputs, outputs = words(pins, pins.inputs), words(pins, pins.watched)
     sets = [f"        case {n}: {assigned_cpp(pins, *at, 'value')} break;" for n, at in enumerate(inputs)]
@@ -93,7 +93,7 @@ def pins_h(part: WebPart) -> str:
 
 
 def _run(command: list[str], folder: Path, log: Path) -> None:
-    """ProjectError names the log when a tool fails."""
+    """Run a tool; raise ProjectError with the name of the log if it fails."""
     env = {**verilator_environment(folder), "ZIG_GLOBAL_CACHE_DIR": str(OUT / "zig")}
     with log.open("a", encoding="utf-8") as sink:
         done = subprocess.run(
@@ -111,7 +111,7 @@ def _digest(*what: object) -> str:
 
 
 def _includes() -> Path:
-    """A copy of Verilator's headers and sources for a system without /proc."""
+    """Return the folder with a copy of Verilator's headers and sources for a system without /proc."""
     home = package()
     if home is None:
         raise ProjectError("the Python package 'verilator' is not installed: run `make setup`")
@@ -130,7 +130,7 @@ def _includes() -> Path:
 
 
 def compiler(native: bool = False) -> list[str]:
-    """C++ to WebAssembly, or to this machine."""
+    """Return the compiler command for WebAssembly, or for this machine."""
     if native:
         return ["g++", *NATIVE.split()]
     return [sys.executable, "-m", "ziglang", "c++", *COMPILE.split(), "-include", str(CORE / "nothreads.h")]
@@ -153,16 +153,17 @@ def _compile(jobs: list[tuple[Path, Path]], includes: list[Path], folder: Path, 
 
 
 def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
-    """`make`, safe against other processes doing the same."""
+    """Call `make`, safe for several processes."""
     with locked(OUT / "build.lock"):
         return make(name, native, bound)
 
 
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
-    """The module of a part, or with `native` a shared library of this machine with the same functions.
+    """Build the module of a part, or with `native` a shared library of this machine with the same functions.
 
-    bound: more sources, for tests. Builds what is not there yet.
-    ProjectError if a tool fails, names its log."""
+    bound: further sources, for tests. Existing files are not built again. ProjectError with the name of the
+    log if a tool fails.
+    """
     part = WEB_PARTS[name]
     design = part_design(name, part.config)
     core = sorted([*CORE.glob("*.cpp"), *CORE.glob("*.h")])
@@ -224,12 +225,12 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
 
 
 def packed(path: Path) -> int:
-    """Bytes of a module as a web server sends it."""
+    """Return the size in bytes of a module as sent by a web server."""
     return len(gzip.compress(path.read_bytes(), 9))
 
 
 def main(arguments: list[str]) -> int:
-    """Build the modules of these parts, or all; says how large they are. Exit code."""
+    """Build the modules of these parts, or all; print their sizes and return the exit code."""
     try:
         for name in arguments or WEB_PARTS:
             path = build(name)

@@ -1,6 +1,6 @@
-"""The parts of the playground: builds, and what hangs on their pins. Source: docs/playground.md.
+"""The parts of the playground: builds, and the devices at their pins. Source: docs/playground.md.
 
-One build each, with the parameters that the sessions of the manuals are written for.
+Each part has one build, with the parameters for which the sessions of the manuals are written.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from cocotb_tests.pmc006.builds import F8B
 
 @dataclass(frozen=True)
 class Motor:
-    """A motor and its machine.
+    """A motor and its machine model.
 
-    step: the pin that makes it step: a bit of an output, or with `phases` the lowest of five bits. edge: the
-    level that it steps with. dir: turns CCW at level `ccw`. switches: input pins in the order of
-    tb/board/plant.h (CW and CCW limit, CW and CCW slow-down limit, origin, alarm), "" for none; a closed one
-    is low. windings: pins of the phases for the picture, S1 first. encoder: a pulse and its direction.
+    step: the pin with the steps: a bit of an output, or with `phases` the lowest of five bits. edge: level
+    after the edge of a step. dir: CCW at level `ccw`. switches: input pins in the order of tb/board/plant.h
+    (CW and CCW limit, CW and CCW slow-down limit, origin, alarm), "" for a missing switch; a closed switch is
+    low. windings: pins of the phases for the picture, S1 first. encoder: a pulse and its direction.
     """
 
     step: str
@@ -36,10 +36,12 @@ class Motor:
 
 @dataclass(frozen=True)
 class WebPart:
-    """A part in the playground. bus: how its host speaks (site/src/engine). idle: levels that its straps have
-    there. busy: bits of the status that a host waits for. bits: names of the status bits, bit 7 first.
-    straps: pins to press beside switches. hint: what may be typed. phase_on: level of a winding that is on.
-    settle: clk from the reset to the first access. first: number of the first axis in statements.
+    """A part in the playground.
+
+    bus: kind of host (site/src/engine). idle: levels of its straps. busy: status bits that a host waits for.
+    bits: names of the status bits, bit 7 first. straps: pins with a button in addition to the switches. hint:
+    example of an input. phase_on: level of an energised winding. settle: cycles from the reset to the first
+    access. first: number of the first axis in statements.
     """
 
     name: str
@@ -57,13 +59,13 @@ class WebPart:
 
     @property
     def part(self) -> Part:
-        """Its pins in this build."""
+        """The pins of the part in this build."""
         part = PARTS[self.name]
         return part.built(part.params(self.config))
 
     @property
     def params(self) -> dict[str, object]:
-        """Parameters of its top module."""
+        """The parameters of its top module."""
         return dict(PARTS[self.name].params(self.config))
 
 
@@ -146,7 +148,7 @@ WEB_PARTS: dict[str, WebPart] = {
             hint="f s 2000",
             config=F8B,
             settle=1200,
-            # Nobody holds the EEPROM's line low but its power, which is off: the part boots at once.
+            # The EEPROM is not powered, which holds its data line low, so the part boots immediately.
             idle={"sda_i": 0},
         ),
         WebPart(

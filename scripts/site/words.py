@@ -1,4 +1,4 @@
-"""Bytes in words, as tables for the page: from the models' own decoders and the words of `make demo`."""
+"""Meanings of bytes as tables for the page, from the decoders of the models and the texts of `make demo`."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from openppmc.model.ppmc312.codes import Code as Code312
 KINDS = {
     Kind.STOP: "immediate stop",
     Kind.SLOW_STOP: "decelerating stop",
-    Kind.SWITCHING: "times of the chopper at rest",
+    Kind.SWITCHING: "times of the chopper at standstill",
     Kind.HOLD_DELAY: "delay of HOLD",
-    Kind.EXCITATION_OFF: "excitation off: all phases off, the setting is void",
+    Kind.EXCITATION_OFF: "excitation off: all phases off, settings are invalid",
     Kind.AUX_INPUT: "read the auxiliary inputs",
     Kind.AUX_ON: "AUX on",
     Kind.AUX_OFF: "AUX off",
 }
-"""Of what a demo never sends, and of codes with bits that do not matter."""
+"""Meanings of commands that no demo sends, and of codes with don't-care bits."""
 TABLES = {END_STATUS: "end", INPUTS: "inputs", OUTPUTS: "outputs"}
 REGISTERS = {
     f"{kind} {register}": names[place]
@@ -34,7 +34,7 @@ REGISTERS = {
     for register, names in BANK_REGISTERS.items()
 }
 Field = tuple[str, int, int]
-"""Name, bytes, and what is added for display."""
+"""Name, number of bytes, and the number that is added for display."""
 
 
 def _fields(command: Command, words: Words) -> list[Field]:
@@ -74,7 +74,7 @@ def _code(command: Command, words: Words) -> dict[str, object]:
 
 
 def tables(part: str, words: Words) -> dict[str, Any]:
-    """Of a part: codes, status, answers; what its host's accesses mean."""
+    """Return the tables of a part: codes, status, answers, meanings of its host's accesses."""
     if part == "ppmc312":
         return blocks()
     if part == "pmc006":
@@ -84,8 +84,8 @@ def tables(part: str, words: Words) -> dict[str, Any]:
 
 
 def blocks() -> dict[str, Any]:
-    """Of the PPMC-312: instructions by code, registers, reports, refusals."""
-    flags = ((0x20, "interrupts armed"), (MWEF, "no room for a block"))
+    """Return the tables of the PPMC-312: instructions by code, registers, reports, refusals."""
+    flags = ((0x20, "interrupts armed"), (MWEF, "no space for a block"))
     return {
         "codes": {
             f"{code:02X}": {"text": block.SIMPLE.get(code, code.name.lower().replace("_", " "))}
@@ -94,7 +94,7 @@ def blocks() -> dict[str, Any]:
         "status": [
             ", ".join([
                 *(text for bit, text in flags if byte & bit),
-                "no answer" if byte & MREF else "an answer waits",
+                "no answer" if byte & MREF else "an answer is pending",
             ])
             for byte in range(256)
         ],
@@ -106,7 +106,7 @@ def blocks() -> dict[str, Any]:
 
 
 def frames() -> dict[str, Any]:
-    """Of the PMC006B4: instructions by letter."""
+    """Return the tables of the PMC006B4: instructions by letter."""
     return {
         "codes": {letter: {"text": text} for letter, text in line.MEANINGS.items()},
         "status": [line.status(byte) for byte in range(256)],
@@ -115,7 +115,7 @@ def frames() -> dict[str, Any]:
 
 
 def _bytes(part: str, words: Words) -> dict[str, Any]:
-    """Of a part with commands of one byte."""
+    """Return the tables of a part with commands of one byte."""
     folder = {"stmc": "stmc", "ppmc2104": "ppmc2104"}.get(part, "single")
     decode = importlib.import_module(f"openppmc.model.{folder}.codes").decode
     commands = [decode(code) for code in range(256)]

@@ -22,29 +22,29 @@ FORMS = [
     ("out Lead", "Out OutLead K0"),
 ]
 MISTAKES = [
-    ("lod RLeft", "lod is no instruction"),
+    ("lod RLeft", "lod is not an instruction"),
     ("load RLeeft", "there is no operand RLeeft, but RLeft"),
-    ("load", "load takes one word, not 0"),
+    ("load", "load expects one word, not 0"),
     ("load.hi RV", "load has no variant .hi"),
     ("halt.lo", "halt has no variant .lo"),
-    ("store RV", "store wants a word M…, not RV"),
+    ("store RV", "store expects a word M…, not RV"),
     ("store MZ", "there is no operand MZ"),
-    ("mul RV", "mul, behind a point, takes one word, not 0"),
+    ("mul RV", "the suffix of mul expects one word, not 0"),
     ("mul.8 RV", "there is no number of steps 8, but 1, 2, 16, 32"),
-    ("shift.2 RV", "shift stands alone, without RV"),
-    ("root RV", "root stands alone, without RV"),
+    ("shift.2 RV", "shift expects no word, not RV"),
+    ("root RV", "root expects no word, not RV"),
     ("out Nxt", "there is no output Nxt, but Next"),
-    ("set", "set wants over, or phase=…, up=…, smooth=…"),
-    ("set up=2", "up is 0 or 1, not 2"),
-    ("set up=1 up=0", "set takes over, or once each phase, up, smooth with =, not up=0"),
+    ("set", "set expects over, or phase=…, up=…, smooth=…"),
+    ("set up=2", "up must be 0 or 1, not 2"),
+    ("set up=1 up=0", "set expects over, or once each phase, up, smooth with =, not up=0"),
     ("set phase=Rmp", "there is no phase Rmp, but Ramp"),
     ("jump", "a jump is `jump Label` or `jump Label if Condition`"),
     ("jump Here on Zero", "a jump is `jump Label` or `jump Label if Condition`"),
     ("jump There", "there is no label There"),
     ("jump Here if Zer", "there is no condition Zer, but Zero"),
     ("Here:", "label Here stands twice"),
-    ("2nd:", "'2nd' is no name of a label"),
-    ("halt\nLoose:", "nothing leads to label Loose"),
+    ("2nd:", "'2nd' is not a valid label"),
+    ("halt\nLoose:", "no instruction leads to label Loose"),
     ("halt\n" * WORDS, f"the program is too long: more than {WORDS} words"),
 ]
 
@@ -125,9 +125,9 @@ def test_mistakes(line: str, told: str) -> None:
     ("lines", "told"),
     [
         ((), "1: the program is empty"),
-        (("load RV",), "1: the program runs on behind its last word"),
-        (("EntryA:", "jump EntryA if Zero"), "2: the program runs on behind its last word"),
-        (("jump Out", "Out:"), "1: nothing follows label Out"),
+        (("load RV",), "1: the program continues after its last word"),
+        (("EntryA:", "jump EntryA if Zero"), "2: the program continues after its last word"),
+        (("jump Out", "Out:"), "1: no instruction follows label Out"),
     ],
 )
 def test_ends(lines: tuple[str, ...], told: str) -> None:
@@ -151,11 +151,11 @@ def test_files_are_fresh() -> None:
 def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
     """The message of an error in the listing is one line with file, line and error."""
     monkeypatch.setattr(calc_rom, "ASM", calc_rom.PACKAGE)
-    with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is no instruction$"):
+    with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is not an instruction$"):
         calc_rom.wanted()
 
 
 def test_package_without_marks() -> None:
     """A package without the marks is rejected and not changed."""
-    with pytest.raises(ProjectError, match="the marks of `make rom` are gone"):
+    with pytest.raises(ProjectError, match="the marks of `make rom` are missing"):
         calc_rom.package_text("package p; endpackage", program("halt"))

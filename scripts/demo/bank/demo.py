@@ -39,14 +39,14 @@ from scripts.fpga.flow import plain_sim
 
 NAME = "bank"
 FOLDER = BUILD / "demo"
-REST = 2000  # clk after the last access
+REST = 2000  # cycles after the last access
 PINS = SimpleNamespace(INPUTS=group.inputs(AXES), OUTPUTS=group.outputs(AXES, 1), WIDTHS=group.widths(AXES))
 TABLE = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
 
 
 @dataclass(frozen=True)
 class Played:
-    """What the host did. go: write event of GO. ends: finish status and position of each axis."""
+    """Result of the host session. go: write event of GO. ends: finish status and position of each axis."""
 
     session: Session
     go: int
@@ -60,7 +60,7 @@ class Played:
 
 
 def play() -> Played:
-    """The host: every axis initialised, then loaded, then GO, then what they say of it."""
+    """Run the host: initialise every axis, load every axis, send GO, read the results of all axes."""
     host = Session(AXES, CLK_HZ)
     for one in ORDERS:
         host.send(one.axis, INIT, *one.ramp)
@@ -80,14 +80,14 @@ def play() -> Played:
 
 
 def build() -> Path:
-    """The program of the Verilated RTL."""
+    """Build the Verilated RTL and return its program."""
     row = part(NAME)
     design = Design(row.top, sources(row), include_dirs(), {"AXES": AXES, "CLK_HZ": CLK_HZ})
     return plain_sim.build(design, BUILD / "plain" / NAME, TABLE)
 
 
 def simulate(program: Path, played: Played) -> Comparison:
-    """The same pin changes in the RTL, and all its output edges beside those of the golden model."""
+    """Apply the same pin changes to the RTL and compare all output edges with those of the golden model."""
     model = played.session.model
     recording = Recording(NAME, {"AXES": AXES, "CLK_HZ": CLK_HZ}, end=model.now, stimulus=model.stimulus)
     recording.edges = plain_sim.play(program, recording, TABLE)
@@ -97,7 +97,7 @@ def simulate(program: Path, played: Played) -> Comparison:
 
 
 def trains(comparison: Comparison) -> list[list[int]]:
-    """Edges of the pulses of each axis at the RTL."""
+    """Return the edges of the pulses of each axis at the RTL."""
     changes = comparison.actual["pout_n"]
     return [
         [t for t, level in bit_changes(changes, axis, comparison.initial["pout_n"]) if not level]
@@ -106,7 +106,7 @@ def trains(comparison: Comparison) -> list[list[int]]:
 
 
 def wrong(one: Order, pulses: list[int], played: Played) -> str:
-    """What is not as foretold with an axis; "" if all is."""
+    """Return the first deviation of an axis from the prediction; "" if there is no deviation."""
     status, position = played.ends[one.axis]
     if len(pulses) != one.pulses:
         return f"{len(pulses)} pulses, not {one.pulses}"
@@ -122,13 +122,13 @@ def wrong(one: Order, pulses: list[int], played: Played) -> str:
 
 
 def show(pulses: list[list[int]], played: Played, faults: dict[int, str]) -> None:
-    """A line for each axis."""
+    """Print one line for each axis."""
     table = Table(title="32 axes, one GO", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for head in ("axis", "RL", "RH", "PA", "pulses", "top / kpps", "pulse 1 after GO / clk", "last / ms"):
+    for head in ("axis", "RL", "RH", "PA", "pulses", "top / kpps", "pulse 1 after GO / cycles", "last / ms"):
         table.add_column(head, justify="right")
     table.add_column("finish status", justify="right")
     table.add_column("position read", justify="right")
-    table.add_column("beside the prediction")
+    table.add_column("compared with the prediction")
     for one, found, (status, position) in zip(ORDERS, pulses, played.ends, strict=True):
         gap = min((b - a for a, b in zip(found, found[1:], strict=False)), default=0)
         table.add_row(
@@ -138,21 +138,21 @@ def show(pulses: list[list[int]], played: Played, faults: dict[int, str]) -> Non
             f"{(found[-1] - played.go) * 1e3 / CLK_HZ:.3f}" if found else "–",
             f"{status:02X}",
             str(position),
-            faults.get(one.axis, "equal to the clk"),
+            faults.get(one.axis, "equal in every cycle"),
             style="bold red" if one.axis in faults else None,
         )
     console.print(table)
 
 
 def main() -> int:
-    """Play it; 0 when every edge is the golden model's and every profile the one that was predicted."""
+    """Run the demo; return 0 if every edge equals the golden model's and every profile its prediction."""
     steps, begin = Steps(), time.monotonic()
     picture, vcd = FOLDER / "profile.png", FOLDER / f"{NAME}.vcd"
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
         program = steps.run("build the RTL with Verilator", build)
-        played = steps.run("play a host of 32 axes on the golden model", play)
-        comparison = steps.run("give the RTL the same pin changes", lambda: simulate(program, played))
+        played = steps.run("run a host of 32 axes on the golden model", play)
+        comparison = steps.run("apply the same pin changes to the RTL", lambda: simulate(program, played))
         pulses = trains(comparison)
         faults = {one.axis: text for one in ORDERS if (text := wrong(one, pulses[one.axis], played))}
         FOLDER.mkdir(parents=True, exist_ok=True)
@@ -164,7 +164,7 @@ def main() -> int:
     show(pulses, played, faults)
     firsts = {found[0] for found in pulses if found}
     skew = max(firsts) - min(firsts) if firsts else 0
-    console.print(f"first pulses of {AXES} axes: on {len(firsts)} edge(s), skew [bold]{skew} clk[/]")
+    console.print(f"first pulses of {AXES} axes: on {len(firsts)} edge(s), skew [bold]{skew} cycles[/]")
     console.print(f"Look at {relative(picture)}, {relative(vcd)} (`make waves` opens it)")
     if comparison.mismatch is not None:
         m = comparison.mismatch

@@ -8,9 +8,9 @@ from openppmc.model.clock import Timebase
 from openppmc.model.single.predict import Move, predict_move
 
 AXES, CLK_HZ = 32, 32_000_000
-"""The least clk for so many axes at a crystal of 16 MHz (BANK-GEN-02)."""
+"""The lowest clk frequency for 32 axes at a crystal of 16 MHz (BANK-GEN-02)."""
 BASE = 500_000  # Hz, base clock with csel = 1
-INIT = 0x0A  # 4-phase motor, full step, H switches a coil on
+INIT = 0x0A  # 4-phase motor, full step, a high level switches a coil on
 RAMPED, CCW = 0x43, 0x08
 
 
@@ -36,21 +36,21 @@ class Order:
 
     @property
     def distance(self) -> bytes:
-        """Its parameters."""
+        """The parameters of the command."""
         return (self.pulses - 1).to_bytes(3, "little")
 
     @property
     def signed(self) -> int:
-        """Where it leads from 0."""
+        """The end position of a move from 0."""
         return -self.pulses if self.axis & 1 else self.pulses
 
     def predicted(self) -> Move:
-        """What the golden model of a PPMC-104 by itself foretells."""
+        """Return the move that the golden model of a single PPMC-104 predicts."""
         return predict_move(self.ramp, self.pulses, timebase=Timebase(CLK_HZ, 16_000_000))
 
 
 def order(axis: int) -> Order:
-    """From 25 kpps down to 9.8 kpps at the top; ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
+    """Return the order of an axis: top speed 25 to 9.8 kpps, ramps of 3 to 11 ms, plateaus of 0 to 18 ms."""
     rh = 19 + axis
     rl = 2 * rh + 40
     low, high = BASE / (rl + 1), BASE / (rh + 1)

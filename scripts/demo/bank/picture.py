@@ -20,25 +20,25 @@ from openppmc.plot.motion import GREY, INK, PALE, bare
 from scripts.demo.bank.moves import AXES, CLK_HZ, ORDERS, Order
 from scripts.demo.scenes import micros, subtitle
 
-MS = CLK_HZ / 1000  # clk
-US = CLK_HZ // 1_000_000  # clk
+MS = CLK_HZ / 1000  # cycles
+US = CLK_HZ // 1_000_000  # cycles
 COLUMNS = 8
 PREDICTED = "#1b2733"
 
 
 def colour(axis: int) -> tuple[float, ...]:
-    """Of one axis: fast ones blue, slow ones orange."""
+    """Return the colour of an axis: blue for fast axes, orange for slow axes."""
     return tuple(colormaps["viridis"](0.85 * axis / (AXES - 1)))
 
 
 def profile(times: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Steps of kpps over ms, from pulses in ms."""
+    """Return the times (ms) and speeds (kpps) of a step curve, from pulses in ms."""
     speeds = [1 / (b - a) for a, b in zip(times, times[1:], strict=False)]
     return list(times), [*speeds, *speeds[-1:]]
 
 
 def panel(axes: Axes, one: Order, pulses: Sequence[int], first: int) -> None:
-    """The speed of an axis at the RTL, and the predicted one as a line."""
+    """Draw the speed of an axis at the RTL, and the predicted speed as a line."""
     axes.set_xlim(-1, 42)
     axes.set_ylim(0, 33)
     bare(axes)
@@ -55,7 +55,7 @@ def panel(axes: Axes, one: Order, pulses: Sequence[int], first: int) -> None:
 
 
 def rows_of(axes: Axes) -> None:
-    """One row an axis, axis 0 on top."""
+    """Set up one row for each axis, with axis 0 at the top."""
     axes.set_ylim(AXES - 0.4, -0.6)
     axes.set_yticks(range(0, AXES, 4))
     bare(axes)
@@ -63,24 +63,24 @@ def rows_of(axes: Axes) -> None:
 
 
 def heads(axes: Axes, title: str, note: str) -> None:
-    """Title and note of a close-up."""
+    """Write the title and the note of a close-up."""
     axes.text(0, 1.075, title, transform=axes.transAxes, fontsize=10.5, weight="bold", color=INK)
     axes.text(0, 1.025, note, transform=axes.transAxes, fontsize=8.5, color=GREY)
 
 
 def train(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """All pulses of the first 3 ms: every axis goes its own way."""
+    """Draw all pulses of the first 3 ms, in which the axes diverge."""
     for axis, found in enumerate(pulses):
         near = [(t - first) / MS for t in found if t - first < 3 * MS]
         axes.eventplot(near, lineoffsets=axis, linelengths=0.8, colors=[colour(axis)], linewidths=0.7)
     rows_of(axes)
     axes.set_xlim(-0.05, 3)
     axes.set_xlabel("ms after pulse 1", fontsize=9, color=GREY)
-    heads(axes, "The first 3 ms", "each line a pulse: together at 0, then each axis at its own ramp")
+    heads(axes, "The first 3 ms", "each line is a pulse: together at 0, then each axis on its own ramp")
 
 
 def edge(axes: Axes, levels: Any, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """The levels of all pulse outputs, clk by clk, around the first fall."""
+    """Draw the levels of all pulse outputs, cycle by cycle, around the first falling edge."""
     span = range(-6, 7)
     for axis in range(AXES):
         found = [t for t, bits in levels if first + span[0] <= t <= first + span[-1]]
@@ -97,18 +97,18 @@ def edge(axes: Axes, levels: Any, pulses: Sequence[Sequence[int]], first: int) -
     rows_of(axes)
     axes.set_xlim(span[0], span[-1])
     axes.set_xticks(list(span))
-    axes.set_xlabel("clk after pulse 1", fontsize=9, color=GREY)
+    axes.set_xlabel("cycles after pulse 1", fontsize=9, color=GREY)
     firsts = {found[0] for found in pulses if found}
     skew = max(firsts) - min(firsts)
     heads(
         axes,
-        f"The start, clk by clk: skew {skew} clk",
-        f"pout_n of {AXES} axes, visited one a clk; a clk is {micros(1, CLK_HZ)}",
+        f"The start, cycle by cycle: skew {skew} cycles",
+        f"pout_n of {AXES} axes, one visit a cycle; a cycle is {micros(1, CLK_HZ)}",
     )
 
 
 def offsets(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
-    """How many pulses of the run are how far from their prediction."""
+    """Draw the distribution of the deviations of all pulses from their prediction."""
     found = Counter(
         edge - first - expected
         for one, train in zip(ORDERS, pulses, strict=True)
@@ -121,16 +121,16 @@ def offsets(axes: Axes, pulses: Sequence[Sequence[int]], first: int) -> None:
         axes.text(place, found[place], str(found[place]), ha="center", va="bottom", fontsize=9, color=INK)
     bare(axes)
     axes.set_yticks([])
-    axes.set_xlabel("clk off", fontsize=9, color=GREY)
+    axes.set_xlabel("deviation in cycles", fontsize=9, color=GREY)
     heads(
         axes,
-        f"All pulses: {worst} clk off at most",
-        "edges at the RTL less those predicted for a PPMC-104 by itself",
+        f"All pulses: deviation of at most {worst} cycles",
+        "edges at the RTL minus those predicted for a single PPMC-104",
     )
 
 
 def frame(figure: Figure, comparison: Any) -> None:
-    """Title of the whole."""
+    """Write the title of the whole picture."""
     figure.text(0.035, 0.977, "PPMC bank: 32 axes, 32 ramps, one GO", fontsize=16, weight="bold", color=INK)
     text = subtitle(comparison, CLK_HZ).removesuffix(" Pins with * are active low.")
     figure.text(0.035, 0.957, text, fontsize=10, color=GREY)
@@ -139,7 +139,7 @@ def frame(figure: Figure, comparison: Any) -> None:
 
 
 def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Path) -> None:
-    """Draw it into a PNG. first: the edge of all first pulses. IndexError if an axis has no pulses."""
+    """Draw the picture into a PNG. first: edge of all first pulses. IndexError if an axis has no pulses."""
     plt.rcParams["font.family"] = "DejaVu Sans"
     figure = plt.figure(figsize=(16, 15), dpi=110, facecolor="white")
     grid = figure.add_gridspec(

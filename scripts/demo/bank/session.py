@@ -1,4 +1,4 @@
-"""A host at the window of a bank, played on the golden model; every pin change is kept for the RTL."""
+"""A host at the window of a bank, run on the golden model; every pin change is recorded for the RTL."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from openppmc.model.bank.window import DATA, MASK, POSITION, STATUS
 from openppmc.model.single.codes import BUSY, IBF
 
 WRITE, READ, GAP = 2, 6, 3
-"""clk of the strobes and between them (BANK-WIN-04)."""
+"""Length of the strobes and of the gaps between them, in cycles (BANK-WIN-04)."""
 READ_FINISH = 0x80
 
 
@@ -25,12 +25,12 @@ class Access(NamedTuple):
 
 
 class Recorder(PpmcBank):
-    """The golden model, with the pin changes that it was given."""
+    """The golden model with a record of its input pin changes."""
 
     stimulus: list[Change]
 
     def pins(self, t: int, **levels: int) -> None:
-        """As there."""
+        """Record the levels, then set them as in the base class."""
         super().pins(t, **levels)
         self.__dict__.setdefault("stimulus", []).extend(
             Change(t, pin, level) for pin, level in levels.items()
@@ -38,7 +38,7 @@ class Recorder(PpmcBank):
 
 
 class Session:
-    """`t` is the next free edge; `accesses` are all, in order. Axes count from 0, as in the window."""
+    """A host session. `t`: next free edge; `accesses`: all, in order. Axes count from 0, as in the window."""
 
     def __init__(self, axes: int, clk_hz: int) -> None:
         self.model = Recorder(axes, clk_hz)
@@ -55,7 +55,7 @@ class Session:
         self.t += 1
 
     def write(self, axis: int, register: int, byte: int) -> int:
-        """Write cycle; its write event (BANK-WIN-06)."""
+        """Write a byte; return the edge of the write event (BANK-WIN-06)."""
         self._address(axis, register)
         self.accesses.append(Access(self.t, True, axis, register, byte))
         end = self.model.write(self.t, axis << 4 | register, byte, WRITE)
@@ -63,7 +63,7 @@ class Session:
         return end + 2
 
     def read(self, axis: int, register: int) -> int:
-        """Read cycle."""
+        """Read a byte."""
         self._address(axis, register)
         byte = self.model.read(self.t, axis << 4 | register, READ)
         self.accesses.append(Access(self.t, False, axis, register, byte))
@@ -71,13 +71,13 @@ class Session:
         return byte
 
     def poll(self, axis: int, bits: int = IBF) -> int:
-        """Read the status until these bits are 0; the status."""
+        """Read the status until these bits are 0; return the status."""
         while (status := self.read(axis, STATUS)) & bits:
             pass
         return status
 
     def send(self, axis: int, code: int, *data: int) -> int:
-        """A command and its data, each byte when there is room; the status after the last."""
+        """Send a command and its data, each byte when IBF is 0; return the status after the last byte."""
         self.write(axis, STATUS, code)
         for byte in data:
             self.poll(axis)
@@ -85,26 +85,26 @@ class Session:
         return self.poll(axis)
 
     def answer(self, axis: int, code: int, count: int = 1) -> int:
-        """A read command and its bytes, low byte first."""
+        """Send a read command; return the value of its response bytes, low byte first."""
         self.send(axis, code)
         return sum(self.read(axis, DATA) << 8 * place for place in range(count))
 
     def group(self, members: int) -> None:
-        """All of MASK; bit i is axis i."""
+        """Write all bytes of MASK; bit i is axis i."""
         for k in range((len(self.axes) + 7) // 8):
             self.write(k, MASK, members >> 8 * k & 0xFF)
 
     def position(self, axis: int) -> int:
-        """Four reads, byte 0 first (BANK-WIN-07)."""
+        """Return the position: four reads, byte 0 first (BANK-WIN-07)."""
         raw = bytes(self.read(axis, POSITION + place) for place in range(4))
         return int.from_bytes(raw, "little", signed=True)
 
     def idle(self, axis: int) -> None:
-        """Wait for the end of a motion, looking at it every 1000 clk."""
+        """Wait for the end of a motion; the status is polled every 1000 cycles."""
         while self.poll(axis) & BUSY:
             self.t += 1000
 
     def run(self, edge: int) -> None:
-        """Nothing until there."""
+        """Run to an edge without an access."""
         self.model.run_until(edge)
         self.t = max(self.t, edge + 1)

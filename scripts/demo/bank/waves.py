@@ -17,7 +17,7 @@ IDLE = {"a": 0, "cs_n": 1, "rd_n": 1, "wr_n": 1, "d_i": 0}
 
 
 def write(comparison: Any, pulses: Sequence[Sequence[int]], path: Path) -> None:
-    """Write the file; pulses: edges of each axis."""
+    """Write the VCD file; pulses: edges of each axis."""
     recording = comparison.recording
     clk_hz = int(recording.params["CLK_HZ"])
     period = round(1e12 / clk_hz)
@@ -45,7 +45,7 @@ def write(comparison: Any, pulses: Sequence[Sequence[int]], path: Path) -> None:
 
 
 def views(vcd: Path, axes: int) -> None:
-    """The saved views of GTKWave and Surfer beside the VCD: the host, then the speeds of all axes."""
+    """Write the saved views of GTKWave and Surfer next to the VCD: the host, then the speeds of all axes."""
     names = [f"host.{name}{f'[{size - 1}:0]' if size > 1 else ''}" for name, size in (BUS | ANSWERS).items()]
     speeds = [f"axis{axis}.speed_pps" for axis in range(axes)]
     lines = [f'[dumpfile] "{vcd.name}"', "[timestart] 0", "[size] 1500 900"]

@@ -1,4 +1,4 @@
-"""`make demo PART=ppmc312`: what is played, how the bus is shown, waves and picture."""
+"""`make demo PART=ppmc312`: test, display of the bus, waveforms and picture."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ Chapters = Mapping[str, Mapping[str, Any]]
 
 
 def within(edges: Sequence[int], chapter: Mapping[str, Any]) -> list[int]:
-    """Edges of one chapter."""
+    """Return the edges of one chapter."""
     return [t for t in edges if chapter["begin"] <= t < chapter["end"]]
 
 
 def kpps(axes: Axes) -> None:
-    """The vertical axis of a speed."""
+    """Set up the vertical axis of a speed."""
     axes.set_ylabel("kpps", fontsize=9, color=GREY)
 
 
 def marks(axes: Axes, at: Sequence[tuple[float, str]], top: float) -> None:
-    """Vertical lines with what happens there."""
+    """Draw vertical lines and the name of each event."""
     for x, text in at:
         axes.plot([x, x], [0, top], color=GREY, linewidth=0.8, linestyle=(0, (3, 2)), zorder=0)
         axes.text(x, top, text, fontsize=8, color=INK, ha="center", va="bottom", linespacing=1.1)
 
 
 def ramps(axes: Axes, pulses: Sequence[int], by_key: Chapters, clk_hz: int) -> None:
-    """The same move with three tables, each from its pulse 1 on."""
+    """Draw the same move with three tables, each from its pulse 1 on."""
     count = end = 0
     for key, colour in RAMPS:
         edges = within(pulses, by_key[key])
@@ -63,14 +63,14 @@ def ramps(axes: Axes, pulses: Sequence[int], by_key: Chapters, clk_hz: int) -> N
 def override(
     axes: Axes, pulses: Sequence[int], chapter: Mapping[str, Any], pressed: int, clk_hz: int
 ) -> None:
-    """The continuous motion that two positions and an event pin change."""
+    """Draw the continuous motion that two positions and an event pin change."""
     edges = within(pulses, chapter)
     moved = Speed("", FORCED, [t - edges[0] for t in edges])
     end = moved.pulses[-1]
     draw_speed(axes, Run("", "", clk_hz, end, [], [moved], [], []), 0, round(end * 1.02), clk_hz / 1000)
     points = [
         (moved.pulses[399] / clk_hz * 1e3, "position 400:\nramp to 125 kpps"),
-        (moved.pulses[1899] / clk_hz * 1e3, "position 1900:\n62.5 kpps at once"),
+        (moved.pulses[1899] / clk_hz * 1e3, "position 1900:\n62.5 kpps immediately"),
         ((pressed - edges[0]) / clk_hz * 1e3, "event 0:\ndecelerate, stop"),
     ]
     axes.set_ylim(0, 165)
@@ -83,7 +83,7 @@ def override(
 def zero_return(
     axes: Axes, pulses: Sequence[int], chapter: Mapping[str, Any], changes: Levels, begin: int, clk_hz: int
 ) -> None:
-    """Speed with its sign over the position, and where the switch is closed."""
+    """Draw the signed speed over the position, and the range in which the switch is closed."""
     turned = next(t for t, level in changes["dir"] if level == 0 and t > chapter["begin"])
     position, where, speed = begin, [], []
     for first, second in pairwise(within(pulses, chapter)):
@@ -114,7 +114,7 @@ def zero_return(
 def traces(
     outputs: Levels, initial: Mapping[str, int], stimulus: Sequence[Any], names: Sequence[str]
 ) -> list[Trace]:
-    """Pins for a close-up."""
+    """Return the pins of a close-up."""
     shown = {"pout": "POUT", "dir": "DIR", "irq_n": "IRQ*", "evt0_n": "EVT0*", "org_n": "ORG*", "we_n": "WE*"}
     return [
         Trace(
@@ -128,7 +128,7 @@ def traces(
 
 
 def start(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk_hz: int) -> Section:
-    """From the instruction to the first pulses of the move to the left."""
+    """Return the close-up from the instruction to the first pulses of the move to the left."""
     us = clk_hz // 1_000_000
     first = within(pulses, chapter)[:3]
     turned = next(t for t in rises(list(outputs["dir"])) if chapter["begin"] < t)
@@ -142,7 +142,7 @@ def start(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], cl
 
 
 def jump(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk_hz: int) -> Section:
-    """The change of speed at position 1900."""
+    """Return the close-up of the change of speed at position 1900."""
     us = clk_hz // 1_000_000
     edges = within(pulses, chapter)
     shown = edges[1897:1903]
@@ -151,19 +151,19 @@ def jump(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk
         "125 to 62.5 kpps at position 1900 (third pulse)",
         shown[0] - 4 * us,
         shown[-1] + 6 * us,
-        f"executed and answered {micros(done, clk_hz)} later; acts at the next pulse behind that",
+        f"executed and answered {micros(done, clk_hz)} later; takes effect at the pulse after that",
         spans=spans(shown, clk_hz),
     )
 
 
 def turn(outputs: Levels, pulses: Sequence[int], chapter: Mapping[str, Any], clk_hz: int) -> Section:
-    """Where the zero return turns round."""
+    """Return the close-up of the reversal of the zero return."""
     us = clk_hz // 1_000_000
     turned = next(t for t, level in outputs["dir"] if level == 0 and t > chapter["begin"])
     edges = within(pulses, chapter)
     around = [t for t in edges if t < turned][-2:] + [t for t in edges if t >= turned][:2]
     return Section(
-        "zero return turns round",
+        "zero return reverses",
         around[0] - 10 * us,
         around[-1] + 20 * us,
         f"DIR {micros(around[2] - turned, clk_hz)} before the first pulse back",
@@ -199,7 +199,7 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
         shown = traces(outputs, initial, stimulus, names)
         run = Run("", "", clk_hz, recording.end, shown, [], [], [], row_scale=7 / len(names))
         close_up(figure.add_subplot(below[index]), run, zoom, "ABC"[index])
-    title = "PPMC-312: three kinds of ramps, changes on the way, zero return"
+    title = "PPMC-312: three kinds of ramps, changes in motion, zero return"
     figure.text(0.055, 0.978, title, fontsize=16, fontweight="bold", color=INK, va="center")
     figure.text(0.055, 0.955, subtitle(comparison, clk_hz), fontsize=10, color=GREY, va="center")
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,1 +1,1 @@
-"""FPGA boards: what constraints/<board>/board.yml says, and what `make boards` writes from it."""
+"""FPGA boards: constraints/<board>/board.yml and the files that `make boards` generates from it."""

@@ -16,7 +16,7 @@ from scripts.fpga.boards.verilog import laid_out
 
 
 def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
-    """Each part on each board."""
+    """Return each part on each board."""
     return [
         fit(board, on, carrier.read(carrier.path_of(on.row), on.set))
         for board in boards
@@ -25,13 +25,13 @@ def fitted_parts(boards: tuple[Description, ...]) -> list[Fitted]:
 
 
 def own_files(one: Fitted, layout: Callable[[str], str]) -> dict[Path, str]:
-    """Top, through `layout`, and constraint files of a board with a part."""
+    """Return the top, formatted by `layout`, and the constraint files of a board with a part."""
     tops = {project.RTL / name: layout(text) for name, text in top.file(one.board, one).items()}
     return {**tops, **{FOLDER / name: text for name, text in constraints.files(one).items()}}
 
 
 def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
-    """Everything that is written from the descriptions, tops laid out so."""
+    """Return all files that are written from the descriptions, with tops formatted by `layout`."""
     boards = load_all()
     every = fitted_parts(boards)
     found = {path: text for one in every for path, text in own_files(one, layout).items()}
@@ -46,16 +46,16 @@ def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
 
 
 def left_over(wanted: dict[Path, str]) -> list[Path]:
-    """Tops and constraint files of no description."""
+    """Return tops and constraint files that belong to no description."""
     there = [*(project.RTL / "boards").glob("*/board_*.sv"), *FOLDER.glob("*/*/*")]
     return sorted(path for path in there if path.is_file() and path not in wanted)
 
 
 def main() -> int:
-    """Write all files; exit code 1 when --check finds a stale one."""
+    """Write all files; return 1 if --check finds an outdated file."""
     parser = argparse.ArgumentParser(prog="boards", description=__doc__)
     parser.add_argument(
-        "--check", action="store_true", help="write nothing, name the files that are not fresh"
+        "--check", action="store_true", help="write nothing, list the files that are outdated"
     )
     options = parser.parse_args()
     wanted = all_files()
@@ -63,7 +63,7 @@ def main() -> int:
     over = left_over(wanted)
     if options.check:
         for path in stale:
-            console.print(f"{relative(path)}: not as `make boards` writes it")
+            console.print(f"{relative(path)}: outdated; run `make boards`")
         for path in over:
             console.print(f"{relative(path)}: belongs to no part of a board.yml")
         return int(bool(stale or over))

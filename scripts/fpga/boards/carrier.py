@@ -1,4 +1,4 @@
-"""Ports and parameters of <part>_carrier, read from its header: the one place where they stand."""
+"""Ports and parameters of <part>_carrier, read from its module header, the only place that defines them."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ PORT = re.compile(
 
 
 BY_PARAMETER = re.compile(r"(?:(?P<times>\d+)\*)?(?P<name>[A-Z]\w*)-1")
-"""The highest bit of a vector whose width a parameter chooses."""
+"""The highest bit of a vector whose width depends on a parameter."""
 
 
 @dataclass(frozen=True)
 class Port:
-    """A port; `group` is the comment line above it and its neighbours, `text` the comment behind it."""
+    """A port. `group`: the comment line above it and its neighbours; `text`: the comment after it."""
 
     name: str
     output: bool
-    bits: range | None  # None: not a vector
+    bits: range | None  # None if the port is not a vector
     group: str
     text: str
 
@@ -39,20 +39,20 @@ class Port:
         return len(self.bits) if self.bits else 1
 
     def bit_names(self) -> list[str]:
-        """`s[1]` and so on, from the lowest; the name itself if it is no vector."""
+        """Return the bits (`s[1]`, …) from the lowest; the port name if it is not a vector."""
         return [f"{self.name}[{bit}]" for bit in self.bits] if self.bits else [self.name]
 
 
 @dataclass(frozen=True)
 class Carrier:
-    """The header of a module."""
+    """The header of a carrier module."""
 
     name: str
     parameters: dict[str, Parameter]
     ports: dict[str, Port]
 
     def two_way(self) -> dict[str, str]:
-        """Pins that are not always driven: name -> port that drives it, "" if it is only pulled low."""
+        """Return pins that are not always driven: name -> driving port, "" if the pin is only pulled low."""
         names = [name.removesuffix("_oe") for name in self.ports if name.endswith("_oe")]
         return {
             name: f"{name}_o" if f"{name}_o" in self.ports else ""
@@ -61,29 +61,29 @@ class Carrier:
         }
 
     def side(self, name: str) -> Port:
-        """The port of such a pin that stands for it: what is read there, or what drives it if nothing is."""
+        """Return the port that represents such a pin: its input, or its output if it has no input."""
         return self.ports.get(f"{name}_i") or self.ports[f"{name}_o"]
 
 
 def path_of(row: Row) -> Path:
-    """Where the carrier of a part is."""
+    """Return the path of the carrier of a part."""
     return project.RTL / row.folder / f"{row.rtl}_carrier.sv"
 
 
 def _highest(text: str, values: Mapping[str, Any]) -> int:
-    """Number of a vector's highest bit; ProjectError if it is neither a number nor [n *] PARAMETER - 1."""
+    """Return the highest bit of a vector; raise ProjectError unless it is a number or [n *] PARAMETER - 1."""
     if text.isdecimal():
         return int(text)
     found = BY_PARAMETER.fullmatch(text.replace(" ", ""))
     if not found or not isinstance(values.get(found["name"]), int):
-        raise ProjectError(f"[{text}:0]: expected a number, or a parameter less one")
+        raise ProjectError(f"[{text}:0]: expected a number or [n*]PARAMETER-1")
     return int(found["times"] or 1) * int(values[found["name"]]) - 1
 
 
 def read(path: Path, given: Mapping[str, Any] | None = None) -> Carrier:
-    """The header of the carrier in this file, with the defaults of its parameters but for those `given`."""
+    """Return the header of the carrier in a file; parameters not in `given` have their defaults."""
     if not path.is_file():
-        raise ProjectError(f"{project.relative(path)} is not there: a board cannot carry the part")
+        raise ProjectError(f"{project.relative(path)} is missing; a board needs the carrier of the part")
     ports, group = dict[str, Port](), ""
     chosen = parameters(path)
     values = {**{name: one.default for name, one in chosen.items()}, **(given or {})}

@@ -1,4 +1,4 @@
-"""Constraint files in the languages of nextpnr (.pcf, .lpf, .cst), Vivado (.xdc) and Quartus (.qsf)."""
+"""Constraint files in the formats of nextpnr (.pcf, .lpf, .cst), Vivado (.xdc) and Quartus (.qsf)."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from scripts.fpga.boards.words import head, title, wrapped
 
 
 def pcf(fitted: Fitted, pad: Pad) -> list[str]:
-    """iCE40. Pads have a pull-up or nothing."""
+    """Return the lines of a pad for the iCE40, which has pull-ups but no pull-downs."""
     pull = "-pullup yes " if pad.pull == "up" else ""
     return [f"{f'set_io {pull}{pad.bit}':<30}{pad.pin:<3} # {pad.where}"]
 
 
 def lpf(fitted: Fitted, pad: Pad) -> list[str]:
-    """ECP5."""
+    """Return the lines of a pad for the ECP5."""
     drive = f" DRIVE={fitted.board.pads['drive']}" if pad.way != "in" else ""
     place = f'LOCATE COMP "{pad.bit}" SITE "{pad.pin}";'
     buffer = f'IOBUF PORT "{pad.bit}" PULLMODE={pad.pull.upper()} IO_TYPE={pad.standard}{drive};'
@@ -21,21 +21,21 @@ def lpf(fitted: Fitted, pad: Pad) -> list[str]:
 
 
 def cst(fitted: Fitted, pad: Pad) -> list[str]:
-    """Gowin."""
+    """Return the lines of a pad for Gowin."""
     drive = f" DRIVE={fitted.board.pads['drive']}" if pad.way != "in" else ""
     buffer = f'IO_PORT "{pad.bit}" IO_TYPE={pad.standard} PULL_MODE={pad.pull.upper()}{drive};'
     return [f'IO_LOC "{pad.bit}" {pad.pin}; // {pad.where}', buffer]
 
 
 def xdc(fitted: Fitted, pad: Pad) -> list[str]:
-    """Artix-7."""
+    """Return the lines of a pad for the Artix-7."""
     pull = {"up": " PULLUP TRUE", "down": " PULLDOWN TRUE", "none": ""}[pad.pull]
     words = f"PACKAGE_PIN {pad.pin:<3} IOSTANDARD {pad.standard}{pull}"
     return [f"set_property -dict {{{words}}} [get_ports {{{pad.bit}}}] ; # {pad.where}"]
 
 
 def qsf(fitted: Fitted, pad: Pad) -> list[str]:
-    """Cyclone V."""
+    """Return the lines of a pad for the Cyclone V."""
     lines = [
         f"set_location_assignment PIN_{pad.pin} -to {pad.bit}  ;# {pad.where}",
         f'set_instance_assignment -name IO_STANDARD "{pad.standard}" -to {pad.bit}',
@@ -48,11 +48,11 @@ def qsf(fitted: Fitted, pad: Pad) -> list[str]:
 PADS = {"pcf": pcf, "lpf": lpf, "cst": cst, "xdc": xdc, "qsf": qsf}
 COMMENT = {"pcf": "#", "lpf": "#", "cst": "//", "xdc": "#", "qsf": "#"}
 APART = ("cst", "qsf")
-"""Languages without clocks: these are in clocks.sdc."""
+"""Formats without clock constraints; these are in clocks.sdc."""
 
 
 def preamble(fitted: Fitted) -> list[str]:
-    """What comes before the pins: statements of the board, and the device for Quartus."""
+    """Return the lines before the pins: statements of the board, and the device for Quartus."""
     board, lines = fitted.board, list[str]()
     mark = COMMENT[board.language]
     if board.statements:
@@ -70,7 +70,7 @@ def preamble(fitted: Fitted) -> list[str]:
 
 
 def clock(fitted: Fitted) -> list[str]:
-    """The oscillator's constraint."""
+    """Return the constraint of the oscillator."""
     port, mhz = fitted.board.clock["port"], fitted.board.clock["mhz"]
     language = fitted.board.language
     derived = "; the PLL's output follows from it" if "module" in fitted.board.clock else ""
@@ -94,7 +94,7 @@ def clock(fitted: Fitted) -> list[str]:
 
 
 def files(fitted: Fitted) -> dict[str, str]:
-    """The constraint files of a board with a part: name below constraints/ -> text."""
+    """Return the constraint files of a board with a part: name below constraints/ -> text."""
     board, on = fitted.board, fitted.on
     language = board.language
     mark = COMMENT[language]

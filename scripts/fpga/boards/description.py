@@ -1,6 +1,6 @@
-"""The descriptions of the boards, constraints/<board>/board.yml: what they may say, and what they say.
+"""The descriptions of the boards, constraints/<board>/board.yml: permitted keys and their values.
 
-Their keys are explained in docs/boards.md, section 11. A key that is unknown or missing is an error of one
+The keys are explained in docs/boards.md, section 11. An unknown or missing key is reported as an error of one
 line.
 """
 
@@ -21,12 +21,12 @@ from openppmc import parts as table
 FOLDER = project.ROOT / "constraints"
 HOSTS = ("uart", "bus", "spi")
 SHOWS = ("link", "moving", "switch", "running")
-"""What a lamp can show, in the order of the bits of ppmc_board_panel's lamps_o."""
+"""What an LED can indicate, in the order of the bits of lamps_o of ppmc_board_panel."""
 
 LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cyclone5": "qsf"}
-"""FPGA family -> how its constraint files end."""
+"""FPGA family -> suffix of its constraint files."""
 
-# Section -> keys that it must have, keys that it may have.
+# Section -> required keys, optional keys.
 KEYS = {
     "board": (
         "title place chip family clock reset lamps uart pads headers parts",
@@ -49,7 +49,7 @@ KEYS = {
 
 @dataclass(frozen=True)
 class Device:
-    """An FPGA that the board is sold with, for the tools of `make setup`. `name`: BOARD=."""
+    """An FPGA with which the board is sold, for the tools of `make setup`. `name`: value of BOARD."""
 
     name: str
     title: str
@@ -60,11 +60,12 @@ class Device:
 
 @dataclass(frozen=True)
 class Carried:
-    """A part on a board. `name`: its folder, the part's name or that with its host; `part`: PART=.
+    """A part on a board. `name`: its folder, the part's name with or without its host; `part`: value of PART.
 
-    `mhz` is that of clk, `goal` the least that the project wants; `pll` and `set` are parameters of the clock
-    module and the carrier, `omit` parameters of the carrier without effect here; `low` inputs without a pin
-    that read 0 (the others read 1), each with its reason; `pins`: group title -> signal -> header pins.
+    `mhz`: clk frequency; `goal`: the minimum that the project requires. `pll`, `set`: parameters of the
+    clock module and of the carrier; `omit`: parameters of the carrier that have no effect on this board.
+    `low`: inputs without a pin that read as 0 (the others read as 1), each with its reason. `pins`: group
+    title -> signal -> header pins.
     """
 
     name: str
@@ -89,12 +90,12 @@ class Carried:
 
 @dataclass(frozen=True)
 class Description:
-    """A whole board.yml; sections that are only read by one writer stay as they are written."""
+    """A whole board.yml; sections that only one writer reads are kept in their original form."""
 
     name: str
     path: Path
     title: str
-    revisions: str  # of the board, that the pins were compared for
+    revisions: str  # of the board, for which the pins were checked
     code: str
     place: int
     chip: str
@@ -117,25 +118,25 @@ class Description:
 
     @property
     def source(self) -> str:
-        """Its file, for messages and heads of what is written from it."""
+        """The path of the file, for messages and headers of generated files."""
         return f"constraints/{self.name}/board.yml"
 
     def top(self, on: Carried) -> str:
-        """Name of the top with this part."""
+        """Return the name of the top with this part."""
         return f"board_{self.name}_{on.name.replace('-', '_')}"
 
     @property
     def language(self) -> str:
-        """How its constraint files end."""
+        """Suffix of the constraint files."""
         return LANGUAGES[self.family]
 
     def constraints(self, on: Carried) -> str:
-        """The file of pins with this part, below constraints/."""
+        """Return the path of the pin file with this part, below constraints/."""
         return f"{self.name}/{on.name}/pins.{self.language}"
 
 
 def checked(where: str, section: str, found: Any) -> dict[str, Any]:
-    """A section with all keys that it must have and none that it may not have."""
+    """Return a section; raise ProjectError if a required key is missing or a key is unknown."""
     must, may = (keys.split() for keys in KEYS[section])
     if not isinstance(found, dict):
         raise ProjectError(f"{where}: expected keys ({', '.join(must + may)})")
@@ -149,7 +150,7 @@ def checked(where: str, section: str, found: Any) -> dict[str, Any]:
 
 
 def headers(where: str, found: Any) -> dict[str, str]:
-    """Name of each header pin -> package pin; a list has the package pins' numbers printed at it."""
+    """Return header pin -> package pin. In a list, the printed numbers are those of the package pins."""
     pins: dict[str, str] = {}
     for header, named in found.items():
         for name, pin in named.items() if isinstance(named, dict) else ((f"pin {n}", n) for n in named):
@@ -160,7 +161,7 @@ def headers(where: str, found: Any) -> dict[str, str]:
 
 
 def carried(where: str, name: str, found: Any) -> Carried:
-    """One entry below `parts`."""
+    """Return one entry below `parts`."""
     keys = dict(checked(where, "part", found))
     part = keys.pop("of", name)
     try:
@@ -185,7 +186,7 @@ def carried(where: str, name: str, found: Any) -> Carried:
 
 
 def load(path: Path) -> Description:
-    """One board.yml; the board is called as its folder."""
+    """Read one board.yml; the board has the name of its folder."""
     name = path.parent.name
     where = f"constraints/{name}/board.yml"
     try:
@@ -233,6 +234,6 @@ def load(path: Path) -> Description:
 
 @cache
 def load_all(folder: Path = FOLDER) -> tuple[Description, ...]:
-    """Every board, in the order of its `place`."""
+    """Return every board, in the order of `place`."""
     found = (load(path) for path in sorted(folder.glob("*/board.yml")))
     return tuple(sorted(found, key=lambda board: (board.place, board.name)))

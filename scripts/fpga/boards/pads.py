@@ -1,4 +1,4 @@
-"""The pads of a board that carries a part: each pin with its signal, direction, place and electrical side."""
+"""The pads of a board with a part: each pin with its signal, direction, place and electrical properties."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scripts.fpga.boards.carrier import Carrier, Port
 from scripts.fpga.boards.description import Carried, Description
 
 HOST_RESET = "host_rst_n"
-"""Signal of a bus host that is no port of a carrier: its reset line, 0 = reset."""
+"""The reset line of a bus host, 0 = reset; it is not a port of a carrier."""
 
 
 @dataclass(frozen=True)
@@ -25,13 +25,13 @@ class Pad:
 
     @property
     def port(self) -> str:
-        """The port without the number of its bit."""
+        """The port name without the bit number."""
         return self.bit.split("[")[0]
 
 
 @dataclass(frozen=True)
 class Group:
-    """Pads below one title."""
+    """Pads with a common title."""
 
     title: str
     pads: tuple[Pad, ...]
@@ -39,7 +39,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A part on a board, with the ports of its carrier and all pads."""
+    """A part on a board with the ports of its carrier and all pads."""
 
     board: Description
     on: Carried
@@ -57,13 +57,13 @@ class Fitted:
         return [pad for group in self.groups for pad in group.pads]
 
     def bits(self, port: str) -> list[str]:
-        """Bits of a port that have a pad, from the lowest."""
+        """Return the bits of a port that have a pad, from the lowest."""
         found = [pad.bit for pad in self.pads if pad.port == port]
         return sorted(found, key=lambda bit: int(bit.rstrip("]").rpartition("[")[2]) if "[" in bit else 0)
 
 
 def own_pads(board: Description, on: Carried) -> list[Group]:
-    """What belongs to the board: oscillator, reset, lamps, constant outputs, UART."""
+    """Return the pads of the board itself: oscillator, reset, LEDs, constant outputs, UART."""
     clock, reset = board.clock, board.reset
     rows = [
         (clock["port"], clock["pin"], clock["what"], "in", "none"),
@@ -88,14 +88,14 @@ def own_pads(board: Description, on: Carried) -> list[Group]:
 
 
 def _pad(board: Description, bit: str, pin: object, where: str, way: str, pull: str) -> Pad:
-    """A pad with the I/O standard of its pin."""
+    """Return a pad with the I/O standard of its pin."""
     exceptions = board.pads.get("exceptions", {})
     standards = [name for name, pins in exceptions.items() if str(pin) in map(str, pins)]
     return Pad(bit, str(pin), where, way, pull, standards[0] if standards else board.pads["standard"])
 
 
 def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], str]:
-    """Bits that a signal of board.yml means, from the lowest, and its way; ProjectError if there is none."""
+    """Return the bits of a signal of board.yml, from the lowest, and its direction; or raise ProjectError."""
     name = signal.split("[")[0]
     if name == HOST_RESET:
         return [signal], "in"
@@ -114,7 +114,7 @@ def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], s
 
 
 def fit(board: Description, on: Carried, carrier: Carrier) -> Fitted:
-    """The part on the board; ProjectError if a signal, header pin or package pin does not fit."""
+    """Return the part on the board; raise ProjectError if a signal, header pin or package pin is wrong."""
     where = f"{board.source}: parts: {on.name}"
     groups = own_pads(board, on)
     for title, signals in on.pins.items():
@@ -126,7 +126,7 @@ def fit(board: Description, on: Carried, carrier: Carrier) -> Fitted:
             for bit, place in zip(bits, places, strict=False):
                 name, _, _ = place.partition(", ")
                 if name not in board.headers:
-                    raise ProjectError(f"{where}: {signal}: {name} is no pin of a header")
+                    raise ProjectError(f"{where}: {signal}: {name} is not a header pin")
                 pull = "none" if way == "out" else "up"
                 pads.append(_pad(board, bit, board.headers[name], place, way, pull))
         groups.append(Group(title, tuple(pads)))

@@ -1,4 +1,4 @@
-"""Tables written between markers: pins and boards in pages, tops in rtl/files.yml."""
+"""Generated tables between markers: pins and boards in pages, tops in rtl/files.yml."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ WAYS = {"in": "in", "out": "out", "inout": "in, out"}
 
 
 def pin_table(fitted: Fitted) -> str:
-    """Each signal with its direction, package pin and place."""
+    """Return the table of signals with direction, package pin and place."""
     rows = [f"| `{pad.bit}` | {WAYS[pad.way]} | {pad.pin} | {pad.where} |" for pad in fitted.pads]
     return "\n".join(["| signal | | FPGA pin | where |", "|---|---|---|---|", *rows])
 
 
 def board_table(boards: tuple[Description, ...]) -> str:
-    """All boards with their FPGA, clocks and parts."""
+    """Return the table of boards with their FPGA, clocks and parts."""
     rows = ["| `BOARD` | board | FPGA | oscillator | `clk` | `PART` | built here |"]
     rows.append("|---|---|---|---|---|---|---|")
     for board in boards:
@@ -37,7 +37,7 @@ def board_table(boards: tuple[Description, ...]) -> str:
 
 
 def flash_table(boards: tuple[Description, ...]) -> str:
-    """Boards that `make flash` loads, with the first part of each."""
+    """Return the table of boards that `make flash` loads, with the first part of each."""
     rows = ["| board | FPGA | bitstream and load | port |", "| --- | --- | --- | --- |"]
     for board in boards:
         first = board.parts[0]
@@ -50,7 +50,7 @@ def flash_table(boards: tuple[Description, ...]) -> str:
 
 
 def jumper_table(fitted: list[Fitted]) -> str:
-    """The wires of the self-test on each board with the UART host; what has no pin there is told."""
+    """Return the table of self-test wires of boards with the UART host; signals without a pin are marked."""
     rows = ["| board | part | from | to | for |", "|---|---|---|---|---|"]
     for one in fitted:
         if "uart" not in one.on.hosts or not one.on.row.selftest or not one.board.devices:
@@ -67,7 +67,7 @@ def jumper_table(fitted: list[Fitted]) -> str:
 
 
 def recorder_table() -> str:
-    """Pins in a record of each part, from the lowest bit on; of the bank's with 8 axes."""
+    """Return the table of pins in a record of each part, from the lowest bit on; the bank has 8 axes."""
     rows = ["| part | levels | pins, from the lowest bit on |", "| --- | --- | --- |"]
     for row in parts.having("selftest"):
         plan: Plan = row.load("selftest")
@@ -79,7 +79,7 @@ def recorder_table() -> str:
 
 
 def record_width(row: parts.Row) -> int:
-    """Levels that the carrier of a part records, from its text; of a bank those of 8 axes."""
+    """Return the number of levels that the carrier of a part records, from its text; a bank has 8 axes."""
     path = project.RTL / row.folder / f"{row.rtl}_carrier.sv"
     found = re.search(r"localparam int unsigned Watch = ([^;]*);", path.read_text(encoding="utf-8"))
     words = re.fullmatch(r"(\d+)(?: \+ (\d+) \* AXES)?", found[1]) if found else None
@@ -89,21 +89,21 @@ def record_width(row: parts.Row) -> int:
 
 
 def bridge(text: str) -> str:
-    """docs/uart_bridge.md with its table of levels anew."""
+    """Return docs/uart_bridge.md with an updated table of levels."""
     return put(text, "<!-- recorder -->", "<!-- /recorder -->", recorder_table(), "docs/uart_bridge.md")
 
 
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
-    """`text` with `body` between the lines `begin` and `end`; ProjectError if they are not there."""
+    """Return `text` with `body` between the lines `begin` and `end`; ProjectError if a line is missing."""
     head, found, rest = text.partition(f"{begin}\n")
     _, closed, tail = rest.partition(end)
     if not found or not closed:
-        raise ProjectError(f"{where}: put the lines {begin} and {end} where the table shall be")
+        raise ProjectError(f"{where}: put the lines {begin} and {end} at the place of the table")
     return f"{head}{begin}\n{body}\n{end}{tail}"
 
 
 def page(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
-    """docs/boards.md with all its tables anew."""
+    """Return docs/boards.md with all its tables updated."""
     text = put(text, "<!-- boards -->", "<!-- /boards -->", board_table(boards), "docs/boards.md")
     text = put(text, "<!-- jumpers -->", "<!-- /jumpers -->", jumper_table(fitted), "docs/boards.md")
     for one in fitted:
@@ -113,12 +113,12 @@ def page(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> st
 
 
 def readme(boards: tuple[Description, ...], text: str) -> str:
-    """The README with its table of boards anew."""
+    """Return the README with an updated table of boards."""
     return put(text, "<!-- boards -->", "<!-- /boards -->", flash_table(boards), "README.md")
 
 
 def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) -> str:
-    """rtl/files.yml with clock modules and tops of the boards anew."""
+    """Return rtl/files.yml with an updated list of clock modules and board tops."""
     clocks = dict.fromkeys(board.clock["module"] for board in boards if "module" in board.clock)
     files = [project.RTL / _clock(module) for module in clocks]
     names = [path.relative_to(project.RTL).as_posix() for path in files]
@@ -130,10 +130,8 @@ def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) ->
 
 
 def _clock(module: str) -> Path:
-    """Where a clock module is."""
+    """Return the path of a clock module, relative to rtl/."""
     found = sorted((project.RTL / "boards").glob(f"*/{module}.sv"))
     if not found:
-        raise ProjectError(
-            f"rtl/boards/<board>/{module}.sv is not there: a board.yml names this clock module"
-        )
+        raise ProjectError(f"rtl/boards/<board>/{module}.sv is missing; a board.yml names this clock module")
     return found[0].relative_to(project.RTL)

@@ -1,4 +1,4 @@
-"""The top of a board: pads, PLL, power-on reset and lamps around <part>_carrier, as SystemVerilog."""
+"""The top of a board as SystemVerilog: pads, PLL, power-on reset and LEDs around <part>_carrier."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from scripts.fpga.boards.verilog import declaration, instance, literal, part_sel
 from scripts.fpga.boards.words import clk, head, title, wrapped
 
 OWN_PANEL = ("lock", "req_n", "lamps")
-"""Ports of a carrier that has reset and lamps inside; around the others the top puts ppmc_board_panel."""
+"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_panel."""
 
 
 class Top:
-    """The text of one top; its parts are methods in the order in which they stand in the file."""
+    """The text of one top; its methods are in the order of the sections of the file."""
 
     def __init__(self, fitted: Fitted) -> None:
         self.fitted = fitted
@@ -31,18 +31,18 @@ class Top:
         self.assigns: list[str] = []
 
     def parameters(self) -> list[Parameter]:
-        """What the top lets one choose: the carrier's parameters with the defaults of this board."""
+        """Return the parameters of the top: those of the carrier with the defaults of this board."""
         hidden = {"CLK_HZ", *self.fixed, *(self.on.omit or {})}
         return [parameter for parameter in self.carrier.parameters.values() if parameter.name not in hidden]
 
     def comment(self) -> list[str]:
-        """What the file is, in the form of all headers."""
+        """Return the header comment of the file."""
         what = f"{self.fitted.top}: {title(self.fitted)} ({self.board.chip}), {clk(self.fitted)}."
         pages = f"Rules:  pins, LEDs, wiring: docs/boards.md; constraints/{self.board.constraints(self.on)}."
         return wrapped("//", what, f"{pages} {self.on.note}", f"Timing: see {self.carrier.name}.")
 
     def header(self) -> list[str]:
-        """The module's name, parameters and ports."""
+        """Return the module declaration with parameters and ports."""
         chosen = []
         for parameter in self.parameters():
             value = self.board.defaults.get(parameter.name)
@@ -57,7 +57,7 @@ class Top:
         return [*start, *ports, ");", ""]
 
     def ports(self) -> list[str]:
-        """The pads as ports: the board's own, then the carrier's in its order, then lamps and constants."""
+        """Return the ports: those of the board, then the carrier's in its order, then LEDs and constants."""
         reset = self.board.reset
         lines = [
             declaration("in", [self.board.clock["port"]], f"{self.board.clock['mhz']:g} MHz"),
@@ -79,7 +79,7 @@ class Top:
         return lines + self.board_outputs()
 
     def board_outputs(self) -> list[str]:
-        """Ports of lamps and constant outputs."""
+        """Return the ports of LEDs and constant outputs."""
         lines = []
         if self.on.lamps:
             lines.append(f"    // LEDs, {self.board.lamps['active']} = on")
@@ -91,7 +91,7 @@ class Top:
         return lines
 
     def clock(self) -> list[str]:
-        """The PLL, if the board has one."""
+        """Return the instance of the PLL, if the board has one."""
         if not self.pll:
             return []
         port = self.board.clock["port"]
@@ -101,12 +101,12 @@ class Top:
         return instance(self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"})
 
     def reset_wanted(self) -> str:
-        """0 while the button or the host wants a reset."""
+        """Return the expression that is 0 while the button or the host requests a reset."""
         button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
         return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
 
     def panel(self) -> list[str]:
-        """Power-on reset and lamps."""
+        """Return the instance for power-on reset and LEDs."""
         if self.own_panel:
             return []
         lamps = {"link_i": "led_link", "moving_i": "led_moving", "switch_i": "led_switch", "lamps_o": "lamps"}
@@ -116,7 +116,7 @@ class Top:
         return instance("ppmc_board_panel", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
 
     def around(self, port: Port) -> tuple[bool, str | None]:
-        """Whether a port of the carrier is for the clock, reset or lamps, and its connection."""
+        """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
         if self.own_panel and port.name in OWN_PANEL:
@@ -125,7 +125,7 @@ class Top:
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
-        """What a port of the carrier is connected with; None: what has its name."""
+        """Return the connection of a port of the carrier; None: the signal with the same name."""
         own, known = self.around(port)
         if own:
             return known
@@ -144,7 +144,9 @@ class Top:
         if not bits:
             return "" if port.output else self.idle(port, port.width)
         if bits != port.bit_names()[: len(bits)]:
-            raise ProjectError(f"{self.board.source}: parts: {self.on.name}: {port.name}: a bit is left out")
+            raise ProjectError(
+                f"{self.board.source}: parts: {self.on.name}: {port.name}: only high bits may lack a pin"
+            )
         if not port.output:
             return f"{{{self.idle(port, port.width - len(bits))}, {port.name}}}"
         whole = self.wire(f"part_{port.name}", port)
@@ -154,25 +156,25 @@ class Top:
         return whole
 
     def wire(self, name: str, port: Port) -> str:
-        """A signal as wide as a port."""
+        """Declare a signal with the width of a port and return its name."""
         span = f"[{port.bits[-1]}:{port.bits[0]}] " if port.bits else ""
         self.wires.append(f"{span}{name}")
         return name
 
     def idle(self, port: Port, width: int) -> str:
-        """What an input without a pin reads."""
+        """Return the constant that an input without a pin reads."""
         level = "0" if port.name in (self.on.low or {}) else "1"
         return f"'{level}" if width == port.width > 1 else f"{width}'b{level * width}"
 
     def part(self) -> list[str]:
-        """The carrier."""
+        """Return the instance of the carrier."""
         names = [name for name in self.carrier.parameters if name not in (self.on.omit or {})]
         params = {name: self.fixed.get(name, "ClkHz" if name == "CLK_HZ" else name) for name in names}
         ports = {port.name: self.connection(port) for port in self.carrier.ports.values()}
         return instance(self.carrier.name, params, "u_carrier", ports)
 
     def pads(self) -> list[str]:
-        """Pins that go both ways, and those of which the carrier has more bits."""
+        """Return the assignments of bidirectional pins, and of ports of which the carrier has more bits."""
         lines = []
         for name, drives in self.two_way.items():
             if self.fitted.bits(name):
@@ -181,7 +183,7 @@ class Top:
         return lines + self.assigns
 
     def lamps(self) -> list[str]:
-        """Which lamp shows what."""
+        """Return the assignments of the LEDs."""
         shown = {lamp["port"]: SHOWS.index(lamp["shows"]) for lamp in self.board.lamps["pins"]}
         if not self.on.lamps:
             self.unused.append("lamps")
@@ -198,14 +200,14 @@ class Top:
         return lines
 
     def ties(self) -> list[str]:
-        """Constant outputs, each with its reason."""
+        """Return the constant outputs, each with its reason."""
         lines = []
         for name, tie in self.board.ties.items():
             lines += ["", f"  // {tie['reason']}", f"  assign {name} = 1'b{tie['level']};"]
         return lines
 
     def text(self) -> str:
-        """The whole file, not yet laid out."""
+        """Return the whole file, not yet formatted."""
         start = [*head(self.fitted, "//"), *self.comment(), "`default_nettype none", "", *self.header()]
         blocks = [*self.clock(), *self.panel(), *self.part()]
         ends = [*self.pads(), *self.lamps(), *self.ties()]
@@ -218,7 +220,7 @@ class Top:
         return "\n".join(lines)
 
     def signals(self) -> list[str]:
-        """Declarations of the signals between the blocks, the single bits on one line."""
+        """Return the declarations of the signals between the blocks, with all single bits on one line."""
         single = [wire for wire in self.wires if "[" not in wire]
         wide = ["[3:0] lamps", *(wire for wire in self.wires if "[" in wire)]
         lines = [f"  logic {', '.join(single)};"] if single else []
@@ -226,5 +228,5 @@ class Top:
 
 
 def file(board: Description, fitted: Fitted) -> dict[str, str]:
-    """The top of a board with a part: name below rtl/ -> text."""
+    """Return the top of a board with a part: name below rtl/ -> text."""
     return {f"boards/{board.name}/{fitted.top}.sv": Top(fitted).text()}

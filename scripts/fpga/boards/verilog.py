@@ -1,4 +1,4 @@
-"""Pieces of SystemVerilog, and their layout."""
+"""Pieces of SystemVerilog, and their formatting."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ LAYOUT = (
 
 
 def literal(value: Any, kind: str = "") -> str:
-    """A value of board.yml as SystemVerilog, for a parameter of this type."""
+    """Return a value of board.yml as SystemVerilog, for a parameter of type `kind`."""
     if kind == "bit":
         return f"1'b{value}"
     return str(value) if isinstance(value, int) else f'"{value}"'
 
 
 def declaration(way: str, bits: list[str], text: str) -> str:
-    """One port of the top."""
+    """Return the declaration of one port of the top."""
     name = bits[0].split("[")[0]
     numbers = [int(bit[len(name) + 1 : -1]) for bit in bits if "[" in bit]
     span = f"[{max(numbers)}:{min(numbers)}] " if numbers else ""
@@ -33,7 +33,7 @@ def declaration(way: str, bits: list[str], text: str) -> str:
 
 
 def instance(module: str, params: dict[str, str], name: str, ports: dict[str, str | None]) -> list[str]:
-    """An instance; None connects by name."""
+    """Return an instance; a port with None is connected to the signal of the same name."""
     chosen = [f"      .{key}({value})," for key, value in params.items()]
     lines = [f"      .{key}," if value is None else f"      .{key}({value})," for key, value in ports.items()]
     start = (
@@ -45,24 +45,24 @@ def instance(module: str, params: dict[str, str], name: str, ports: dict[str, st
 
 
 def without_last_comma(lines: list[str]) -> list[str]:
-    """Without the comma of the last line."""
+    """Remove the comma of the last line."""
     return [*lines[:-1], lines[-1].removesuffix(",")]
 
 
 def without_comma(line: str) -> str:
-    """A port's line without the comma before its comment."""
+    """Return a port's line without the comma before its comment."""
     code, mark, text = line.partition("  //")
     return code.rstrip().removesuffix(",") + mark + text
 
 
 def part_select(whole: str, bits: list[str]) -> str:
-    """Neighbouring bits of a vector."""
+    """Return the part select of neighbouring bits of a vector."""
     first, last = (bit.rpartition("[")[2].rstrip("]") for bit in (bits[0], bits[-1]))
     return f"{whole}[{last}:{first}]" if len(bits) > 1 else f"{whole}[{first}]"
 
 
 def laid_out(text: str) -> str:
-    """The text as verible-verilog-format lays it out, which `make lint` asks of all RTL."""
+    """Return the text formatted by verible-verilog-format, as `make lint` requires for all RTL."""
     program = project.tool("verible-verilog-format")
     try:
         done = subprocess.run(

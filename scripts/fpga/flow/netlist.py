@@ -1,4 +1,4 @@
-"""Counting a mapped netlist: LUTs, flip-flops, block RAMs, and which instance of the RTL they belong to."""
+"""Cell counts of a mapped netlist: LUTs, flip-flops and block RAMs, for each instance of the RTL."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections import Counter, defaultdict
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-# Of iCE40, ECP5 and Gowin; an adder bit of Gowin (ALU) takes a LUT's place.
+# For iCE40, ECP5 and Gowin; on Gowin, an adder bit (ALU) occupies a LUT.
 LUT_CELLS = {
     **{"SB_LUT4": 1, "LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6},
     **{"LUT1": 1, "LUT2": 1, "LUT3": 1, "ALU": 1, "RAM16SDP4": 4},
 }
 RAM_CELLS = {"SB_RAM40_4K", "DP16KD", "PDPW16KD", "SP", "SDPB", "DPB", "SPX9", "SDPX9B", "DPX9B"}
-FF_CELLS = ("SB_DFF", "TRELLIS_FF", "DFF")  # what their names begin with
+FF_CELLS = ("SB_DFF", "TRELLIS_FF", "DFF")  # prefixes of their names
 OUTPUT_PORTS = {"O", "CO", "Z", "S0", "S1", "COUT", "Q"}
 
 
@@ -37,20 +37,22 @@ class Count:
 
 @dataclass
 class Breakdown:
-    """Figures of one family: the whole, and per instance path ('' is the top itself)."""
+    """Figures of one family: in total, and for each instance path ('' is the top)."""
 
     total: Count = field(default_factory=Count)
-    flat: dict[str, Count] = field(default_factory=dict)  # flattened netlist; LUTs credited to what they feed
-    kept: dict[str, Count] = field(default_factory=dict)  # each module mapped by itself
+    flat: dict[str, Count] = field(
+        default_factory=dict
+    )  # flattened netlist; a LUT counts for the instance that it feeds
+    kept: dict[str, Count] = field(default_factory=dict)  # each module mapped separately
     module: dict[str, str] = field(default_factory=dict)  # instance path -> module name
 
     def as_dict(self) -> dict:
-        """Plain data for the JSON report."""
+        """Return plain data for the JSON report."""
         return asdict(self)
 
 
 def kept_counts(path: Path, top: str) -> tuple[dict[str, Count], dict[str, str]]:
-    """Counts and module names per instance path of a netlist whose hierarchy was kept."""
+    """Return counts and module names for each instance path of a netlist with its hierarchy."""
     modules = json.loads(path.read_text())["modules"]
     counts: dict[str, Count] = {}
     names: dict[str, str] = {}
@@ -69,7 +71,7 @@ def kept_counts(path: Path, top: str) -> tuple[dict[str, Count], dict[str, str]]
 
 
 def owner(name: str, instances: set[str]) -> str | None:
-    """The deepest instance whose path starts a cell's or net's name; None for names yosys made up."""
+    """Return the deepest instance whose path is a prefix of a cell or net name; None for generated names."""
     if name.startswith("$") or re.search(r"_(LUT4|SB_LUT4|CCU2C|SB_CARRY|PFUMX|L6MUX21)_", name):
         return None
     path = re.sub(r"(\[\d+\])+$", "", name.split("\\")[0])
@@ -81,10 +83,11 @@ def owner(name: str, instances: set[str]) -> str | None:
 
 
 def flat_counts(path: Path, top: str, instances: set[str]) -> tuple[Count, dict[str, Count]]:
-    """Total of a flattened netlist and its split per instance.
+    """Return the total of a flattened netlist and the counts for each instance.
 
-    Flip-flops and RAMs belong to the instance in their name. A LUT, whose name abc9 has lost, is credited to
-    the instance that most of its sinks belong to, walking back from flip-flops and outputs.
+    Flip-flops and RAMs belong to the instance in their name. abc9 drops the names of LUTs, so a LUT belongs
+    to the instance with most of its sinks; this is found by following the nets back from flip-flops and
+    outputs.
     """
     module = json.loads(path.read_text())["modules"][top]
     total, split = Count(), defaultdict(Count)
@@ -116,7 +119,7 @@ def flat_counts(path: Path, top: str, instances: set[str]) -> tuple[Count, dict[
             else:
                 votes = Counter(owners[sink] for sink in fed)
                 owners[name] = max(sorted(votes), key=lambda inst: votes[inst]) if votes else ""
-        if len(rest) == len(waiting):  # a loop through made-up cells: credit what is left to the top
+        if len(rest) == len(waiting):  # a loop through generated cells: the rest counts for the top
             owners.update(dict.fromkeys(rest, ""))
             break
         waiting = rest

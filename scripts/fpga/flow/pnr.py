@@ -1,4 +1,4 @@
-"""Place and route of a mapped netlist with nextpnr, once per seed: Fmax and the cells the packer used."""
+"""Place and route of a mapped netlist with nextpnr for each seed: Fmax and cells after packing."""
 
 from __future__ import annotations
 
@@ -16,8 +16,7 @@ CLOCK = "clk"
 
 @dataclass(frozen=True)
 class Device:
-    """One FPGA: nextpnr's arguments, the clock it is asked for and the clock to be reached, both in MHz, and
-    how many pins there are for signals."""
+    """One FPGA. `ask_mhz`: clock constraint of nextpnr; `goal_mhz`: required clock; `pins`: I/O pins."""
 
     name: str
     family: str
@@ -25,7 +24,7 @@ class Device:
     ask_mhz: float
     goal_mhz: float
     pins: int
-    wrapped: bool = False  # fewer pins than any part: they go through shift registers
+    wrapped: bool = False  # too few pins for any part: signals pass through shift registers
 
 
 DEVICES = (
@@ -52,7 +51,7 @@ DEVICES = (
 
 @dataclass(frozen=True)
 class Run:
-    """One place and route: seed, Fmax of `clk` in MHz, cells used by type, slowest path in words."""
+    """One place and route: seed, Fmax of `clk` in MHz, cells of each type, slowest path as text."""
 
     seed: int
     fmax: float
@@ -61,7 +60,7 @@ class Run:
 
 
 def slowest_path(report: dict) -> str:
-    """The slowest register-to-register path of `clk`: its ends, and what its time goes into."""
+    """Return the slowest register-to-register path of `clk`: its ends and its delays."""
     paths = [p["path"] for p in report["critical_paths"] if "posedge" in p["from"] and "posedge" in p["to"]]
     if not paths:
         return ""
@@ -82,7 +81,7 @@ def slowest_path(report: dict) -> str:
 
 
 def run(device: Device, folder: Path, log: Path, options: tuple[str, ...]) -> None:
-    """Run nextpnr in `folder`, its words into `log`; ProjectError with its error lines when it fails."""
+    """Run nextpnr in `folder` with output to `log`; raise ProjectError with its error lines if it fails."""
     program = f"yowasp-nextpnr-{device.family}"
     command = [tool(program), "--quiet", "--log", log.name, *options, *device.arguments]
     try:
@@ -100,7 +99,7 @@ def run(device: Device, folder: Path, log: Path, options: tuple[str, ...]) -> No
 
 
 def packed(device: Device, netlist: Path, folder: Path) -> dict[str, int]:
-    """Cells by type as nextpnr packs the netlist, placed or not: also one with more pins than the device."""
+    """Return the cells of each type after packing, also for a netlist with more pins than the device."""
     local = folder / "pack-netlist.json"
     shutil.copyfile(netlist, local)
     log = folder / "pack.log"
@@ -112,9 +111,9 @@ def packed(device: Device, netlist: Path, folder: Path) -> dict[str, int]:
 
 
 def place_and_route(device: Device, netlist: Path, folder: Path, seed: int) -> Run:
-    """Run nextpnr with one seed; ProjectError with its error lines when it fails.
+    """Run nextpnr with one seed; raise ProjectError with its error lines if it fails.
 
-    The WebAssembly build sees the working folder only, so all paths are relative to it.
+    The WebAssembly build can only read the working folder, so all paths are relative to it.
     """
     stem = f"{device.name.replace(' ', '-').lower()}-s{seed}"
     folder.mkdir(parents=True, exist_ok=True)

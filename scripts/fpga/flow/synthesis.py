@@ -1,4 +1,4 @@
-"""Yosys jobs, as `make report`, `make bitstream` and `make test-gates` run them."""
+"""Yosys jobs of `make report`, `make bitstream` and `make test-gates`."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ FAMILIES = ("ecp5", "ice40")
 
 
 def run_yosys(folder: Path, job: dict) -> Path:
-    """Run one synthesis job in its own process; ProjectError with the last lines of its log when it fails."""
+    """Run one synthesis job in a separate process; raise ProjectError with the end of its log if it fails."""
     folder.mkdir(parents=True, exist_ok=True)
     stem = f"{job['family']}-{job['recipe']}{'-kept' if job['keep'] else ''}"
-    # Relative to the root, where yosys runs: its commands end a name at a space.
+    # Paths are relative to the root, where yosys runs, because a space ends a name in its commands.
     job = {**job, "json": project.relative(folder / f"{stem}.json")}
     job_file, log = folder / f"{stem}.job", folder / f"{stem}.log"
     job_file.write_text(json.dumps(job, indent=1))
@@ -39,7 +39,7 @@ def run_yosys(folder: Path, job: dict) -> Path:
 
 
 def synthesize(folder: Path, base: dict, family: str, recipe: str) -> tuple[Breakdown, Path]:
-    """Synthesize flattened and with the hierarchy kept; the figures and the flattened netlist's path."""
+    """Synthesise flattened and with hierarchy; return the figures and the path of the flattened netlist."""
     job = {**base, "family": family, "recipe": recipe}
     kept = run_yosys(folder, {**job, "keep": True})
     flat = run_yosys(folder, {**job, "keep": False})

@@ -1,7 +1,8 @@
-"""One yosys run in a process of its own: SystemVerilog in, mapped JSON netlist out (and, if asked, Verilog).
+"""One yosys run in a separate process: from SystemVerilog to a mapped JSON netlist and optionally Verilog.
 
 Started as ``python -m scripts.fpga.flow.yosys_job JOB.json``; the job names sources, top, parameters, family,
-recipe and output. A process of its own keeps yosys' log in one file and lets two families run side by side.
+recipe and output. A separate process keeps yosys' log in one file and permits two families to run in
+parallel.
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ from pathlib import Path
 FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
 FLOW3 = "scratchpad -copy abc9.script.flow3mfs abc9.script"
 
-# What each recipe adds: a command before the family's pass, and options of that pass. flow2 and flow3 are
-# abc9 scripts that repeat mapping and restructuring; the delay targets (in ps) let abc9 give back area where
-# there is time; -cmp2softlogic compares with constants without carry chains, whose ends cost a cell each on
-# ECP5.
+# Additions of each recipe: a command before the family's pass, and options of that pass. flow2 and flow3 are
+# abc9 scripts that repeat mapping and restructuring. With the delay targets (in ps), abc9 saves area on paths
+# with slack. -cmp2softlogic compares with constants without carry chains; on ECP5, each end of a chain costs
+# a cell.
 RECIPES: dict[str, dict[str, tuple[str, str]]] = {
     "ecp5": {
         "default": ("", ""),
@@ -45,16 +46,16 @@ RECIPES: dict[str, dict[str, tuple[str, str]]] = {
         "flow2-nowidelut": (FLOW2, "-nowidelut"),
         "flow2-noalu": (FLOW2, "-nowidelut -noalu"),
     },
-    "plain": {"default": ("", "")},  # no family: Verilog that is read (`plain`)
+    "plain": {"default": ("", "")},  # not a family: readable Verilog (`plain`)
 }
-# From processes to expressions and registers, as somebody would write them; nothing is mapped.
+# Converts processes to readable expressions and registers; nothing is mapped.
 PLAIN = "chformal -remove; proc; opt_expr; opt_muxtree; opt_reduce; opt_clean; opt_dff; bwmuxmap"
 PLAIN += "; opt_clean; memory_collect"
 # Chosen with `synth.py --sweep`: smallest without losing clock rate.
-# Registers get the name of the signal they drive, before abc9 drops the signals of the hierarchy.
+# Registers get the name of the signal that they drive, before abc9 drops the signals of the hierarchy.
 RENAME = "rename -wire"
-# Other names only change the order in which abc9 and nextpnr visit the cells: the luck in a clock rate. The
-# first entry is the recipe itself.
+# Other names only change the order in which abc9 and nextpnr visit the cells; this shows the random part of a
+# clock rate. The first entry is the unchanged recipe.
 PERTURB = ((), ("rename -scramble-name -seed 1",), ("rename -enumerate",))
 BEST = {"ecp5": "flow2-soft", "ice40": "flow2", "gowin": "flow2", "plain": "default"}
 
@@ -68,7 +69,7 @@ def recipe_text(family: str, recipe: str) -> str:
 
 
 def commands(job: dict) -> list[str]:
-    """The yosys commands of a job, in order."""
+    """Return the yosys commands of a job, in order."""
     read = ["read_slang", "--top", job["top"], *(f"-I{path}" for path in job["include"])]
     read += [f"-D{define}" for define in job.get("defines", ())]
     for name, value in job["params"].items():

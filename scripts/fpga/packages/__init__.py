@@ -1,1 +1,1 @@
-"""`make packages`: everything that hands the RTL to other tools, made from rtl/files.yml."""
+"""`make packages`: the files that describe the RTL to other tools, generated from rtl/files.yml."""

@@ -1,4 +1,4 @@
-"""Write the packages, compare them with what is there (--check), or use them (--try)."""
+"""Write the packages, compare them with the existing files (--check), or use them (--try)."""
 
 from __future__ import annotations
 
@@ -12,28 +12,26 @@ from scripts.fpga.packages.lists import list_files
 
 
 def main() -> int:
-    """Write all files; exit code 1 when --check finds a stale one or --try something that does not work."""
+    """Write all files; return 1 if --check finds an outdated file or a trial of --try fails."""
     parser = argparse.ArgumentParser(prog="packages", description=__doc__)
     parser.add_argument(
-        "--check", action="store_true", help="write nothing, name the files that are not fresh"
+        "--check", action="store_true", help="write nothing, list the files that are outdated"
     )
     parser.add_argument(
         "--try", dest="trial", action="store_true", help="run FuseSoC, elaborate the templates"
     )
-    parser.add_argument(
-        "--verilator", metavar="PROGRAM", help="with --try: use them with this Verilator alone"
-    )
+    parser.add_argument("--verilator", metavar="PROGRAM", help="with --try: use only this Verilator")
     options = parser.parse_args()
     wanted = {**core_files(), **list_files()}
     stale = [path for path, text in wanted.items() if not path.is_file() or path.read_text() != text]
     if options.check:
         for path in stale:
-            console.print(f"{relative(path)}: not as `make packages` writes it")
+            console.print(f"{relative(path)}: outdated; run `make packages`")
         return int(bool(stale))
     if options.trial:
         if stale:
-            raise ProjectError(f"{relative(stale[0])} is not fresh: run `make packages`")
-        # Here, so that the check needs no simulator.
+            raise ProjectError(f"{relative(stale[0])} is outdated; run `make packages`")
+        # Imported here, so that --check needs no simulator.
         from scripts.fpga.packages.trial import try_all, try_other
 
         if options.verilator is None:

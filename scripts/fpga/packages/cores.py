@@ -1,4 +1,4 @@
-"""FuseSoC core files (CAPI2): one core a group of rtl/files.yml, the boards, the smoke test."""
+"""FuseSoC core files (CAPI2): one core for each group of rtl/files.yml, the boards, the smoke test."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ WAIVERS = ROOT / "rtl" / "common" / "waivers.vlt"
 HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
-SMOKE_PART = "ppmc104"  # the one with a sim target
-# Vendor's tool -> what a target says to FuseSoC; constraint file's suffix -> its type there.
+SMOKE_PART = "ppmc104"  # the part with a sim target
+# Vendor's tool -> options of a FuseSoC target; suffix of a constraint file -> its type in FuseSoC.
 FLOWS = {
     "vivado": "    flow: vivado\n    flow_options:\n      part: {device}\n",
     "quartus": "    default_tool: quartus\n    tools:\n      quartus:\n        family: {family}\n"
@@ -28,7 +28,7 @@ TYPES = {".xdc": "xdc", ".qsf": "tclSource", ".sdc": "SDC"}
 
 @dataclass(frozen=True)
 class Vendor:
-    """A board with a part, for a vendor's tool: top, constraint files with their types, options."""
+    """A board with a part for a vendor's tool: top, constraint files with their types, options."""
 
     top: str
     constraints: dict[str, str]
@@ -36,7 +36,7 @@ class Vendor:
 
 
 def vendor_boards() -> dict[str, Vendor]:
-    """FuseSoC target -> board; the first part of a board has the target's plain name."""
+    """Return FuseSoC target -> board; the first part of a board has the target's name without a suffix."""
     found = {}
     for board in load_all():
         for on in board.parts if board.vendor else ():
@@ -51,7 +51,7 @@ def vendor_boards() -> dict[str, Vendor]:
 
 
 def vlnv(name: str, library: str = "ppmc") -> str:
-    """Full name of a core."""
+    """Return the full name of a core."""
     return f"openppmc:{library}:{name}:{__version__}"
 
 
@@ -62,7 +62,7 @@ def fileset(
     kind: str = "systemVerilogSource",
     headers: tuple[str, ...] = (),
 ) -> str:
-    """One entry below `filesets:`."""
+    """Return one entry below `filesets:`."""
     text = f"  {name}:\n"
     if files or headers:
         text += "    files:\n"
@@ -75,7 +75,7 @@ def fileset(
 
 
 def group_core(group: Group, part: Row | None) -> str:
-    """Core of one group, of a part if it is one; its files are named relative to the group's folder."""
+    """Return the core of one group, with `part` if it is a part; file names are relative to its folder."""
     folder = group.files[0].parent
     headers = tuple(path.name for path in sorted(folder.glob("*.svh")))
     text = f"{HEAD}name: {vlnv(group.name)}\ndescription: OpenPPMC, {group.about}\n\nfilesets:\n"
@@ -91,7 +91,7 @@ def group_core(group: Group, part: Row | None) -> str:
 
 
 def described(parameter: Parameter) -> str:
-    """What a parameter is, in one YAML string: the comment beside it in the header of the top."""
+    """Return the description of a parameter as a YAML string: its comment in the header of the top."""
     about = parameter.about or parameter.name
     if about.startswith("or "):
         about = f"{parameter.default} {about}"
@@ -99,7 +99,7 @@ def described(parameter: Parameter) -> str:
 
 
 def part_targets(part: Row) -> str:
-    """Targets and parameters of a part's core."""
+    """Return targets and parameters of a part's core."""
     params = parameters(top_file(part))
     text = fileset("waivers", [], [vlnv("waivers")])
     if part.name == SMOKE_PART:
@@ -109,7 +109,7 @@ targets:
   default: &default
     filesets: [rtl]
     toplevel: {part.top}
-    # In a design of someone else they are set by the one that instantiates the part.
+    # In a design of a user, the instance of the part sets them.
     parameters: [{", ".join(f'"is_toplevel ? ({name})"' for name in params)}]
   # fusesoc run --target=lint openppmc:ppmc:{part.rtl}
   lint:
@@ -140,7 +140,7 @@ SIM_TARGET = f"""  # fusesoc run --target=sim openppmc:ppmc:{SMOKE_PART}
     flow_options:
       tool: verilator
       mode: binary
-      # Some builds of Verilator do not know their compiler's flags for coroutines and precompiled headers.
+      # Some builds of Verilator do not know the compiler's flags for coroutines and precompiled headers.
       verilator_options: [--timing, --assert, --output-split, "0", -CFLAGS, -std=c++20, -MAKEFLAGS,
         CFG_CXXFLAGS_PCH_I=-include]
 """
@@ -175,20 +175,20 @@ targets:
 
 
 def waivers() -> str:
-    """Waivers that a part needs: those of lint/verilator.vlt but the paragraphs on files of boards."""
+    """Return the waivers that a part needs: lint/verilator.vlt without the paragraphs on files of boards."""
     paragraphs = (ROOT / "lint" / "verilator.vlt").read_text().split("\n\n")
     return "\n\n".join(text for text in paragraphs if "boards/" not in text)
 
 
 def board_groups() -> list[Group]:
-    """The groups that are in no part: carriers, what they share, the boards."""
+    """Return the groups that belong to no part: carriers, their shared files, the boards."""
     groups = listed()
     within = needed(groups, *(row.rtl for row in tops()))
     return [group for group in groups.values() if group.name not in within]
 
 
 def boards_core() -> str:
-    """Core of the boards; it lies at the root, because constraints/ is not below rtl/."""
+    """Return the core of the boards; its file is at the root, because constraints/ is not below rtl/."""
     files = [path for group in board_groups() for path in group.files]
     special = {path for path in files if path.name.startswith(("board_", "ppmc_clock_"))}
     text = f"{HEAD}name: {vlnv('boards', 'boards')}\n"
@@ -215,7 +215,7 @@ def boards_core() -> str:
 
 
 def core_files() -> dict[Path, str]:
-    """All core files: path -> text."""
+    """Return all core files: path -> text."""
     groups, parts = listed(), {row.rtl: row for row in tops()}
     cores = {
         groups[name].files[0].parent / f"openppmc_{name}.core": group_core(groups[name], parts.get(name))

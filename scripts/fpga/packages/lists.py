@@ -1,4 +1,4 @@
-"""Bender.yml and the file lists: one a part for Verilator; plain Verilog for Vivado, Quartus, Gowin EDA."""
+"""Bender.yml and file lists: of each part for Verilator; of plain Verilog for Vivado, Quartus, Gowin EDA."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ FOLDER = ROOT / "packages"
 
 
 def carrier_groups() -> list[Group]:
-    """Carriers, and what they share, without what belongs to single boards."""
+    """Return the carriers and their shared files, without files of single boards."""
     return [group for group in board_groups() if group.name != "boards"]
 
 
 def part_files(part: Row) -> list[Path]:
-    """RTL of a part and of its carrier, in compile order."""
+    """Return the RTL of a part and of its carrier, in compile order."""
     return files(f"{part.rtl}_carrier" if part.carrier else part.rtl)
 
 
 def bender() -> str:
-    """Bender.yml: one source group a group of rtl/files.yml; the carriers only with their target."""
+    """Return Bender.yml with one source group for each group of rtl/files.yml; carriers have a target."""
     text = f"# {FROM}\npackage:\n  name: openppmc\n  authors: [OpenPPMC]\n\n"
     text += "export_include_dirs: [rtl/common]\n\nsources:\n"
     carriers = carrier_groups()
@@ -40,10 +40,10 @@ def bender() -> str:
 
 
 def dot_f(part: Row) -> str:
-    """Command file of a part; `-F` takes its paths relative to the file."""
+    """Return the command file of a part; with `-F`, its paths are relative to the file."""
     lines = [
         f"// {FROM}",
-        f"// verilator -F packages/{part.rtl}.f; a --top-module after it selects a top of your own.",
+        f"// verilator -F packages/{part.rtl}.f; a --top-module after it selects your own top.",
         f"--top-module {part.top}",
         "+incdir+../rtl/common",
     ]
@@ -54,10 +54,10 @@ WRITE = "make verilog TOP=<top> PARAMS=CLK_HZ=<Hz of your clk>"
 
 
 def plain_tcl(use: str, add: str) -> str:
-    """Tcl that adds the plain Verilog of one top, and stops with one line if it is not written yet."""
+    """Return Tcl that adds the plain Verilog of one top, or stops with one line if it does not exist yet."""
     return (
         f"# {FROM}\n# {NOT_RUN}\n"
-        "# Plain Verilog-2005 of one part, bridge or board, written before by\n"
+        "# Plain Verilog-2005 of one part, bridge or board, written earlier by\n"
         f"#   {WRITE}\n"
         f"# {use}\n"
         "if {![info exists root]} {set root [file normalize [file join [file dirname [info script]] ..]]}\n"
@@ -69,14 +69,14 @@ def plain_tcl(use: str, add: str) -> str:
 
 
 def vivado() -> str:
-    """Tcl for a Vivado project or a non-project script."""
+    """Return Tcl for a Vivado project or a non-project script."""
     return plain_tcl(
         "Vivado, in a project: set top ppmc104; source .../packages/vivado.tcl", "add_files -norecurse $plain"
     )
 
 
 def quartus() -> str:
-    """Lines of a Quartus settings file."""
+    """Return lines of a Quartus settings file."""
     return plain_tcl(
         "Quartus, in the .qsf: set root <checkout>; set top ppmc104; source $root/packages/quartus.qsf",
         "set_global_assignment -name VERILOG_FILE $plain",
@@ -84,7 +84,7 @@ def quartus() -> str:
 
 
 def gowin() -> str:
-    """Tcl for gw_sh or the console of Gowin EDA."""
+    """Return Tcl for gw_sh or the console of Gowin EDA."""
     return plain_tcl(
         "Gowin EDA, with a project open: set top ppmc104; source .../packages/gowin.tcl",
         "add_file -type verilog $plain",
@@ -92,7 +92,7 @@ def gowin() -> str:
 
 
 def list_files() -> dict[Path, str]:
-    """All lists: path -> text."""
+    """Return all lists: path -> text."""
     return {
         ROOT / "Bender.yml": bender(),
         **{FOLDER / f"{part.rtl}.f": dot_f(part) for part in tops()},

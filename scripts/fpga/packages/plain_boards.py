@@ -1,7 +1,7 @@
-"""FuseSoC library of the boards in plain Verilog, which edalize's own flows build (D-89).
+"""FuseSoC library of the boards in plain Verilog, built by edalize's own flows (D-89).
 
-`make verilog` and a release write it. `make test WITH=fusesoc BOARD=…` starts this file: it writes one board
-again and builds its bitstream with the tools of this environment.
+`make verilog` and a release write the library. `make test WITH=fusesoc BOARD=…` starts this module: it writes
+one board again and builds its bitstream with the tools of this environment.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ LIBRARY = FOLDER / "boards"
 WORK = BUILD / "edalize"
 HOST = "uart"  # the default of the tops
 HEAD = f"""CAPI=2:
-# Written by `make verilog` with the plain Verilog beside it: boards for edalize's open flows.
+# Written by `make verilog` together with the plain Verilog: boards for edalize's open flows.
 # fusesoc run --setup --build --target=icebreaker {CORE}
 name: {CORE}
 description: OpenPPMC, boards with a PPMC-104 in plain Verilog
 """
 TYPES = {".pcf": "PCF", ".lpf": "LPF", ".cst": "CST", ".sdc": "SDC"}
-# Whoever has the tools of edalize's flows needs no launcher.
+# The launcher is needed only if the tools of edalize's flows are not installed as programs.
 LAUNCHER = ROOT / "scripts" / "fpga" / "flow" / "launcher.py"
 _FMAX = re.compile(r"Max frequency for clock .*: ([\d.]+) MHz \((PASS|FAIL) at ([\d.]+) MHz\)")
 
 
 @dataclass(frozen=True)
 class Built:
-    """A bitstream, with the clock rate reached and the one asked in MHz."""
+    """A bitstream with its clock rate and the required clock rate in MHz."""
 
     path: Path
     mhz: float
@@ -51,26 +51,26 @@ class Built:
 
 
 def constraints(on: Board) -> list[Path]:
-    """Pins, and clocks where they have a file of their own."""
+    """Return the constraint files: pins, and clocks if they have a separate file."""
     pins = CONSTRAINTS / on.constraints[HOST]
     clocks = pins.with_name("clocks.sdc")
     return [pins, *([clocks] if clocks.is_file() else [])]
 
 
 def flow(name: str, **options: Iterable[str] | str) -> str:
-    """YAML of a flow of edalize with its options."""
+    """Return an edalize flow with its options as YAML."""
     rows = {key: value if isinstance(value, str) else list(value) for key, value in options.items()}
     text = "".join(f"      {key}: {json.dumps(value)}\n" for key, value in rows.items())
     return f"    flow: {name}\n    flow_options:\n{text}"
 
 
 def options(on: Board) -> str:
-    """Flow and options as `make bitstream` has them, but for yosys' recipe and further seeds."""
+    """Return flow and options of `make bitstream`, except yosys' recipe and further seeds."""
     if on.family == "ice40":
         return flow("icestorm", nextpnr_options=on.route)
     if on.family == "ecp5":
         return flow("trellis", nextpnr_options=on.route, ecppack_options=("--compress",))
-    # edalize says --device and the family itself.
+    # edalize adds --device and the family.
     device = on.route[on.route.index("--device") + 1]
     more = ("--vopt", "sspi_as_gpio", "--freq", f"{on.clk_hz / 1e6:g}")
     packing = ("--sspi_as_gpio",)
@@ -79,7 +79,7 @@ def options(on: Board) -> str:
 
 
 def core(boards: Mapping[str, Board]) -> str:
-    """The core file with a target a board."""
+    """Return the core file with one target for each board."""
     files, targets = "\nfilesets:\n", "\ntargets:\n"
     for name, on in boards.items():
         top, fileset = on.top[HOST], name.replace("-", "_")
@@ -92,7 +92,7 @@ def core(boards: Mapping[str, Board]) -> str:
 
 
 def write_library(names: Iterable[str] = (), folder: Path = LIBRARY) -> Path:
-    """The library of these boards (none: all) into a folder of its own; the path of its core file."""
+    """Write the library of these boards (default: all) into a folder; return the path of its core file."""
     for name in names:
         if name not in BOARDS:
             raise ProjectError(f"BOARD={name}: no FuseSoC target (there are {', '.join(BOARDS)})")
@@ -111,14 +111,14 @@ def write_library(names: Iterable[str] = (), folder: Path = LIBRARY) -> Path:
 
 
 def judged(name: str, folder: Path) -> Built:
-    """What is in FuseSoC's folder of a board; ProjectError without a bitstream, or for another clock."""
+    """Return the result in FuseSoC's folder of a board; ProjectError: no bitstream, or another clock."""
     on = BOARDS[name]
     found = [path for path in folder.glob(f"*{on.suffix}") if path.stat().st_size]
     log = folder / "next.log"
     rates = _FMAX.findall(log.read_text(encoding="utf-8")) if log.is_file() else []
     if not found or not rates:
         raise ProjectError(f"{name}: no bitstream in {relative(folder)}")
-    # The last one is that after routing.
+    # The last figure is the one after routing.
     reached, verdict, asked = rates[-1]
     # nextpnr works in whole picoseconds.
     if verdict != "PASS" or abs(float(asked) - on.clk_hz / 1e6) > 0.01:
@@ -127,11 +127,11 @@ def judged(name: str, folder: Path) -> Built:
 
 
 def build(name: str, library: Path, work: Path = WORK) -> Built:
-    """FuseSoC's bitstream of a board; ProjectError with its last words if it makes none."""
+    """Build a board's bitstream with FuseSoC; raise ProjectError with its last lines if this fails."""
     folder = work / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    # Relative: the shell of edalize's makefile ends a word at a space.
+    # Relative paths, because a space ends a word in the shell of edalize's makefile.
     launcher = [os.path.relpath(path, folder) for path in (sys.executable, LAUNCHER)]
     words = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
     words += ["--cores-root", relative(library), "run", "--setup", "--build", f"--target={name}"]
@@ -155,7 +155,7 @@ def build(name: str, library: Path, work: Path = WORK) -> Built:
 
 
 def main() -> int:
-    """Entry point."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m scripts.fpga.packages.plain_boards", description=__doc__)
     parser.add_argument("board", help=", ".join(BOARDS))
     name = parser.parse_args().board

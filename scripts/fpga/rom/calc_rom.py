@@ -53,7 +53,7 @@ endmodule
 
 
 def rom_text(program: Program) -> str:
-    """The module with the program; each word with the line that it is made of."""
+    """Return the module with the program; each word with its source line."""
     at_label: dict[int, list[str]] = {}
     for name, at in program.labels.items():
         at_label.setdefault(at, []).append(name)
@@ -65,18 +65,18 @@ def rom_text(program: Program) -> str:
 
 
 def package_text(package: str, program: Program) -> str:
-    """The package with the entries and the length of this program between its marks."""
+    """Return the package with the entries and the length of this program between its marks."""
     before, begin, rest = package.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
-        raise ProjectError(f"{relative(PACKAGE)}: the marks of `make rom` are gone")
+        raise ProjectError(f"{relative(PACKAGE)}: the marks of `make rom` are missing")
     body = [f"  localparam logic [8:0] {name} = 9'd{at};" for name, at in program.entries().items()]
     body.append(f"  localparam int unsigned ProgramWords = {len(program.words)};")
     return "\n".join([before + BEGIN.ljust(WIDTH, "-"), "", *body, "", END]) + after
 
 
 def wanted() -> dict[Path, str]:
-    """What the files should be."""
+    """Return the required content of the files."""
     package = PACKAGE.read_text(encoding="utf-8")
     try:
         program = assemble(ASM.read_text(encoding="utf-8"), names_of(package))
@@ -86,15 +86,17 @@ def wanted() -> dict[Path, str]:
 
 
 def main() -> int:
-    """Write both files; exit code 1 when --check finds a stale one."""
+    """Write both files; return 1 if --check finds an outdated file."""
     parser = argparse.ArgumentParser(prog="calc_rom", description=__doc__)
-    parser.add_argument("--check", action="store_true", help="write nothing, name files that are stale")
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing, list the files that are outdated"
+    )
     check = parser.parse_args().check
     texts = wanted()
     stale = [path for path, text in texts.items() if not path.is_file() or path.read_text("utf-8") != text]
     if check:
         for path in stale:
-            console.print(f"{relative(path)}: not as `make rom` writes it")
+            console.print(f"{relative(path)}: outdated; run `make rom`")
         return int(bool(stale))
     for path in stale:
         path.write_text(texts[path], encoding="utf-8")

@@ -1,7 +1,7 @@
-"""`make bench`: how fast a demo simulates on each side; for the PPMC-104 the virtual board and commands, too.
+"""`make bench`: simulation speed of a demo on each side; for the PPMC-104 also virtual board and commands.
 
-The figures go between their markers of docs/benchmarks.md: seconds, which are those of one machine and its
-load, and ratios of one run, which repeat.
+The figures are written between their markers in docs/benchmarks.md: seconds, which depend on the machine and
+its load, and ratios of one run, which are repeatable.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Veril
 
 
 def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
-    """A table in the terminal and, with `text` above it, in docs/benchmarks.md."""
+    """Print a table and write it, with `text` above it, to docs/benchmarks.md."""
     table = Table(title=title, title_justify="left")
     for index, head in enumerate(heads):
         table.add_column(head, justify="right" if index else "left")
@@ -39,7 +39,7 @@ def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[li
 
 
 def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
-    """What the turns of a demo's run took, and its rows."""
+    """Measure the turns of a demo's run; return the times and the rows of the table."""
     times = None
     console.print("building …")
     for run, times in enumerate(turns(demo, RUNS), 1):
@@ -61,7 +61,7 @@ def played(name: str, demo: Demo) -> tuple[Times, list[list[str]]]:
 
 
 def bench(name: str, demo: Demo) -> None:
-    """Measure and write all that there is for a part."""
+    """Measure and write all figures of a part."""
     times, rows = played(name, demo)
     mhz = int(str(times.recording.params["CLK_HZ"])) / 1e6
     text = (
@@ -109,7 +109,7 @@ def bench(name: str, demo: Demo) -> None:
 
 
 def main() -> int:
-    """Command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m scripts.measure.bench", description=__doc__)
     parser.add_argument("--part", default="ppmc104")
     row = project.part(parser.parse_args().part)

@@ -20,7 +20,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
-    """clk, output edges, seconds of each run of both sides. ProjectError if they do not make the same."""
+    """Return cycles, output edges, seconds of each run of both sides; ProjectError if the edges differ."""
     program = build()
     played = play()
     times: list[list[float]] = [[], []]
@@ -41,7 +41,7 @@ def measure() -> tuple[int, int, list[list[float]]]:
 
 
 def main() -> int:
-    """Measure, write docs/benchmarks.md."""
+    """Measure and write docs/benchmarks.md."""
     try:
         clk, edges, times = measure()
     except SimError as error:

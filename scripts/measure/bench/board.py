@@ -1,4 +1,4 @@
-"""How fast the virtual board of the PPMC-104 is: accesses over its UART, board time and wall time."""
+"""Speed of the virtual board of the PPMC-104: accesses over its UART, board time and wall time."""
 
 from __future__ import annotations
 
@@ -20,9 +20,12 @@ HEADS = ["figure", ""]
 
 @dataclass(frozen=True)
 class Figures:
-    """Of one virtual board. accesses: register reads/s in blocks of 255, at BAUD; commands: round trips/s of
-    a command with its answer; initialise: ms of an initialisation with its table, wall time; factor: board
-    time / wall time in a move; clk: clk/s of processor time, at full speed, motor turning."""
+    """Figures of one virtual board.
+
+    accesses: register reads/s in blocks of 255, at BAUD; commands: round trips/s of a command with its
+    response; initialise: ms of wall time of an initialisation with its table; factor: board time / wall time
+    in a move; clk: cycles/s of processor time, at full speed with the motor in motion.
+    """
 
     accesses: float
     commands: float
@@ -31,18 +34,18 @@ class Figures:
     clk: float
 
     def rows(self) -> list[list[str]]:
-        """A row each, under HEADS."""
+        """Return one row for each figure, for HEADS."""
         return [
             [f"register accesses/s, blocks of {BLOCK}", f"{self.accesses:,.0f}"],
-            ["commands with their answer/s", f"{self.commands:,.0f}"],
+            ["commands with their response/s", f"{self.commands:,.0f}"],
             ["initialise with a table, ms", f"{self.initialise:,.1f}"],
-            ["board time / wall time, motor turning", f"{self.factor:.2f}"],
+            ["board time / wall time, motor in motion", f"{self.factor:.2f}"],
             ["million cycles / s of processor time", f"{self.clk / 1e6:.2f}"],
         ]
 
 
 def rate(work: Callable[[], object], count: int) -> float:
-    """How often `work` (worth `count` each time) can be done in a second."""
+    """Return how often `work` can be done in a second; each call counts `count` times."""
     begin, done = time.perf_counter(), 0
     while (passed := time.perf_counter() - begin) < SECONDS:
         work()
@@ -51,7 +54,7 @@ def rate(work: Callable[[], object], count: int) -> float:
 
 
 def full_speed() -> float:
-    """clk in a second of processor time, motor turning."""
+    """Return the cycles in a second of processor time, with the motor in motion."""
     with sim.start("speed=max,cw=2000000000,slow_cw=2000000000") as board, Ppmc104.open(board.port) as axis:
         axis.initialise()
         axis.jog(0, high=True)
@@ -69,7 +72,7 @@ def full_speed() -> float:
 
 
 def measure() -> Figures:
-    """Start a board and measure. Raises SimError, PpmcError."""
+    """Start a board and measure; raise SimError or PpmcError if this fails."""
     with sim.start("cw=2000000000,slow_cw=2000000000") as board, Ppmc104.open(board.port, BAUD) as axis:
         initialise = 1e3 / rate(axis.initialise, 1)
         block = Script().read_many(1, BLOCK)

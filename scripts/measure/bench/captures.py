@@ -1,4 +1,4 @@
-"""How fast a large capture is decoded, and how much memory that needs.
+"""Speed and memory of decoding a large capture.
 
 Part of `make bench`; alone: `python -m scripts.measure.bench.captures`.
 """
@@ -30,7 +30,7 @@ HEADS = [
     "bytes per edge at the peak",
 ]
 CLK_HZ = 20_000_000
-"""Of the chip in a capture that is compared."""
+"""Clock rate of the chip in a capture that is compared."""
 NS = 10**9 // CLK_HZ
 COMPARED = "compared.vcd"
 FILES = {
@@ -43,7 +43,7 @@ _DECLARED = "$var wire 1 {} {} $end"
 
 
 class _Writer:
-    """Writes changes as VCD or, a row for each moment, as CSV of Saleae Logic. edges: so far."""
+    """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time. edges: number so far."""
 
     def __init__(self, path: Path, names: list[str]) -> None:
         self.file, self.csv, self.edges = path.open("w"), path.suffix == ".csv", 0
@@ -82,14 +82,16 @@ class _Writer:
         return t + 3000
 
     def flush(self) -> None:
-        """Write what is not yet in the file."""
+        """Write all data that is not yet in the file."""
         self.file.write("\n".join(self._lines) + "\n" * bool(self._lines))
         self._lines.clear()
 
 
 def write_capture(path: Path, edges: int, pulses: int = 20_000) -> int:
-    """Write a capture of a PPMC-104: moves of `pulses` with a poll after every 20; without pulses commands
-    with 20 polls each. Return its edges."""
+    """Write a capture of a PPMC-104 and return the number of its edges.
+
+    It has moves of `pulses` with a poll after every 20 pulses; if `pulses` is 0, commands with 20 polls each.
+    """
     names = [*(f"d[{bit}]" for bit in range(8)), "a0", "cs_n", "rd_n", "wr_n"]
     out = _Writer(path, names + ["pout_n", "dir", "rst_n"] * bool(pulses))
     if pulses:
@@ -166,8 +168,11 @@ def write_compared(path: Path, edges: int) -> int:
 
 
 def decode_alone(path: Path) -> None:
-    """Decode a file in this process; print its seconds, those of a plain numpy pass, and the bytes above what
-    it had before, as JSON. A file for the golden model is compared, too."""
+    """Decode a file in this process and print the result as JSON.
+
+    The result has its seconds, those of a plain numpy pass, and the additional memory in bytes. A file for
+    the golden model is also compared.
+    """
     from openppmc.capture.common.beside import compare
     from openppmc.capture.common.decoding import decode, decoder
     from openppmc.capture.common.files import read_capture
@@ -191,7 +196,7 @@ def decode_alone(path: Path) -> None:
 
 
 def _plain(path: Path) -> float:
-    """Seconds in which numpy finds the bounds of all words of a file, piece by piece."""
+    """Return the seconds in which numpy finds the bounds of all words of a file, piece by piece."""
     np: Any = importlib.import_module("numpy")
     begin = time.process_time()
     with path.open("rb") as file:
@@ -202,7 +207,7 @@ def _plain(path: Path) -> float:
 
 
 def _status(name: str) -> int:
-    """A figure of /proc/self/status in bytes."""
+    """Return a figure of /proc/self/status in bytes."""
     for line in Path("/proc/self/status").read_text().splitlines():
         if line.startswith(f"{name}:"):
             return int(line.split()[1]) * 1024
@@ -210,8 +215,8 @@ def _status(name: str) -> int:
 
 
 class Figures(NamedTuple):
-    """edges of a file; rate: edges/s of processor time; plain: seconds by those of a plain numpy pass; size:
-    bytes per edge at the peak."""
+    """Figures of a file. rate: edges/s of processor time; plain: seconds / those of a plain numpy pass; size:
+    peak bytes per edge."""
 
     edges: int
     rate: float
@@ -220,7 +225,7 @@ class Figures(NamedTuple):
 
 
 def measure(folder: Path, name: str, edges: int = EDGES, runs: int = 3) -> Figures:
-    """Decode one of FILES some times; the fastest run and the largest size count."""
+    """Decode one of FILES `runs` times; return the fastest run and the largest size."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / name
     if name == COMPARED:
@@ -242,7 +247,7 @@ def measure(folder: Path, name: str, edges: int = EDGES, runs: int = 3) -> Figur
 
 
 def bench() -> None:
-    """Measure, print, write docs/benchmarks.md."""
+    """Measure, print and write docs/benchmarks.md."""
     rows = []
     for name, text in FILES.items():
         # The golden model takes most of the time of a comparison.
@@ -259,7 +264,7 @@ def bench() -> None:
 
 
 def main() -> int:
-    """Command line."""
+    """Run the command line."""
     if len(sys.argv) > 1:
         decode_alone(Path(sys.argv[1]))
     else:

@@ -1,4 +1,4 @@
-"""How many clk a table build and a command with its answer take, at the pins of the RTL: all but the host."""
+"""Cycles of a table build and of a command with its response, at the pins of the RTL, without the host."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ HEADS = ["what", "cycles", *(f"µs at {mhz} MHz" for mhz in CLOCKS)]
 
 
 def measure() -> dict[str, int]:
-    """clk by what was done. SimError if it fails."""
+    """Return operation -> cycles; raise SimError if the simulation fails."""
     design = part_design(PART, F16)
     build(design)
     run_sim(design, Item(MODULE, TEST, F16, PART, ()), 1, folder=FOLDER / "costs", repro="make bench")
@@ -25,5 +25,5 @@ def measure() -> dict[str, int]:
 
 
 def rows(found: dict[str, int]) -> list[list[str]]:
-    """A row each, under HEADS."""
+    """Return one row for each operation, for HEADS."""
     return [[what, f"{clk:,}", *(f"{clk / mhz:,.1f}" for mhz in CLOCKS)] for what, clk in found.items()]

@@ -1,4 +1,4 @@
-"""How fast virtual lines are: the RTL of the stations behind `sim:`, by how many of them move.
+"""Speed of virtual lines: the RTL of the stations of `sim:`, by the number of moving stations.
 
 Part of `make bench PART=ppmc312-serial`; alone: `python -m scripts.measure.bench.lines`.
 """
@@ -33,7 +33,7 @@ HEADS = [
 
 @dataclass(frozen=True)
 class Case:
-    """stations: on the line, all of which move. text: the rest of its words."""
+    """A virtual line. stations: number of stations, which all move. text: the rest of its settings."""
 
     what: str
     stations: int
@@ -56,7 +56,7 @@ def _begin_006(bus: Any, address: int) -> None:
 
 
 def cases() -> list[Case]:
-    """Both parts, from one station to a full line."""
+    """Return the cases of both parts, from one station to a full line."""
     found = []
     for count in (1, 4, 16):
         found.append(
@@ -84,13 +84,13 @@ def cases() -> list[Case]:
 
 
 def _now(line: SimLine) -> tuple[float, float, float]:
-    """Line time, wall time, processor time of the line, s."""
+    """Return line time, wall time and processor time of the line in s."""
     words = Path(f"/proc/{line.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
     return line.status().seconds, time.perf_counter(), (int(words[11]) + int(words[12])) / 100
 
 
 def measure(case: Case) -> list[str]:
-    """A row of the table."""
+    """Measure a case and return its row of the table."""
     with start_line(case.text + ",speed=max") as line, case.opened(line.port) as bus:
         case.poll(bus, 0)
         polls, begin = 0, time.perf_counter()
@@ -109,7 +109,7 @@ def measure(case: Case) -> list[str]:
 
 
 def main() -> int:
-    """Measure, print, write docs/benchmarks.md."""
+    """Measure, print and write docs/benchmarks.md."""
     rows = []
     for case in cases():
         try:

@@ -1,7 +1,8 @@
-"""`make bench PART=ppmc312-serial`: how fast sixteen stations on a line run, against the time of the line.
+"""`make bench PART=ppmc312-serial`: speed of sixteen stations on a line, relative to the time of the line.
 
-The program of the demo, on RTL in Verilator with its cocotb master and on a line of golden models bit by
-bit, and the models on the pin changes of the RTL. The medians of several runs go to docs/benchmarks.md.
+Three sides run the program of the demo: RTL in Verilator with its cocotb master, a line of golden models bit
+by bit, and the models with the pin changes of the RTL. The medians of several runs are written to
+docs/benchmarks.md.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ FOLDER = project.BUILD / "bench"
 
 
 def seconds(work: Callable[[], object]) -> tuple[float, float]:
-    """Wall time of one call, and processor time of this process and those it has started."""
+    """Return the wall time of one call, and the processor time of this process and its children."""
     begin, used = time.perf_counter(), os.times()
     work()
     now = os.times()
@@ -45,7 +46,7 @@ def seconds(work: Callable[[], object]) -> tuple[float, float]:
 
 
 def on_models() -> int:
-    """The program on a line of golden models; its clk."""
+    """Run the program on a line of golden models; return its cycles."""
     line = ModelLine()
     at_once(line.until(8))
     at_once(program(Master(line)))
@@ -53,7 +54,7 @@ def on_models() -> int:
 
 
 def measure() -> list[tuple[str, int, float, float]]:
-    """(what, clk of the line, seconds of wall time, of processor time) of each side, medians."""
+    """Return (side, cycles of the line, seconds of wall time, of processor time) of each side, as medians."""
     console.print("building …")
     made = design(F8L, FAST_ARGS)
     build(made)
@@ -81,7 +82,7 @@ def measure() -> list[tuple[str, int, float, float]]:
 
 
 def rows_of(measured: list[tuple[str, int, float, float]], clk_hz: int) -> list[list[str]]:
-    """The table, with the time of the line against that of the processor as 1/n."""
+    """Return the rows of the table; the line time relative to the processor time is shown as 1/n."""
     rows = []
     for text, clk, wall, used in measured:
         ratio = used * clk_hz / clk
@@ -93,7 +94,7 @@ def rows_of(measured: list[tuple[str, int, float, float]], clk_hz: int) -> list[
 
 
 def main() -> int:
-    """Measure, print, write docs/benchmarks.md."""
+    """Measure, print and write docs/benchmarks.md."""
     try:
         measured = measure()
     except SimError as error:

@@ -1,6 +1,6 @@
-"""Who plays the run of a demo, and how long each took: RTL under cocotb, RTL alone, golden model.
+"""Sides that run a demo, and their times: RTL under cocotb, RTL alone, golden model.
 
-They take turns, so that a ratio of one turn says something on a machine that does other things, too.
+The sides run in turns, so that a ratio of one turn is meaningful on a machine with other load.
 """
 
 from __future__ import annotations
@@ -32,23 +32,23 @@ LABELS = {
 
 @dataclass(frozen=True)
 class Times:
-    """`clk` and `edges` (of all outputs) of the run; seconds by side, one a turn."""
+    """Recording of the run, and seconds of each side, one value for each turn."""
 
     recording: Recording
     seconds: dict[str, list[float]]
 
     def middle(self, side: str) -> float:
-        """Median of a side's seconds."""
+        """Return the median of a side's seconds."""
         return median(self.seconds[side])
 
     def ratio(self, side: str) -> float:
-        """Median of how often as long as Verilator alone a side took in the same turn."""
+        """Return the median ratio of a side's time to that of Verilator alone in the same turn."""
         pairs = zip(self.seconds[side], self.seconds[PLAIN], strict=True)
         return median(taken / plain for taken, plain in pairs)
 
 
 def turns(demo: Demo, count: int) -> Iterator[Times]:
-    """Play so many turns; all that was measured so far, after each. SimError, ProjectError if one fails."""
+    """Run `count` turns; yield all times so far after each. SimError, ProjectError if a run fails."""
     designs = {main: replace(part_design(demo.part, demo.config), main=main) for main in MAINS}
     for design in designs.values():
         build(design)

@@ -1,7 +1,7 @@
 """`make scheduler` and `make worker SCHEDULER=tcp://host:port`: the workers of a campaign on many machines.
 
-Each worker runs in a checkout of the same commit (a shared folder will do) with an environment of its own,
-made by `make worker`. The campaign then gets the same SCHEDULER=…; whoever has other sources is told so.
+Each worker runs in a checkout of the same commit (or in a shared folder) with its own environment, made by
+`make worker`. The campaign then uses the same SCHEDULER=…; a worker with other sources causes an error.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ PORT = 8786
 
 
 def command(what: str, scheduler: str, count: int) -> list[str]:
-    """What takes the place of this process: Dask's own program."""
+    """Return the command of Dask that replaces this process."""
     if what == "scheduler":
         return ["dask_scheduler", "--port", str(PORT), "--no-dashboard"]
     words = ["dask_worker", scheduler, "--nworkers", str(count), "--nthreads", "1", "--memory-limit", "0"]
@@ -25,16 +25,16 @@ def command(what: str, scheduler: str, count: int) -> list[str]:
 
 
 def main() -> int:
-    """Command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(prog="python -m scripts.measure.campaign", description=__doc__)
     parser.add_argument("what", choices=("scheduler", "worker"))
-    parser.add_argument("--scheduler", default="", help="tcp://host:port, of the worker")
+    parser.add_argument("--scheduler", default="", help="tcp://host:port of the scheduler, for a worker")
     parser.add_argument(
         "-n", type=int, default=os.cpu_count() or 2, metavar="WORKERS", help="worker processes"
     )
     args = parser.parse_args()
     if args.what == "worker" and not args.scheduler:
-        raise project.ProjectError("whose worker? SCHEDULER=tcp://host:port says so")
+        raise project.ProjectError("SCHEDULER is missing; add SCHEDULER=tcp://host:port")
     Workers(args.n, args.scheduler)
     program, *words = command(args.what, args.scheduler, args.n)
     environment = {**os.environ, "PYTHONPATH": str(project.ROOT), "DASK_DISTRIBUTED__WORKER__DAEMON": "False"}

@@ -1,6 +1,6 @@
-"""The workers of a campaign: processes of this machine, or those that a scheduler on the network has.
+"""The workers of a campaign: processes of this machine, or those of a scheduler on the network.
 
-Dask is imported when a cluster is opened, so that `make test` needs none of it.
+Dask is imported only when a cluster is opened, so that `make test` does not need it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from typing import Any
 from cocotb_tests.harness.project import ProjectError
 
 SETTINGS = {
-    # A worker that has become too slow to answer is not lost: simulators take all processors.
+    # A worker that responds slowly is not lost, because simulators use all processors.
     "distributed.scheduler.worker-ttl": "15 minutes",
     "distributed.comm.timeouts.connect": "60s",
-    # How often a job may lose its worker before it counts as failed. All jobs at a lost worker are blamed, so
-    # that none waits there.
+    # Number of times that a job may lose its worker before it counts as failed. Dask counts a lost worker for
+    # all jobs at this worker, so no further jobs may wait there.
     "distributed.scheduler.allowed-failures": 3,
     "distributed.scheduler.worker-saturation": 1.0,
     "distributed.admin.system-monitor.gil.enabled": False,
@@ -29,7 +29,7 @@ SETTINGS = {
 
 @dataclass(frozen=True)
 class Workers:
-    """`count` processes of this machine, or all that `scheduler` (tcp://host:port) knows."""
+    """`count` processes of this machine, or all workers of `scheduler` (tcp://host:port)."""
 
     count: int = 2
     scheduler: str = ""
@@ -42,25 +42,25 @@ class Workers:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What each campaign takes on its command line."""
+    """Add the arguments of each campaign."""
     parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="worker processes (2)")
     parser.add_argument("--scheduler", default="", metavar="TCP", help="use the workers of tcp://host:port")
-    parser.add_argument("--fresh", action="store_true", help="take over no results of earlier runs")
+    parser.add_argument("--fresh", action="store_true", help="ignore the results of earlier runs")
 
 
 def workers_of(arguments: argparse.Namespace) -> Workers:
-    """Which workers the command line asks for."""
+    """Return the workers that the command line selects."""
     return Workers(arguments.n, arguments.scheduler)
 
 
 @contextmanager
 def client(workers: Workers) -> Iterator[Any]:
-    """A Dask client; workers of this machine end with it. ProjectError if nobody answers."""
+    """Provide a Dask client; workers of this machine end with it. ProjectError if there is no scheduler."""
     try:
         import dask
         from distributed import Client, LocalCluster
     except ImportError:
-        raise ProjectError("Dask is not in this environment: `make soak` and the like install it") from None
+        raise ProjectError("Dask is not in this environment; `make soak` installs it") from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     with dask.config.set(SETTINGS):
         if workers.scheduler:
@@ -78,7 +78,7 @@ def client(workers: Workers) -> Iterator[Any]:
                 threads_per_worker=1,
                 processes=True,
                 memory_limit=None,
-                # A free port of this machine: without a word the usual one is taken, or complained about.
+                # A free port of this machine, because the default port causes a warning if it is in use.
                 dashboard_address="127.0.0.1:0",
                 host="127.0.0.1",
                 silence_logs=logging.CRITICAL,

@@ -1,4 +1,4 @@
-"""What a campaign is made of."""
+"""Data types of a campaign."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Job:
-    """One piece of work. `key` is unique in its campaign; `what` (it can be pickled) goes to the worker.
+    """One piece of work. `key` is unique in its campaign; `what` is sent to the worker and can be pickled.
 
-    stamp: what the result depends on besides the key, as a digest; "" stands for the tree.
+    stamp: digest of all that the result depends on, except the key; "" means the digest of the tree.
     """
 
     key: str
@@ -21,7 +21,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Result:
-    """What came of a job. Only a good one is taken over by a later run; `data` can be written as JSON."""
+    """Result of a job. A later run reuses only good results; `data` can be written as JSON."""
 
     good: bool
     data: Mapping[str, Any] = field(default_factory=dict)
@@ -29,7 +29,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Done:
-    """A job that has ended: on a worker, in so many s, or long ago (`old`)."""
+    """A completed job: on a worker in `seconds`, or in an earlier run (`old`)."""
 
     key: str
     good: bool
@@ -40,7 +40,7 @@ class Done:
 
 @dataclass(frozen=True)
 class Campaign:
-    """`work(job.what)` for each of `count` jobs; name and key say which results on file are of the same."""
+    """`work(job.what)` for each of `count` jobs; name and key identify a stored result."""
 
     name: str
     work: Callable[[Any], Result]

@@ -1,4 +1,4 @@
-"""What runs in a worker process beside the job."""
+"""Code that runs in a worker process in addition to the job."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from scripts.measure.campaign.tree import tree
 
 @cache
 def _own_tree() -> str:
-    """Of this process, when it began: what it has imported does not follow later changes."""
+    """Return the tree at the start of this process; imported modules do not follow later changes."""
     return tree()
 
 
 class OwnSession(WorkerPlugin):  # type: ignore[misc]
-    """Ctrl-C on the terminal is for the campaign, not for its workers and their simulators."""
+    """Separate session: Ctrl-C on the terminal reaches the campaign, not its workers and their simulators."""
 
     name = "openppmc-own-session"
 
     def setup(self, worker: Any) -> None:
-        """When a worker begins; also in one that replaces a lost one."""
+        """Run at the start of a worker, also of one that replaces a lost worker."""
         _own_tree()
         if os.getsid(0) != os.getpid() and os.getpgid(0) != os.getpid():
             os.setsid()
 
 
 def stop_children() -> int:
-    """End what this worker has started, simulators for the most part; how many processes."""
+    """Kill all processes that this worker has started, mostly simulators; return their number."""
     children = psutil.Process().children(recursive=True)
     for child in children:
         try:
@@ -45,11 +45,11 @@ def stop_children() -> int:
 
 
 def carry_out(work: Any, what: Any, wanted: str) -> tuple[Result, float]:
-    """One job, and the s that it took; ProjectError if this worker sees other sources than the campaign."""
+    """Run a job; return its result and its seconds. ProjectError if this worker has other sources."""
     if wanted != _own_tree():
         raise ProjectError(
-            f"a worker has other sources than the campaign ({_own_tree()}, wanted {wanted}): "
-            "was a file changed meanwhile?"
+            f"a worker has other sources than the campaign ({_own_tree()}, not {wanted}); "
+            "repeat without changing files"
         )
     begin = time.monotonic()
     result = work(what)

@@ -1,7 +1,7 @@
-"""Runs a campaign on Dask: what is on file is taken over, the rest goes to workers; each result is noted.
+"""Run a campaign on Dask: stored results are reused, workers run the other jobs, each result is stored.
 
-A lost worker's job is done again by another one. Ctrl-C ends the workers and what they have started; the next
-run of the same campaign goes on behind what was written.
+Another worker repeats the job of a lost worker. Ctrl-C ends the workers and their child processes; the next
+run of the same campaign continues after the stored results.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from scripts.measure.campaign.store import RESULTS, Store
 from scripts.measure.campaign.tree import tree
 
 AHEAD = 3
-"""Jobs under way for each worker: it never waits for the next one, and few are dropped by Ctrl-C."""
+"""Submitted jobs for each worker: enough that it never waits, and few that Ctrl-C drops."""
 LOST = "its workers were lost"
 
 
 def run(
     campaign: Campaign, workers: Workers, fresh: bool = False, store: Store | None = None
 ) -> Iterator[Done]:
-    """Each job's result, in the order in which they end, those on file first. Raises what a job raises.
+    """Yield each job's result in order of completion, stored results first. Exceptions of a job are raised.
 
-    fresh: take over nothing. store: another file than the project's.
+    fresh: ignore stored results. store: another file than the project's.
     """
     with store or Store(RESULTS) as file, Show(campaign.title or campaign.name, campaign.count) as show:
         now = tree()
@@ -37,7 +37,7 @@ def run(
         left: list[Job] = []
 
         def todo() -> Iterator[Job]:
-            """The jobs that are not on file; for those that are, `olds` gets the result."""
+            """Yield the jobs without a stored result; append stored results to `olds`."""
             for job in campaign.jobs:
                 stamps[job.key] = job.stamp or now
                 if (old := file.good(campaign.name, job.key, stamps[job.key])) is None:
@@ -47,7 +47,7 @@ def run(
 
         olds: list[Done] = []
         jobs = todo()
-        # A campaign that is all on file needs no workers.
+        # If all results are stored, the campaign needs no workers.
         left += islice(jobs, 1)
         fresh_ones = _on_workers(campaign, left, jobs, workers, now) if left else iter(())
         for done in _mixed(fresh_ones, olds):
@@ -58,7 +58,7 @@ def run(
 
 
 def _mixed(fresh: Iterator[Done], olds: list[Done]) -> Iterator[Done]:
-    """What has ended, and what was found on file meanwhile."""
+    """Yield completed jobs, and stored results that were found until then."""
     while olds:
         yield olds.pop(0)
     for done in fresh:
@@ -112,7 +112,7 @@ def _ended(future: Any, key: str) -> Done:
 
 
 def _quietly(act: Callable[[], object]) -> None:
-    """Do it; whatever it says does not matter any more."""
+    """Call `act`; ignore its exceptions, because the campaign ends."""
     try:
         act()
     except Exception:  # noqa: BLE001

@@ -1,4 +1,4 @@
-"""How far a campaign is: a bar with the time left on a terminal, a line every minute in a log."""
+"""Progress of a campaign: a bar with the remaining time on a terminal, a line every minute in a log."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from rich.progress import (
 from cocotb_tests.harness.project import console
 
 EVERY = 60.0
-"""s between two lines in a log."""
+"""Seconds between two lines in a log."""
 
 
 class Show:
-    """Progress of `total` jobs. `bad` counts those that were not good."""
+    """Progress of `total` jobs. `bad` counts failed jobs."""
 
     def __init__(self, title: str, total: int) -> None:
         self._title, self._total = title, total
@@ -48,7 +48,7 @@ class Show:
         self._bar.stop()
 
     def step(self, good: bool, old: bool) -> None:
-        """One job more has ended."""
+        """Count one completed job."""
         self._done += 1
         self._old += old
         self.bad += not good

@@ -1,4 +1,4 @@
-"""Results of all campaigns, in one SQLite file. A process that ends at any time loses none that it noted."""
+"""Results of all campaigns in one SQLite file. If a process ends at any time, its stored results remain."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ TABLE = """create table if not exists results (
 
 
 class Store:
-    """The file, open. ProjectError if it cannot be written or is no such file."""
+    """The open file. ProjectError if it cannot be written or is not a file of results."""
 
     def __init__(self, path: Path = RESULTS) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            # Other campaigns may write at the same time: each waits for its turn, up to a minute.
+            # Other campaigns may write at the same time: each waits up to a minute for its turn.
             self._base = sqlite3.connect(path, timeout=60, isolation_level=None)
             self._base.execute("pragma journal_mode = wal")
             self._base.execute("pragma synchronous = normal")
             self._base.execute(TABLE)
         except sqlite3.Error as error:
-            raise ProjectError(f"{relative(path)}: {error}; remove it to begin anew") from None
+            raise ProjectError(f"{relative(path)}: {error}; remove it to start again") from None
 
     def __enter__(self) -> Store:
         return self
@@ -43,19 +43,19 @@ class Store:
         self._base.close()
 
     def note(self, campaign: str, stamp: str, done: Done) -> None:
-        """Write down one result; one of the same job that is there goes."""
+        """Store one result; it replaces an earlier result of the same job."""
         now = datetime.now(timezone.utc).isoformat(timespec="seconds")
         row = (campaign, done.key, stamp, done.good, json.dumps(done.data), done.seconds, now)
         self._base.execute("insert or replace into results values (?, ?, ?, ?, ?, ?, ?)", row)
 
     def good(self, campaign: str, key: str, stamp: str) -> Done | None:
-        """The good result of a job, if there is one."""
+        """Return the good result of a job, if there is one."""
         query = "select data, seconds from results where campaign = ? and key = ? and stamp = ? and good"
         row = self._base.execute(query, (campaign, key, stamp)).fetchone()
         return Done(key, True, json.loads(row[0]), row[1], old=True) if row else None
 
     def all(self, campaign: str) -> Iterator[tuple[str, Done]]:
-        """(stamp, result) of every job of a campaign on file, by key."""
+        """Yield (stamp, result) of every stored job of a campaign, by key."""
         query = "select stamp, key, good, data, seconds from results where campaign = ? order by key, ended"
         with closing(self._base.execute(query, (campaign,))) as rows:
             for stamp, key, good, data, seconds in rows:

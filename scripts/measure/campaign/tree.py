@@ -1,4 +1,4 @@
-"""A digest of the sources that results of simulations depend on."""
+"""Digest of the sources that the results of simulations depend on."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from cocotb_tests.harness.project import ROOT
 
 FOLDERS = ("rtl", "openppmc", "cocotb_tests", "tb", "scripts")
 SIMULATED = ("rtl", "openppmc", "cocotb_tests", "tb")
-"""What a simulation of the RTL depends on."""
+"""Folders that a simulation of the RTL depends on."""
 SUFFIXES = {".sv", ".svh", ".py", ".cpp", ".h", ".c", ".yml", ".vlt", ".asm", ".hex", ".mem", ".json"}
 
 
 def files(folders: Iterable[str] = FOLDERS) -> list[Path]:
-    """All sources below these folders of the project, in the order of their names."""
+    """Return all sources below these folders of the project, in order of their names."""
     found = (path for folder in folders for path in (ROOT / folder).rglob("*") if path.suffix in SUFFIXES)
     return sorted(path for path in found if path.is_file())
 
 
 def tree(folders: Iterable[str] = FOLDERS) -> str:
-    """Digest of names and contents of `files(folders)` and of all packages' versions: twelve letters."""
+    """Return the digest of names and contents of `files(folders)` and of all package versions: 12 letters."""
     sha = hashlib.sha256()
     for path in [*files(folders), ROOT / "requirements.lock"]:
         content = hashlib.sha256(path.read_bytes()).digest()

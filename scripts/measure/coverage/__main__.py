@@ -1,6 +1,8 @@
-"""`make coverage`: runs the simulations of `make test` with counting builds and writes docs/coverage.md; of a
-sample (T=…) build/coverage.md. Ends with 1 if a test fails, or, without T, if a folder has less than 98 % of
-its lines or branches or a hole that nobody has explained."""
+"""`make coverage`: run the simulations of `make test` with counting builds and write docs/coverage.md.
+
+For a sample (T=…) it writes build/coverage.md. The exit code is 1 if a test fails, or, without T, if less
+than 98 % of the lines or branches of a folder are covered, or if it has a hole without an explanation.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,7 @@ NAME = "coverage"
 
 
 def on_file(jobs: Iterable[Job]) -> list[Done]:
-    """The last good result of each job, of whatever state of the sources."""
+    """Return the last good result of each job, for any state of the sources."""
     keys = {job.key for job in jobs}
     with Store() as store:
         return list(
@@ -33,17 +35,19 @@ def on_file(jobs: Iterable[Job]) -> list[Done]:
 
 
 def main() -> int:
-    """Command line; returns the exit code."""
+    """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m scripts.measure.coverage", description=__doc__)
-    parser.add_argument("-k", metavar="T", default="", help="a sample: tests whose name holds T (or a,b)")
-    parser.add_argument("--so-far", action="store_true", help="run nothing: the page from what is on file")
+    parser.add_argument("-k", metavar="T", default="", help="a sample: tests whose name contains T (or a,b)")
+    parser.add_argument(
+        "--so-far", action="store_true", help="run nothing; write the page from stored results"
+    )
     add_arguments(parser)
     args = parser.parse_args()
     words = [word for word in args.k.split(",") if word]
     every = groups(words)
     whole = sum(map(len, every if not words and not args.so_far else groups()))
     stamp = tree(SIMULATED)
-    # Those of many tests first: they reach most, and a run that is cut short has them.
+    # Large groups first: they cover most, also if the run is interrupted.
     every.sort(key=len, reverse=True)
     jobs = [Job(f"{tests[0]} {len(tests)}", tests, stamp) for tests in every]
     points, crosses, failed, tests = Points(), Counter[str](), 0, 0

@@ -1,6 +1,6 @@
 """A pytest plugin (`-p … --collect-only`) that writes the groups of tests to OUT, as JSON.
 
-A group is what `make test` runs in one simulator process, or a test that has its own.
+A group is the tests that `make test` runs in one simulator process, or a test with its own process.
 """
 
 from __future__ import annotations
@@ -18,6 +18,6 @@ OUT = "OPENPPMC_GROUPS"
 
 
 def pytest_collection_finish(session: pytest.Session) -> None:
-    """Write the names of the tests, a list a group."""
+    """Write the names of the tests, one list for each group."""
     groups = [[test.nodeid for test in tests] for tests in groups_of(session.items, group_key)]
     Path(os.environ[OUT]).write_text(json.dumps(groups), encoding="utf-8")

@@ -1,9 +1,9 @@
-"""Copies of the RTL, line by line the same, that Verilator counts right.
+"""Copies of the RTL with the same lines, in which Verilator counts correctly.
 
-Verilator puts a block's counter behind its last statement, where it counts nothing if that is a `return`;
-and up to its pull request 8425 it loses the counters of a package that has nothing but functions. So in
-the copy a `return x;` that ends its function is written as `<function> = x;`, what follows an
-`if (c) return x;` stands in its else, and a package begins with a variable.
+Verilator puts a block's counter after its last statement, where it counts nothing if this is a `return`.
+Before its pull request 8425, it also loses the counters of a package that contains only functions. Therefore,
+in the copy, a `return x;` that ends its function becomes `<function> = x;`, the statements after an
+`if (c) return x;` move into its else branch, and a package begins with a variable.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ KEPT = " int unsigned openppmc_counted /*verilator public_flat_rw*/;"
 
 
 class Copy:
-    """The changes of a text, each some text in place of [start, end)."""
+    """A text with changes, each of which replaces [start, end)."""
 
     def __init__(self, text: str) -> None:
         self._changes: list[tuple[int, int, str]] = []
@@ -40,7 +40,7 @@ class Copy:
         self._changes.append((at, at, new))
 
     def _list(self, statements: Sequence[Any], name: str) -> None:
-        """What ends a function, or a branch that does."""
+        """Change the statements that end a function, or a branch that ends it."""
         for number, node in enumerate(statements):
             if node is statements[-1]:
                 self._last(node, name)
@@ -67,7 +67,7 @@ class Copy:
 
 
 def _returns(node: Any) -> bool:
-    """Whether nothing behind this statement runs."""
+    """Return whether no code after this statement runs."""
     if kind(node) == "SequentialBlockStatement":
         inside = list(children(node))
         return bool(inside) and _returns(inside[-1])
@@ -75,7 +75,7 @@ def _returns(node: Any) -> bool:
 
 
 def copies() -> Path:
-    """Folder with a copy of rtl/, made if need be; its files have the paths that they have in the project."""
+    """Return the folder with a copy of rtl/, made if needed; paths of files are those of the project."""
     files = sorted(RTL.rglob("*.sv"))
     sha = hashlib.sha256(Path(__file__).read_bytes())
     for file in files:

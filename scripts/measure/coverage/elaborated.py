@@ -1,9 +1,8 @@
-"""Functions that only elaboration calls: no simulation runs them, so their lines and branches are no points.
+"""Functions that only elaboration calls: no simulation runs them, so their lines and branches do not count.
 
-A function is one if every call of that name in rtl/ stands in a parameter, a dimension, the head of a
-generate block or the values of an instance's parameters, or has nothing but parameters, genvars
-and numbers as arguments, or stands in such a function. Names are taken as they are written: one call
-elsewhere keeps all functions of the name in.
+This holds if every call of that name in rtl/ is in a parameter, a dimension, the head of a generate block or
+the parameter values of an instance, or has only parameters, genvars and numbers as arguments, or is inside
+such a function. Names are compared as text: one other call includes all functions of this name in the count.
 """
 
 from __future__ import annotations
@@ -20,13 +19,13 @@ CONSTANT = (
     *("ParameterDeclaration", "ParameterDeclarationStatement", "ParameterValueAssignment"),
     *("VariableDimension", "LoopGenerate"),
 )
-"""Kinds of nodes in which only constants stand; of a LoopGenerate its head."""
+"""Kinds of nodes that contain only constants; for a LoopGenerate, its head."""
 NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
 
 
 @dataclass(frozen=True)
 class Call:
-    """One in rtl/. inside: the function that it stands in, "" if none; constant: see above."""
+    """A call in rtl/. inside: the function that contains it, or ""; constant: see above."""
 
     name: str
     inside: str
@@ -35,7 +34,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Function:
-    """Lines from `function` to `endfunction`."""
+    """A function with its lines from `function` to `endfunction`."""
 
     file: str
     name: str
@@ -44,14 +43,14 @@ class Function:
 
 
 def _last(node: Any) -> str:
-    """The name without packages and selects."""
+    """Return the name without packages and selects."""
     while kind(node) == "ScopedName":
         node = node.right
     return str(node.getFirstToken().valueText)
 
 
 def _constants(root: Any) -> set[str]:
-    """Names of the parameters and genvars."""
+    """Return the names of the parameters and genvars."""
     names = set()
     for node in found(root, "ParameterDeclaration", "LoopGenerate"):
         if kind(node) == "LoopGenerate":
@@ -67,7 +66,7 @@ def _constants_in(node: Any) -> set[str]:
 
 
 def calls(root: Any) -> Iterator[Call]:
-    """All calls of a file."""
+    """Yield all calls of a file."""
     constants = _constants(root)
 
     def fixed(call: Any) -> bool:
@@ -95,14 +94,14 @@ def calls(root: Any) -> Iterator[Call]:
 
 
 def functions(file: str, text: str, root: Any) -> Iterator[Function]:
-    """Those of a file."""
+    """Yield the functions of a file."""
     for node in found(root, "FunctionDeclaration"):
         first, last = (text.count("\n", 0, at) + 1 for at in span(node))
         yield Function(file, function_name(node), first, last)
 
 
 def only_elaborated(every: Iterable[Call]) -> set[str]:
-    """Names of which no call runs in a simulation, and that are called at all."""
+    """Return the names that are called, but never by code that runs in a simulation."""
     every = list(every)
     names = {call.name for call in every}
     while True:
@@ -114,7 +113,7 @@ def only_elaborated(every: Iterable[Call]) -> set[str]:
 
 @cache
 def left_out() -> list[Function]:
-    """The functions of rtl/ that only elaboration calls."""
+    """Return the functions of rtl/ that only elaboration calls."""
     every: list[Call] = []
     known: list[Function] = []
     for path in sorted(RTL.rglob("*.sv")):

@@ -1,4 +1,4 @@
-"""docs/coverage.md."""
+"""The page docs/coverage.md."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ Functions that only elaboration calls are listed below; they are not points.
 
 
 def percent(value: float) -> str:
-    """One digit behind the point; 100 % is said only of all."""
+    """Return a percentage with one decimal; 100 only if all points are covered."""
     return "100" if value == 100 else f"{min(value, 99.9):.1f}"
 
 
 def cell(sums: Sums, place: str, kind: str) -> str:
-    """Percentage, and how many are explained or open."""
+    """Return the percentage, and the numbers of explained and open points."""
     figure = sums.figure(place, kind)
     if not figure.all:
         return "–"
@@ -47,7 +47,7 @@ def cell(sums: Sums, place: str, kind: str) -> str:
 
 
 def folders(sums: Sums) -> Iterator[str]:
-    """Table of folders."""
+    """Yield the table of folders."""
     yield "| folder of rtl/ | " + " | ".join(KINDS) + " |"
     yield "|---" * (1 + len(KINDS)) + "|"
     for folder in sums.folders():
@@ -57,7 +57,7 @@ def folders(sums: Sums) -> Iterator[str]:
 
 
 def files(sums: Sums) -> Iterator[str]:
-    """Table of files that are not reached as a whole."""
+    """Yield the table of files that are not fully covered."""
     yield "| file | " + " | ".join(KINDS) + " |"
     yield "|---" * (1 + len(KINDS)) + "|"
     for folder in sums.folders():
@@ -67,7 +67,7 @@ def files(sums: Sums) -> Iterator[str]:
 
 
 def holes(sums: Sums) -> Iterator[str]:
-    """Each hole of lines and branches, with its reason."""
+    """Yield each hole of lines and branches, with its reason."""
     every = [hole for kind in (LINE, BRANCH) for hole in sums.holes(kind)]
     if not every:
         yield "None."
@@ -81,7 +81,7 @@ def holes(sums: Sums) -> Iterator[str]:
 
 
 def elaborated() -> Iterator[str]:
-    """The functions that are no points."""
+    """Yield the table of functions without points."""
     yield "| file | functions |"
     yield "|---|---|"
     names: dict[str, list[str]] = {}
@@ -93,7 +93,7 @@ def elaborated() -> Iterator[str]:
 
 
 def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
-    """One table; **0** has not been seen, – cannot be."""
+    """Yield one table; **0**: not seen, –: impossible."""
     yield f"| {table.name} | " + " | ".join(table.columns) + " |"
     yield "|---" * (1 + len(table.columns)) + "|"
     reasons: dict[str, None] = {}
@@ -112,7 +112,7 @@ def cross(table: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
 
 
 def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
-    """The crosses of a part."""
+    """Yield the crosses of a part."""
     found: Crosses = part.load("crosses")
     yield f"### {part.title}\n"
     if not any(key.startswith(f"{part.name}\t") for key in counts):
@@ -129,9 +129,9 @@ def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
 
 
 def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool = False) -> str:
-    """The whole page, from so many of all tests; `old`: perhaps with earlier states of the sources."""
+    """Return the whole page, from `tests` of all tests; `old`: sources may have been in earlier states."""
     much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
-    much += " They ran at different times, some perhaps on earlier sources." if old else ""
+    much += " They ran at different times, some possibly with earlier sources." if old else ""
     lines = [HEAD, f"{much}\n", "## The RTL\n", *folders(sums)]
     lines += ["\n### Files with holes\n", *files(sums), "\n### Holes of lines and branches\n", *holes(sums)]
     lines += ["\n### Left out: functions that only elaboration calls\n"]

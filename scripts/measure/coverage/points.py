@@ -1,7 +1,8 @@
-"""Points of the RTL that Verilator counts, from its coverage.dat (one `C '<fields>' <count>` a line).
+"""Points of the RTL that Verilator counts, from its coverage.dat (lines `C '<fields>' <count>`).
 
-A point is named "<file> <line> <column> <kind> <what>", the file as seen from the project's root. The same
-place in several instances, parameter sets and simulations is one point: it is reached if any has reached it.
+A point has the name "<file> <line> <column> <kind> <what>", with the file relative to the project's root. The
+same place in several instances, parameter sets and simulations is one point. It is covered if any of them
+covers it.
 """
 
 from __future__ import annotations
@@ -19,25 +20,25 @@ RTL = "rtl/"
 
 @dataclass
 class Points:
-    """`reached`: of each point, whether it was. `spans`: the source lines of a point, "108-109,155"."""
+    """`reached`: point -> whether it was covered. `spans`: point -> its source lines, "108-109,155"."""
 
     reached: dict[str, bool] = field(default_factory=dict)
     spans: dict[str, str] = field(default_factory=dict)
 
     def add(self, other: Points) -> None:
-        """Those of `other` as well."""
+        """Add the points of `other`."""
         for name, was in other.reached.items():
             self.reached[name] = was or self.reached.get(name, False)
         self.spans.update(other.spans)
 
     def pack(self) -> str:
-        """As text for a file of results."""
+        """Return the points as text for a file of results."""
         text = json.dumps([self.reached, self.spans], sort_keys=True)
         return base64.b85encode(zlib.compress(text.encode(), 9)).decode()
 
     @classmethod
     def unpack(cls, text: str) -> Points:
-        """Inverse of `pack`."""
+        """Return the points from a text of `pack`."""
         return cls(*json.loads(zlib.decompress(base64.b85decode(text))))
 
 
@@ -46,7 +47,7 @@ def _fields(text: str) -> Mapping[str, str]:
 
 
 def read(files: Iterable[Path]) -> Points:
-    """All points of the RTL in these files; what lies elsewhere (benches, wrappers) does not count."""
+    """Return all points of the RTL in these files; other sources (benches, wrappers) do not count."""
     points = Points()
     for file in files:
         for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
@@ -66,7 +67,7 @@ def read(files: Iterable[Path]) -> Points:
 
 
 def lines_of(span: str) -> list[int]:
-    """Numbers of the source lines in "108-109,155"."""
+    """Return the numbers of the source lines in "108-109,155"."""
     found: list[int] = []
     for part in span.split(","):
         first, _, last = part.partition("-")

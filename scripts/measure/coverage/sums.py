@@ -1,4 +1,4 @@
-"""All that was reached, together: figures a folder, and the holes."""
+"""Sums of all covered points: figures of each folder, and the holes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LEFT_OUT = {"boards": "tops of FPGA boards, which `make test-board` simulates, a
 
 @dataclass(frozen=True)
 class Figure:
-    """So many of so many are reached, or explained (`known`)."""
+    """Numbers of points: covered, explained holes (`known`), all."""
 
     reached: int
     known: int
@@ -28,24 +28,24 @@ class Figure:
 
     @property
     def percent(self) -> float:
-        """As counted; 100 if there are none."""
+        """Percentage of covered points; 100 if there are no points."""
         return 100 * self.reached / self.all if self.all else 100.0
 
     @property
     def left(self) -> float:
-        """Percentage without those that are explained; 100 if there are no others."""
+        """Percentage without the explained points; 100 if there are no others."""
         others = self.all - self.known
         return 100 * self.reached / others if others else 100.0
 
     @property
     def good(self) -> bool:
-        """At least 98 % are reached, and each hole is explained."""
+        """True if at least 98 % are covered and each hole is explained."""
         return self.percent >= 98 and self.reached + self.known == self.all
 
 
 @dataclass(frozen=True)
 class Hole:
-    """Something in a file that no test reaches. why: "" if nobody has explained it."""
+    """A point in a file that no test covers. why: "" if there is no explanation."""
 
     file: str
     line: int
@@ -61,12 +61,12 @@ class Hole:
 
 @cache
 def source(file: str) -> list[str]:
-    """Lines of a file of the project."""
+    """Return the lines of a file of the project."""
     return (ROOT / file).read_text(encoding="utf-8").splitlines()
 
 
 def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
-    """An entry for each line of a function; ProjectError if its file has none of that name."""
+    """Yield an entry for each line of a function; ProjectError if its file has no function of that name."""
     inside = False
     name = entry["function"]
     for line in source(entry["file"]):
@@ -79,7 +79,7 @@ def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
 
 
 def explained() -> list[Mapping[str, str]]:
-    """The entries of holes.yml, a line each; ProjectError for one that no longer stands in its file."""
+    """Return the entries of holes.yml, one for each line; ProjectError if a line is no longer in its file."""
     entries: list[Mapping[str, str]] = []
     for entry in yaml.safe_load(HOLES.read_text(encoding="utf-8")) or []:
         entries += _of_function(entry) if "function" in entry else [entry]
@@ -90,12 +90,12 @@ def explained() -> list[Mapping[str, str]]:
 
 
 def folder_of(file: str) -> str:
-    """The folder below rtl/ that a file belongs to."""
+    """Return the folder below rtl/ that a file belongs to."""
     return file.split("/")[1]
 
 
 class Sums:
-    """What all groups together have reached, with the holes that are explained."""
+    """Points covered by all groups together, and the explained holes."""
 
     def __init__(self, points: Points) -> None:
         self._why = {(e["file"], e["line"], e.get("what", "")): e["why"] for e in explained()}
@@ -113,19 +113,19 @@ class Sums:
 
     @staticmethod
     def _named(name: str, kind: str, what: str) -> str:
-        """Branches of a line are told apart by their column."""
+        """Return the name of a point; the column distinguishes the branches of a line."""
         return f"{what}, column {name.split(' ')[2]}" if kind == BRANCH else what
 
     def folders(self) -> list[str]:
-        """Folders below rtl/ with points."""
+        """Return the folders below rtl/ with points."""
         return sorted({folder_of(file) for file, *_ in self._units})
 
     def files(self, folder: str) -> list[str]:
-        """Files of a folder with points."""
+        """Return the files of a folder with points."""
         return sorted({file for file, *_ in self._units if folder_of(file) == folder})
 
     def figure(self, place: str, kind: str) -> Figure:
-        """Of a folder or a file."""
+        """Return the figure of a folder or a file."""
         of = [
             (key, was)
             for key, was in self._units.items()
@@ -135,7 +135,7 @@ class Sums:
         return Figure(sum(was for _, was in of), known, len(of))
 
     def holes(self, kind: str) -> Iterator[Hole]:
-        """What is not reached, by file and line."""
+        """Yield the points that are not covered, by file and line."""
         for key in sorted(key for key, was in self._units.items() if not was and key[2] == kind):
             file, line, _, what = key
             yield Hole(file, line, kind, what, self._explanation(key))

@@ -1,9 +1,9 @@
-"""`make fuzz COUNT=n SEED=n`: characters, good and bad frames, into the deframers of RTL and golden models.
+"""`make fuzz COUNT=n SEED=n`: send characters, valid and invalid frames to deframers of RTL and models.
 
-Every request, instruction and fault that comes out has to be the same, and at the same character.
+Every request, instruction and fault that they report must be equal, and at the same character.
 
-A seed is a block of characters of each line. Silences and characters without a stop bit are among them. What
-has passed is taken over when the same sources are asked again. Exit code 1 if anything differs.
+A seed is a block of characters for each line, with silences and characters without a stop bit. A later run on
+the same sources reuses passed blocks. The exit code is 1 if there is a difference.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ BLOCK = 250_000
 
 
 def play(what: tuple[str, int, int]) -> Result:
-    """A block: line, seed, characters."""
+    """Run a block. what: line, seed, number of characters."""
     name, seed, size = what
     line = LINES[name]
     words = stream(random.Random(f"{name} {seed}"), size, line.good, line.special)
@@ -41,13 +41,13 @@ def play(what: tuple[str, int, int]) -> Result:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Command line; returns the exit code."""
+    """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(
         prog="python -m scripts.measure.fuzz", description=(__doc__ or "").splitlines()[0]
     )
     parser.add_argument("--seed", type=int, default=1, help="first seed (default 1)")
     parser.add_argument(
-        "--count", type=int, default=len(LINES) * BLOCK, help="characters, of all lines together"
+        "--count", type=int, default=len(LINES) * BLOCK, help="number of characters for all lines together"
     )
     add_arguments(parser)
     given = parser.parse_args(arguments)
@@ -66,7 +66,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not done.good:
             failures.append(done.data["message"])
             console.print(f"[red]{done.data['message']}[/red]", markup=True)
-    console.print(f"{counts_text(compared)}, {'all' if not failures else 'others'} as of the golden models")
+    console.print(
+        f"{counts_text(compared)}, {'all' if not failures else 'the others'} equal to the golden models"
+    )
     return 1 if failures else 0
 
 

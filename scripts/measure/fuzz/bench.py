@@ -1,4 +1,4 @@
-"""Builds a line's program from tb/fuzz, plays words into it, compares with the golden model."""
+"""Build a line's program from tb/fuzz, send words to it, compare the result with the golden model."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ FOLDER = ROOT / "tb/fuzz"
 ARGS = "--cc --exe --build -O3 --assert --x-assign unique --x-initial unique --threads 1 -Wno-fatal -Wno-lint"
 ROW = struct.Struct("<IQ")
 SHOWN = 24
-"""Words of a difference that are told at most."""
+"""Maximum number of words in the report of a difference."""
 
 
 @cache
 def program(name: str) -> Path:
-    """The program of a line, built if its sources have changed. ProjectError with the end of the log."""
+    """Return the program of a line, built if its sources changed; ProjectError with the end of the log."""
     line = LINES[name]
     sources = [*files(line.group), FOLDER / f"{line.top}.sv", FOLDER / "main.cpp"]
     words = [*ARGS.split(), "--prefix", "Vfuzz", "--top-module", line.top, "-o", "fuzz"]
@@ -60,7 +60,7 @@ def program(name: str) -> Path:
 
 
 def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
-    """What the RTL made of these words: (number of the word, what)."""
+    """Yield the events of the RTL for these words: (number of the word, event)."""
     ran = subprocess.run([str(program(name))], input=words.tobytes(), capture_output=True, check=False)
     if ran.returncode:
         said = (ran.stdout[-400:] + ran.stderr[-400:]).decode(errors="replace")
@@ -69,7 +69,7 @@ def rtl_events(name: str, words: array[int]) -> Iterator[tuple[int, int]]:
 
 
 def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | None:
-    """The first word of which RTL and golden model make something else, and what; None if there is none."""
+    """Return the first word with different events of RTL and golden model, and the events; None if equal."""
     for real, ideal in zip_longest(rtl_events(name, words), line.expected(words)):
         if real != ideal:
             place = min(event[0] for event in (real, ideal) if event)
@@ -79,7 +79,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shortened(name: str, line: Line, words: array[int]) -> str:
-    """A difference in words: the fewest of the last ones that still differ."""
+    """Return a difference as text, with the smallest number of last words that still differ."""
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

@@ -1,6 +1,6 @@
-"""The serial lines: how a good frame looks, and what the golden model makes of what came.
+"""The serial lines: generators of valid frames, and the events of the golden model for received words.
 
-Good frames are made without the models' own functions: a mistake in one shows.
+Valid frames are made without the functions of the models, so that a mistake in one of them is detected.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from openppmc.model.ppmc312.front.serial import LENGTHS, Outcome, Parser
 from scripts.measure.fuzz.words import BROKEN, SILENCE, Frame, digest
 
 Events = Iterator[tuple[int, int]]
-"""(number of the word, what came of it as the `what_o` of tb/fuzz)."""
+"""(number of the word, event in the format of `what_o` of tb/fuzz)."""
 PMC006_ADDRESS, PPMC312_ADDRESS = 3, 5
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line. top: of tb/fuzz. group: of rtl/files.yml. good, special: see `words.stream`. expected: of the
-    golden model. params: of the top."""
+    """A line. top: of tb/fuzz; group: of rtl/files.yml; good, special: see `words.stream`; params: of top;
+    expected: events of the golden model."""
 
     top: str
     group: str
@@ -39,7 +39,7 @@ class Line:
 
 
 def bridge_frame(rng: random.Random) -> bytes:
-    """UB-FRM-01 … 04, now and then about as long as a frame may be."""
+    """Return a frame of UB-FRM-01 … 04, sometimes about as long as permitted."""
     size = rng.choice((0, 1, 2, 5, 12, 30)) if rng.random() < 0.98 else rng.randint(250, 256)
     content = bytes([rng.randrange(256)]) + bytes(rng.choices((0x7D, 0x7E, 0x5E, 0, 0x80, 0x20), k=size))
     content += crc_hqx(content, 0xFFFF).to_bytes(2, "big")
@@ -48,7 +48,7 @@ def bridge_frame(rng: random.Random) -> bytes:
 
 
 def bridge_events(words: array[int]) -> Events:
-    """Requests and NAKs."""
+    """Yield requests and NAKs."""
     receiver = Receiver()
     for place, word in enumerate(words):
         if word & SILENCE:
@@ -71,7 +71,7 @@ def bridge_events(words: array[int]) -> Events:
 
 
 def pmc006_frame(rng: random.Random) -> bytes:
-    """P006-FRM-01, -02."""
+    """Return a frame of P006-FRM-01, -02."""
     address = PMC006_ADDRESS if rng.random() < 0.8 else rng.randrange(256)
     data = rng.choice((b"\xa5" * 4, rng.randbytes(4), bytes(4)))
     body = bytes([0xA5, address, rng.randrange(256)]) + data
@@ -79,7 +79,7 @@ def pmc006_frame(rng: random.Random) -> bytes:
 
 
 def pmc006_events(words: array[int]) -> Events:
-    """Frames for this controller."""
+    """Yield frames for this controller."""
     assembler = Assembler()
     for place, word in enumerate(words):
         if word & (SILENCE | BROKEN):
@@ -92,7 +92,7 @@ def pmc006_events(words: array[int]) -> Events:
 
 
 def ppmc312_frame(rng: random.Random, chars: bool) -> bytes:
-    """P312-SER-10 … 13: a poll or an instruction. chars: the checksum is that of the characters."""
+    """Return a poll or an instruction of P312-SER-10 … 13. chars: the checksum is that of the characters."""
     poll = rng.random() < 0.2
     control = (0x80 if poll else 0x90) | (PPMC312_ADDRESS if rng.random() < 0.9 else rng.randrange(16))
     code = rng.choice(list(LENGTHS)) if rng.random() < 0.9 else rng.randrange(256)
@@ -107,7 +107,7 @@ _KINDS = {Outcome.POLL: 1, Outcome.INSTRUCTION: 2, Outcome.FAULT: 3, Outcome.UNK
 
 
 def ppmc312_events(words: array[int], chars: bool) -> Events:
-    """Frames for this station, right and wrong."""
+    """Yield frames for this station, valid and invalid."""
     parser = Parser(PPMC312_ADDRESS, LENGTHS, "CHARS" if chars else "BINARY")
     for place, word in enumerate(words):
         found = None

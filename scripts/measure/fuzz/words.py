@@ -1,4 +1,4 @@
-"""What comes over a line, as tb/fuzz/main.cpp reads it: words of 16 bits."""
+"""Content of a line in the format of tb/fuzz/main.cpp: words of 16 bits."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from array import array
 from collections.abc import Callable, Sequence
 
 BROKEN, SILENCE = 0x100, 0x200
-"""Of a word: a character without a stop bit; no character, but a long silence."""
+"""Flags of a word: a character without a stop bit; no character, but a long silence."""
 Frame = Callable[[random.Random], bytes]
 
 
 def digest(data: bytes) -> int:
-    """Of data bytes, 32 bits."""
+    """Return a digest of data bytes, 32 bits."""
     value = 0
     for byte in data:
         value = (value * 31 + byte + 1) & 0xFFFF_FFFF
@@ -20,9 +20,9 @@ def digest(data: bytes) -> int:
 
 
 def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -> array[int]:
-    """At least `size` words: good frames, the same with something wrong, and noise.
+    """Return at least `size` words: valid frames, frames with a fault, and noise.
 
-    special: characters that mean something on this line, which noise has more of.
+    special: characters with a meaning on this line; they are more frequent in noise.
     """
     words = array("H")
     while len(words) < size:
@@ -36,7 +36,7 @@ def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -
 
 
 def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
-    """Some characters."""
+    """Return some characters."""
     kind = rng.random()
     if kind < 0.35:
         return good(rng)
@@ -51,7 +51,7 @@ def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
 
 
 def _spoilt(rng: random.Random, frame: bytes, special: Sequence[int]) -> bytes:
-    """A frame with one mistake: a bit, a byte changed, lost, twice or too many, its end lost."""
+    """Return a frame with one fault: a bit or byte changed, a byte missing, repeated or added, no end."""
     place = rng.randrange(len(frame))
     before, byte, after = frame[:place], frame[place], frame[place + 1 :]
     kind = rng.randrange(6)

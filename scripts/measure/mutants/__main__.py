@@ -1,7 +1,7 @@
 """Show which directed test kills each hand-made mutant: `python -m scripts.measure.mutants [WORD...]`.
 
-The changed file goes to build/mutants/, never into rtl/. A line a mutant: the test that fails, what in it
-(`table`). Ends with 1 if a mutant survives or is found otherwise than its entry says.
+The changed file is written to build/mutants/, never to rtl/. The output has one line for each mutant: the
+test that fails, and the cause (`table`). The exit code is 1 if the result of a mutant differs from its entry.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from scripts.measure.mutants.table import Mutant, mutants
 
 CHECK, COMPARISON, ASSERTION, HANGS = "check", "comparison", "assertion", "no end"
 BATCH = 8
-"""Tests in one process; the first one in which any fails is the last."""
+"""Tests in one process; no process is started after the first one with a failing test."""
 
 
 def cause(outcome: Outcome) -> str:
-    """What has failed: a check of the test, else an assertion of the RTL, else the comparison."""
+    """Return the cause of a failure: a check of the test, an assertion of the RTL, or the comparison."""
     compared = ": first difference at edge" in outcome.headline
     if outcome.kind != "failed":
         return HANGS
@@ -36,7 +36,7 @@ def cause(outcome: Outcome) -> str:
 
 
 def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
-    """The tests that fail, of the first process in which one does."""
+    """Return the failing tests of the first process with a failure."""
     for at in range(0, len(items), BATCH):
         job = Simulation(
             mutant.design(items[0]), tuple(items[at : at + BATCH]), 1, env={"OPENPPMC_WALL_S": "120"}
@@ -48,14 +48,14 @@ def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
 
 
 def found(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
-    """The tests that find it: the one that is listed, else the first of those that its words choose."""
+    """Return the tests that find the mutant: the listed test, else the first that its words select."""
     items, every = mutant.items(), mutant.items(wide=True)
     listed = [item for item in every if item.test == mutant.caught]
     return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})
 
 
 def judge(what: tuple[Mutant, bool]) -> Result:
-    """Whether it is as the entry says, and a line about it."""
+    """Return whether the result agrees with the entry, and a line about it."""
     right, line = _judged(*what)
     return Result(right, {"line": line})
 
@@ -68,18 +68,18 @@ def _judged(mutant: Mutant, wide: bool) -> tuple[bool, str]:
     if not bad:
         return not mutant.caught, f"{mutant.id}: survives{mutant.why and f' ({mutant.why})'}"
     causes = {item: cause(outcome) for item, outcome in bad.items()}
-    # A check of a test says most: it names the rule.
+    # Prefer a check of a test, because it names the rule.
     first = min(bad, key=lambda item: causes[item] != CHECK)
     right = (first.test, causes[first]) == (mutant.caught, mutant.by)
     return right, f"{mutant.id}: {first.test}, {causes[first]}: {bad[first].headline[:150]}"
 
 
 def main() -> int:
-    """Command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.mutants")
     parser.add_argument("words", nargs="*", metavar="WORD")
     add_arguments(parser)
-    parser.add_argument("--wide", action="store_true", help="a survivor meets all tests of its build")
+    parser.add_argument("--wide", action="store_true", help="run all tests of its build on a survivor")
     args = parser.parse_args()
     chosen = [one for one in mutants() if not args.words or any(word in one.id for word in args.words)]
     if not chosen:

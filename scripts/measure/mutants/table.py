@@ -1,10 +1,10 @@
-"""The mutants of <part>.yml beside this file: one small change of one RTL file each, and who finds it.
+"""The mutants of <part>.yml in this folder: each has one small change of one RTL file, and its test.
 
-An entry has `file`, `old` (stands there exactly once), `new`, `tests` (words with commas; a test is run if
-its module or its name holds one), `caught` (the test that must fail) and `by`: *check* (an assertion of the
-test itself), *comparison* (only the edges differ from the golden model's) or *assertion* (of the RTL).
-Optional: `suite`, the module of pytest items (test_part), and `build`, a configuration's name. No `caught`:
-no directed test of that build finds it, and `why` says what that means.
+An entry has `file`, `old` (occurs exactly once in the file), `new`, `tests` (words separated by commas; a
+test runs if its module or its name contains one), `caught` (the test that must fail) and `by`: *check* (an
+assertion of the test itself), *comparison* (only the edges differ from the golden model's) or *assertion* (of
+the RTL). Optional: `suite`, the module of pytest items (test_part), and `build`, a configuration's name.
+Without `caught`, no directed test of that build finds the mutant, and `why` states the consequence.
 """
 
 from __future__ import annotations
@@ -43,18 +43,18 @@ class Mutant:
 
     @property
     def id(self) -> str:
-        """Part and name."""
+        """The part and the name."""
         return f"{self.part}-{self.name}"
 
     def source(self) -> str:
-        """Text of the changed file; ValueError unless the old text stands in it once."""
+        """Return the text of the changed file; raise ValueError unless the old text occurs in it once."""
         text = (ROOT / self.file).read_text(encoding="utf-8")
         if text.count(self.old) != 1:
             raise ValueError(f"{self.id}: {self.file} has {text.count(self.old)} times {self.old!r}")
         return text.replace(self.old, self.new)
 
     def items(self, wide: bool = False) -> list[Item]:
-        """The tests of one build that the words choose, or, `wide`, all of the suite."""
+        """Return the tests of one build that the words select, or with `wide` all tests of the suite."""
         build = self.build or MAIN_BUILD.get(self.part, "f16")
         words = [""] if wide else self.tests.split(",")
         every = [param.values[0] for param in self._module().ITEMS]
@@ -67,13 +67,13 @@ class Mutant:
         ]
 
     def whole(self, item: Item) -> Design:
-        """What `item` simulates, unchanged."""
+        """Return the unchanged design that `item` simulates."""
         make = getattr(self._module(), "design", lambda config: part_design(item.part, config))
         made: Design = make(item.config)
         return made
 
     def design(self, item: Item) -> Design:
-        """The same with a changed copy in place of the file."""
+        """Return the design with a changed copy in place of the file."""
         copy = BUILD / "mutants" / self.id / Path(self.file).name
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_text(self.source(), encoding="utf-8")
@@ -85,7 +85,7 @@ class Mutant:
 
 
 def mutants() -> Iterator[Mutant]:
-    """All of them."""
+    """Yield all mutants."""
     for path in sorted(HERE.glob("*.yml")):
         for name, entry in yaml.safe_load(path.read_text(encoding="utf-8")).items():
             yield Mutant(path.stem, name, **entry)

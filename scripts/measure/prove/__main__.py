@@ -1,7 +1,8 @@
 """Prove properties of the RTL blocks: `python -m scripts.measure.prove [NAME,...]`.
 
-Without a name all quick ones, with `--night` all. `--break` breaks the RTL of each as its entry says and
-expects it to fail. Ends with 1 if one is not as it should be.
+Without a name, it runs all quick proofs; with `--night`, all proofs. `--break` breaks the RTL of each proof
+as its entry states and expects the proof to fail. The exit code is 1 if a result differs from the expected
+one.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from scripts.measure.prove.table import chosen
 
 
 def line(outcome: Outcome, breaking: bool) -> str:
-    """What is printed of one."""
+    """Return the printed line of an outcome."""
     took = f"{outcome.seconds:.1f} s"
     if breaking:
         told = "found     " if outcome.refuted else "NOT FOUND "
@@ -27,24 +28,28 @@ def line(outcome: Outcome, breaking: bool) -> str:
     if outcome.trouble:
         again = f"\n         again: make prove T={outcome.name}"
         return f"FAILED   {outcome.name}: {outcome.trouble} ({took}){again}"
-    covers = ", ".join(f"{label} in {clk} clk" for label, clk in outcome.reached)
+    covers = ", ".join(f"{label} in {clk} cycles" for label, clk in outcome.reached)
     return f"proved   {outcome.name}: {len(outcome.labels)} properties; {covers} ({took})"
 
 
 def main() -> int:
-    """Command line; the exit code."""
+    """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.prove")
     parser.add_argument("names", nargs="*", metavar="NAME[,NAME]")
-    parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="how many at a time (2)")
-    parser.add_argument("--night", action="store_true", help="also those that take long")
-    parser.add_argument("--break", dest="breaking", action="store_true", help="with broken RTL: must fail")
-    parser.add_argument("--limit", type=int, default=LIMIT, metavar="S", help=f"seconds a run ({LIMIT})")
+    parser.add_argument("-n", type=int, default=2, metavar="WORKERS", help="number of parallel proofs (2)")
+    parser.add_argument("--night", action="store_true", help="also run long proofs")
+    parser.add_argument(
+        "--break", dest="breaking", action="store_true", help="break the RTL; each proof must fail"
+    )
+    parser.add_argument(
+        "--limit", type=int, default=LIMIT, metavar="S", help=f"limit of a run in s ({LIMIT})"
+    )
     args = parser.parse_args()
     todo = chosen([word for words in args.names for word in words.split(",")], args.night)
     abc()
     bad = 0
     shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
-    # Threads: what takes time are programs that each of them waits for.
+    # Threads are sufficient, because each waits for another program.
     jobs = [(proof, args.limit, proof.broken() if args.breaking else None) for proof in todo]
     with (
         ThreadPoolExecutor(args.n) as pool,

@@ -1,4 +1,4 @@
-"""One proof from the sources to its outcome, and the trace of a counterexample."""
+"""Run one proof from the sources to its outcome, and write the trace of a counterexample."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TRACE = "read_rtlil prove.il; sim -q -zinit -multiclock -r prove.aiw -map prove.
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a proof: `trouble` is empty if it stands; `reached`: in which clk each cover came;
+    """Result of a proof. `trouble`: empty if it holds; `reached`: cycle in which each cover was reached;
     `refuted`: a property has a counterexample."""
 
     name: str
@@ -34,12 +34,12 @@ class Outcome:
 
     @property
     def good(self) -> bool:
-        """It is proved, and all of its covers are reached."""
+        """True if it is proved and all of its covers are reached."""
         return not self.trouble
 
 
 def yosys(folder: Path, *command: str) -> str:
-    """Run yosys in a process of its own; the reason if it fails. Its log goes to the folder."""
+    """Run yosys in a separate process with its log in the folder; return the reason if it fails."""
     done = subprocess.run(
         [sys.executable, *command],
         cwd=ROOT,
@@ -59,7 +59,7 @@ def yosys(folder: Path, *command: str) -> str:
 
 
 def model(proof: Proof, folder: Path, changed: Mapping[Path, Path]) -> str:
-    """Make the graphs of a proof; the reason if that fails."""
+    """Make the graphs of a proof; return the reason if this fails."""
     job = {
         "top": proof.file.stem,
         "only": proof.only,
@@ -73,7 +73,7 @@ def model(proof: Proof, folder: Path, changed: Mapping[Path, Path]) -> str:
 
 
 def trace(folder: Path) -> str:
-    """Waveforms of the counterexample; where they are, or why there are none."""
+    """Write the waveforms of the counterexample; return their path, or the reason of a failure."""
     script = "import os, sys, pyosys.libyosys as ys; os.chdir(sys.argv[1]); design = ys.Design()\n"
     script += "for command in sys.argv[2].split('; '): ys.run_pass(command, design)"
     engine.fill(folder)
@@ -82,12 +82,12 @@ def trace(folder: Path) -> str:
 
 
 def place(proof: Proof, change: Change | None = None) -> Path:
-    """Folder of a run, which stays when it has ended."""
+    """Return the folder of a run, which is kept after the run."""
     return BUILD / "prove" / (f"{proof.name}.{change.name}" if change else proof.name)
 
 
 def check(proof: Proof, limit: int = LIMIT, change: Change | None = None) -> Outcome:
-    """Prove one, of the RTL as it is or with a change, which should make it fail."""
+    """Run one proof of the unchanged RTL, or with a change that should make it fail."""
     begin = time.monotonic()
     folder = place(proof, change)
     shutil.rmtree(folder, ignore_errors=True)
@@ -108,12 +108,12 @@ def check(proof: Proof, limit: int = LIMIT, change: Change | None = None) -> Out
     verdict, found = engine.prove(folder, proof.bound, limit, proof.induct)
     if verdict == engine.FAILED:
         number, clk = min(found.items(), key=lambda hit: hit[1])
-        return outcome(f"{labels['prove'][number]} fails in clk {clk}: {trace(folder)}", refuted=True)
+        return outcome(f"{labels['prove'][number]} fails in cycle {clk}: {trace(folder)}", refuted=True)
     if verdict == engine.OPEN:
         return outcome(f"no result in {limit} s")
     if not labels["prove"] or not labels["cover"]:
-        return outcome("it has no property" if labels["cover"] else "it has no cover")
+        return outcome("the proof has no property" if labels["cover"] else "the proof has no cover")
     seen = engine.covered(folder, proof.cover, limit)
     reached = tuple((label, seen.get(at, -1)) for at, label in enumerate(labels["cover"]))
     missed = [label for label, clk in reached if clk < 0]
-    return outcome(f"{missed[0]} is not reached in {proof.cover} clk" if missed else "", reached)
+    return outcome(f"{missed[0]} is not reached in {proof.cover} cycles" if missed else "", reached)

@@ -1,6 +1,6 @@
-"""ABC on a model: property directed reachability without bound, or bounded search; both begin in reset.
+"""Run ABC on a model: unbounded property directed reachability, or bounded search; both begin in reset.
 
-ABC is the one that the wheel of pyosys brings along.
+ABC is part of the wheel of pyosys.
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ from cocotb_tests.harness.project import ProjectError
 _HIT = re.compile(r"Output\s+(\d+)(?: of miter \S+)? was asserted in frame\s+(\d+)")
 PROVED, FAILED, OPEN = "proved", "failed", "open"
 REACH = 20
-"""clk from reset that an induction begins with, beyond its length."""
+"""An induction begins with a bounded search of this number of cycles more than its length."""
 
 
 def abc() -> Path:
-    """The program; ProjectError if the wheel lacks it."""
+    """Return the path of ABC; raise ProjectError if the wheel lacks it."""
     spec = find_spec("pyosys")
     path = Path(next(iter(spec.submodule_search_locations or ()), ""), "yosys-abc") if spec else Path()
     if not os.access(path, os.X_OK) or not path.is_file():
-        raise ProjectError("yosys-abc: not there, it comes with the package pyosys (run `make setup`)")
+        raise ProjectError("yosys-abc: not found; the package pyosys contains it (run `make setup`)")
     return path
 
 
 def ask(folder: Path, what: str, script: str) -> str:
-    """What ABC says to these commands about <what>.aig."""
+    """Run commands of ABC on <what>.aig; return its output."""
     words = f"read_aiger {what}.aig; fold; strash; {script}"
     done = subprocess.run(
         [abc(), "-c", words],
@@ -45,14 +45,14 @@ def ask(folder: Path, what: str, script: str) -> str:
 
 
 def hits(said: str) -> dict[int, int]:
-    """Number of an output that can be true -> clk after reset, as ABC says it."""
+    """Return number of an output that can be true -> cycles after reset, from ABC's output."""
     return {int(output): int(frame) for output, frame in _HIT.findall(said)}
 
 
 def induction(folder: Path, length: int, limit: int) -> tuple[str, dict[int, int]]:
-    """The same by induction over at most `length` clk, after a bounded search from reset that is longer.
+    """Prove by induction over at most `length` cycles, after a longer bounded search from reset.
 
-    For blocks with much memory, whose wrappers say what ties it to the outputs.
+    It is used for blocks with large memories; their wrappers state how the memory is related to the outputs.
     """
     base = length + REACH
     first = ask(folder, "prove", f"bmc3 -F {base} -T {limit}; write_cex -a prove.aiw")
@@ -64,13 +64,14 @@ def induction(folder: Path, length: int, limit: int) -> tuple[str, dict[int, int
 
 
 def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, dict[int, int]]:
-    """Whether no output of prove.aig can be true, at all or within `bound` clk; else which, and when.
+    """Prove that no output of prove.aig can be true (within `bound` cycles); else return which, and when.
 
-    At most `limit` seconds. A counterexample goes to prove.aiw. induct: by induction of that length.
+    It takes at most `limit` seconds. A counterexample is written to prove.aiw. induct: use induction of that
+    length.
     """
     if induct:
         return induction(folder, induct, limit)
-    # Some need the registers that are equal merged first, others get no better by it.
+    # Some proofs need equal registers to be merged first (scorr); for others this does not help.
     half = max(limit // 2, 1)
     searches = [f"orpos; pdr -T {half}", f"scorr; orpos; pdr -T {half}", f"pdr -T {half}"]
     said = ""
@@ -79,7 +80,7 @@ def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, d
         if "Property UNDECIDED" not in said:
             break
     if found := hits(said):
-        if not bound:  # which of them, and a trace that knows all inputs
+        if not bound:  # find the output, and a trace with all inputs
             again = f"bmc3 -F {min(found.values()) + 1} -T {limit}; write_cex -a prove.aiw"
             found = hits(ask(folder, "prove", again)) or found
         return FAILED, found
@@ -88,7 +89,7 @@ def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, d
 
 
 def fill(folder: Path) -> None:
-    """Give prove.aiw the registers that ABC has thrown away as well; all begin at 0 (write_aiger -zinit)."""
+    """Add to prove.aiw the registers that ABC has removed; all begin at 0 (write_aiger -zinit)."""
     witness = folder / "prove.aiw"
     _, inputs = witness.read_text().split("\n", 1)
     registers = int((folder / "prove.aig").read_bytes().split(maxsplit=4)[3])
@@ -96,5 +97,5 @@ def fill(folder: Path) -> None:
 
 
 def covered(folder: Path, bound: int, limit: int) -> dict[int, int]:
-    """Which covers of cover.aig are reached within `bound` clk, and when."""
+    """Return the covers of cover.aig that are reached within `bound` cycles, and when."""
     return hits(ask(folder, "cover", f"bmc3 -a -F {bound} -T {limit}"))

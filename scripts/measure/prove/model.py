@@ -1,9 +1,10 @@
-"""Wrapper and RTL to and-inverter graphs: one with the assertions as bad states, one with the covers.
+"""Convert wrapper and RTL to and-inverter graphs: one with the assertions as bad states, one with the covers.
 
-Started as ``python -m scripts.measure.prove.model JOB.json``, in a separate process because yosys leaves
-through exit() on an error and writes its log to stdout. The job names sources, includes, top, folder and
-the labels that count (none: all). The folder gets prove.aig and cover.aig with the names of inputs and
-registers (.aim), the design for a trace (.il), and labels.json: the labels of the outputs of each, in order.
+Started as ``python -m scripts.measure.prove.model JOB.json``, in a separate process, because yosys calls
+exit() on an error and writes its log to stdout. The job names sources, includes, top, folder and the labels
+that count (empty: all). The outputs in the folder are prove.aig and cover.aig with the names of inputs and
+registers (.aim), the design for a trace (.il), and labels.json: the labels of the outputs of each graph, in
+order.
 """
 
 from __future__ import annotations
@@ -14,28 +15,28 @@ from pathlib import Path
 from typing import Any
 
 ANY = ("proc", "setundef -anyseq t:$buf")
-"""What nobody drives, the outputs of a stand-in, becomes one free input for all who read it. Left an X, each
-reader would take it for what is simplest."""
+"""An undriven signal (an output of a stub) becomes one free input for all its readers. If it stayed X, each
+reader would replace it by the simplest value."""
 LOWER = ("async2sync", "chformal -lower")
 SHAPE = ("opt_clean", "memory_map -formal", "formalff -clk2ff -ff2anyinit -hierarchy")
 GATES = ("setundef -undriven -anyseq", "opt -full", "techmap", "opt -full", "dffunmap", "aigmap", "opt_clean")
 
 
 def read(job: dict[str, Any], kind: str) -> str:
-    """The command that elaborates; covers are without the assertions of the RTL, which SYNTHESIS hides."""
+    """Return the elaboration command; for covers, SYNTHESIS hides the assertions of the RTL."""
     words = ["read_slang", "--threads", "1", "--top", job["top"], *(f"-I{path}" for path in job["includes"])]
     words += ["--no-synthesis-define"] if kind == "prove" else ["-D", "FV_COVERS=1"]
     return " ".join([*words, *job["sources"]])
 
 
 def labels(design: Any) -> list[str]:
-    """Labels of the assertions in the order in which write_aiger makes outputs of them."""
+    """Return the labels of the assertions in the order of the outputs of write_aiger."""
     cells = design.top_module().cells_
     return [str(name.str()).lstrip("\\") for name in cells if cells[name].type.str() == "$assert"]
 
 
 def narrow(design: Any, only: list[str]) -> list[str]:
-    """Commands that take away the assertions whose labels begin with none of these words."""
+    """Return commands that delete the assertions whose labels begin with no word of `only`."""
     return [f"delete c:{label}" for label in labels(design) if only and not label.startswith(tuple(only))]
 
 

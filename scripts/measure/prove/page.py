@@ -1,4 +1,4 @@
-"""docs/proofs.md: what is proved of which block, and how far, from the table of proofs (`make docs`)."""
+"""The page docs/proofs.md: proved properties of each block and their bounds, from the table of proofs."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from scripts.measure.prove.table import Proof, proofs
 
 PAGE = DOCS / "proofs.md"
 MARK = "<!-- proofs -->"
-"""What is between two of these is written here, the rest by hand."""
+"""Text between two marks is generated; the rest of the page is written by hand."""
 
 
 ROOMS = ("common", "host", "motion", "single", "bank")
-"""Folders of rtl/ of which each block is to be proved."""
+"""Folders of rtl/ in which each block should have a proof."""
 SHOWN = 6
-"""Proofs that are named of a package; more are counted."""
+"""Maximum number of listed proofs of a package; others are only counted."""
 
 
 def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
-    """Files of the shared rooms without a proof of their own -> the proofs whose blocks name them."""
+    """Return files of the shared folders without a separate proof -> proofs whose blocks use them."""
     proved = {one.block for one in every}
     paths = [path for room in ROOMS for path in sorted((RTL / room).glob("*.sv")) if path.stem not in proved]
     sources = {path: path.read_text(encoding="utf-8") for one in every for path in one.sources()}
@@ -29,7 +29,7 @@ def unproved(every: Sequence[Proof]) -> dict[str, list[str]]:
 
 
 def without(every: Sequence[Proof]) -> list[str]:
-    """The files of the shared rooms without a proof of their own, and why."""
+    """Return the table of files of the shared folders without a separate proof, and the reasons."""
     lines = ["### Without a separate proof", "", "| File | Why | It is part of |", "|---|---|---|"]
     for name, by in unproved(every).items():
         package = "package: constants, types and functions, no state"
@@ -40,25 +40,25 @@ def without(every: Sequence[Proof]) -> list[str]:
 
 
 def method(proof: Proof) -> str:
-    """How it is proved."""
+    """Return the method of a proof."""
     if proof.induct:
         return f"unbounded, by induction over {proof.induct} cycles"
     return f"the first {proof.bound} cycles" if proof.bound else "unbounded"
 
 
 def row(proof: Proof) -> str:
-    """One line of the table."""
+    """Return one row of the table."""
     says = " <br>".join(f"{text}." for text in proof.says)
     if proof.why:
         says += f"<br>*Bounded:* {proof.why}"
-    taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "nothing"
+    taken = "<br>".join(f"`{label}`: {where}" for label, where in proof.assumes.items()) or "no assumption"
     rules = ", ".join(proof.rules) or "its header"
     source = f"[{proof.name}](../{relative(proof.file)})"
     return f"| {source} | {says} | {method(proof)} | {proof.cover} cycles | {taken} | {rules} |"
 
 
 def table(every: Sequence[Proof]) -> str:
-    """All proofs, a table a folder."""
+    """Return the tables of all proofs, one for each folder."""
     lines = [
         "",
         f"{len(every)} proofs of {len({one.block for one in every})} blocks;"
@@ -78,7 +78,7 @@ def table(every: Sequence[Proof]) -> str:
 
 
 def text() -> str:
-    """The whole page as it should be; what is outside of the marks stays."""
+    """Return the required page; text outside the marks is unchanged."""
     parts = PAGE.read_text(encoding="utf-8").split(MARK)
     if len(parts) != 3:
         raise ProjectError(f"{relative(PAGE)} must have {MARK} twice")

@@ -1,4 +1,4 @@
-"""What the last runs of the proofs have found: build/prove/results.json, for `make trace`."""
+"""Results of the last runs of the proofs: build/prove/results.json, for `make trace`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RESULTS = BUILD / "prove" / "results.json"
 
 
 def kept() -> dict[str, bool]:
-    """Name of a proof that has run -> whether it stands."""
+    """Return name of a proof that has run -> whether it holds."""
     found: dict[str, bool] = {}
     if RESULTS.is_file():
         found = json.loads(RESULTS.read_text(encoding="utf-8"))
@@ -22,7 +22,7 @@ def kept() -> dict[str, bool]:
 
 
 def keep(outcome: Outcome) -> None:
-    """Note what a run has found."""
+    """Store the result of a run."""
     found = kept() | {outcome.name: outcome.good}
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
     fresh = RESULTS.with_suffix(f".{os.getpid()}")
@@ -31,12 +31,12 @@ def keep(outcome: Outcome) -> None:
 
 
 def failed() -> list[str]:
-    """Proofs of the table whose last run has failed."""
+    """Return the proofs of the table whose last run has failed."""
     return sorted({one.name for one in proofs()} & {name for name, good in kept().items() if not good})
 
 
 def by_rule() -> dict[str, list[Proof]]:
-    """Rule ID -> its proofs, in the order of the tables."""
+    """Return rule ID -> its proofs, in the order of the tables."""
     found: dict[str, list[Proof]] = defaultdict(list)
     for one in proofs():
         for rule in one.rules:

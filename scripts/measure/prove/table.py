@@ -1,17 +1,18 @@
-"""The proofs: entries of table/<folder>.yml beside this file, one for each proof of tb/formal/<folder>/.
+"""The proofs: entries of table/<folder>.yml, one for each proof of tb/formal/<folder>/.
 
-An entry has `says` (what is proved, a line a property), `rules` (IDs, may be empty), `group` of rtl/files.yml
-whose sources it needs, `cover` (clk in which its covers must be reached from reset), and `breaks`: a change
-of one RTL file (`file`, `old`, which stands there once, `new`) that makes the proof fail. Optional:
+An entry has `says` (the proved properties, one on each line), `rules` (IDs, may be empty), `group` of
+rtl/files.yml whose sources it needs, `cover` (number of cycles from reset in which its covers must be
+reached), and `breaks`: a change of one RTL file (`file`, `old`, which occurs there once, `new`) that makes
+the proof fail. Optional:
 
-`block`    the module, if it is not the name
-`wrapper`  the module that holds the properties, without _fv, if it is not the name
-`only`     labels or their beginnings: the properties and covers of the wrapper that this proof is about
-`bound`    not proved without end, but none of the first so many clk has a counterexample; `why` tells why
-`induct`   by induction over so many clk, also without end: for blocks with much memory
-`assumes`  what the wrapper takes for granted: label -> what guards it where the block is driven
-`stubs`    files below tb/formal that stand for blocks inside; other proofs say what those blocks do
-`night`    takes long: `make prove NIGHT=1`
+`block`    the module, if its name differs from that of the entry
+`wrapper`  the module with the properties, without _fv, if its name differs from that of the entry
+`only`     labels or their prefixes: the properties and covers of the wrapper that belong to this proof
+`bound`    bounded proof: no counterexample in this number of first cycles; `why` states the reason
+`induct`   unbounded proof by induction over this number of cycles, for blocks with large memories
+`assumes`  assumptions of the wrapper: label -> the check that guards it where the block is used
+`stubs`    files below tb/formal that replace inner blocks; other proofs cover these blocks
+`night`    long proof: `make prove NIGHT=1`
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ FORMAL = ROOT / "tb" / "formal"
 
 @dataclass(frozen=True)
 class Change:
-    """A file of the RTL with another text. name: tells the run's folder from others of the proof."""
+    """An RTL file with another text. name: distinguishes the folder of the run from others of the proof."""
 
     name: str
     file: str
@@ -40,7 +41,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Proof:
-    """One entry; `name` is unique."""
+    """One entry of the tables; `name` is unique."""
 
     folder: str
     name: str
@@ -61,17 +62,17 @@ class Proof:
 
     @property
     def file(self) -> Path:
-        """The module that instantiates the block and holds the properties."""
+        """File of the module that instantiates the block and contains the properties."""
         return FORMAL / self.folder / f"{self.wrapper or self.name}_fv.sv"
 
     def sources(self, changed: Mapping[Path, Path] = MappingProxyType({})) -> list[Path]:
-        """RTL and wrapper in compile order. changed: file of the RTL -> what takes its place."""
+        """Return RTL and wrapper in compile order. changed: RTL file -> its replacement."""
         stubs = {Path(stub).name: FORMAL / stub for stub in self.stubs}
         place = {path: stubs[path.name] for path in files(self.group) if path.name in stubs} | dict(changed)
         return [*(place.get(path, path) for path in files(self.group)), self.file]
 
     def broken(self) -> Change:
-        """What `breaks` says; ProjectError unless the old text is there once."""
+        """Return the change of `breaks`; raise ProjectError unless the old text occurs once."""
         text = (ROOT / self.breaks["file"]).read_text(encoding="utf-8")
         if (times := text.count(self.breaks["old"])) != 1:
             raise ProjectError(f"{self.name}: {self.breaks['file']} has {times} times {self.breaks['old']!r}")
@@ -79,7 +80,7 @@ class Proof:
 
 
 def proofs() -> Iterator[Proof]:
-    """All of them, in the order of the tables."""
+    """Yield all proofs, in the order of the tables."""
     for path in sorted(HERE.glob("*.yml")):
         for name, entry in (yaml.safe_load(path.read_text(encoding="utf-8")) or {}).items():
             for key in ("says", "rules", "only", "stubs"):
@@ -89,9 +90,9 @@ def proofs() -> Iterator[Proof]:
 
 
 def chosen(words: Sequence[str], night: bool) -> list[Proof]:
-    """Those that hold one of these words, else all (`night`) or all quick ones.
+    """Return proofs whose name contains one of these words; without words all (`night`) or all quick ones.
 
-    ProjectError if a word fits none.
+    ProjectError if a word matches no proof.
     """
     every = list(proofs())
     if not words:

@@ -1,4 +1,4 @@
-"""Measure sizes and clock rates into docs/sizes.json; `--check` compares the sizes only.
+"""Measure sizes and clock rates and write docs/sizes.json; `--check` only compares the sizes.
 
 `make report` measures every design whose RTL has changed, first its size, then its clock rate. It saves each
 result, so that an interrupted run continues where it ended. `make size` synthesizes the designs that have
@@ -30,7 +30,7 @@ Work = tuple[str, Callable[[], T]]
 
 
 def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
-    """Run each work, two at a time, with progress; `keep` gets the index and the result of each in turn."""
+    """Run each work, two at a time, with progress; call `keep` with index and result of each work."""
     columns = (TextColumn("{task.description:50}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with (
         Progress(*columns, console=console, disable=not console.is_terminal) as progress,
@@ -47,7 +47,7 @@ def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
 
 
 def sizes(wanted: list[Design]) -> figures.Figures:
-    """Synthesize and count; designs with the same netlist once."""
+    """Synthesise and count cells; designs with the same netlist are synthesised once."""
     first: dict[tuple[str, str, str], Design] = {}
     for design in wanted:
         first.setdefault((design.job["top"], design.key if not design.board else "", design.digest()), design)
@@ -66,7 +66,7 @@ def sizes(wanted: list[Design]) -> figures.Figures:
 
 
 def measure(wanted: list[Design], rates: bool) -> None:
-    """Measure what has changed; the rates of a design whose RTL has changed are dropped."""
+    """Measure the changed designs; clock rates of a design with changed RTL are deleted first."""
     held = figures.read() if figures.FILE.is_file() else {}
     known = {design.key for design in designs.all_designs()}
     held = {key: entry for key, entry in held.items() if key in known or key.startswith(figures.PEER)}

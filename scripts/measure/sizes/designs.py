@@ -29,11 +29,11 @@ from scripts.measure.sizes.peers import Peer
 
 ECP5 = pnr.DEVICES[0]
 RECIPES = ("plain", "tuned")
-"""Recipes of the parts on an ECP5: `synth_ecp5` without options, and that of the bitstreams."""
+"""Recipes of the parts on an ECP5: `synth_ecp5` without options, and the recipe of the bitstreams."""
 TURNS, SEEDS = 3, 5
 """A clock rate is measured with TURNS perturbations of the synthesis × SEEDS seeds of place and route."""
 AXES = {"ppmc2104": 2, "isa_4axis": 4}
-"""Axes of the parts that have more than one; a bank has them in its name."""
+"""Number of axes of parts with more than one axis; the name of a bank contains its number."""
 BANKS = (4, 8, 16, 32, 64)
 BANK_CLK_HZ = 100_000_000
 BRIDGES: tuple[tuple[str, str, dict[str, int], tuple[str, ...]], ...] = (
@@ -85,7 +85,7 @@ class Design:
 
     @property
     def folder(self) -> Path:
-        """Folder of its netlists."""
+        """Folder of the design's netlists."""
         return FOLDER / re.sub(r"[^\w.-]+", "-", self.key)
 
     def _job(self, turn: int) -> dict[str, Any]:
@@ -110,11 +110,11 @@ class Design:
         return seen.hexdigest()[:16]
 
     def netlist(self, turn: int = 0) -> Path:
-        """Synthesize with a perturbation; 0 is the recipe itself."""
+        """Synthesise with a perturbation; 0 is the unchanged recipe."""
         return run_yosys(self.folder / f"turn-{turn}", self._job(turn))
 
     def size(self) -> dict[str, int]:
-        """Return LUT, FF and block RAM as synthesized, on an ECP5 also COMB as nextpnr packs it."""
+        """Return LUT, FF and block RAM after synthesis; on an ECP5 also COMB after packing by nextpnr."""
         netlist = self.netlist()
         total = flat_counts(netlist, self.job["top"], set())[0]
         found = {"lut": total.lut, "ff": total.ff, "ram": total.ram}
@@ -133,7 +133,7 @@ class Design:
         return pnr.place_and_route(ECP5, self._kept(turn, self._wrapped()), folder, seed).fmax
 
     def _wrapped(self) -> dict[str, Any]:
-        """The job with all pins connected to shift registers."""
+        """Return the job with all pins connected to shift registers."""
         wrapper = self.folder / f"{scan_wrapper.NAME}.sv"
         with _LOCKS[self.key, -1]:
             text = scan_wrapper.source(self._ports(), self.job["top"], self.job["params"], **self.wiring)
@@ -142,12 +142,12 @@ class Design:
         return {**self.job, "top": scan_wrapper.NAME, "sources": sources, "params": {}}
 
     def _ports(self) -> Path:
-        """A netlist that has the ports of the design."""
+        """Return a netlist with the ports of the design."""
         made = self.folder / "turn-0" / f"{self.family}-{self._job(0)['recipe']}.json"
         return made if made.is_file() else self.netlist()
 
     def _kept(self, turn: int, job: Mapping[str, Any]) -> Path:
-        """The netlist that the seeds of a perturbation share."""
+        """Return the netlist that the seeds of a perturbation share."""
         folder = self.folder / f"turn-{turn}" / "routed"
         work = self._job(turn) | dict(job)
         file = folder / f"{work['family']}-{work['recipe']}.json"
@@ -190,7 +190,7 @@ def of_parts() -> list[Design]:
     bank = parts.part("bank")
     for axes in BANKS:
         job = _job(bank.top, project.sources(bank), {"AXES": axes, "CLK_HZ": BANK_CLK_HZ})
-        # The clock rate of one size of bank takes an hour.
+        # A measurement of the clock rate of one bank takes an hour.
         found += [
             Design(f"bank {axes}", "ecp5", r, "bank", job, rated=axes == 32, axes=axes) for r in RECIPES
         ]
@@ -198,7 +198,7 @@ def of_parts() -> list[Design]:
 
 
 def of_carriers() -> list[Design]:
-    """Return each part with its host bridge, no FPGA board."""
+    """Return each part with its host bridge, without an FPGA board."""
     found = []
     for row in parts.having("carrier"):
         top = f"{row.rtl}_carrier"

@@ -2,7 +2,7 @@
 
 The file maps the key of a design to {"lut", "ff", "ram", "comb" (ECP5), "mhz" (rated designs), "of"}. LUT, FF
 and block RAM are counted after synthesis; COMB is the number of logic cells that nextpnr packs. "mhz" has a
-value for each of TURNS perturbations of the synthesis × SEEDS seeds, or none yet.
+value for each of TURNS perturbations of the synthesis × SEEDS seeds, or is empty if not measured yet.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
 
 
 def stale(figures: Figures, designs: Iterable[Design] | None = None) -> list[str]:
-    """Return a line for each design whose figures are missing, of other RTL, or of a design that is gone."""
+    """Return a line for each design without figures, with figures of other RTL, or that no longer exists."""
     where, remedy = relative(FILE), "run `make report` and `make docs`"
     lines, keys = [], set()
     for design in all_designs() if designs is None else designs:

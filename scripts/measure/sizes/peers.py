@@ -1,13 +1,13 @@
-"""Open designs that make steps, too: where they are, and what of a folder of their sources is measured.
+"""Other open designs with step outputs: their addresses, and the measured designs of a source folder.
 
-Nothing of them is part of this project, nor how to build them. The user has the sources in a folder of his
-own, with a file peers.json that describes the designs to measure, a list of objects:
+This project contains no part of these designs and does not describe how to build them. The user has their
+sources in a separate folder, with a file peers.json that describes the designs to measure, a list of objects:
 
     {"title": "…", "what": "…", "url": "https://…", "top": "module", "sources": ["below/the/folder.v", …],
      "params": {"NAME": 1}, "reset": "name of the active-low reset", "pins": "regular expression"}
 
-`params`, `reset` and `pins` may be missing. The clock is called `clk`. `pins`: how the names of the ports
-begin that one axis uses; the others are left idle.
+`params`, `reset` and `pins` are optional. The name of the clock is `clk`. `pins`: prefix of the names of the
+ports that one axis uses; other ports are idle.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ WHERE = {
     "LiteX-CNC stepgen": "https://github.com/Peter-van-Tol/LiteX-CNC",
     "RAPcores, one axis": "https://github.com/RAPcores/rapcores",
 }
-"""Where the designs of docs/benchmarks.md are."""
+"""Addresses of the designs in docs/benchmarks.md."""
 
 OLDER = (
     ("riocore stepdir", "divider; the host makes the ramp", 376, 100, 0),
@@ -52,7 +52,7 @@ class Peer:
     pins: str = ""
 
     def files(self, folder: Path) -> list[str]:
-        """Its sources; ProjectError says where the design can be had."""
+        """Return the source files; raise ProjectError with the address of the design if one is missing."""
         files = [folder / source for source in self.sources]
         for file in files:
             if not file.is_file():
@@ -61,7 +61,7 @@ class Peer:
 
 
 def read(folder: Path) -> list[Peer]:
-    """The designs that peers.json of a folder describes; ProjectError in one line if it cannot be read."""
+    """Return the designs in peers.json of a folder; raise ProjectError if the file cannot be read."""
     file = folder / "peers.json"
     known = ", ".join(WHERE.values())
     if not file.is_file():

@@ -9,7 +9,7 @@ from scripts.fpga.flow.netlist import Breakdown, Count
 
 
 def breakdown_table(results: dict[str, Breakdown]) -> Table:
-    """Cells per instance, all families side by side."""
+    """Return the table of cells for each instance, with all families side by side."""
     table = Table(
         title="where the cells are", title_justify="left", caption_justify="left", box=box.SIMPLE_HEAD
     )
@@ -29,7 +29,7 @@ def breakdown_table(results: dict[str, Breakdown]) -> Table:
 
 
 def breakdown_rows(results: dict[str, Breakdown], indent: str) -> list[list[str]]:
-    """Rows of instance, module, then flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
+    """Return rows of instance, module, flat LUTs, own LUTs, FF, RAM of each family; the last is the total."""
     first = next(iter(results.values()))
     rows = []
     for path in sorted(first.kept):
@@ -47,6 +47,6 @@ def breakdown_rows(results: dict[str, Breakdown], indent: str) -> list[list[str]
 
 
 def markdown_table(heads: list[str], rows: list[list[str]], left: int = 1) -> str:
-    """A Markdown table whose first `left` columns are left-aligned and the rest right-aligned."""
+    """Return a Markdown table; its first `left` columns are left-aligned, the others right-aligned."""
     rule = ["---" if index < left else "---:" for index in range(len(heads))]
     return "\n".join("| " + " | ".join(row) + " |" for row in [heads, rule, *rows])

@@ -1,8 +1,7 @@
-"""A throw-away top for devices with fewer pins than the part: inputs and outputs go through shift registers.
+"""Temporary top for devices with fewer pins than the part: shift registers connect inputs and outputs.
 
-Only the clock rate is taken from the wrapped design; the cells are counted without the wrapper. All paths
-into and out of the part start and end at a flip-flop, so the wrapper hides no path of the part and adds none
-that is slower.
+Only the clock rate is measured with the wrapper; the cells are counted without it. All paths into and out of
+the part start and end at a flip-flop, so the wrapper hides no path of the part and adds no slower path.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ NAME = "scan_wrapper"
 
 
 def ports(netlist: Path, top: str) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
-    """Input and output ports of a mapped netlist with their bit ranges [msb, lsb]."""
+    """Return input and output ports of a mapped netlist with their bit ranges [msb, lsb]."""
     module = json.loads(netlist.read_text())["modules"][top]
     inputs: dict[str, list[int]] = {}
     outputs: dict[str, list[int]] = {}
@@ -28,10 +27,10 @@ def ports(netlist: Path, top: str) -> tuple[dict[str, list[int]], dict[str, list
 def source(
     netlist: Path, top: str, params: dict[str, int | str], reset: str = "rst_n", pins_like: str = ""
 ) -> str:
-    """SystemVerilog text of the wrapper of `top` with these parameters; its clock is `clk`.
+    """Return the wrapper of `top` with these parameters as SystemVerilog; its clock is `clk`.
 
-    `reset` is the name of its active-low reset, "" if it has none. Ports whose name does not begin with the
-    regular expression `pins_like` are inputs tied to 0, or open outputs.
+    `reset` is the name of its active-low reset, "" if it has no reset. Inputs whose name does not begin with
+    the regular expression `pins_like` are tied to 0; such outputs are open.
     """
     given = ", ".join(
         f'.{name}("{value}")' if isinstance(value, str) else f".{name}({value})"

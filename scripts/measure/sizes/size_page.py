@@ -27,7 +27,7 @@ def _pair(found: Figures, name: str) -> list[dict[str, Any] | None]:
 
 
 def _cells(found: Figures, name: str, axes: int = 0) -> list[str]:
-    """FF and RAM, then COMB, COMB of an axis if there are `axes`, and MHz with each recipe."""
+    """Return FF and RAM, then for each recipe COMB, COMB of an axis if there are `axes`, and MHz."""
     both = _pair(found, name)
     cells = [str(both[0][key]) if both[0] else "–" for key in ("ff", "ram")]
     for entry in both:
@@ -42,7 +42,7 @@ def _axes_heads(first: list[str]) -> list[str]:
 
 
 def parts(found: Figures) -> str:
-    """Each part on an ECP5 with both recipes."""
+    """Return the table of parts on an ECP5 with both recipes."""
     rows = {d.name: d.axes for d in designs.of_parts() if d.rated and not d.name.startswith("bank ")}
     table = [[name, str(axes), *_cells(found, name, axes)] for name, axes in rows.items()]
     text = (
@@ -54,7 +54,7 @@ def parts(found: Figures) -> str:
 
 
 def synthesized(found: Figures) -> str:
-    """LUT, FF and block RAM of parts, carriers and bridges by family."""
+    """Return the table of LUT, FF and block RAM of parts, carriers and bridges for each family."""
     listed = [*designs.of_parts(), *designs.of_carriers(), *designs.of_bridges()]
     titles = {
         d.name: d.title or d.name for d in listed if d.recipe == "tuned" and not d.name.startswith("bank ")
@@ -78,7 +78,7 @@ def synthesized(found: Figures) -> str:
 
 
 def bitstreams(found: Figures) -> str:
-    """The bitstream of each board."""
+    """Return the table of the bitstreams of the boards."""
     rows = []
     for design in designs.of_boards():
         entry = found.get(design.key)
@@ -92,7 +92,7 @@ def bitstreams(found: Figures) -> str:
 
 
 def peers(found: Figures) -> str:
-    """The PPMC-104 compared with other open designs."""
+    """Return the comparison of the PPMC-104 with other open designs."""
     rows = [["**ppmc104**", *_cells(found, "ppmc104")]]
     names = dict.fromkeys(
         key.removeprefix(PEER).removesuffix(" ecp5 plain").removesuffix(" ecp5 tuned")
@@ -114,7 +114,7 @@ def peers(found: Figures) -> str:
 
 
 def bank(found: Figures) -> str:
-    """The bank by its number of axes; a table of its manual."""
+    """Return the table of the bank over its number of axes, for its manual."""
     rows = [[str(axes), *_cells(found, f"bank {axes}", axes)] for axes in designs.BANKS]
     text = (
         f"`ppmc_bank` on an ECP5-25F of speed grade 6, CLK_HZ {designs.BANK_CLK_HZ // 1_000_000} MHz, "
@@ -126,7 +126,7 @@ def bank(found: Figures) -> str:
 
 
 def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:
-    """COMB of an axis with the plain recipe: parts of the PPMC-104's kind (axes, COMB), and other designs."""
+    """Return COMB of an axis with the plain recipe: PPMC-104 and relatives (axes, COMB), other designs."""
     kinds = {d.name: d for d in designs.of_parts() if d.name in ("ppmc104", "ppmc2104", "isa_4axis")}
     measured = {name: found.get(f"{name} ecp5 plain") for name in kinds}
     family = {

@@ -1,4 +1,4 @@
-"""Timing diagrams of docs/bank/README.md: what the golden model does on its pins."""
+"""Timing diagrams of docs/bank/README.md, from the pins of the golden model."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scripts.demo.bank.session import Session
 from scripts.pages.pictures.recorded import Levels, Row, Samples, labels, thinned, wave
 
 AXES, CLK_HZ = 8, 20_000_000
-"""A round of 8 clk; with vsel = L intervals that are no whole number of rounds."""
+"""A round has 8 cycles; with vsel = L, intervals are not a whole number of rounds."""
 INIT = (0x0A, 99, 99, 4, 0)
 ONE, OTHER = 2, 5
 PINS = ("hold", "dir", "pout_n")
@@ -21,7 +21,7 @@ VISITS = {axis: Visits(axis, AXES, 0) for axis in (ONE, OTHER)}
 
 
 def ready() -> Session:
-    """Two axes initialised at one speed, vsel = L."""
+    """Return a host with two axes initialised at one speed, vsel = L."""
     host = Session(AXES, CLK_HZ)
     for axis in (ONE, OTHER):
         host.write(axis, CONFIG, 0b01)
@@ -31,7 +31,7 @@ def ready() -> Session:
 
 
 def sampled(host: Session, columns: Iterable[int | None], more: Callable[[int], Levels]) -> Samples:
-    """Pins of both axes, the host's pins and `more` on these edges."""
+    """Return the pins of both axes, the host's pins and `more` at these edges."""
     model, outputs, inputs = host.model, {}, {}
     for axis in (ONE, OTHER):
         for name in PINS:
@@ -50,23 +50,23 @@ def sampled(host: Session, columns: Iterable[int | None], more: Callable[[int], 
 
 
 def changes_of(pin: tuple[list[tuple[int, int]], int], edge: int) -> tuple[list[tuple[int, int]], int, int]:
-    """Arguments of level_at."""
+    """Return the arguments of level_at."""
     changes, initial = pin
     return changes, edge, initial
 
 
 def words(columns: Sequence[int | None], names: Mapping[int, str]) -> list[str | None]:
-    """A word below the columns that have one."""
+    """Return the words below the columns, "" for a column without a word."""
     return [None if edge is None else names.get(edge, "") for edge in columns]
 
 
 def turn(edge: int) -> int:
-    """The axis that is visited on an edge (BANK-GEN-01)."""
+    """Return the axis that is visited at an edge (BANK-GEN-01)."""
     return (edge - 8) % AXES
 
 
 def visits() -> dict[str, Any]:
-    """Two pulses of two axes: each ordered at a visit, for its clk."""
+    """Return the diagram of two pulses of two axes, each ordered at a visit for its cycle."""
     host = ready()
     for axis in (ONE, OTHER):
         host.send(axis, 0x45, 9 + axis)
@@ -98,16 +98,16 @@ def visits() -> dict[str, Any]:
             {"name": "clk", "wave": "p" + "".join("|" if edge is None else "." for edge in columns[1:])},
             *(wave(row, samples) for row in rows),
         ],
-        "edge": [f"A~>B {late[ONE]} clk", f"C~>D {late[OTHER]} clk"],
+        "edge": [f"A~>B {late[ONE]} cycles", f"C~>D {late[OTHER]} cycles"],
         "head": {
-            "text": "8 axes: a round of 8 clk, and two pulses, each on the clk that its visit has ordered"
+            "text": "8 axes: a round of 8 cycles, and two pulses, each in the cycle ordered by its visit"
         },
         "config": {"hscale": 1},
     }
 
 
 def group() -> dict[str, Any]:
-    """A group of two axes: held, then GO."""
+    """Return the diagram of a group of two axes: held, then GO."""
     host = ready()
     host.group(1 << ONE | 1 << OTHER)
     host.t += 20
@@ -156,7 +156,7 @@ def group() -> dict[str, Any]:
         "signal": [labels("edge", words(columns, names)), *(wave(row, samples) for row in rows)],
         "edge": ["A~>B", "B-C skew 0"],
         "head": {
-            "text": "A group: two motions start and wait; a write to GO (0x00A) lets them go on one clk"
+            "text": "A group: two motions start and wait; a write to GO (0x00A) releases them at one edge"
         },
         "config": {"hscale": 1},
     }

@@ -1,4 +1,4 @@
-"""What is drawn and computed for docs/bank/."""
+"""Generated content of docs/bank/."""
 
 from __future__ import annotations
 

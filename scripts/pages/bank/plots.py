@@ -1,4 +1,4 @@
-"""Pictures of docs/bank/: the way of a visit, and what an axis costs."""
+"""Pictures of docs/bank/: the stages of a visit, and the cost of an axis."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 STAGES = (
     "0 address\nof the next axis",
-    "1 RAM\nits state comes",
-    "2 compare\nclk left < R ?",
+    "1 RAM\nread its state",
+    "2 compare\ncycles left < R ?",
     "3 plan\nppmc_bank_plan",
     "4 step\nppmc_bank_step",
-    "5 write\norder goes out",
+    "5 write\nsend the order",
 )
 BOXES = {
     "bus": Box(0.35, 0, "host bus", "pin", 0.7, 0.4),
-    "window": Box(6.1, 0, "ppmc_bank_window\ninput buffers, answers, registers of all axes", "host", 6.9),
-    "round": Box(0.5, 1.25, "ppmc_bank_round\nwhose turn; GO,\nSTOP, reset", "plain", 1.55, 0.75),
+    "window": Box(6.1, 0, "ppmc_bank_window\ninput buffers, responses, registers of all axes", "host", 6.9),
+    "round": Box(0.5, 1.25, "ppmc_bank_round\nvisited axis; GO,\nSTOP, reset", "plain", 1.55, 0.75),
     **{f"stage{n}": Box(2.1 + 1.4 * n, 1.25, text, "motion", 1.18) for n, text in enumerate(STAGES)},
     "state": Box(
         6.1,
@@ -30,8 +30,8 @@ BOXES = {
         "part",
         6.9,
     ),
-    "cell": Box(11.0, 1.25, "ppmc_bank_cell\none an axis: keeps\nan order and its clk", "motion", 1.45, 0.9),
-    "switches": Box(11.0, 2.35, "limits, origin,\nalarm: to the clk", "pin", 1.25, 0.5),
+    "cell": Box(11.0, 1.25, "ppmc_bank_cell\none per axis: order\nand its cycle", "motion", 1.45, 0.9),
+    "switches": Box(11.0, 2.35, "limits, origin,\nalarm: every cycle", "pin", 1.25, 0.5),
     "pins": Box(12.5, 1.25, "pout_n, s,\ndir, hold", "pin", 0.9, 0.5),
 }
 ARROWS = (
@@ -42,20 +42,20 @@ ARROWS = (
     Arrow("state", "stage1", "read", via=((3.5, 2.0), (3.5, 1.7))),
     Arrow("stage5", "state", "write", via=((9.1, 1.7), (9.1, 1.9))),
     Arrow("stage5", "cell", "order"),
-    Arrow("stage5", "window", "status, answer", via=((9.1, 0.7), (9.1, 0.5))),
-    Arrow("cell", "stage2", "what became of the order before", via=((11.0, 0.62), (4.9, 0.62))),
+    Arrow("stage5", "window", "status, response", via=((9.1, 0.7), (9.1, 0.5))),
+    Arrow("cell", "stage2", "result of the previous order", via=((11.0, 0.62), (4.9, 0.62))),
     Arrow("switches", "cell"),
     Arrow("cell", "pins"),
 )
 
 
 def visit() -> bytes:
-    """The way of a visit through the engine."""
+    """Draw the stages of a visit in the engine."""
     return svg(draw(BOXES, ARROWS, (10.6, 3.0)))
 
 
 def axis_cost() -> bytes:
-    """COMB an axis over the number of axes: bank, parts with as many of the same axes, other designs."""
+    """Draw COMB of an axis over the number of axes: bank, parts with similar axes, other designs."""
     found = figures.read()
     figure, axes = plt.subplots(figsize=(8.4, 4.6), layout="constrained")
     for name, color in (("plain", BLUE), ("tuned", RED)):
@@ -73,16 +73,16 @@ def axis_cost() -> bytes:
     for title, comb in others.items():
         axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         near = any(0 < other - comb < 0.1 * comb for other in others.values())
-        side = "top" if near else "bottom"  # of two lines close together the lower one is named below
+        side = "top" if near else "bottom"  # if two lines are close together, the lower one is named below
         axes.text(73, comb, f"{title}: {comb}", va=side, ha="right", size=7.5, color="#444444")
-    axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB an axis, ECP5")
+    axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB of an axis, ECP5")
     ticks = (1, 2, *designs.BANKS)
     axes.set_xticks(ticks, [str(n) for n in ticks])
     axes.set_yticks([50, 100, 200, 500, 1000, 2000], ["50", "100", "200", "500", "1000", "2000"])
     axes.minorticks_off()
     axes.set(xlim=(0.9, 74), ylim=(45, 2900))
     axes.legend(loc="lower left")
-    axes.set_title("What an axis costs, by how many there are (dashed: each of that design, plain)")
+    axes.set_title("Cost of an axis over the number of axes (dashed: one axis of other designs, plain)")
     return svg(figure)
 
 

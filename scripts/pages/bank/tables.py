@@ -1,4 +1,4 @@
-"""Tables of docs/bank/README.md: sessions as the golden model answers, and the cost."""
+"""Tables of docs/bank/README.md: sessions on the golden model, and the cost."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ AXES, CLK_HZ = 32, 100_000_000
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # 5 to 25 kpps within 100 pulses
 BITS = ((0x80, "ERR"), (4, "BUSY"), (2, "IBF"), (1, "OBF"))
 Lines = list[tuple[str, int]]
-"""What is meant, and the number of accesses up to there."""
+"""Explanation, and the number of accesses up to it."""
 
 
 def meaning(one: Access) -> str:
-    """A register in words."""
+    """Return the name of a register."""
     names = {DATA: "data", CONFIG: "CONFIG", GO: "GO", STOP: "STOP"}
     if one.register == STATUS:
         return "command" if one.write else "status"
@@ -29,16 +29,16 @@ def meaning(one: Access) -> str:
 
 
 def flags(byte: int) -> str:
-    """A status in words."""
+    """Return a status as text."""
     found = [name for bit, name in BITS if byte & bit]
     wanted = byte >> 4 & 7
     if wanted and not byte & 0x80:
-        found.append(f"{wanted} more bytes wanted" if wanted > 1 else "1 more byte wanted")
+        found.append(f"{wanted} more bytes expected" if wanted > 1 else "1 more byte expected")
     return ", ".join(found) or "ready"
 
 
 def rows(accesses: list[Access], notes: Lines) -> list[str]:
-    """A row each access; a run of like polls is one."""
+    """Return one row for each access; equal polls are combined."""
     found, at = [], 0
     for note, end in notes:
         first = True
@@ -66,7 +66,7 @@ HEAD = ["| a | register | write | read | |", "|---|---|---|---|---|"]
 
 
 def one_axis() -> str:
-    """Axis 5: who is there, CONFIG, initialisation, a move, its end, its position."""
+    """Return a session with axis 5: INFO, CONFIG, initialisation, a move, its end, its position."""
     host, notes = Session(AXES, CLK_HZ), []
 
     def note(text: str) -> None:
@@ -83,13 +83,13 @@ def one_axis() -> str:
     note("acceleration/deceleration move CW, 1000 pulses")
     host.t += 100_000
     host.position(5)
-    note("1 ms later: where it is by now")
+    note("1 ms later: current position")
     while host.model.busy(5):
         host.run(host.t + 1000)
     host.poll(5)
-    note("later: at rest; `int_n` is L")
+    note("later: stopped; `int_n` is L")
     host.read(0, MAP)
-    note("bit 5: it was axis 5")
+    note("bit 5: the motion of axis 5 ended")
     host.answer(5, READ_FINISH)
     note("finish status: a ramped move, complete; `int_n` = H")
     host.position(5)
@@ -98,7 +98,7 @@ def one_axis() -> str:
 
 
 def group() -> str:
-    """Axes 5 and 6 at once, and STOP."""
+    """Return a session with axes 5 and 6 in a group, and STOP."""
     host = Session(AXES, CLK_HZ)
     for axis in (5, 6):
         host.send(axis, *RAMP)
@@ -112,21 +112,21 @@ def group() -> str:
     host.write(0, MASK, 0x60)
     note("group: axes 5 and 6")
     host.send(5, 0x43, 0xE7, 0x03, 0x00)
-    note("axis 5: 1000 pulses CW. BUSY = 1, no pulse comes")
+    note("axis 5: 1000 pulses CW. BUSY = 1, no pulse yet")
     host.send(6, 0x4E)
-    note("axis 6: continuous high speed CCW; held, too")
+    note("axis 6: continuous high speed CCW; also held")
     go = host.write(0, GO, 0)
-    note("both pulses 1 come on edge g + 4 + R + W")
+    note("pulse 1 of both axes is at edge g + 4 + R + W")
     host.t += host.model.round + 5
     host.write(0, MASK, 0)
-    note("R + 5 clk later, not before: no group any more")
+    note("R + 5 cycles later, not before: clear the group")
     host.t += 1_000_000
     stop = host.write(0, STOP, 0)
-    note("10 ms later: all stand on the next edge")
+    note("10 ms later: all axes stop at the next edge")
     host.run(host.t + 1000)
     for axis in (5, 6):
         host.answer(axis, READ_FINISH)
-    note("finish status: both ended early by a stop")
+    note("finish status: a stop ended both motions early")
     model = host.model
     assert {model.pulses(axis)[0] for axis in (5, 6)} == {go + 4 + model.round + model.timebase.w}
     assert max(max(model.pulses(axis)) for axis in (5, 6)) <= stop
@@ -134,7 +134,7 @@ def group() -> str:
 
 
 def cost() -> str:
-    """Size and clock rate by the number of axes."""
+    """Return size and clock rate over the number of axes."""
     return size_page.bank(figures.read())
 
 

@@ -1,4 +1,4 @@
-"""Picture of docs/boards.md: what hangs on a board."""
+"""Picture of docs/boards.md: the connections of a board."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ BOXES = {
     "contacts": Box(
         5.6,
         1.97,
-        "limits, origin, alarm\ncontacts, closed at rest, to 3.3 V;\n"
+        "limits, origin, alarm\nnormally closed contacts to 3.3 V;\n"
         "1 kΩ to GND, 1 kΩ in series,\n10 nF to GND at the pin",
         "plain",
         2.5,
@@ -36,5 +36,5 @@ ARROWS = (
 
 
 def board() -> bytes:
-    """A board between PC, motor, switches and an old host."""
+    """Draw a board between PC, motor, switches and an old host."""
     return svg(draw(BOXES, ARROWS, (7.4, 3.2)))

@@ -1,4 +1,4 @@
-"""Drawings of boxes and arrows: block diagrams and maps, laid out on a grid, drawn with matplotlib."""
+"""Drawings of boxes and arrows on a grid, with matplotlib: block diagrams and maps."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FILLS = {"plain": "#eef2f6", "host": "#dbe8f7", "motion": "#dff0e1", "part": "#f
 
 @dataclass(frozen=True)
 class Box:
-    """A box with its middle at column x, row y (rows count downwards). text: the first line is bold."""
+    """A box with its centre at column x, row y (rows count downwards). text: the first line is bold."""
 
     x: float
     y: float
@@ -27,7 +27,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """An arrow between two boxes, by name; `via` are corners between. both: a head at each end."""
+    """An arrow between two boxes, given by name. via: corners between them; both: a head at each end."""
 
     start: str
     end: str
@@ -37,7 +37,7 @@ class Arrow:
 
 
 def _border(box: Box, towards: tuple[float, float]) -> tuple[float, float]:
-    """The point on the border of a box from which a line to that place leaves at a right angle."""
+    """Return the point on the border of a box at which a line to a place leaves at a right angle."""
     dx, dy = towards[0] - box.x, towards[1] - box.y
     if abs(dx) <= box.width / 2:
         return towards[0], box.y + (box.height / 2 if dy > 0 else -box.height / 2)
@@ -107,7 +107,7 @@ def _arrow(axes: Axes, arrow: Arrow, boxes: Mapping[str, Box]) -> None:
 
 
 def draw(boxes: Mapping[str, Box], arrows: Sequence[Arrow], inches: tuple[float, float]) -> plt.Figure:
-    """The drawing, of that width and height; the grid fills it. Raises KeyError for an arrow to nowhere."""
+    """Return the drawing with this width and height; the grid fills it. KeyError for an unknown box."""
     figure = plt.figure(figsize=inches)
     axes = figure.add_axes((0.005, 0.01, 0.99, 0.98))
     for arrow in arrows:

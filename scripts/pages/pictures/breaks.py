@@ -1,4 +1,4 @@
-"""Texts of a timing diagram that step aside for its break marks; a mark goes where a text cannot."""
+"""Placement of texts in a timing diagram next to its break marks; a mark is removed if a text cannot move."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from scripts.pages.pictures.fit import boxes, lanes, text_width
 SVG = "http://www.w3.org/2000/svg"
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 LANE, TOP = 30, 5
-"""px from line to line, and above the first one."""
+"""Distance of two lines, and height above the first line, in px."""
 MARK = (7, -2, 22)
-"""px of a break mark to each side, above and below the top of its line."""
+"""Size of a break mark in px: to each side, above and below the top of its line."""
 ROOM = 5
 SMALL = 11 / 13
-"""Of the text of an arrow, against that in a box."""
+"""Size of the text of an arrow, relative to that in a box."""
 
 
 @dataclass(frozen=True)
 class Area:
-    """A rectangle that is taken, in px from the first column; `node` and its parent where it may go."""
+    """An occupied rectangle in px from the first column; `node` and `parent`: element that may be removed."""
 
     left: float
     right: float
@@ -33,7 +33,7 @@ class Area:
     parent: ET.Element | None = None
 
     def hits(self, other: Area) -> bool:
-        """Whether both have a point in common."""
+        """Return whether the areas overlap."""
         return (
             self.left < other.right
             and other.left < self.right
@@ -56,7 +56,7 @@ def _around(x: float, y: float, text: str, scale: float = 1) -> Area:
 
 
 def marks(root: ET.Element) -> Iterator[Area]:
-    """All break marks."""
+    """Yield all break marks."""
     for group in root.iter(f"{{{SVG}}}g"):
         if group.get("id", "").startswith("wavegap_"):
             _, top = _place(group)
@@ -81,7 +81,7 @@ def _nearest(areas: Iterable[Area], taken: list[Area]) -> Area | None:
 
 
 def _in_boxes(root: ET.Element, signal: list[Any], step: int, taken: list[Area]) -> Iterator[Area]:
-    """Move the texts of boxes within those; where they are."""
+    """Move the texts of boxes within their boxes; yield their areas."""
     for number, lane in enumerate(lanes(signal)):
         drawn = _named(root, f"wavelane_draw_{number}_0")
         texts = [] if drawn is None else drawn.findall(f"{{{SVG}}}text")
@@ -101,7 +101,7 @@ def _in_boxes(root: ET.Element, signal: list[Any], step: int, taken: list[Area])
 
 
 def _along(path: str) -> Iterator[tuple[float, float]]:
-    """Points of an arrow from its middle outwards."""
+    """Yield points of an arrow from its middle outwards."""
     x, y, *rest = (float(number) for number in NUMBER.findall(path))
     curved = "c" in path
     dx, dy = (rest[-2], rest[-1]) if curved else (rest[0] - x, rest[1] - y)
@@ -117,7 +117,7 @@ def _along(path: str) -> Iterator[tuple[float, float]]:
 
 
 def _on_arrows(root: ET.Element, marked: list[Area], texts: list[Area]) -> None:
-    """Move the texts of arrows along those."""
+    """Move the texts of arrows along the arrows."""
     arcs = _named(root, "wavearcs_0")
     path = ""
     for node in [] if arcs is None else arcs:
@@ -135,7 +135,7 @@ def _on_arrows(root: ET.Element, marked: list[Area], texts: list[Area]) -> None:
 
 
 def step_aside(root: ET.Element, signal: list[Any], step: int) -> None:
-    """Texts and break marks of a drawn diagram get out of each other's way; columns of `step` px."""
+    """Separate texts and break marks of a drawn diagram with columns of `step` px."""
     marked = list(marks(root))
     texts = list(_in_boxes(root, signal, step, marked))
     _on_arrows(root, [mark for mark in marked if mark.parent is not None and mark.node in mark.parent], texts)

@@ -1,4 +1,4 @@
-"""Timing diagrams no wider than a page: narrower columns, or rows that are cut at the breaks."""
+"""Timing diagrams that fit the page width: with narrower columns, or in rows that are cut at breaks."""
 
 from __future__ import annotations
 
@@ -13,43 +13,43 @@ import matplotlib
 from fontTools.ttLib import TTFont
 
 COLUMN = 688
-"""px: the text of a page of the site in a window of 1220 px; in wider ones, and on GitHub, it is wider."""
+"""Text width in px of a page of the site in a window of 1220 px; wider in larger windows and on GitHub."""
 MOST = COLUMN * 11 // 10
-"""px of a drawing: its smallest text, 11 px, is shown with 10 px in that column."""
+"""Maximum width of a drawing in px: its smallest text of 11 px has 10 px in that column."""
 STEPS = ({"hscale": 2}, {"hscale": 3, "skin": "narrow"}, {"hscale": 1}, {"hscale": 1, "skin": "narrow"})
 """WaveDrom's settings for columns of 80, 60, 40 and 20 px."""
 WIDTHS = (80, 60, 40, 20)
 NAMES, GROUP, EDGE = 16, 33, 8
-"""px around the names of lines, of the name of a group, right of the lines and of a title."""
+"""Space in px around the names of lines, for the name of a group, right of the lines and of a title."""
 TEXT = 13
-"""px of a text in a box."""
+"""Text size in a box in px."""
 FRAME = 9
-"""px that WaveDrom adds to the fields of a register."""
+"""Width in px that WaveDrom adds to the fields of a register."""
 TRIES = sorted(
     ((rows, *step) for rows in range(1, 5) for step in zip(WIDTHS, STEPS, strict=True)),
     key=lambda found: (found[0] + 1.5 * (found[1] < 40), -found[1]),
 )
-"""Rows and columns: few rows, wide columns; of less than 40 px rather than three rows."""
+"""Rows and columns in order of preference: few rows, wide columns; columns below 40 px before three rows."""
 
 Lane = dict[str, Any]
 
 
 def text_width(text: str) -> float:
-    """px of a text of 13 px in the widest of the fonts, DejaVu Sans."""
+    """Return the width in px of a 13 px text in the widest of the fonts, DejaVu Sans."""
     advance, names = _advances()
     return sum(advance[names.get(ord(letter), ".notdef")] for letter in text) * TEXT
 
 
 @cache
 def _advances() -> tuple[dict[str, float], dict[int, str]]:
-    """em of each glyph, and the glyph of each code."""
+    """Return the width of each glyph in em, and the glyph of each character code."""
     font = TTFont(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf")
     unit = font["head"].unitsPerEm
     return {name: font["hmtx"][name][0] / unit for name in font.getGlyphOrder()}, font.getBestCmap()
 
 
 def lanes(signal: Sequence[Any]) -> Iterator[Lane]:
-    """The lines of a drawing, its groups opened."""
+    """Yield the lines of a drawing, including those in groups."""
     for entry in signal:
         if isinstance(entry, list):
             yield from lanes(entry[1:])
@@ -58,19 +58,19 @@ def lanes(signal: Sequence[Any]) -> Iterator[Lane]:
 
 
 def boxes(wave: str) -> list[tuple[int, int]]:
-    """First column of each box with a text, and the first behind it."""
+    """Return the first column of each box with a text, and the first column after it."""
     starts = [n for n, brick in enumerate(wave) if brick in "=23456789"]
     return [(n, next((m for m in range(n + 1, len(wave)) if wave[m] not in ".|"), len(wave))) for n in starts]
 
 
 def step_of(drawing: dict[str, Any]) -> int:
-    """px of a column."""
+    """Return the width of a column in px."""
     config = drawing.get("config", {})
     return int((20 if config.get("skin") == "narrow" else 40) * config.get("hscale", 1))
 
 
 def _columns(lane: Lane) -> int:
-    """Columns of a line; half a clk earlier it has one more brick."""
+    """Return the columns of a line; a line that is half a cycle early has one more brick."""
     return len(lane.get("wave", "")) - bool(lane.get("phase"))
 
 
@@ -79,19 +79,19 @@ def _depth(signal: Sequence[Any]) -> int:
 
 
 def names(drawing: dict[str, Any]) -> float:
-    """px of the names of lines and groups."""
+    """Return the width in px of the names of lines and groups."""
     longest = max(text_width(lane.get("name", "")) for lane in lanes(drawing["signal"]))
     return NAMES + math.ceil(longest) + GROUP * _depth(drawing["signal"])
 
 
 def width(drawing: dict[str, Any], step: int) -> float:
-    """px of a drawing with columns of so many px."""
+    """Return the width in px of a drawing with columns of `step` px."""
     half = any(lane.get("phase") for lane in lanes(drawing["signal"])) / 2
     return names(drawing) + EDGE + step * (max(map(_columns, lanes(drawing["signal"]))) + half)
 
 
 def readable(drawing: dict[str, Any], step: int) -> bool:
-    """Whether all texts fit into their boxes, and the numbers of edges above their columns."""
+    """Return whether all texts fit in their boxes, and the edge numbers fit above their columns."""
     tick = drawing.get("head", {}).get("tick")
     every = list(lanes(drawing["signal"]))
     if tick is not None and text_width(str(max(map(_columns, every)) + tick)) > step:
@@ -104,7 +104,7 @@ def readable(drawing: dict[str, Any], step: int) -> bool:
 
 
 def _cut(lane: Lane, first: int, end: int) -> Lane:
-    """Columns of a line; it begins with the level that it has there."""
+    """Return columns of a line, beginning with the level at the first column."""
     if "wave" not in lane:
         return {**lane, "node": lane["node"][first:end]} if "node" in lane else lane
     wave, tail = lane["wave"], "." if lane.get("phase") else ""
@@ -125,7 +125,7 @@ def _part(signal: Sequence[Any], first: int, end: int) -> list[Any]:
 
 
 def wrapped(drawing: dict[str, Any], cuts: Sequence[int]) -> dict[str, Any] | None:
-    """The drawing in rows that begin at these columns; None if an arrow leads from one row to another."""
+    """Return the drawing in rows that begin at these columns, or None if an arrow connects two rows."""
     count = max(map(_columns, lanes(drawing["signal"])))
     rows = [_part(drawing["signal"], a, b) for a, b in zip((0, *cuts), (*cuts, count), strict=True)]
     for arrow in drawing.get("edge", ()):
@@ -140,14 +140,14 @@ def wrapped(drawing: dict[str, Any], cuts: Sequence[int]) -> dict[str, Any] | No
 
 
 def _breaks(drawing: dict[str, Any]) -> list[int]:
-    """Columns behind which all lines are broken."""
+    """Return the columns after a break of all lines."""
     waves = [lane["wave"] for lane in lanes(drawing["signal"]) if "wave" in lane]
     shortest = min(map(len, waves))
     return [n + 1 for n in range(shortest - 1) if all(wave[n] == "|" for wave in waves)]
 
 
 def _rows(drawing: dict[str, Any], step: int, count: int) -> dict[str, Any] | None:
-    """The drawing in so many rows of the same length or nearly so; None if none of them would fit."""
+    """Return the drawing in `count` rows of about equal length, or None if it does not fit."""
     if count == 1:
         return drawing if width(drawing, step) <= MOST else None
 
@@ -166,7 +166,7 @@ def _rows(drawing: dict[str, Any], step: int, count: int) -> dict[str, Any] | No
 
 
 def fitted(drawing: dict[str, Any]) -> dict[str, Any]:
-    """A drawing no wider than MOST; ValueError when there is no way."""
+    """Return a drawing with at most MOST px; raise ValueError if this is not possible."""
     drawing = deepcopy(drawing)
     config = drawing.setdefault("config", {})
     if "signal" not in drawing:

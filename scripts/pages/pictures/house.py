@@ -1,4 +1,4 @@
-"""Pictures of docs/architecture.md: the folders of the tree, the way of a command. PLOTS: all of docs/."""
+"""Pictures of docs/architecture.md: the folders of the tree, the path of a command. PLOTS: all of docs/."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ LAYERS = (
     ("openppmc/sim", "virtual boards"),
     ("cocotb_tests", "tests on the RTL"),
     ("tests", "tests in Python"),
-    ("scripts", "a make target each"),
+    ("scripts", "make targets"),
     ("docs", "pages"),
 )
 SHARED = "#eef2f6"
 OWN = "#fdeecb"
 IGNORED = {"__pycache__", "img", "wavedrom", "include"}
-"""Folders that are no rooms: what is built, and the pictures of a page."""
+"""Folders that are not shown: build results, and the pictures of a page."""
 
 
 def modules(folder: str) -> list[str]:
-    """Names of the modules beside the folders of model and host: of parts, and shared ones."""
+    """Return the modules next to the folders of model and host: of parts, and shared ones."""
     if folder not in ("openppmc/model", "openppmc/host"):
         return []
     return [path.stem for path in sorted((ROOT / folder).glob("*.py")) if path.stem != "__init__"]
 
 
 def rooms(folder: str) -> list[str]:
-    """Names of the folders in one of the tree, those without a file left out."""
+    """Return the names of the folders in a folder, without empty ones."""
     found = (path for path in sorted((ROOT / folder).glob("*")) if path.is_dir() and path.name not in IGNORED)
     return [
         path.name
@@ -50,12 +50,12 @@ def rooms(folder: str) -> list[str]:
 
 
 def _lines(names: Sequence[str], width: int) -> str:
-    """Names on lines of at most so many characters."""
+    """Return the names on lines of at most `width` characters."""
     return textwrap.fill(", ".join(names), width)
 
 
 def house() -> bytes:
-    """Layers downwards, parts to the right; in each cell the folders, of model and host also the modules."""
+    """Draw layers downwards and parts to the right; cells have folders, for model and host also modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
     lefts = [sum(widths[:n]) for n in range(len(widths))]
@@ -102,17 +102,17 @@ def house() -> bytes:
 
 
 def command() -> bytes:
-    """From host pins to motor pins in a part with one axis (`ppmc_single`)."""
+    """Draw the path from host pins to motor pins in a part with one axis (`ppmc_single`)."""
     boxes = {
         "bus": Box(0.55, 0, "bus pins", "pin", 0.9, 0.4),
         "port": Box(2.0, 0, "ppmc_host_port\nstrobes, mailbox", "host", 1.5),
-        "command": Box(4.1, 0, "ppmc_command\njudges, collects", "host", 1.5),
-        "pace": Box(6.2, 0, "ppmc_pace\nnow, or the old times", "host", 1.6),
-        "setup": Box(8.3, 0, "ppmc_setup\nwhat is initialised", "motion", 1.5),
+        "command": Box(4.1, 0, "ppmc_command\nchecks, collects", "host", 1.5),
+        "pace": Box(6.2, 0, "ppmc_pace\nprocessing times", "host", 1.6),
+        "setup": Box(8.3, 0, "ppmc_setup\ninitialised values", "motion", 1.5),
         "meaning": Box(4.1, 1.05, "the part\nmeaning of a byte", "part", 1.5),
         "table": Box(8.3, 1.05, "ppmc_ramp_table\nbuilder + RAM", "motion", 1.5),
         "clocks": Box(0.55, 2.1, "clk", "pin", 0.5, 0.4),
-        "ticks": Box(2.0, 2.1, "ppmc_tick_gen\ntime of the old crystal", "motion", 1.7),
+        "ticks": Box(2.0, 2.1, "ppmc_tick_gen\ncycles of the old crystal", "motion", 1.7),
         "switches": Box(0.55, 3.1, "switches,\nclock", "pin", 0.9, 0.4),
         "sync": Box(2.0, 3.1, "ppmc_sync\ntwo flip-flops", "plain", 1.7),
         "axis": Box(
@@ -124,7 +124,7 @@ def command() -> bytes:
             1.1,
         ),
         "motor": Box(8.7, 2.35, "ppmc_motor_port\nphases, chopper, hold", "motion", 1.75),
-        "finish": Box(8.7, 3.15, "ppmc_finish\ninterrupt, answers", "host", 1.75),
+        "finish": Box(8.7, 3.15, "ppmc_finish\ninterrupt, responses", "host", 1.75),
         "pins": Box(10.45, 2.35, "s, pout_n,\ndir, hold", "pin", 0.9, 0.5),
         "int": Box(10.45, 3.15, "int_n;\nto the mailbox", "pin", 0.95, 0.5),
     }

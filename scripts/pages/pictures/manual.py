@@ -1,4 +1,4 @@
-"""What is drawn and computed for the pages of a part: its scripts/<part>/manual.py, named in the table."""
+"""Generated content of the pages of a part, defined in its manual.py, which the table of parts names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How all plots of the manuals look, and how they become the same SVG on each run."""
+"""Common style of all plots of the manuals, and reproducible SVG output."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from openppmc.model.motion.ramp import Ramp
 
-# Everything that would make two runs differ is fixed: ids, date, fonts as outlines.
+# All properties that differ between runs are fixed: ids, date, fonts as outlines.
 STYLE = {
     "svg.hashsalt": "openppmc",
     "svg.fonttype": "path",
@@ -33,13 +33,13 @@ BLUE, RED, GREEN, GREY = "#1f5fa8", "#c23b22", "#2b8a3e", "#888888"
 
 
 def exact_period(of: Ramp, k: float) -> float:
-    """x(k) of the ramp formula, in base clocks, not rounded."""
+    """Return x(k) of the ramp formula in base clocks, not rounded."""
     a, b = (of.rl + 1) ** 2, (of.rh + 1) ** 2
     return 1 / sqrt(1 / a + (1 / b - 1 / a) * k / of.pa)
 
 
 def svg(figure: Figure) -> bytes:
-    """The figure as a file; it is closed."""
+    """Return the figure as an SVG file and close it."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     plt.close(figure)
@@ -47,6 +47,6 @@ def svg(figure: Figure) -> bytes:
 
 
 def render(plot: Callable[[], bytes]) -> bytes:
-    """The SVG of one plot, in the style of all."""
+    """Return the SVG of one plot in the common style."""
     with matplotlib.rc_context(STYLE):
         return plot()

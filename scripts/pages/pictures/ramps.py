@@ -9,16 +9,16 @@ from openppmc.model.motion.ramp import Ramp, index_profile
 from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED, exact_period, svg
 
 HIGH = 500_000
-"""Hz, the faster internal base clock."""
+"""The faster internal base clock in Hz."""
 
 
 def kpps(rate: int, base_hz: int) -> float:
-    """Speed at a rate."""
+    """Return the speed at a rate in kpps."""
     return base_hz / (rate + 1) / 1000
 
 
 def ramps(small: Ramp, large: Ramp, rates: tuple[int, int], top: float) -> bytes:
-    """R(k) of a short ramp as a staircase beside the exact curve, and the speed of a long one.
+    """Draw R(k) of a short ramp with the exact curve, and the speed of a long ramp.
 
     `rates` and `top` (kpps) are the ends of the two vertical axes.
     """
@@ -42,7 +42,7 @@ def ramps(small: Ramp, large: Ramp, rates: tuple[int, int], top: float) -> bytes
 
 
 def title(what: str, of: Ramp) -> str:
-    """Title of a plot about a ramp."""
+    """Return the title of a plot about a ramp."""
     return f"{what}: RL = {of.rl}, RH = {of.rh}, PA = {of.pa}"
 
 
@@ -55,7 +55,7 @@ def draw(
     of: Ramp,
     base_hz: int,
 ) -> None:
-    """Speed of each interval, as a staircase over pulse numbers or over ms."""
+    """Draw the speed of each interval as a staircase over pulse numbers or over ms."""
     rates = [of.rate(k) for k in indices]
     edges = [0.0]
     for number, rate in enumerate(rates, 2):
@@ -68,7 +68,7 @@ def draw(
 
 
 def forced(of: Ramp, base_hz: int, cases: dict[int, str], top: float, last: int, stops_at_rl: bool) -> bytes:
-    """Forced decelerations of a long move, flagged in the intervals that `cases` names and explains.
+    """Draw forced decelerations of a long move; `cases`: interval of the flag -> explanation.
 
     `top` (kpps) and `last` (pulse) are the ends of the axes. `stops_at_rl`: no pulse follows at rate RL.
     """

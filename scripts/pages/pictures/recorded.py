@@ -8,7 +8,7 @@ from typing import Any
 
 Levels = Mapping[str, int]
 Schedule = Sequence[tuple[int, Levels]]  # (clk edge that samples them first, pin levels), in time order
-Samples = Sequence[Levels | None]  # one a column; None: many clk that are not shown
+Samples = Sequence[Levels | None]  # one for each column; None: cycles that are not shown
 
 LONG = 10_000
 LETTERS = "nmk"
@@ -17,10 +17,11 @@ COLOURS = "345"  # WaveDrom's filled boxes, in turn
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a diagram: its name, the pin or flag, or a function of all of them (None: does not matter).
+    """One line of a diagram: its name, and a pin or flag or a function of all of them (None: don't care).
 
-    `text` writes a vector's value in its box; without it the line is a single bit. `host`: driven by the
-    host, so it changes half a clk before the edge that samples it. `nodes`: column -> letter for arrows.
+    `text` returns the text in the box of a vector's value; without it, the line is a single bit. `host`:
+    driven by the host, so it changes half a cycle before the edge that samples it. `nodes`: column -> letter
+    for arrows.
     """
 
     name: str
@@ -30,22 +31,22 @@ class Row:
     nodes: Mapping[int, str] = field(default_factory=dict)
 
     def of(self, levels: Levels) -> int | None:
-        """The level in a sample."""
+        """Return the level in a sample."""
         return levels[self.level] if isinstance(self.level, str) else self.level(levels)
 
 
 def write_cycle(edge: int, reg: int, byte: int, strobe: int = 3) -> Schedule:
-    """Pins of a write whose strobe is sampled from `edge` on for so many clk."""
+    """Return the pins of a write whose strobe is sampled from `edge` on for `strobe` cycles."""
     return [(edge, {"cs_n": 0, "wr_n": 0, "a0": reg, "d_i": byte}), (edge + strobe, {"cs_n": 1, "wr_n": 1})]
 
 
 def read_cycle(edge: int, reg: int, strobe: int = 5) -> Schedule:
-    """Pins of a read whose strobe is sampled from `edge` on for so many clk."""
+    """Return the pins of a read whose strobe is sampled from `edge` on for `strobe` cycles."""
     return [(edge, {"cs_n": 0, "rd_n": 0, "a0": reg}), (edge + strobe, {"cs_n": 1, "rd_n": 1})]
 
 
 def mailbox_flags(chip: Any) -> Levels:
-    """OBF, IBF, BUSY of a part with a status register."""
+    """Return OBF, IBF, BUSY of a part with a status register."""
     core = getattr(chip, "core", chip)
     return {"obf": core.status & 1, "ibf": core.status >> 1 & 1, "busy": int(core.busy)}
 
@@ -57,9 +58,9 @@ def record(
     columns: Sequence[int | None],
     flags: Callable[[Any], Levels] = mailbox_flags,
 ) -> Samples:
-    """Drive a model by the schedule and look at it on the edges of the columns, which must rise.
+    """Drive a model with the schedule and sample it at the edges of the columns, which must be ascending.
 
-    `flags`: what there is to see besides pins.
+    `flags`: returns further signals in addition to pins.
     """
     pins, due = dict(inputs), list(schedule)
     found: list[Levels | None] = []
@@ -77,7 +78,7 @@ def record(
 
 
 def wave(row: Row, samples: Samples) -> dict[str, Any]:
-    """WaveDrom's line of a row."""
+    """Return WaveDrom's line of a row."""
     drawn, data = "", []
     last: object = "nothing"
     boxes = 0
@@ -108,7 +109,7 @@ def wave(row: Row, samples: Samples) -> dict[str, Any]:
 
 
 def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]) -> list[int | None]:
-    """The columns without those between two more on which no line changes; a gap is in their place."""
+    """Return the columns, with a gap in place of columns between two others in which no line changes."""
     levels = [None if found is None else tuple(row.of(found) for row in rows) for found in samples]
     last = len(columns) - 1
     while last > 1 and levels[last] == levels[last - 1] == levels[last - 2]:
@@ -125,7 +126,7 @@ def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]
 
 
 def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
-    """Words of edges, a letter for a long number and its neighbours, and a line that tells the letters."""
+    """Return the texts of edges, with a letter for a long number, and a line that explains the letters."""
     words: list[str | None] = []
     told: dict[int, str] = {}
     for edge in edges:
@@ -140,24 +141,24 @@ def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
 
 
 def _zeros(number: int) -> int:
-    """Zeros at the end."""
+    """Return the number of zeros at the end."""
     text = str(number)
     return len(text) - len(text.rstrip("0"))
 
 
 def table(lines: Sequence[dict[str, Any]], title: str, foot: str, arrows: Sequence[str]) -> dict[str, Any]:
-    """A drawing of edges that are far apart."""
+    """Return a drawing of edges with large distances."""
     drawing = {"signal": list(lines), "config": {"hscale": 2}, "head": {"text": title}, "edge": list(arrows)}
     return {**drawing, "foot": {"text": foot}} if foot else drawing
 
 
 def clock(samples: Samples) -> dict[str, Any]:
-    """The clk of a diagram without gaps."""
+    """Return the line of `clk` of a diagram without gaps."""
     return {"name": "clk", "wave": "p" + "." * (len(samples) - 1)}
 
 
 def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
-    """A line with a word in each column, a gap for None; a word has the room of the empty ones behind it."""
+    """Return a line with a word in each column, a gap for None; a word may use the empty columns after it."""
     drawn, data = "", list[str]()
     for word, before in zip(words, (None, *words), strict=False):
         begins = word is not None and (word or not before)

@@ -1,4 +1,4 @@
-"""Timing diagrams and bit fields: WaveDrom JSON to a small, stand-alone SVG that is the same on each run."""
+"""Timing diagrams and bit fields: from WaveDrom JSON to a small, stand-alone, reproducible SVG."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scripts.pages.pictures.fit import width as lines
 
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
-# Pixels instead of points (not every viewer knows the dpi), larger labels, darker tick numbers.
+# Pixels instead of points (some viewers do not know the dpi), larger labels, darker tick numbers.
 STYLES = (
     ("font-family:Helvetica", f"font-family:{FONTS}"),
     ('font-family="sans-serif"', f'font-family="{FONTS}"'),
@@ -27,11 +27,11 @@ STYLES = (
     (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
 )
 REF = re.compile(r"url\(#([^)]+)\)")
-LABEL_GROWTH = 1.5  # the white sheet below an arrow's label is measured for its size before STYLES
+LABEL_GROWTH = 1.5  # the white area below an arrow's label has its size before STYLES
 
 
 def _referenced(root: ET.Element) -> set[str]:
-    """Every id that `root` points at, by use elements and by url(#id) markers in styles."""
+    """Return every id to which `root` refers, in use elements and in url(#id) markers of styles."""
     found: set[str] = set()
     for node in root.iter():
         for name, value in node.attrib.items():
@@ -42,13 +42,13 @@ def _referenced(root: ET.Element) -> set[str]:
 
 
 def _style(root: ET.Element) -> None:
-    """The colours of all skins: the bricks of the narrow one are numbered as those of the default one."""
+    """Set the colours of the default skin; the bricks of the narrow skin have the same numbers."""
     for style in root.iter(f"{{{SVG}}}style"):
         style.text = WaveSkin["default"][2][2]
 
 
 def _texts_whole(root: ET.Element, drawing: dict[str, Any]) -> None:
-    """Names, head and foot whole: the picture grows where they are wider than WaveDrom has reckoned."""
+    """Show names, head and foot completely: enlarge the picture if they are wider than WaveDrom assumes."""
     (lanes,) = (node for node in root.iter() if node.get("id") == "lanes_0")
     (marks,) = (node for node in root.iter() if node.get("id") == "gmarks_0")
     _, _, y = lanes.get("transform", "").rstrip(")").partition(",")
@@ -67,7 +67,7 @@ def _texts_whole(root: ET.Element, drawing: dict[str, Any]) -> None:
 
 
 def _tidy(svg: str, drawing: dict[str, Any]) -> str:
-    """Drop the unused bricks, put a white sheet below the drawing and name fonts that exist everywhere."""
+    """Remove unused bricks, add a white background and use fonts that exist everywhere."""
     ET.register_namespace("", SVG)
     ET.register_namespace("xlink", XLINK)
     root = ET.fromstring(svg)
@@ -93,7 +93,7 @@ def _tidy(svg: str, drawing: dict[str, Any]) -> str:
 
 
 def draw(drawing: dict[str, Any], name: str) -> bytes:
-    """The SVG of a WaveDrom drawing; ValueError begins with `name` when it is not a valid one or too wide."""
+    """Return the SVG of a WaveDrom drawing; raise ValueError with `name` if it is not valid or too wide."""
     try:
         drawing = fitted(drawing)
         drawn = wavedrom.render(json.dumps(drawing))
@@ -105,7 +105,7 @@ def draw(drawing: dict[str, Any], name: str) -> bytes:
 
 
 def render(source: Path) -> bytes:
-    """The SVG of one WaveDrom JSON file; ValueError names the file when it is not a valid diagram."""
+    """Return the SVG of one WaveDrom JSON file; raise ValueError with its name if it is not valid."""
     try:
         drawing = json.loads(source.read_text(encoding="utf-8"))
     except ValueError as error:

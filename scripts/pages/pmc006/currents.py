@@ -1,4 +1,4 @@
-"""Phase currents of docs/pmc006/README.md: what the golden model regulates in the windings of a motor."""
+"""Phase currents of docs/pmc006/README.md, regulated by the golden model in the windings of a motor."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CURRENTS = (400, 1000, 1900)
 SLOW = tuple(
     Case(mstep=mstep, full=full, scomp=300, periods=1) for mstep in (16, 2, 0) for full in (40, 100, 200)
 )
-"""P 300 leads by no unit here, so that the angle meets the zeros of both references."""
+"""P 300 has a lead of 0 units here, so that the angle includes the zeros of both references."""
 RUNS = (
     *(Case(cur=cur, full=full, periods=1) for full in (500, 800, 1000) for cur in CURRENTS),
     *(Case(cur=cur, full=1000, emf=6.0, periods=1) for cur in CURRENTS),
@@ -39,7 +39,7 @@ def _cruise(case: Case) -> tuple[Waves, Waves]:
 
 
 def _currents(axes: Axes) -> None:
-    """Both phases over an electrical cycle."""
+    """Draw both phases over an electrical cycle."""
     for found, colour, name in zip(_cruise(SHOWN), (BLUE, RED), "AB", strict=True):
         ms = [1000 * t for t in found.time]
         axes.plot(ms, found.reference, color=GREY, lw=0.8, label="reference" if name == "A" else None)
@@ -49,18 +49,18 @@ def _currents(axes: Axes) -> None:
 
 
 def _rest(axes: Axes) -> None:
-    """Ripple at rest: what the currents differ from their references."""
+    """Draw the ripple at standstill: the difference between currents and references."""
     for found, colour, name in zip(holding(SHOWN, REST_STEPS, REST_US), (BLUE, RED), "AB", strict=True):
         us = [1e6 * t for t in found.time]
         off = [1000 * (a - b) for a, b in zip(found.current, found.reference, strict=True)]
         label = f"{name}: {found.reference[0]:.2f} A"
         axes.plot(us, off, color=colour, lw=1, label=label)
-    axes.set(title="At rest: off the reference", xlabel="µs", ylabel="mA", ylim=(-25, 35))
+    axes.set(title="At standstill: deviation", xlabel="µs", ylabel="mA", ylim=(-25, 35))
     axes.legend(loc="upper center", ncols=2, fontsize=8, handlelength=1, columnspacing=1)
 
 
 def _lines(axes: Axes) -> None:
-    """Harmonics of the current of phase A, of the fundamental."""
+    """Draw the harmonics of the current of phase A, relative to the fundamental."""
     for case, shift, colour, label in (
         (SHOWN, -0.2, BLUE, "no back EMF"),
         (AGAINST, 0.2, GREEN, "6 V of back EMF"),
@@ -75,7 +75,7 @@ def _lines(axes: Axes) -> None:
 
 
 def currents() -> bytes:
-    """Regulated currents: in motion, at rest, and their spectrum."""
+    """Draw regulated currents: in motion, at standstill, and their spectrum."""
     figure, (left, middle, right) = plt.subplots(
         1, 3, figsize=(9.2, 3.3), layout="constrained", width_ratios=(5, 4, 4)
     )
@@ -90,7 +90,7 @@ def _percent(share: float) -> str:
 
 
 def _left(both: tuple[Waves, Waves]) -> str:
-    """What is left where a reference is 0: reached from above, and from below."""
+    """Return the remaining current at a reference of 0, approached from above and from below."""
     if not any(0 in found.reference for found in both):
         return ""
     above, below = zip(*(left_at_zero(found) for found in both), strict=True)
@@ -98,7 +98,7 @@ def _left(both: tuple[Waves, Waves]) -> str:
 
 
 def currents_table() -> str:
-    """Markdown table: error and distortion in motion, what is left at 0, then ripple at rest."""
+    """Return a table: error and distortion in motion, remaining current at 0, then ripple at standstill."""
     lines = [
         "| Microsteps | Current / A | Full steps/s | Back EMF / V | Error / % | Beside / % | THD / % |"
         " Left at 0 / A |",
@@ -115,7 +115,7 @@ def currents_table() -> str:
         found = holding(Case(cur=cur))[0]
         words.append(f"{1000 * ripple(found)[1]:.0f} mA at {found.reference[0]:.2f} A")
     rest = f"{', '.join(words[:-1])} and {words[-1]}"
-    return "\n".join([*lines, "", f"Ripple of a phase at rest, peak to peak: {rest}."])
+    return "\n".join([*lines, "", f"Ripple of a phase at standstill, peak to peak: {rest}."])
 
 
 PLOTS = {"currents": currents}

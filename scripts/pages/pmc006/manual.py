@@ -1,4 +1,4 @@
-"""What is drawn and computed for docs/pmc006/."""
+"""Generated content of docs/pmc006/."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ FAST = {"u": 3, "o": 3, "v": 3200}
 
 
 async def new(settings: Settings) -> Host:
-    """A controller with these settings."""
+    """Return a controller with these settings."""
     host = await Host.start(OnModel(F8B))
     for letter, value in settings.items():
         await host.ask(letter, value)
@@ -28,25 +28,25 @@ async def new(settings: Settings) -> Host:
 
 
 async def finish(host: Host) -> list[int]:
-    """Run to the end of the motion; edges of its steps."""
+    """Run to the end of the motion; return the edges of its steps."""
     await host.until("mon_busy", 0, LONGEST * 1000)
     return host.steps()
 
 
 async def made(count: int, settings: Settings) -> list[int]:
-    """A move."""
+    """Run a move; return the edges of its steps."""
     host = await new(settings)
     await host.ask("s", count)
     return await finish(host)
 
 
 def steps(count: int, **settings: int) -> list[int]:
-    """Edges of the steps of a move."""
+    """Return the edges of the steps of a move."""
     return on_model(made(count, settings))
 
 
 def _speed(axes: Axes, edges: Sequence[int], colour: str, label: str) -> None:
-    """Speed over time, each interval's in its middle."""
+    """Draw the speed over time; the speed of each interval is at its middle."""
     ms = [(a + b) / 2 / (CLK_HZ / 1000) for a, b in pairwise(edges)]
     pps = [CLK_HZ / (b - a) for a, b in pairwise(edges)]
     axes.plot(ms, pps, color=colour, lw=1.3, label=label)
@@ -57,7 +57,7 @@ def _from(edges: Sequence[int]) -> list[int]:
 
 
 def moves() -> bytes:
-    """Short and long moves; the same way with all coefficients."""
+    """Draw short and long moves, and the same distance with several coefficients."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     for count, colour in ((200, GREY), (300, GREEN), (600, RED), (1500, BLUE)):
         _speed(left, _from(steps(count, **FAST)), colour, f"{count} steps")
@@ -72,7 +72,7 @@ def moves() -> bytes:
 
 
 async def retargeted() -> tuple[list[int], list[tuple[int, str]]]:
-    """Edges of the steps in speed mode, edge and text of each instruction."""
+    """Return the edges of the steps in speed mode, and edge and text of each instruction."""
     host = await new(FAST | {"v": 3000})
     await host.ask("N", 1)
     begin, marks = host.mark, []
@@ -91,7 +91,7 @@ async def retargeted() -> tuple[list[int], list[tuple[int, str]]]:
 
 
 def retarget() -> bytes:
-    """Speed mode: changes of speed, its end, and a return in the ramp down."""
+    """Draw speed mode: changes of speed, its end, and a restart in the deceleration ramp."""
     edges, marks = on_model(retargeted())
     figure, axes = plt.subplots(figsize=(9.2, 2.8), layout="constrained")
     _speed(axes, _from(edges), BLUE, "speed")

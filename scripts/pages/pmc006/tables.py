@@ -1,4 +1,4 @@
-"""Tables of docs/pmc006/README.md that are computed: times of moves, latencies of the golden model."""
+"""Computed tables of docs/pmc006/README.md: times of moves, latencies of the golden model."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ def _number(value: int) -> str:
 
 
 def moves_table() -> str:
-    """Markdown table: how long moves last, and how fast they get."""
+    """Return a table of moves with their times and highest speeds."""
     lines = ["| Steps | Start, stop, maximum pps | u, o | Time / ms | Fastest pps |", "|---|---|---|---|---|"]
     for count, start, stop, top, coefficient in MOVES:
         edges = steps(count, L=start, S=stop, v=top, u=coefficient, o=coefficient)
-        # Two intervals together: each alone is rounded to a us.
+        # Two intervals together, because a single interval is rounded to 1 µs.
         shortest = min(b - a for a, b in zip(edges, edges[2:], strict=False))
         fastest = _number(round(2 * CLK_HZ / shortest))
         passed = (edges[-1] - edges[0]) * 1000 / CLK_HZ
@@ -51,7 +51,7 @@ async def _first_step() -> tuple[str, int]:
     await host.ask("s", 200)
     e = host.e
     edges = await finish(host)
-    return "`s` to the begin of the engine", round(edges[0] - e - CLK_HZ / 2000)
+    return "`s` to the start of the engine", round(edges[0] - e - CLK_HZ / 2000)
 
 
 async def _stop() -> tuple[str, int]:
@@ -74,7 +74,7 @@ CASES: tuple[Callable[[], Awaitable[tuple[str, int]]], ...] = (_start, _first_st
 
 
 def times_table() -> str:
-    """Markdown table: latencies of this core, in clk from the last stop-bit sample or the pin."""
+    """Return a table of latencies of this core, in cycles after the last stop-bit sample or the pin."""
     rows = "\n".join(f"| {text} | {clk} |" for text, clk in (on_model(case()) for case in CASES))
-    head = f"This core, at {CLK_HZ // 1_000_000} MHz, in `clk` (from the stop bit or the pin):"
-    return f"{head}\n\n| | `clk` |\n|---|---|\n{rows}"
+    head = f"This core, at {CLK_HZ // 1_000_000} MHz, in cycles (from the stop bit or the pin):"
+    return f"{head}\n\n| | cycles |\n|---|---|\n{rows}"

@@ -17,12 +17,12 @@ LARGE = Ramp(199, 49, 100)  # the ramp of P104-EX-03
 
 
 def ramp() -> bytes:
-    """The ramps of P104-EX-04 and P104-EX-03."""
+    """Draw the ramps of P104-EX-04 and P104-EX-03."""
     return ramps(SMALL, LARGE, (8, 21), 11)
 
 
 def profile() -> bytes:
-    """Trapezoid and triangles of the small ramp over pulses and over time (P104-PRO-01…03)."""
+    """Draw trapezoidal and triangular profiles of the small ramp over pulses and time (P104-PRO-01…03)."""
     figure, both = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained", sharey=True)
     moves = ((40, BLUE, "N = 40, trapezoid"), (16, RED, "N = 16, one peak"), (9, GREEN, "N = 9, two peaks"))
     for axes, over_time in zip(both, (False, True), strict=True):
@@ -35,7 +35,7 @@ def profile() -> bytes:
 
 
 def forced() -> bytes:
-    """Forced decelerations flagged in interval 4 and on the plateau (P104-EX-04 a and c)."""
+    """Draw forced decelerations flagged in interval 4 and at constant speed (P104-EX-04 a and c)."""
     cases = {4: "4 + 1 + 3 = 8 pulses", 29: "29 + 1 + 10 = 40 pulses"}
     return forced_moves(SMALL, CSEL_L, cases, 14.5, 50, stops_at_rl=False)
 

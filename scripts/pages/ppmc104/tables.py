@@ -1,4 +1,4 @@
-"""Tables of docs/ppmc104/ that are computed: the speeds of the rates."""
+"""Computed tables of docs/ppmc104/: the speeds of the rates."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scripts.pages.pictures.tables import interval_us, pps
 
 RATES = (0, 1, 2, 3, 4, 7, 8, 9, 12, 13, 14, 17, 18, 19, 24, 29, 39, 49, 74, 99, 124, 149, 199, 249, 255)
 PHASE_LIMIT_US = 37  # shortest interval of the old chip with phases (P104-DS-12)
-POUT_LIMIT_US = 25  # and with pulses only
+POUT_LIMIT_US = 25  # the same with pulses only
 
 
 def _cell(interval: Fraction) -> str:
@@ -20,7 +20,7 @@ def _cell(interval: Fraction) -> str:
 
 
 def speed_table() -> str:
-    """Markdown table: rate against pps for both internal base clocks and both levels of vsel."""
+    """Return a table of rates and pps for both internal base clocks and both levels of vsel."""
     lines = [
         "| R | hex | 500 kHz, `vsel` H | 500 kHz, `vsel` L | 125 kHz, `vsel` H | 125 kHz, `vsel` L |",
         "|---|---|---|---|---|---|",

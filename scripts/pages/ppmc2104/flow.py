@@ -1,4 +1,4 @@
-"""Flow chart of docs/ppmc2104/README.md: a stop while a code waits."""
+"""Flow chart of docs/ppmc2104/README.md: a stop while a code is pending."""
 
 from __future__ import annotations
 
@@ -7,20 +7,25 @@ from scripts.pages.pictures.plots import svg
 
 WIDE = 2.3
 BOXES = {
-    "wanted": Box(1.2, 0, "a stop is wanted for axis n", "pin", WIDE, 0.35),
+    "wanted": Box(1.2, 0, "axis n must stop", "pin", WIDE, 0.35),
     "busy": Box(1.2, 0.75, "BUSYn = 1?", "part", WIDE, 0.45),
-    "starts": Box(4.15, 0.75, "does a code wait\nthat would start axis n\n(IBF = 1)?", "part", 1.9, 0.75),
-    "rest": Box(7.0, 0.35, "done: it is at rest\na stop would be error 6", "plain", 1.9, 0.6),
+    "starts": Box(4.15, 0.75, "is a code pending\nthat would start axis n\n(IBF = 1)?", "part", 1.9, 0.75),
+    "rest": Box(7.0, 0.35, "done: the axis is stopped\na stop would be error 6", "plain", 1.9, 0.6),
     "over": Box(
-        7.0, 1.25, "write the stop over it\nno waiting; error 6,\nand the start is gone", "host", 1.9, 0.75
+        7.0,
+        1.25,
+        "overwrite the code\nwith the stop, no waiting;\nerror 6, start discarded",
+        "host",
+        1.9,
+        0.75,
     ),
     "full": Box(1.2, 1.65, "IBF = 0?", "part", WIDE, 0.45),
     "write": Box(4.15, 1.65, "write the stop", "host", 1.9, 0.45),
-    "still": Box(1.2, 2.6, "IBF still 1 after 20 clk?\na code waits for a table", "part", WIDE, 0.6),
+    "still": Box(1.2, 2.6, "IBF still 1 after 20 cycles?\na code waits for a table", "part", WIDE, 0.6),
     "replace": Box(
         1.2,
         3.7,
-        "write the stop, no waiting\nit replaces the waiting code\nand is taken at once",
+        "write the stop without waiting\nit replaces the pending code\nand is accepted immediately",
         "host",
         WIDE,
         0.75,
@@ -45,7 +50,7 @@ ARROWS = (
 
 
 def stop() -> bytes:
-    """What a host does that must stop an axis now."""
+    """Draw the actions of a host that must stop an axis immediately."""
     return svg(draw(BOXES, ARROWS, (7.6, 4.0)))
 
 

@@ -1,4 +1,4 @@
-"""What is drawn and computed for docs/ppmc2104/."""
+"""Generated content of docs/ppmc2104/."""
 
 from __future__ import annotations
 

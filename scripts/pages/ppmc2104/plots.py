@@ -16,18 +16,18 @@ PAIR = ((Ramp(127, 39, 200), 1000), (Ramp(255, 79, 100), 500))  # the coordinate
 
 
 def ramp() -> bytes:
-    """The ramp of P2104-EX-01 and that of the demo."""
+    """Draw the ramp of P2104-EX-01 and that of the demo."""
     return ramps(RAMP, PAIR[0][0], (0, 110), 14)
 
 
 def forced() -> bytes:
-    """Flagged in the ramp, on the plateau and at start-up speed (P2104-EX-03, P2104-EX-04, P2104-FDC-02)."""
-    cases = {5: "5 + 1 + 4 = 10 pulses", 20: "20 + 1 + 10 = 31 pulses", 1: "stops at once, 1 pulse"}
+    """Draw decelerations: in the ramp, at constant and at start-up speed (P2104-EX-03, -EX-04, -FDC-02)."""
+    cases = {5: "5 + 1 + 4 = 10 pulses", 20: "20 + 1 + 10 = 31 pulses", 1: "stops immediately, 1 pulse"}
     return forced_moves(RAMP, HIGH, cases, 29, 54, stops_at_rl=True)
 
 
 def pair() -> bytes:
-    """Two axes that start together and take the same time."""
+    """Draw two axes that start together and need the same time."""
     figure, axes = plt.subplots(figsize=(9.2, 3.2), layout="constrained")
     for number, ((of, pulses), color) in enumerate(zip(PAIR, (BLUE, RED), strict=True), 1):
         text = f"axis {number}: {pulses} pulses, {title('ramp', of)[6:]}"

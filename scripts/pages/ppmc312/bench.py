@@ -1,4 +1,4 @@
-"""How the timing diagrams of docs/ppmc312/README.md are made: a host on the model, columns, rows, letters."""
+"""Functions for the timing diagrams of docs/ppmc312/README.md: host on the model, columns, rows, letters."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ from scripts.pages.pictures.recorded import table as drawn
 
 Drawing = dict[str, Any]
 WIDE = {"hscale": 2}
-ANSWERS = 0x10  # CSR: irq_n tells of answers
+ANSWERS = 0x10  # CSR: irq_n reports answers
 NAMES = {(0, CSR): "CSR", (0, RAR): "RAR", (0, DRR): "DRR", (1, CSR): "CSR", (1, WCR): "WCR"}
 NAMES |= {(1, WAR): "WAR", (1, DWR): "DWR"}
 
 
 def flags(chip: Any) -> Levels:
-    """MWEF and MREF, as a read of CSR would show them, and the edge."""
+    """Return MWEF and MREF, as a read of CSR returns them, and the edge."""
     return {"mwef": chip.csr >> 3 & 1, "mref": chip.csr >> 2 & 1, "t": chip.now}
 
 
 def marked(row: Row, samples: Samples, letters: str) -> Row:
-    """The row with letters, for arrows, where it changes: one a change, a full stop for none."""
+    """Return the row with letters for arrows at its changes; a full stop: no letter at this change."""
     levels = [None if found is None else row.of(found) for found in samples]
     changes, last = [], next(level for level in levels if level is not None)
     for column, found in enumerate(samples):
@@ -50,17 +50,17 @@ def marked(row: Row, samples: Samples, letters: str) -> Row:
 
 
 def hexadecimal(value: int) -> str:
-    """A byte."""
+    """Return a byte as two hexadecimal digits."""
     return f"{value:02X}"
 
 
 def during(strobe: str, name: str) -> Callable[[Levels], int | None]:
-    """A level that matters only while an active-low strobe is there."""
+    """Return a function for a level that is used only while an active-low strobe is asserted."""
     return lambda levels: None if levels[strobe] else levels[name]
 
 
 async def ready(*setting: str, build: Config = F16) -> Host:
-    """A host on a model that has been set up, with interrupts for answers."""
+    """Return a host on a model that is set up, with interrupts for answers."""
     host = await Host.start(OnModel(build), *setting)
     await host.write(CSR, ANSWERS)
     await host.pause(40)
@@ -68,18 +68,18 @@ async def ready(*setting: str, build: Config = F16) -> Host:
 
 
 def write_cycle(edge: int, reg: int, byte: int, strobe: int = 3) -> Schedule:
-    """Pins of a write whose strobe is sampled from `edge` on for so many clk."""
+    """Return the pins of a write whose strobe is sampled from `edge` on for `strobe` cycles."""
     on = {"cs_n": 0, "we_n": 0, "rs": reg, "d_i": byte}
     return [(edge, on), (edge + strobe, {"cs_n": 1, "we_n": 1})]
 
 
 def read_cycle(edge: int, reg: int, strobe: int = 5) -> Schedule:
-    """Pins of a read whose strobe is sampled from `edge` on for so many clk."""
+    """Return the pins of a read whose strobe is sampled from `edge` on for `strobe` cycles."""
     return [(edge, {"cs_n": 0, "oe_n": 0, "rs": reg}), (edge + strobe, {"cs_n": 1, "oe_n": 1})]
 
 
 def block_cycles(edge: int, block: str) -> tuple[Schedule, int]:
-    """WAR and DWR writes of an instruction from `edge` on; the first edge without the header's strobe."""
+    """Return WAR and DWR writes of an instruction from `edge` on, and the edge after the header's strobe."""
     data = bytes.fromhex(block)[::-1]
     accesses = [(WCR, 0x20), (WAR, 0x20 - len(data)), *((DWR, byte) for byte in data)]
     schedule = [
@@ -89,7 +89,7 @@ def block_cycles(edge: int, block: str) -> tuple[Schedule, int]:
 
 
 async def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, int]:
-    """A host shortly before pulse `number` of a motion, and that pulse's edge.
+    """Return a host shortly before pulse `number` of a motion, and the edge of that pulse.
 
     origin: the pulse after which the origin switch closes; it opens again five pulses later.
     """
@@ -109,7 +109,7 @@ async def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, in
 
 
 def look(host: Host, schedule: Schedule, columns: Sequence[int | None]) -> Samples:
-    """The model's pins and flags on the edges of the columns."""
+    """Return the model's pins and flags at the edges of the columns."""
     model = host.side.golden
     return record(model, model.inputs, schedule, columns, flags)
 
@@ -123,7 +123,7 @@ def table(
     title: str,
     arrows: Sequence[str] = (),
 ) -> Drawing:
-    """A diagram whose columns are edges counted from `base`, a gap for None; rows with their letters."""
+    """Return a diagram with edges counted from `base` as columns, a gap for None; rows with their letters."""
     at = [None if number is None else base + number for number in columns]
     samples = look(host, schedule, at)
     shown = thinned(at, samples, [row for row, _ in rows])
@@ -143,7 +143,7 @@ def cycle(
     tick: int,
     texts: tuple[str, str, Sequence[str]],
 ) -> Drawing:
-    """A bus cycle, one column a clk; `texts`: head, foot, arrows."""
+    """Return a bus access with one column for each cycle; `texts`: head, foot, arrows."""
     samples = look(host, schedule, columns)
     return {
         "signal": [

@@ -10,13 +10,13 @@ BOXES = {
     "port": Box(1.85, 0, "ppmc312_bus, _mailbox\nregisters, /WRQ", "host", 1.75),
     "line": Box(0.3, 0.9, "rxd, txd,\nsnd", "pin", 0.7, 0.5),
     "serial": Box(1.85, 0.9, "ppmc312_serial\nframes into blocks", "host", 1.75),
-    "instr": Box(4.35, 0.45, "ppmc312_instr\nfetch, judge,\nact, answer", "part", 1.55, 1.0),
-    "reports": Box(1.85, 1.9, "ppmc312_reports\nstores of eight classes", "host", 1.75),
+    "instr": Box(4.35, 0.45, "ppmc312_instr\nfetch, check,\nexecute, answer", "part", 1.55, 1.0),
+    "reports": Box(1.85, 1.9, "ppmc312_reports\nqueues of 8 classes", "host", 1.75),
     "store": Box(4.35, 1.9, "ppmc312_store\noverride, events", "part", 1.55),
     "setup": Box(6.7, 0, "ppmc312_setup, _free\n00, 01, 41", "part", 1.65),
     "unit": Box(9.1, 0, "ppmc312_stage_unit\nbuilder, table, plan", "motion", 1.75),
     "move": Box(6.7, 0.95, "ppmc312_move\nlimits, start, change", "motion", 1.65),
-    "seq": Box(9.1, 0.95, "ppmc312_stage_seq\na decision a boundary", "motion", 1.75),
+    "seq": Box(9.1, 0.95, "ppmc312_stage_seq\nstage boundaries", "motion", 1.75),
     "interval": Box(9.1, 1.9, "ppmc312_interval\nticks, width of a pulse", "motion", 1.75),
     "motion": Box(6.7, 1.9, "ppmc312_motion\nstates, causes", "motion", 1.65),
     "switches": Box(0.3, 2.85, "switches", "pin", 0.7, 0.4),
@@ -51,7 +51,7 @@ ARROWS = (
 
 
 def inside() -> bytes:
-    """The blocks of the PPMC-312, from its host to the drive."""
+    """Draw the blocks of the PPMC-312, from its host to the drive."""
     return svg(draw(BOXES, ARROWS, (10.4, 3.3)))
 
 

@@ -1,4 +1,4 @@
-"""What is drawn and computed for docs/ppmc312/."""
+"""Generated content of docs/ppmc312/."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plots of docs/ppmc312/README.md: tables and plans of the golden model, changes and origin from its pins."""
+"""Plots of docs/ppmc312/README.md: tables and plans of the golden model; changes, origin from its pins."""
 
 from __future__ import annotations
 
@@ -15,29 +15,29 @@ from openppmc.model.ppmc312.stages import LAST, Table, build, curve, ramped
 from scripts.pages.pictures.plots import BLUE, GREEN, GREY, RED, svg
 
 F_HZ = 1_000_000
-CLK = 16  # of a tick
+CLK = 16  # cycles of a tick
 START, HIGH, PULSES = 1000, 200, 2000
 LINEAR = build(START, START, HIGH, PULSES, PULSES)
 SIGMOID = build(START, START, HIGH, PULSES, PULSES, sigmoid=True)
-# Seven stages that become shorter: a motor that has less torque at speed.
+# Seven stages that become shorter, for a motor with less torque at high speed.
 FREE = curve([200, 230, 270, 330, 430, 600, 1000], [500, 400, 350, 300, 250, 150, 50])
 SMALL = curve([100, 200, 400], [5, 4, 3])
 SIDES = build(START, 500, HIGH, PULSES, 1500)
 
 
 def _stairs(axes: Axes, rates: Sequence[int], colour: str, label: str | None, start: float = 0.0) -> None:
-    """Speed of each interval in thousand pulses a second over ms."""
+    """Draw the speed of each interval in kpps over ms."""
     edges = [start + ticks / 1000 for ticks in accumulate(rates, initial=0)]
     axes.stairs([1000 / rate for rate in rates], edges, baseline=None, color=colour, lw=1.5, label=label)
 
 
 def _up(table: Table) -> list[int]:
-    """Rates of all pulses of an acceleration."""
+    """Return the rates of all pulses of an acceleration."""
     return [rate for rate, count in zip(table.rates, table.pa, strict=True) for _ in range(count)]
 
 
 def tables() -> bytes:
-    """Linear, sigmoid, free curve: speed over time and pulses of each stage."""
+    """Draw linear, sigmoid and free curve: speed over time, and pulses of each stage."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     made = ((LINEAR, BLUE, "linear"), (SIGMOID, RED, "sigmoid"), (FREE, GREEN, "free curve, 7 stages"))
     for table, colour, label in made:
@@ -53,7 +53,7 @@ def tables() -> bytes:
 
 
 def shapes() -> bytes:
-    """Trapezoid, triangle, and one side only."""
+    """Draw trapezoidal and triangular profiles, and those with one side only."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained", sharey=True)
     cases = ((5000, BLUE), (3000, RED), (1000, GREEN))
     names = {0x00: "trapezoid", 0x10: "triangle", 0x20: "only down", 0x40: "only up"}
@@ -70,7 +70,7 @@ def shapes() -> bytes:
 
 
 async def _played(block: str, number: int, change: str) -> list[int]:
-    """Intervals in ticks of a move during which `change` is given after pulse `number`."""
+    """Return the intervals in ticks of a move in which `change` is sent after pulse `number`."""
     host = await Host.start(OnModel(), *TF)
     await host.ask(block)
     if change:
@@ -84,11 +84,11 @@ async def _played(block: str, number: int, change: str) -> list[int]:
     return [(b - a) // CLK for a, b in pairwise(edges)]
 
 
-SHOWN = 46  # pulses of an endless motion
+SHOWN = 46  # pulses of a continuous motion
 
 
 def changes() -> bytes:
-    """87, 88, 81 in a motion with the table TF."""
+    """Draw instructions 87, 88, 81 in a motion with the table TF."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained", sharey=True)
     endless = (
         ("03 04 86 00 0190", 10, "03 04 87 00 0064", BLUE, "86 at 400, then 87 to 100"),
@@ -109,13 +109,13 @@ def changes() -> bytes:
                 axes.plot([at], [1000 / intervals[number - 1]], "v", color=colour, ms=8)
         axes.set(xlabel="ms after pulse 1")
         axes.legend(loc="upper right", fontsize=8)
-    left.set(title="Without an end (triangle: the change is given)", ylabel="kpps", ylim=(0, 16))
+    left.set(title="Continuous motion (triangle: change)", ylabel="kpps", ylim=(0, 16))
     right.set(title="30 pulses", xlim=(0, 7.5))
     return svg(figure)
 
 
 async def _returned(switch: int, free: int, out: int) -> list[int]:
-    """Pulses of a zero return whose walk has `out` of them; the switch is that of `origin`."""
+    """Return the pulses of a zero return with `out` pulses in phase 1; the switch is that of `origin`."""
     host = await Host.start(OnModel(), *TF)
     await host.ask("03 04 11 00 0000")
     await host.pulse(switch)
@@ -129,8 +129,8 @@ async def _returned(switch: int, free: int, out: int) -> list[int]:
 
 
 def origin() -> bytes:
-    """A zero return: speed over time and over position."""
-    switch, free = 24, 4  # the switch closes after so many pulses, and is so many pulses wide
+    """Draw a zero return: speed and position over time."""
+    switch, free = 24, 4  # pulses until the switch closes; width of the switch in pulses
     out = switch + 12
     edges = on_model(_returned(switch, free, out))
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.0), layout="constrained")

@@ -1,4 +1,4 @@
-"""Tables of docs/ppmc312/README.md that are computed: what settings become, what moves become."""
+"""Computed tables of docs/ppmc312/README.md: tables of settings, shapes of moves, times."""
 
 from __future__ import annotations
 
@@ -59,21 +59,21 @@ def _side(table: Table) -> str:
 
 
 def table_table() -> str:
-    """Markdown table: settings, rates and pulses of the first and last stages."""
+    """Return a table of settings with rates and pulses of the first and last stages."""
     lines = ["| | Setting | Rates R[0] … R[126] | Pulses of the stages |", "|---|---|---|---|"]
     lines += [f"| {name} | {text} | {_ends(of.rates)} | {_side(of)} |" for name, text, of in SETTINGS]
     return "\n".join(lines)
 
 
 def _runs(steps: Sequence[Step]) -> str:
-    """Pulses as rate×count; long lists lose their middle."""
+    """Return pulses as rate×count; the middle of a long list is omitted."""
     groups = [(rate, len(list(group))) for rate, group in groupby(step.rate for step in steps)]
     words = [f"{rate}×{count}" for rate, count in groups]
     return " ".join(words if len(words) <= 8 else [*words[:4], "…", *words[-3:]])
 
 
 def moves_table() -> str:
-    """Markdown table: moves, their shape, their pulses, the time from pulse 1 to the end."""
+    """Return a table of moves with shape, pulses, and the time from pulse 1 to the end."""
     lines = ["| Move | Answer | Up, constant, down | Rate × pulses | Ticks |", "|---|---|---|---|---|"]
     for text, plan in MOVES:
         steps = plan.steps()
@@ -106,13 +106,13 @@ MODES: tuple[tuple[str, Config], ...] = (("FAST, 16 MHz", F16), ("FAST, 50 MHz",
 
 
 def _us(clk: int, mode: Config) -> str:
-    """A time in the unit that fits."""
+    """Return a time in a suitable unit."""
     us = clk * 1e6 / mode.clk_hz
     return f"{us / 1000:.3g} ms" if us >= 999 else f"{us:.3g} µs"
 
 
 async def _set_up(mode: Config, block: str) -> int:
-    """clk from the header to the answer."""
+    """Return the cycles from the header to the answer."""
     host = await Host.start(OnModel(mode))
     await host.write(CSR, 0x10)
     await host.issue(block)
@@ -121,20 +121,20 @@ async def _set_up(mode: Config, block: str) -> int:
 
 
 async def _start(mode: Config, block: str) -> int:
-    """clk from the header to pulse 1."""
+    """Return the cycles from the header to pulse 1."""
     host = await Host.start(OnModel(mode), T1)
     await host.issue(block)
     return await host.pulse(1) - host.header
 
 
 async def _ready(mode: Config, _: str) -> int:
-    """clk from the release of rst_n to out_oe."""
+    """Return the cycles from the release of rst_n to out_oe."""
     host = await Host.start(OnModel(mode))
     return host.side.rises("out_oe")[0]
 
 
 async def _stop(mode: Config, block: str) -> int:
-    """clk from the header, at a constant rate, to the answer: no pulse begins after it."""
+    """Return the cycles from the header to the answer at a constant rate; no pulse begins after it."""
     host = await Host.start(OnModel(mode), T1, "03 04 86 00 03E8")
     await host.write(CSR, 0x10)
     await host.pulse(2)
@@ -144,7 +144,7 @@ async def _stop(mode: Config, block: str) -> int:
 
 
 async def _output(mode: Config, block: str) -> int:
-    """clk from the header to the auxiliary output."""
+    """Return the cycles from the header to the auxiliary output."""
     host = await Host.start(OnModel(mode))
     await host.issue(block)
     await host.wait()
@@ -161,7 +161,7 @@ TIMES = (
 
 
 def times_table() -> str:
-    """Markdown table: instructions against their times in this core and in DATASHEET."""
+    """Return a table of instructions with their times in this core, FAST and DATASHEET."""
     lines = [f"| Event | {' | '.join(name for name, _ in MODES)} |", "|---|---|---|---|"]
     for rows, measure in TIMES:
         for text, block in rows:

@@ -1,4 +1,4 @@
-"""The timing diagrams of docs/ppmc312/README.md: what the golden model does on its pins."""
+"""The timing diagrams of docs/ppmc312/README.md, from the pins of the golden model."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from scripts.pages.ppmc312.bench import (
 
 
 async def write() -> Drawing:
-    """The write of a header."""
+    """Draw the write of a header."""
     host = await ready()
     for reg, byte in ((WCR, 0x20), (WAR, 0x1D), (DWR, 0x40), (DWR, 0x01)):
         await host.write(reg, byte)
@@ -41,14 +41,14 @@ async def write() -> Drawing:
     core = ((Row("MWEF", "mwef"), "B"),)
     texts = (
         "Header into DWR: clk edges counted from the end of the strobe",
-        "on edge 2 the byte is stored, the block complete and being processed",
+        "at edge 2 the byte is stored; the block is complete and is processed",
         ["A~>B"],
     )
     return cycle(host, write_cycle(host.t, DWR, 3), range(host.t - 1, host.t + 10), rows, core, -4, texts)
 
 
 async def read() -> Drawing:
-    """The read of the last byte of an answer."""
+    """Draw the read of the last byte of an answer."""
     host = await ready()
     await host.issue("03 01 40")
     await host.wait()
@@ -66,15 +66,15 @@ async def read() -> Drawing:
         (Row("irq_n (ERIRQ = 1)", "irq_n"), ""),
     )
     texts = (
-        "The last byte from DRR, 5 clk: clk edges counted from the start of the strobe",
-        "what the read does, it does when the strobe has ended",
+        "The last byte from DRR, 5 cycles: clk edges counted from the start of the strobe",
+        "the read takes effect when the strobe has ended",
         ["A~>C", "B~>D", "B~>E"],
     )
     return cycle(host, read_cycle(start, DRR), range(start - 2, start + 12), rows, core, -2, texts)
 
 
 async def wrq() -> Drawing:
-    """Two DWR strobes that are too close for the old chip."""
+    """Draw two DWR strobes that are too close for the old chip."""
     host = await ready(build=D16)
     await host.write(CSR, 0x40)
     await host.write(WCR, 0x20)
@@ -95,7 +95,7 @@ async def wrq() -> Drawing:
 
 
 async def block() -> Drawing:
-    """All accesses of a version read."""
+    """Draw all accesses of a version read."""
     host = await ready()
     begin = host.t + 4
     schedule, end = block_cycles(begin, "03 01 40")
@@ -129,7 +129,7 @@ async def block() -> Drawing:
 
 
 async def start() -> Drawing:
-    """From the header of a move to pulse 2."""
+    """Draw the time from the header of a move to pulse 2."""
     move = "03 08 83 40 0064 00000005"
     ahead = await ready(*TF)
     await ahead.issue(move)
@@ -156,7 +156,7 @@ async def start() -> Drawing:
 
 
 async def end() -> Drawing:
-    """The last pulse of a move, its report, and cd_n."""
+    """Draw the last pulse of a move, its report, and cd_n."""
     host, last = await on_the_way(3, "03 08 83 00 0064 00000003")
     over = 1600
     down = over + 1_600_000
@@ -172,7 +172,7 @@ async def end() -> Drawing:
 
 
 async def stop() -> Drawing:
-    """A limit shortly before a pulse is due."""
+    """Draw a limit shortly before a scheduled pulse."""
     going = "03 04 86 00 0064"
     host, due = await on_the_way(5, going)
     press = due - 4
@@ -187,12 +187,12 @@ async def stop() -> Drawing:
         (Row("pout", "pout"), ""),
         (Row("irq_n (report E0)", "irq_n"), ""),
     )
-    title = "Limit 4 clk before a pulse is due (FAST): clk edges from the first that samples it"
+    title = "Limit 4 cycles before a pulse (FAST): clk edges from the first that samples it"
     return table(host, [(press, {"fl_n": 0})], press, columns, rows, title)
 
 
 async def hold() -> Drawing:
-    """A move that waits for RUN."""
+    """Draw a move that waits for RUN."""
     host = await ready(*TF)
     await host.pins(run=0)
     await host.ask("03 08 83 40 0064 00000005")
@@ -210,7 +210,7 @@ async def hold() -> Drawing:
 
 
 async def turn() -> Drawing:
-    """The end of phase 1 of a zero return and the begin of phase 2."""
+    """Draw the end of phase 1 of a zero return and the start of phase 2."""
     back = "03 04 11 00 0000"
     ahead, last = await on_the_way(27, back, 15)
     again = await ahead.pulse(28) - last
@@ -219,12 +219,12 @@ async def turn() -> Drawing:
     columns = (-1, 0, 1, None, 79, 80, 81, None, 6399, 6400, *range(6401, turned + 3), None,
                *range(again - 1, again + 3))  # fmt: skip
     rows = ((Row("pout", "pout"), "..D"), (Row("dir", "dir"), "C"))
-    title = "Zero return turns: clk edges from the last pulse of the walk, whose interval lasts 6400 clk"
+    title = "Zero return reverses: clk edges from the last pulse of phase 1 (interval of 6400 cycles)"
     return table(host, [], last, columns, rows, title, ["C~>D 5 us"])
 
 
 def _drawn(scene: Callable[[], Coroutine[Any, Any, Drawing]]) -> Callable[[], Drawing]:
-    """The drawing of a scene, which is played on the golden model."""
+    """Return a function that draws a scene, which runs on the golden model."""
     return lambda: on_model(scene())
 
 

@@ -1,4 +1,4 @@
-"""What is drawn and computed for docs/stmc/."""
+"""Generated content of docs/stmc/."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plots of docs/stmc/README.md: moves as the golden model makes them on its pins."""
+"""Plots of docs/stmc/README.md: moves of the golden model, from its pins."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLOURS = (BLUE, RED, GREEN)
 
 
 def _case(name: str) -> Case:
-    """The first worked move of that number."""
+    """Return the first worked move with this number."""
     return next(case for case in CASES if case.name == name)
 
 
@@ -27,7 +27,7 @@ def _title(what: str, ramp: tuple[int, int, int]) -> str:
 
 
 def _stairs(axes: Axes, gaps: list[int], over_time: bool, colour: str, label: str) -> None:
-    """Speed of each gap at 12.5 kHz, over step numbers or over ms."""
+    """Draw the speed of each gap at 12.5 kHz, over step numbers or over ms."""
     edges = [ticks / INTERNAL_HZ * 1000 for ticks in accumulate(gaps, initial=0)]
     where = edges if over_time else list(range(len(gaps) + 1))
     speeds = [INTERNAL_HZ / gap for gap in gaps]
@@ -35,7 +35,7 @@ def _stairs(axes: Axes, gaps: list[int], over_time: bool, colour: str, label: st
 
 
 def ramp() -> bytes:
-    """The levels of a short ramp, and the speed along the data sheet's own one."""
+    """Draw the levels of a short ramp, and the speed of the ramp in the data sheet."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     slow, fast, count = STANDARD
     levels = range(count + 1)
@@ -61,7 +61,7 @@ def ramp() -> bytes:
 
 
 def moves() -> bytes:
-    """Trapezoid and triangles: W1, W2, W3."""
+    """Draw trapezoidal and triangular profiles: W1, W2, W3."""
     figure, both = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained", sharey=True)
     cases = (("W1", "trapezoid"), ("W2", "triangle, one top gap"), ("W3", "triangle, two top gaps"))
     for axes, over_time in zip(both, (False, True), strict=True):
@@ -76,7 +76,7 @@ def moves() -> bytes:
 
 
 def slowed() -> bytes:
-    """Command 1 in the ramp, at top speed, and in gap 0: W14, W15, W17."""
+    """Draw command 1 in the ramp, at top speed, and in gap 0: W14, W15, W17."""
     figure, axes = plt.subplots(figsize=(9.2, 3.2), layout="constrained")
     plain = replace(_case("W14"), data=little(99), gap=None, act=None)
     _stairs(axes, play(plain).gaps[:30], False, GREY, "undisturbed")
@@ -91,7 +91,7 @@ def slowed() -> bytes:
             _stairs(axes, made.gaps, False, colour, text)
         axes.plot([gap + 0.5], [running], "v", color=colour, ms=8, label=None if made.gaps else text)
         axes.plot([count - 1], [INTERNAL_HZ / STANDARD[0]], "s", color=colour, ms=5)
-    axes.set(title=_title("Command 1", STANDARD) + " (triangle: command taken, square: last step)")
+    axes.set(title=_title("Command 1", STANDARD) + " (triangle: command, square: last step)")
     axes.set(xlabel="step", ylabel="steps/s at 12.5 kHz", ylim=(0, 2700), xlim=(-0.6, 30))
     axes.legend(loc="lower right")
     return svg(figure)

@@ -24,7 +24,7 @@ def _speed(hz: int, divisor: int) -> str:
 
 
 def speed_table() -> str:
-    """Markdown table: divisor against steps/s for both step clocks."""
+    """Return a table of divisors and steps/s for both step clocks."""
     lines = ["| D | hex | internal, 12.5 kHz | board, 48.675 kHz |", "|---|---|---|---|"]
     for divisor in DIVISORS:
         cells = " | ".join(_speed(hz, divisor) for hz in (INTERNAL_HZ, BOARD_HZ))
@@ -33,13 +33,13 @@ def speed_table() -> str:
 
 
 def divisors(slow: int, fast: int, ramp: int) -> list[int]:
-    """x(0) .. x(PA) as the model has them."""
+    """Return x(0) .. x(PA) of the model."""
     of = profile(slow, fast, ramp)
     return [rate + 1 for rate in of.rates()]
 
 
 def ramp_table() -> str:
-    """Markdown table: the divisors of all levels of some ramps."""
+    """Return a table of the divisors of all levels of some ramps."""
     lines = ["| D1 | D2 | PA | x(0), x(1), … x(PA) |", "|---|---|---|---|"]
     for ramp in RAMPS:
         lines.append(f"| {' | '.join(map(str, ramp))} | {' '.join(map(str, divisors(*ramp)))} |")
@@ -51,7 +51,7 @@ def ramp_table() -> str:
 
 @dataclass(frozen=True)
 class Case:
-    """One worked move: what is sent, and what happens in which gap (-1: before step 0) and how it is told."""
+    """One worked move: command and data, an event, its gap (-1: before step 0) and its description."""
 
     name: str
     ramp: tuple[int, int, int]
@@ -110,7 +110,7 @@ CASES = (
 
 
 def play(case: Case) -> Outcome:
-    """Play a case on the golden model, internal clock."""
+    """Run a case on the golden model with the internal clock."""
     bench = Bench()
     bench.init(0x0A, *case.ramp)
     if case.act and case.gap == -1:
@@ -124,7 +124,7 @@ def play(case: Case) -> Outcome:
 
 
 def _shortened(gaps: Sequence[int], limit: int = 30) -> str:
-    """Gaps as text; runs of more than three as 5×8, long lists without their middle."""
+    """Return gaps as text: runs of more than three as 5×8, long lists without their middle."""
     words = []
     for value, group in groupby(gaps):
         count = len(list(group))
@@ -135,7 +135,7 @@ def _shortened(gaps: Sequence[int], limit: int = 30) -> str:
 
 
 def moves_table() -> str:
-    """Markdown table: the worked moves as the golden model makes them."""
+    """Return a table of the worked moves of the golden model."""
     lines = [
         "| No. | D1/D2/PA | Sent | Disturbed by | Steps | Gaps in ticks | Sum | Finish | Remaining |",
         "|---|---|---|---|---|---|---|---|---|",
@@ -155,10 +155,10 @@ def moves_table() -> str:
 
 
 def _time(clk: int) -> str:
-    """A time as a reader wants it."""
+    """Return a time in a suitable unit."""
     micros = Fraction(clk * 1_000_000, CLK_HZ)
     if micros < 1:
-        return f"{clk} clk" if clk else "same clk"
+        return f"{clk} cycles" if clk else "same cycle"
     if micros >= 10_000:
         return f"{float(micros / 1000):.4g} ms"
     return f"{float(micros):.4g} µs"
@@ -166,7 +166,7 @@ def _time(clk: int) -> str:
 
 @dataclass(frozen=True)
 class Times:
-    """What a motion of one mode took: from the end of the last write, from the last step or its cause."""
+    """Times of a motion in one mode: from the end of the last write, and from the last step or its cause."""
 
     start: int
     first: int
@@ -213,7 +213,7 @@ def _ready(timing: str, ramp: tuple[int, int, int]) -> int:
 ROWS: tuple[tuple[str, Callable[[str], int]], ...] = (
     ("first initialisation, last byte to phases", _phases),
     *(
-        (f"initialisation {'/'.join(map(str, ramp))}, last byte until bytes are taken again",
+        (f"initialisation {'/'.join(map(str, ramp))}, last byte until bytes are accepted again",
          lambda timing, ramp=ramp: _ready(timing, ramp))
         for ramp in (STANDARD, LONG_RAMP, (255, 1, 65535))
     ),
@@ -226,18 +226,18 @@ ROWS: tuple[tuple[str, Callable[[str], int]], ...] = (
     ("command 2: step to the end", lambda timing: _motion(timing, 0x42, ()).end),
     ("commands 3 … 7, normal end: last step to BUSY = 0, `int_n` = L",
      lambda timing: _motion(timing, 0x43, little(9)).end),
-    ("commands 3 … 7, normal end: last step until bytes are taken again",
+    ("commands 3 … 7, normal end: last step until bytes are accepted again",
      lambda timing: _motion(timing, 0x43, little(9)).taken),
-    ("commands 3, 6, stop: cause to BUSY = 0 and bytes taken",
+    ("commands 3, 6, stop: cause to BUSY = 0 and bytes accepted",
      lambda timing: _motion(timing, 0x43, little(99), True).end),
     ("commands 4, 5, 7, stop: cause to BUSY = 0", lambda timing: _motion(timing, 0x45, (10,), True).end),
-    ("commands 4, 5, 7, stop: cause until bytes are taken again",
+    ("commands 4, 5, 7, stop: cause until bytes are accepted again",
      lambda timing: _motion(timing, 0x45, (10,), True).taken),
 )  # fmt: skip
 
 
 def times_table() -> str:
-    """Markdown table: times of both modes as the golden model has them, at 16 MHz, internal clock."""
+    """Return a table of times of both modes of the golden model, at 16 MHz with the internal clock."""
     lines = ["| From … to | FAST | DATASHEET |", "|---|---|---|"]
     for text, measure in ROWS:
         lines.append(f"| {text} | {_time(measure('FAST'))} | {_time(measure('DATASHEET'))} |")

@@ -1,4 +1,4 @@
-"""The timing diagrams of docs/stmc/README.md: what the golden model does on its pins."""
+"""The timing diagrams of docs/stmc/README.md, from the pins of the golden model."""
 
 from __future__ import annotations
 
@@ -29,27 +29,27 @@ COMMAND_PORT = 0x3B1
 
 
 def pattern(value: int) -> str:
-    """The phase outputs."""
+    """Return the phase outputs as text."""
     return f"{value:05b}"
 
 
 def hexadecimal(value: int) -> str:
-    """A byte."""
+    """Return a byte as two hexadecimal digits."""
     return f"{value:02X}"
 
 
 def during(strobe: str, name: str) -> Callable[[Levels], int | None]:
-    """A level that matters only while an active-low strobe is there."""
+    """Return a function for a level that is used only while an active-low strobe is asserted."""
     return lambda levels: None if levels[strobe] else levels[name]
 
 
 def addressed(levels: Levels) -> int | None:
-    """The address while it is the board's."""
+    """Return the address while it is that of the board."""
     return levels["sa"] if levels["sa"] == COMMAND_PORT else None
 
 
 def ready(code: int = INIT, **parameters: object) -> Bench:
-    """A bench that has been initialised, some clk later."""
+    """Return a bench some cycles after its initialisation."""
     bench = Bench(**parameters)  # type: ignore[arg-type]
     bench.init(code, *RAMP)
     bench.t += 10
@@ -59,7 +59,7 @@ def ready(code: int = INIT, **parameters: object) -> Bench:
 
 
 def moved(code: int = INIT, count: int = 1) -> tuple[Bench, int]:
-    """A bench that moves `count` steps from `t` on, and the edge of the last one; it has not run so far."""
+    """Return a bench with a move of `count` steps from `t` on, and the future edge of the last step."""
     ahead = ready(code)
     ahead.start(0x43, *little(count - 1))
     last = ahead.end().steps[-1]
@@ -79,7 +79,7 @@ def _table(
     words: Sequence[str | None] | None = None,
     what: str = "clk edge",
 ) -> Drawing:
-    """A diagram whose columns are edges counted from `base`, a gap for None."""
+    """Return a diagram with edges counted from `base` as columns, a gap for None."""
     at = [None if number is None else base + number for number in columns]
     samples = record(bench.chip, bench.chip.inputs, schedule, at)
     foot = ""
@@ -90,7 +90,7 @@ def _table(
 
 
 def _cycle(bench: Bench, schedule: Schedule, first: int, count: int, groups: Any, texts: Any) -> Drawing:
-    """A bus cycle, one column a clk from edge `first` on."""
+    """Return a bus access with one column for each cycle from edge `first` on."""
     samples = record(bench.chip, bench.chip.inputs, schedule, range(first, first + count))
     lines = [[name, *(wave(row, samples) for row in rows)] for name, rows in groups]
     tick, title, foot, arrows = texts
@@ -103,7 +103,7 @@ def _cycle(bench: Bench, schedule: Schedule, first: int, count: int, groups: Any
 
 
 def write() -> Drawing:
-    """A write cycle."""
+    """Draw a write."""
     bench = ready()
     host = (
         Row("cs_n, wr_n", "wr_n", host=True, nodes={4: "A"}),
@@ -118,7 +118,7 @@ def write() -> Drawing:
     texts = (
         -4,
         "Write of a Single Step: clk edges counted from the end of the strobe",
-        "edge 2 recorded, edge 4 taken and judged, edge 5 motor pins",
+        "edge 2 recorded, edge 4 accepted and checked, edge 5 motor pins",
         ["A~>B", "B~>C", "C~>D"],
     )
     cycle = write_cycle(bench.t, 1, 0x42)
@@ -126,7 +126,7 @@ def write() -> Drawing:
 
 
 def read() -> Drawing:
-    """A data read that takes the byte."""
+    """Draw a data read that removes the byte."""
     bench = ready()
     bench.send(0x82)
     bench.t += 20
@@ -141,7 +141,7 @@ def read() -> Drawing:
     )
     texts = (
         -2,
-        "Data read with a 5-clk strobe: clk edges counted from its start",
+        "Data read with a 5-cycle strobe: clk edges counted from its start",
         "edge 5 is the first without the strobe; OBF falls two edges later",
         ["A~>C", "B~>D", "B~>E"],
     )
@@ -149,7 +149,7 @@ def read() -> Drawing:
 
 
 def start() -> Drawing:
-    """From the last byte of a move to step 1."""
+    """Draw the time from the last byte of a move to step 1."""
     bench = ready()
     bench.write(1, 0x43)
     for byte in (19, 0):
@@ -165,12 +165,12 @@ def start() -> Drawing:
         Row("hold", "hold", nodes={4: "A"}),
         Row("s[5:1]", "s", pattern, nodes={8: "B", 13: "C"}),
     )
-    title = "Start of command 3 (FAST, internal clock): clk edges from the one that takes the last byte"
+    title = "Start of command 3 (FAST, internal clock): clk edges from the one that accepts the last byte"
     return _table(bench, cycle, taken, columns, rows, title, ["A~>B 5 us", "B~>C D1 = 20 ticks"])
 
 
 def end() -> Drawing:
-    """The end of a move, its interrupt, and HOLD."""
+    """Draw the end of a move, its interrupt, and HOLD."""
     bench, last = moved(count=2)
     cycle = write_cycle(last + 100, 1, 0x80)
     hold = 544_000
@@ -187,7 +187,7 @@ def end() -> Drawing:
 
 
 def stop() -> Drawing:
-    """A limit switch between two steps."""
+    """Draw a limit switch between two steps."""
     bench, _ = moved(count=200)
     bench.in_gap(12)
     press = bench.t
@@ -204,7 +204,7 @@ def stop() -> Drawing:
 
 
 def chop() -> Drawing:
-    """Chopping at rest and the next move."""
+    """Draw chopping at standstill and the next move."""
     bench, last = moved(CHOPPED)
     on, off = 1040, 1740
     again = 2 * on + off + 500  # in an off-time
@@ -217,13 +217,13 @@ def chop() -> Drawing:
         Row("BUSY", "busy"),
         Row("s[5:1]", "s", pattern, nodes={1: "A", 5: "B", 9: "C"}),
     )
-    title = "Chopping at rest (init bit 5 = 1), then a Single Step: clk edges from the last step on"
+    title = "Chopping at standstill (init bit 5 = 1), then a Single Step: clk edges from the last step on"
     cycle = write_cycle(last + again, 1, 0x42)
     return _table(bench, cycle, last, columns, rows, title, ["A<->B 65 us", "B<->C 108.75 us"])
 
 
 def datasheet() -> Drawing:
-    """A constant-speed move of two steps in DATASHEET timing, and the 80 that follows it."""
+    """Draw a constant-speed move of two steps in DATASHEET timing, and the 80 that follows it."""
     bench = ready(timing="DATASHEET")
     bench.write(1, 0x44)
     for byte in (10, 1, 0):
@@ -252,7 +252,7 @@ def datasheet() -> Drawing:
 
 
 def isa() -> Drawing:
-    """A command and a status read on the board's bus."""
+    """Draw a command and a status read on the board's bus."""
     board = J105Stmc()
     first = 20
     schedule: Schedule = [
@@ -278,7 +278,7 @@ def isa() -> Drawing:
     return {
         "signal": [clock(samples), *(wave(row, samples) for row in rows)],
         "head": {"text": "42 to the command register, then the status (A0: not initialised), 16 MHz, 560 ns"},
-        "foot": {"text": "sd_oe rises on a clk edge; it falls with ior_n, here drawn on the next edge"},
+        "foot": {"text": "sd_oe rises at a clk edge; it falls with ior_n, drawn here at the next edge"},
         "edge": ["A~>B"],
     }
 

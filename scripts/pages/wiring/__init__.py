@@ -1,1 +1,1 @@
-"""Wiring that can be ordered: what stands between the headers of a board and machine or old host."""
+"""Wiring with order lists: circuits between the headers of a board and a machine or an old host."""

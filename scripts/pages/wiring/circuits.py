@@ -1,4 +1,4 @@
-"""Which circuit each pin of a board gets, and what it is made of. Why so: docs/boards.md, sections 4 to 9."""
+"""The circuit of each pin of a board, and its components. Reasons: docs/boards.md, sections 4 to 9."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from scripts.fpga.boards.pads import Fitted, Pad
 
 WEAK, STRONG = "2.2 kΩ", "1 kΩ"
 STRONG_FPGA = ("artix7", "cyclone5")
-"""Families whose own pull-ups ask for the stronger resistor."""
+"""Families whose internal pull-ups need the stronger resistor."""
 
 
 @dataclass(frozen=True)
 class Item:
-    """A line of an order list. number: how many of them for so many pins of a circuit."""
+    """A line of an order list. number: number of pins of a circuit -> quantity."""
 
     what: str
     order: str
@@ -22,17 +22,17 @@ class Item:
 
 
 def each(count: int = 1) -> Callable[[int], int]:
-    """So many a pin."""
+    """Return a function for `count` items for each pin."""
     return lambda pins: count * pins
 
 
 def chips(channels: int) -> Callable[[int], int]:
-    """Chips with so many channels."""
+    """Return a function for the number of chips with `channels` channels."""
     return lambda pins: -(-pins // channels)
 
 
 def fixed(count: int) -> Callable[[int], int]:
-    """So many in all."""
+    """Return a function for `count` items in total."""
     return lambda pins: count
 
 
@@ -41,9 +41,12 @@ CAPACITOR = "100 nF ceramic, at each chip"
 
 @dataclass(frozen=True)
 class Circuit:
-    """What a group of pins goes through. ports: of the carrier. chip: as drawn, with so many channels.
-    far: what is on the other side, and the level there. pull: where the resistor at the FPGA's side goes, by
-    the name of the pin; "" for none. items: of the order list. note: below the drawing."""
+    """The circuit of a group of pins.
+
+    ports: of the carrier. chip: as drawn, with `channels` channels. far: connection of a pin on the other
+    side, with the signal level `level`. pull: connection of a pin's resistor at the FPGA's side, "" without a
+    resistor. items: of the order list. note: below the drawing.
+    """
 
     key: str
     title: str
@@ -62,7 +65,7 @@ def _ports(text: str) -> frozenset[str]:
 
 
 def _idle(pad: Pad) -> str:
-    """An output that does nothing with H gets its resistor to 3.3 V, others to GND."""
+    """Return "3.3 V" for the resistor of an output that is inactive when high, else "GND"."""
     return "3.3 V" if pad.port.endswith("_n") else "GND"
 
 
@@ -71,12 +74,12 @@ FROM_ONE = ("gpi", "gpo")
 
 
 def _old(pad: Pad) -> str:
-    """The name that the old chip's sheet has."""
+    """Return the name in the data sheet of the old chip."""
     name, bracket, bit = pad.bit.partition("[")
     star = "*" if name.endswith("_n") else ""
     number = bit.rstrip("]")
     if name in ("s1", "s2"):
-        return f"S{number}{name[1]}"  # phase and axis, as the sheet of the PPMC-2104 has them
+        return f"S{number}{name[1]}"  # phase and axis, as in the data sheet of the PPMC-2104
     if bracket and name in FROM_ONE:
         number = str(int(number) + 1)
     return f"{name.removesuffix('_n').upper()}{number}{star}"
@@ -172,7 +175,7 @@ CIRCUITS = (
         lambda pad: {
             "pout_n": "STEP",
             "dir": "DIR",
-            "hold": "N-MOSFET at VREF: less current at rest",
+            "hold": "N-MOSFET at VREF: less current at standstill",
         }[pad.port],
         "3.3 V",
         lambda pad: "3.3 V" if pad.port == "pout_n" else "",
@@ -181,7 +184,7 @@ CIRCUITS = (
     ),
     Circuit(
         "phases",
-        "Phases: unipolar motor, on with H",
+        "Phases: unipolar motor, H = on",
         _ports("s s1 s2"),
         "ULN2003A",
         7,
@@ -190,7 +193,7 @@ CIRCUITS = (
         lambda pad: "GND",
         (
             Item("driver, seven channels", "ULN2003AN (DIP-16)", chips(7)),
-            Item("Zener diode of about the motor's voltage", "1N5359B at 24 V", chips(7)),
+            Item("Zener diode, about the motor voltage", "1N5359B at 24 V", chips(7)),
         ),
         "COM through the Zener diode to the motor's supply, E to GND. Bipolar: docs/boards.md, section 7.",
     ),
@@ -325,12 +328,12 @@ CIRCUITS = (
     ),
 )
 OWN_GROUPS = 1
-"""Groups at the front that are on the board itself."""
+"""Number of first groups that are on the board itself."""
 
 
 @dataclass(frozen=True)
 class Use:
-    """A circuit with the pins that go through it."""
+    """A circuit with its pins."""
 
     circuit: Circuit
     pads: tuple[Pad, ...]
@@ -338,17 +341,17 @@ class Use:
 
     @property
     def resistor(self) -> str:
-        """Value of those at the FPGA's side."""
+        """Value of the resistors at the FPGA's side."""
         return STRONG if self.strong else WEAK
 
     @property
     def channels(self) -> int:
-        """Pins that take a channel."""
+        """Number of pins that use a channel."""
         return sum(pad.port != "d_oe" for pad in self.pads)
 
 
 def _circuit_of(fitted: Fitted, pad: Pad) -> str:
-    """Key of the circuit. ValueError for a pin that has none."""
+    """Return the key of a pin's circuit; raise ValueError if the pin has no circuit."""
     servo = fitted.on.row.folder == "ppmc312"
     port = pad.port
     if port == "dir" and servo:
@@ -360,13 +363,13 @@ def _circuit_of(fitted: Fitted, pad: Pad) -> str:
     found = next((one.key for one in CIRCUITS if port in one.ports), None)
     if found is None:
         raise ValueError(
-            f"{fitted.board.name} {fitted.on.name}: {pad.bit} has no circuit: add it to scripts/wiring"
+            f"{fitted.board.name} {fitted.on.name}: {pad.bit} has no circuit; add it to scripts/pages/wiring"
         )
     return found
 
 
 def uses(fitted: Fitted) -> list[Use]:
-    """The circuits of a part on a board, in their order. ValueError for a pin without one."""
+    """Return the circuits of a part on a board, in order; raise ValueError for a pin without a circuit."""
     own = {pad.bit for group in fitted.groups if group.title == "Board" for pad in group.pads}
     own |= {"uart_rxd", "uart_txd"}
     pads: dict[str, list[Pad]] = {}
@@ -374,7 +377,7 @@ def uses(fitted: Fitted) -> list[Use]:
         if pad.bit not in own:
             pads.setdefault(_circuit_of(fitted, pad), []).append(pad)
     if "steps" in pads:
-        # By motor: a carrier is a chip.
+        # Sorted by motor, because a driver carrier counts as a chip.
         pads["steps"].sort(
             key=lambda pad: int(pad.bit.rstrip("]").rpartition("[")[2]) if "[" in pad.bit else 0
         )
@@ -383,7 +386,7 @@ def uses(fitted: Fitted) -> list[Use]:
 
 
 def order(found: list[Use]) -> list[tuple[int, str, str]]:
-    """Number, what, order number; the same thing of several circuits is one line."""
+    """Return quantity, description and order number; equal items of several circuits are one line."""
     lines: dict[tuple[str, str], int] = {}
     for use in found:
         for item in use.circuit.items:
@@ -391,7 +394,7 @@ def order(found: list[Use]) -> list[tuple[int, str, str]]:
             lines[key] = lines.get(key, 0) + item.number(use.channels)
         if pulls := sum(bool(use.circuit.pull(pad)) for pad in use.pads):
             value = "2K2" if not use.strong else "1K"
-            key = (f"{use.resistor}, at the FPGA's side: see the drawing", f"CFR-25JB-52-{value}")
+            key = (f"{use.resistor}, at the FPGA's side (see the drawing)", f"CFR-25JB-52-{value}")
             lines[key] = lines.get(key, 0) + pulls
         if use.circuit.key == "steps":
             axes = sum(pad.port == "pout_n" for pad in use.pads)
@@ -400,7 +403,7 @@ def order(found: list[Use]) -> list[tuple[int, str, str]]:
                 ("100 µF 50 V at VMOT", "EEU-FR1H101"),
             ]
             if any(pad.port == "hold" for pad in use.pads):
-                rows.append(("N-MOSFET, current at rest", "2N7000"))
+                rows.append(("N-MOSFET, current at standstill", "2N7000"))
             for row in rows:
                 lines[row] = lines.get(row, 0) + axes
     return [(number, *key) for key, number in lines.items()]

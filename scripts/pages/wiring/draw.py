@@ -1,4 +1,4 @@
-"""Schematics of the wiring of a board with a part, by schemdraw: headers left, machine or old host right."""
+"""Schematics of the wiring of a board with a part (schemdraw): headers left, machine or old host right."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ BOARD, WIRE, CHIP, OUT, FAR, END = 0.0, 5.6, 8.4, 13.4, 15.2, 23.6
 INK, PALE, FIVE, LOW = "#1b2733", "#eef2f6", "#c0392b", "#0b6fb8"
 TINY, SMALL, TEXT, TITLE = 8, 9.5, 10, 11.5
 DRAWN = 2
-"""Motors whose carriers are drawn one by one."""
+"""Maximum number of motors whose carriers are drawn one by one."""
 BEHIND = {
     "MAX3485": ("A and B: the line's pair, grounds joined", FIVE),
     "24LC32A": ("", LOW),
     "power stage": ("windings A and B, motor supply", FIVE),
     "DRV8825 carrier": ("A1, A2, B1, B2: motor; VMOT: supply", FIVE),
 }
-"""Modules with which a drawing ends: what is behind them, and its colour."""
+"""Modules at the end of a drawing -> their connections, and the colour."""
 
 
 def draw(fitted: Fitted) -> bytes:
-    """The SVG."""
+    """Return the SVG."""
     schemdraw.use("svg")
     with schemdraw.Drawing(
         show=False, unit=1.6, inches_per_unit=0.42, fontsize=TEXT, color=INK, lw=1.2, margin=0.4
@@ -37,7 +37,7 @@ def draw(fitted: Fitted) -> bytes:
         y = 0.0
         title = f"{fitted.board.title}: {fitted.on.row.title}"
         _text(sheet, BOARD, y, title, 14)
-        _text(sheet, BOARD, y - 0.75, "blue: 3.3 V, never more; red: 5 V or more", SMALL)
+        _text(sheet, BOARD, y - 0.75, "blue: 3.3 V at most; red: 5 V or more", SMALL)
         y -= 1.9
         for use in uses(fitted):
             y = _use(sheet, use, y)
@@ -46,7 +46,7 @@ def draw(fitted: Fitted) -> bytes:
 
 
 def _use(sheet: Any, use: Use, y: float) -> float:
-    """One circuit; the y below it."""
+    """Draw one circuit; return the y below it."""
     _text(sheet, BOARD, y, use.circuit.title, TITLE)
     y -= HEAD
     if use.circuit.chip.startswith("opto"):
@@ -58,7 +58,7 @@ def _use(sheet: Any, use: Use, y: float) -> float:
 
 
 def _chips(use: Use) -> list[tuple[Pad, ...]]:
-    """Pins by chip; of many motors all are in one box."""
+    """Return the pins of each chip; more than DRAWN motors are in one box."""
     size = use.circuit.channels if use.circuit.channels > 1 else len(use.pads)
     if use.circuit.key == "steps":
         motors = sum(pad.port == "pout_n" for pad in use.pads)
@@ -67,7 +67,7 @@ def _chips(use: Use) -> list[tuple[Pad, ...]]:
 
 
 def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) -> float:
-    """A chip with its pins on both sides."""
+    """Draw a chip with its pins on both sides; return the y below it."""
     height = ROW * len(pads) + 0.35
     name = use.circuit.chip + (f" {number + 1}" if number >= 0 else "")
     plain = use.circuit.chip in ("jumper", "header", "microcontroller")
@@ -91,7 +91,7 @@ def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) ->
 
 
 def _last(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, height: float, name: str) -> float:
-    """A module behind which nothing of ours comes."""
+    """Draw a module at the end of the wiring; return the y below it."""
     _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)
     _box(sheet, CHIP, y, FAR + 0.6 - CHIP, height, INK)
     _text(sheet, CHIP + 0.2, y + 0.32, name, TEXT)
@@ -110,7 +110,7 @@ def _last(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, height: float, 
 
 
 def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
-    """Pins of the chip, and the wire on its far side."""
+    """Draw the pins of a channel, and the wire on its far side."""
     chip = use.circuit.chip
     if pad.port == "d_oe":
         _text(sheet, CHIP + 0.2, at, "DIR", SMALL)
@@ -134,7 +134,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
-    """The resistor at the FPGA's side, as a word on its wire: there are many."""
+    """Write the resistor at the FPGA's side as text on its wire, because there are many."""
     to = use.circuit.pull(pad)
     if to:
         x = (WIRE + CHIP) / 2
@@ -143,7 +143,7 @@ def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
 
 
 def _opto(sheet: Any, use: Use, y: float) -> float:
-    """One channel of optocouplers whole, with all pins that get one."""
+    """Draw one complete optocoupler channel, with all pins that have one."""
     failsafe = use.circuit.chip == "opto"
     height = max(4.5, ROW * len(use.pads) + 0.35)
     _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)
@@ -210,7 +210,7 @@ def _far_colour(use: Use) -> str:
 
 
 def _pin(sheet: Any, pad: Pad, at: float) -> None:
-    """Header pin and signal."""
+    """Write header pin and signal."""
     where = pad.where.split(",")[0]
     _text(sheet, BOARD + 0.25, at, where, SMALL)
     _text(sheet, WIRE - 0.2, at, pad.bit, SMALL, "right")

@@ -40,7 +40,7 @@ Contents: {contents}
 
 
 def pages() -> dict[Path, bytes]:
-    """Path and content of every page and drawing."""
+    """Return path and content of every page and drawing."""
     files: dict[Path, bytes] = {}
     fitted = fitted_parts(load_all())
     for board in dict.fromkeys(one.board.name for one in fitted):

@@ -36,18 +36,26 @@ def test_what_is_changed() -> None:
     found = [(fault.line, fault.what) for fault in faults(TEXT)]
     assert {line for line, _ in found} == {5, 8, 9}
     assert {what for line, what in found if line == 5} == {
-        "&& as ||",
-        "left of && alone",
-        "right of && alone",
+        "&& replaced by ||",
+        "only left of &&",
+        "only right of &&",
     }
     assert {what for line, what in found if line == 8} == {
         "never",
         "without !",
-        "left out",
-        "all bits turned",
+        "removed",
+        "all bits inverted",
     }
     assert {what for line, what in found if line == 9} == {
-        *("always", "never", "left out", "other way round", "== as !=", "+ as -", "lowest bit turned"),
+        *(
+            "always",
+            "never",
+            "removed",
+            "condition inverted",
+            "== replaced by !=",
+            "+ replaced by -",
+            "lowest bit inverted",
+        ),
     }
 
 

@@ -104,5 +104,5 @@ def test_mistakes_are_one_line(tmp_path: Path) -> None:
     (tmp_path / "results.sqlite").write_text("no data base, but some words that are long enough to be read")
     for name in ("results.sqlite-wal", "results.sqlite-shm"):
         (tmp_path / name).unlink(missing_ok=True)
-    with pytest.raises(ProjectError, match="remove it to begin anew"):
+    with pytest.raises(ProjectError, match="remove it to start again"):
         ran(tmp_path, work.square, 1)

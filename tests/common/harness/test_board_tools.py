@@ -66,7 +66,7 @@ def loader(folder: Path, text: str) -> None:
 
 def test_flash_without_bitstream(tmp_path: Path) -> None:
     line = only_line(flash(tmp_path, tmp_path))
-    assert "tangnano9k.fs is not there" in line
+    assert "tangnano9k.fs is missing" in line
     assert "make bitstream BOARD=tangnano9k HOST=uart" in line
 
 

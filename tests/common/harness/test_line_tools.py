@@ -106,7 +106,7 @@ def test_soak_counts_its_bytes():
     assert not played.failures and played.compared == {"seeds": 2, line_soak.MODEL_BYTES: 1040}
     with pytest.raises(ProjectError, match="--count must be 1 or more"):
         soak(["ppmc312-serial", "--count", "0"])
-    with pytest.raises(ProjectError, match="PART=ppmc312-parallel: no random hosts of it"):
+    with pytest.raises(ProjectError, match="PART=ppmc312-parallel: no random hosts for this part"):
         soak(["ppmc312-parallel"])
 
 

@@ -16,7 +16,7 @@ def module(ports: int, comment: str = "  // level", lines: int = 0) -> str:
 def test_ports_at_the_limit() -> None:
     assert findings("x.sv", module(MOST_PORTS - 1)) == []
     assert findings("x.sv", module(MOST_PORTS)) == [
-        f"x.sv: {MOST_PORTS + 1} ports, at most {MOST_PORTS}: bundle what travels together"
+        f"x.sv: {MOST_PORTS + 1} ports, at most {MOST_PORTS}: combine related ports in a struct"
     ]
 
 
@@ -30,8 +30,8 @@ def test_lines_at_the_limit() -> None:
 
 def test_a_port_without_its_meaning() -> None:
     assert findings("x.sv", module(2, comment="")) == [
-        "x.sv: logic p0_o: its meaning is not beside it",
-        "x.sv: logic p1_o: its meaning is not beside it",
+        "x.sv: logic p0_o: comment is missing",
+        "x.sv: logic p1_o: comment is missing",
     ]
 
 

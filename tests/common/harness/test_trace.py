@@ -105,7 +105,7 @@ def test_proofs_stand_beside_the_tests() -> None:
     first, second = by_rule()["P104-OPR-02"]
     trace.proofs = {"P104-OPR-02": [first, replace(second, bound=40)]}
     shown = page(trace, "ppmc104")
-    assert "| pass | `ppmc_ramp_seq`<br>`ppmc_axis_count` (40 clk) |" in shown
+    assert "| pass | `ppmc_ramp_seq`<br>`ppmc_axis_count` (40 cycles) |" in shown
     assert "| P104-BUS-01 | Register map | `a` (f16) | pass |  |" in shown
     assert "1 of them are proved as well" in shown
     strange = {"P104-OPR-77": trace.proofs["P104-OPR-02"]}

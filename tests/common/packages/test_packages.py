@@ -85,7 +85,7 @@ def test_cores():
 
 
 @pytest.mark.parametrize(
-    ("program", "told"), (("/no/such", "there is no such program"), ("true", "no Verilator"))
+    ("program", "told"), (("/no/such", "there is no such program"), ("true", "not a Verilator"))
 )
 def test_other_verilator_must_be_one(program, told):
     """A VERILATOR that is not one is reported in one line before any check passes."""

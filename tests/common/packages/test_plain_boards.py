@@ -83,7 +83,7 @@ def test_attributes_of_vendors_cells():
     assert text.splitlines()[0] == '  (* ICP_CURRENT = "12", MFG_ENABLE_FILTEROPAMP = "1" *)'
     assert text.count("(*") == 1
     cells["u_b"] = {"type": "PLL", "attributes": {"ICP_CURRENT": "13"}}
-    with pytest.raises(ProjectError, match="PLL: two of them with different attributes"):
+    with pytest.raises(ProjectError, match="PLL: two cells with different attributes"):
         vendor_attributes({"top": {"cells": cells}})
 
 

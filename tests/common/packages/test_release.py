@@ -36,7 +36,7 @@ def test_notes_are_the_newest_section():
         (TEXT, "1.3.0", r"version 1.3.0, but the newest heading of CHANGELOG.md is \[1.2.0\]"),
         (TEXT, "1.1.0", r"newest heading of CHANGELOG.md is \[1.2.0\]"),
         (TEXT.replace("Unreleased]\n", "Unreleased]\n- new\n"), "1.2.0", r"below \[Unreleased\] the heading"),
-        (TEXT.replace("- this", ""), "1.2.0", "says nothing"),
+        (TEXT.replace("- this", ""), "1.2.0", "has no text below"),
         ("# Changelog\n", "1.2.0", r"is \[none\]"),
     ],
 )
@@ -224,7 +224,7 @@ def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
     monkeypatch.setattr(command, "DIST", project.BUILD / "test" / "no_dist")
     (project.BUILD / "test" / "no_dist").mkdir(parents=True, exist_ok=True)
     monkeypatch.setattr(sys, "argv", ["release"])
-    with pytest.raises(ProjectError, match="^npm is not installed: the site needs Node.js"):
+    with pytest.raises(ProjectError, match="^npm is not installed; install Node.js"):
         command.main()
     assert made == []
     monkeypatch.setattr(sys, "argv", ["release", "--skip", "site"])

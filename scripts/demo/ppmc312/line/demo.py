@@ -31,15 +31,15 @@ REPRO = f"make demo PART={NAME}"
 
 
 def last_line(path: Path) -> str:
-    """Last line of a file that may not be there yet."""
+    """Return the last line of a file; empty if the file does not exist yet."""
     lines = path.read_text(errors="replace").split("\n") if path.is_file() else []
     return next((line for line in reversed(lines) if line), "")
 
 
 def simulate(steps: Steps) -> LineRun:
-    """Build and run."""
+    """Build the line and run it."""
     made = steps.run("build one station and the line with Verilator", lambda: design(F8L, FAST_ARGS))
-    steps.run("join sixteen of them", lambda: build(made))
+    steps.run("link sixteen stations", lambda: build(made))
     item = Item("cocotb_tests.ppmc312.line.demo", "demo_line", F8L, LINE.name, ())
     steps.run(
         "drive them over the line",
@@ -50,11 +50,11 @@ def simulate(steps: Steps) -> LineRun:
 
 
 def show_talk(run: LineRun) -> None:
-    """One exchange of each kind, byte by byte."""
+    """Print one exchange of each kind, byte by byte."""
     table = Table(title="On the line", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for head, justify in (("ms", "right"), ("frame of the master", "left"), ("in words", "left"),
-                          ("reply", "left"), ("in words", "left"), ("of these", "right")):  # fmt: skip
-        table.add_column(head, justify=justify, no_wrap=head != "in words")  # type: ignore[arg-type]
+    for head, justify in (("ms", "right"), ("frame of the master", "left"), ("meaning", "left"),
+                          ("reply", "left"), ("meaning", "left"), ("of these", "right")):  # fmt: skip
+        table.add_column(head, justify=justify, no_wrap=head != "meaning")  # type: ignore[arg-type]
     clk_hz = int(str(run.recording.params["CLK_HZ"]))
     for chapter in run.chapters:
         inside = [one for one in run.talk if chapter["begin"] <= one.begin < chapter["end"]]
@@ -71,9 +71,9 @@ def show_talk(run: LineRun) -> None:
 
 
 def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
-    """Each axis: what was ordered, what its pins did, what it says, the comparison."""
+    """Print for each axis the order, the motion at its pins, its reports and the comparison."""
     table = Table(title="Sixteen axes", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    heads = ("station", "pulse 1 / ms", "last pulse / ms", "pulses", "polls: busy", "stop told / ms")
+    heads = ("station", "pulse 1 / ms", "last pulse / ms", "pulses", "polls: busy", "stop reported / ms")
     for head in (*heads, "position read", "edges of the RTL", "edges of the model", "without a twin"):
         table.add_column(head, justify="right")
     clk_hz = int(str(run.recording.params["CLK_HZ"]))
@@ -100,13 +100,13 @@ def show_axes(run: LineRun, comparisons: list[Comparison]) -> None:
 
 
 def main() -> int:
-    """Run the demo; 0 when RTL and golden models agree in every edge."""
+    """Run the demo; return 0 if RTL and golden models agree in every edge."""
     steps = Steps()
     begin = time.monotonic()
     try:
         shutil.rmtree(FOLDER, ignore_errors=True)
         run = simulate(steps)
-        comparisons = steps.run("ask sixteen golden models", lambda: compare_line(run.recording))
+        comparisons = steps.run("run sixteen golden models", lambda: compare_line(run.recording))
         saved = waves.write(run, comparisons, FOLDER / NAME)
         picture = FOLDER / "profile.png"
         steps.run("draw the picture", lambda: draw(run, comparisons, picture))

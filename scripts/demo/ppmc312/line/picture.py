@@ -1,4 +1,4 @@
-"""The picture of sixteen axes on one line: their positions, who speaks when, three exchanges bit by bit."""
+"""The picture of sixteen axes on one line: positions, transmissions over time, three exchanges bit by bit."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ MASTER = SPEED
 REPLIES = {"busy": "#c26a1b", "ready": "#2f9e6e", "data": "#c0392b", "specific": "#7a4fa3"}
 SHADES = plt.get_cmap("turbo")
 CHARACTER = 960
-"""clk of a character."""
+"""Length of a character in cycles."""
 
 
 def shade(number: int, count: int) -> Any:
-    """Colour of a station."""
+    """Return the colour of a station."""
     return SHADES(0.06 + 0.88 * number / max(1, count - 1))
 
 
 def ways(
     axes: Axes, run: LineRun, comparisons: Sequence[Comparison], span: tuple[int, int], ms: float
 ) -> None:
-    """Position of every axis by its pulses; a dot where it was read back."""
+    """Draw the position of every axis from its pulses, with a dot for each position read back."""
     read = {one.station: one for one in run.talk if one.code == 0x42}
     for number, comparison in enumerate(comparisons):
         rows = [(span[0], 0), *positions(comparison)]
@@ -47,20 +47,20 @@ def ways(
     bare(axes)
     axes.grid(axis="y", color=PALE, linewidth=0.8)
     heading(
-        axes, "Positions of sixteen axes, counted at their pulse outputs; dots: as read back over the line"
+        axes, "Positions of sixteen axes, counted at their pulse outputs; dots: positions read over the line"
     )
     axes.set_ylabel("pulses", fontsize=9, color=GREY)
 
 
 def traffic(axes: Axes, talk: Sequence[Exchange], count: int, ms: float) -> None:
-    """One row for each station: what the master says to it, and what it replies."""
+    """Draw one row for each station: frames of the master to it, and its replies."""
     rows: dict[str, list[tuple[int, float, float]]] = {}
     for one in talk:
         rows.setdefault("master", []).append((one.station, one.begin, one.sent_end))
         if one.answer:
             rows.setdefault(one.kind, []).append((one.station, one.replied, one.end))
     for name, colour in {"master": MASTER, **REPLIES}.items():
-        label = "the master speaks to it" if name == "master" else f"it replies: {name}"
+        label = "frame of the master" if name == "master" else f"it replies: {name}"
         for station, begin, end in rows.get(name, ()):
             axes.broken_barh(
                 [(begin / ms, (end - begin) / ms)], (station - 0.4, 0.8), color=colour, label=label
@@ -81,7 +81,7 @@ def traffic(axes: Axes, talk: Sequence[Exchange], count: int, ms: float) -> None
 
 
 def characters(one: Exchange) -> list[tuple[int, str]]:
-    """(edge in the middle of a character, how it is written) of both frames."""
+    """Return (edge in the middle of a character, its text) for both frames."""
     rows = []
     for begin, frame in ((one.begin, one.question), (one.replied, one.answer)):
         for place, byte in enumerate(frame):
@@ -92,7 +92,7 @@ def characters(one: Exchange) -> list[tuple[int, str]]:
 
 
 def exchange(axes: Axes, run: LineRun, comparison: Comparison, one: Exchange, letter: str) -> None:
-    """Levels of master and station, and what the characters are."""
+    """Draw the levels of master and station, and the characters."""
     traces = [
         Trace("MASTER", 1, pin(run.recording.stimulus, "master"), MASTER),
         Trace("SND", 0, comparison.actual["snd"], "#7a4fa3"),
@@ -110,7 +110,7 @@ def exchange(axes: Axes, run: LineRun, comparison: Comparison, one: Exchange, le
 
 
 def chosen(talk: Sequence[Exchange]) -> list[Exchange]:
-    """A start, a poll of a moving axis, the poll that tells of its stop."""
+    """Return a start, a poll of a moving axis, and the poll that reports its stop."""
     start = next(one for one in talk if one.code == 0x83 and one.station == 4)
     polls = [one for one in talk if not one.code and one.station == 4 and one.begin > start.begin]
     return [start, *(next(one for one in polls if one.kind == kind) for kind in ("busy", "data"))]

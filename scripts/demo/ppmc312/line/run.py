@@ -1,4 +1,4 @@
-"""What a run of the demo of the line leaves."""
+"""Result files of a run of the line demo."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scripts.demo.ppmc312.line.talk import Exchange, exchanges
 
 @dataclass(frozen=True)
 class LineRun:
-    """What a run leaves: the recording of the line, chapters, exchanges, positions read back."""
+    """Result of a run: the recording of the line, chapters, exchanges, positions read back."""
 
     recording: Recording
     chapters: list[dict[str, Any]]
@@ -22,7 +22,7 @@ class LineRun:
 
 
 def load(folder: Path) -> LineRun:
-    """What a run has left in its folder."""
+    """Read the result of a run from its folder."""
     told = json.loads((folder / "talk.json").read_text())
     return LineRun(
         Recording.from_json((folder / "recording.json").read_text()),

@@ -1,4 +1,4 @@
-"""Frames of the PPMC-312's line as pairs of question and answer, in words."""
+"""Frames of the PPMC-312's line as pairs of question and answer, with their meaning as text."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ STARTS = {0x83: "accelerate/decelerate, CW", 0xA3: "accelerate/decelerate, CCW"}
 
 @dataclass(frozen=True)
 class Exchange:
-    """What the master sent from `begin` on and what came back until `end`; `replied` to it (all in clk)."""
+    """A frame of the master from edge `begin` to `sent_end`, and its reply from `replied` to `end`."""
 
     begin: int
     sent_end: int
@@ -30,17 +30,17 @@ class Exchange:
 
     @property
     def data(self) -> bytes:
-        """Data of the question; none of a poll."""
+        """Data of the question; empty for a poll."""
         return bytes.fromhex(self.question[1:-1].decode())
 
     @property
     def code(self) -> int:
-        """Instruction code, 0 of a poll. The initial setting counts as 100h."""
+        """Instruction code; 0 for a poll, 100h for the initial setting."""
         return (self.data[0] or 0x100) if self.data else 0
 
     @property
     def kind(self) -> str:
-        """Kind of the answer; "" without one."""
+        """Kind of the answer; "" if there is no answer."""
         return KINDS[self.answer[0] & 0xF0] if self.answer else ""
 
     @property
@@ -50,7 +50,7 @@ class Exchange:
 
     @property
     def sent(self) -> str:
-        """The question as characters: control code and checksum in hexadecimal, what is between as text."""
+        """The question as characters: control code and checksum in hexadecimal, all between them as text."""
         return as_text(self.question)
 
     @property
@@ -60,7 +60,7 @@ class Exchange:
 
     @property
     def meaning(self) -> str:
-        """The question in words."""
+        """The meaning of the question as text."""
         data, number = self.data, f"station {self.station}: "
         if not data:
             return number + "poll"
@@ -73,7 +73,7 @@ class Exchange:
 
     @property
     def reply(self) -> str:
-        """The answer in words."""
+        """The meaning of the answer as text."""
         if self.kind != "data":
             return self.kind if self.kind != "specific" else f"report {self.content.hex()}"
         if not self.code:
@@ -84,7 +84,7 @@ class Exchange:
 
 
 def as_text(frame: bytes) -> str:
-    """A frame on paper: 83 0a becomes `92 "0a" 6D`."""
+    """Return a frame as text: 83 0a becomes `92 "0a" 6D`."""
     if not frame:
         return ""
     middle = f' "{frame[1:-1].decode()}"' if len(frame) > 2 else ""
@@ -92,7 +92,7 @@ def as_text(frame: bytes) -> str:
 
 
 def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
-    """Rows (begin, end, "master" or "station", characters in hexadecimal) in time, as exchanges."""
+    """Return exchanges from rows (begin, end, "master" or "station", hexadecimal characters) by time."""
     found: list[Exchange] = []
     for begin, end, who, text in talk:
         begin, end, data = int(begin), int(end), bytes.fromhex(str(text))

@@ -1,8 +1,9 @@
-"""`make mutate`: mutants of rtl/, each against proofs and tests until one fails.
+"""`make mutate`: run proofs and tests on each mutant of rtl/ until one fails.
 
-Writes docs/mutants.md if all folders take part, else build/mutants.md. What is killed stays so while its file
-stays; survivors are tried again when the sources have changed. Ends with 1 if a mutant does not compile, or a
-folder's score is below its goal."""
+It writes docs/mutants.md if all folders are included, else build/mutants.md. A killed mutant is not tried
+again while its file is unchanged; survivors are tried again when the sources have changed. The exit code is 1
+if a mutant does not compile, or if a folder's score is below its goal.
+"""
 
 from __future__ import annotations
 
@@ -23,13 +24,13 @@ from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, dig
 
 NAME = "mutate"
 GOAL, LEAST = 95.0, 70.0
-"""Score of a folder in %; of a small sample, which says little."""
+"""Required score of a folder in %; of a small sample, which is less meaningful."""
 SMALL = 50
-NOT_GUIDED = "`make coverage` first makes this much quicker"
+NOT_GUIDED = "run `make coverage` first to make this much faster"
 
 
 def known() -> dict[str, str]:
-    """Key -> stamp of the mutants that are killed, of files that are as they were."""
+    """Return key -> stamp of the killed mutants of unchanged files."""
     with Store() as store:
         return {
             done.key: stamp
@@ -39,19 +40,23 @@ def known() -> dict[str, str]:
 
 
 def on_file(keys: Container[str]) -> list[Done]:
-    """The last result of each of these mutants, if its file is as it was."""
+    """Return the last result of each of these mutants if its file is unchanged."""
     with Store() as store:
         found = {done.key: done for _, done in store.all(NAME) if done.key in keys and "file" in done.data}
     return [done for done in found.values() if done.data["file"] == digest(done.key.split(" ")[0])]
 
 
 def main() -> int:
-    """Command line; returns the exit code."""
+    """Run the command line; return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m scripts.measure.mutants.made", description=__doc__)
-    parser.add_argument("-k", metavar="T", default="", help="a folder of rtl/, or files whose path holds T")
-    parser.add_argument("--count", type=int, help="so many mutants of each folder (default: all)")
-    parser.add_argument("--so-far", action="store_true", help="run nothing: the page from what is on file")
-    parser.add_argument("--quick", action="store_true", help="the first two batches of tests alone")
+    parser.add_argument(
+        "-k", metavar="T", default="", help="a folder of rtl/, or files whose path contains T"
+    )
+    parser.add_argument("--count", type=int, help="number of mutants of each folder (default: all)")
+    parser.add_argument(
+        "--so-far", action="store_true", help="run nothing; write the page from stored results"
+    )
+    parser.add_argument("--quick", action="store_true", help="only the first two batches of tests")
     add_arguments(parser)
     args = parser.parse_args()
     if args.count is not None and args.count < 1:
@@ -86,12 +91,12 @@ def main() -> int:
         mine = [one for one in tried if folder_of(one.file) == folder]
         found = score(mine, len(mine))
         console.print(
-            f"{folder}: {found.killed} of {len(mine)} killed, {found.endless} without end, "
-            f"{found.equivalent} equivalent, {found.alive} alive"
+            f"{folder}: {found.killed} of {len(mine)} killed, {found.endless} endless, "
+            f"{found.equivalent} equivalent, {found.alive} survived"
         )
         goal = LEAST if len(mine) <= SMALL else GOAL
         bad += bool(found.broken) or (found.percent is not None and found.percent < goal)
-    hint = "" if suites is None or suites.guided else f" (no coverage on file: {NOT_GUIDED})"
+    hint = "" if suites is None or suites.guided else f" (no stored coverage: {NOT_GUIDED})"
     console.print(f"{relative(path)} written{hint}")
     return 1 if bad else 0
 

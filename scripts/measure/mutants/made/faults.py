@@ -1,8 +1,8 @@
-"""The mutants of a file of RTL: small faults at places of slang's syntax tree.
+"""The mutants of an RTL file: small faults at places of slang's syntax tree.
 
-Only what is decided when the hardware runs is changed: expressions and assignments of always blocks,
-continuous assignments, inputs of instances. Left as they are: parameters, declarations, widths and ranges,
-generate conditions, case labels, functions, assertions and all else that SYNTHESIS leaves out.
+Only code that hardware evaluates is changed: expressions and assignments of always blocks, continuous
+assignments, inputs of instances. Unchanged are parameters, declarations, widths and ranges, generate
+conditions, case labels, functions, assertions and all other code that SYNTHESIS excludes.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ SWAPS = {
     "<<": ">>",
     ">>": "<<",
 }
-"""Operator -> the one that is written in its place."""
+"""Operator -> its replacement."""
 LOGIC = ("&&", "||")
 ASSIGNMENTS = ("AssignmentExpression", "NonblockingAssignmentExpression")
 SKIPPED = (
@@ -38,14 +38,14 @@ SKIPPED = (
     *("FinalBlock", "TypedefDeclaration", "ParameterDeclarationStatement", "OpenRangeList", "RangeList"),
     *("AssertPropertyStatement", "ImmediateAssertStatement", "ConcurrentAssertionMember"),
 )
-"""Kinds of nodes that nothing below is changed of."""
+"""Kinds of nodes that are not changed, including all nodes below them."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A mutant. `text` stands in place of file[start:end]; dropped: the statement there is left out.
+    """A mutant. `text` replaces file[start:end]; dropped: the statement there is removed.
 
-    number: from 1, in its file. what: in words, for tables.
+    number: from 1, in its file. what: description, for tables.
     """
 
     number: int
@@ -58,12 +58,12 @@ class Fault:
 
 
 def alone(text: str, fault: Fault) -> str:
-    """The file with this fault and nothing else changed."""
+    """Return the file with only this fault."""
     return text[: fault.start] + ("begin end" if fault.dropped else f"({fault.text})") + text[fault.end :]
 
 
 class Finder:
-    """Walks over a file and collects its faults."""
+    """Collector of the faults of a file."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -81,7 +81,7 @@ class Finder:
         return self.text[start:end]
 
     def _module(self, node: Any) -> None:
-        """Look for what runs: always blocks, assignments, instances."""
+        """Find code that runs: always blocks, assignments, instances."""
         name = kind(node)
         if name in ("AlwaysFFBlock", "AlwaysCombBlock", "AlwaysBlock", "ContinuousAssign"):
             if self._of(node).startswith("assign unused"):
@@ -94,7 +94,7 @@ class Finder:
                 self._module(child)
 
     def _walk(self, node: Any) -> None:
-        """Everything that runs."""
+        """Add the faults of a node that runs."""
         name = kind(node)
         if name in SKIPPED or "Event" in name:
             return
@@ -103,11 +103,11 @@ class Finder:
             skipped.append(node.left)
             parent = node.parent
             if name == ASSIGNMENTS[1] and kind(parent) == "ExpressionStatement":
-                self._add(parent, "", "left out", dropped=True)
+                self._add(parent, "", "removed", dropped=True)
         elif name == "ConditionalStatement":
             self._condition(node.predicate)
         elif name == "ConditionalExpression":
-            self._add(node.predicate, f"!({self._of(node.predicate)})", "other way round")
+            self._add(node.predicate, f"!({self._of(node.predicate)})", "condition inverted")
         elif name == "MultipleConcatenationExpression":
             skipped.append(node.expression)
         elif name == "CastExpression":
@@ -125,7 +125,7 @@ class Finder:
                 self._walk(child)
 
     def _condition(self, predicate: Any) -> None:
-        """An if that is always taken, and one that never is; of a reset the second alone."""
+        """Add an if that is always true, and one that is never true; for a reset only the second."""
         text = self._of(predicate)
         if "rst" not in text:
             self._add(predicate, "1'b1", "always")
@@ -137,22 +137,22 @@ class Finder:
             sign = node.operatorToken.valueText
             if sign in SWAPS:
                 left, right = self._of(node.left), self._of(node.right)
-                self._add(node, f"({left}) {SWAPS[sign]} ({right})", f"{sign} as {SWAPS[sign]}")
+                self._add(node, f"({left}) {SWAPS[sign]} ({right})", f"{sign} replaced by {SWAPS[sign]}")
                 if sign in LOGIC:
-                    self._add(node, left, f"left of {sign} alone")
-                    self._add(node, right, f"right of {sign} alone")
+                    self._add(node, left, f"only left of {sign}")
+                    self._add(node, right, f"only right of {sign}")
         elif name in ("UnaryLogicalNotExpression", "UnaryBitwiseNotExpression"):
             self._add(node, self._of(node.operand), f"without {text[0]}")
         elif name == "IntegerVectorExpression":
-            self._add(node, f"({text} ^ 1'b1)", "lowest bit turned")
+            self._add(node, f"({text} ^ 1'b1)", "lowest bit inverted")
         elif name == "IntegerLiteralExpression":
-            self._add(node, f"({text} + 1)", "one more")
+            self._add(node, f"({text} + 1)", "plus 1")
         elif name == "UnbasedUnsizedLiteralExpression" and text in ("'0", "'1"):
-            self._add(node, {"'0": "'1", "'1": "'0"}[text], "all bits turned")
+            self._add(node, {"'0": "'1", "'1": "'0"}[text], "all bits inverted")
 
 
 def faults(text: str) -> list[Fault]:
-    """All mutants of a file, in the order of their places; what only quiets the linter is left as it is."""
+    """Return all mutants of a file, in order of their places; code that only silences lint is unchanged."""
     finder = Finder(text)
     return [
         fault for fault in finder.found if not any(start <= fault.start < end for start, end in finder.unused)

@@ -1,4 +1,4 @@
-"""docs/mutants.md: a score a folder and a module, and the survivors."""
+"""The page docs/mutants.md: the score of each folder and module, and the survivors."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ SO_FAR = "The mutants ran at different times; for some survivors only the first 
 
 @dataclass(frozen=True)
 class Tried:
-    """A mutant and what became of it; `test` that killed it."""
+    """A mutant and its verdict; `test`: the test that killed it."""
 
     file: str
     fault: Fault
@@ -41,24 +41,24 @@ class Tried:
 
     @property
     def source(self) -> str:
-        """Its line."""
+        """The source line of the fault."""
         return lines(self.file)[self.fault.line - 1].strip()
 
     @property
     def why(self) -> str:
-        """Why it is equivalent; "" if nobody has said so."""
+        """The reason why it is equivalent; "" if it has not been reviewed."""
         return judged().get((self.file, self.source, self.fault.what), "")
 
 
 @cache
 def lines(file: str) -> list[str]:
-    """Lines of a file of the project."""
+    """Return the lines of a file of the project."""
     return (ROOT / file).read_text(encoding="utf-8").splitlines()
 
 
 @cache
 def judged() -> Mapping[tuple[str, str, str], str]:
-    """The entries of judged.yml; ProjectError for one whose text no longer stands in its file."""
+    """Return the entries of judged.yml; ProjectError if a text is no longer in its file."""
     entries = yaml.safe_load(JUDGED.read_text(encoding="utf-8")) or []
     for entry in entries:
         if not any(entry["line"] == line.strip() for line in lines(entry["file"])):
@@ -68,7 +68,7 @@ def judged() -> Mapping[tuple[str, str, str], str]:
 
 @dataclass(frozen=True)
 class Score:
-    """Counts of some mutants."""
+    """Counts of a set of mutants."""
 
     made: int
     killed: int
@@ -80,13 +80,13 @@ class Score:
 
     @property
     def percent(self) -> float | None:
-        """None if there is none to judge."""
+        """The score in %; None if no mutant counts."""
         counted = self.killed + self.alive
         return 100 * self.killed / counted if counted else None
 
 
 def score(tried: Sequence[Tried], made: int) -> Score:
-    """Of these mutants, of so many that there are."""
+    """Return the score of these mutants; made: number of all mutants."""
     alive = [one for one in tried if one.verdict == ALIVE]
     equivalent = sum(bool(one.why) for one in alive)
     count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in (KILLED, ENDLESS, BROKEN)}
@@ -96,7 +96,7 @@ def score(tried: Sequence[Tried], made: int) -> Score:
 
 
 def row(name: str, tried: Sequence[Tried], made: int) -> str:
-    """Of the tables."""
+    """Return a row of the tables."""
     found = score(tried, made)
     percent = "–" if found.percent is None else f"{found.percent:.1f} %"
     killed = (found.killed, found.proved, found.endless)
@@ -105,14 +105,14 @@ def row(name: str, tried: Sequence[Tried], made: int) -> str:
 
 
 def table(title: str, rows: Sequence[str]) -> Iterator[str]:
-    """With its head."""
+    """Yield a table with its heads."""
     yield f"| {title} | made | tried | killed | by a proof | no end | equivalent | survived | score |"
     yield "|---|---|---|---|---|---|---|---|---|"
     yield from rows
 
 
 def folder_rows(tried: Sequence[Tried], files: Sequence[str]) -> Iterator[str]:
-    """A line a folder, and all together."""
+    """Yield one row for each folder, and the total."""
     for folder in sorted({folder_of(file) for file in files}):
         made = sum(len(of_file(file)) for file in files if folder_of(file) == folder)
         yield row(folder, [one for one in tried if folder_of(one.file) == folder], made)
@@ -120,7 +120,7 @@ def folder_rows(tried: Sequence[Tried], files: Sequence[str]) -> Iterator[str]:
 
 
 def survivors(tried: Sequence[Tried]) -> Iterator[str]:
-    """Those alive, and those without end."""
+    """Yield the table of mutants that survived or are endless."""
     yield "| place | source | mutant | |"
     yield "|---|---|---|---|"
     for one in tried:
@@ -138,7 +138,7 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
 
 
 def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
-    """The whole page. note: how far the tests went (QUICK, SO_FAR)."""
+    """Return the whole page. note: restriction of the tests (QUICK, SO_FAR)."""
     modules = [
         row(file, mine, len(of_file(file)))
         for file in files

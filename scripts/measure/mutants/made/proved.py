@@ -1,4 +1,4 @@
-"""The quick proofs whose blocks hold a file, and which of them a mutant of it makes fail."""
+"""The quick proofs whose blocks contain a file, and the proof that a mutant of it makes fail."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from scripts.measure.prove.check import check, place
 from scripts.measure.prove.table import Change, Proof, proofs
 
 LIMIT = 60
-"""Seconds of a solver; a proof takes a few."""
+"""Limit of a solver in s; a proof takes a few seconds."""
 
 
 def _held(proof: Proof) -> set[str]:
-    """Names of the files that the block of a proof is made of, packages as well."""
+    """Return the names of the files in the block of a proof, including packages."""
     texts = {path.stem: path.read_text(encoding="utf-8") for path in proof.sources()}
     found: set[str] = set()
     fresh = {proof.file.stem}
@@ -31,7 +31,7 @@ def _held(proof: Proof) -> set[str]:
 
 @cache
 def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
-    """Those of the block itself, and those of the blocks that it is part of, but for stand-ins."""
+    """Return the proofs of the block itself, and those of blocks that contain it (not replaced by a stub)."""
     name = Path(file).stem
     quick = (one for one in proofs() if not one.night)
     found = [one for one in quick if ROOT / file in one.sources() and name in _held(one)]
@@ -40,7 +40,7 @@ def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
 
 
 def failing(file: str, fault: Fault, tried: Sequence[Proof]) -> str:
-    """The first of the proofs with a counterexample, or without a trace to a cover; "" if all stand."""
+    """Return the first proof with a counterexample or a cover that is not reached; "" if all proofs hold."""
     text = alone((ROOT / file).read_text(encoding="utf-8"), fault)
     change = Change(f"{Path(file).stem}-{fault.number}", file, text)
     for proof in tried:

@@ -1,6 +1,6 @@
-"""All mutants of a file in one copy of it: +mutant=N chooses one when the simulation starts, 0 is none.
+"""All mutants of a file in one copy: +mutant=N selects one when the simulation starts; 0: no mutant.
 
-So a design is compiled once for all mutants of a file. Lines keep their numbers.
+Thus, a design is compiled once for all mutants of a file. Lines keep their numbers.
 """
 
 from __future__ import annotations
@@ -15,21 +15,21 @@ DECLARED = f' int {CHOSEN} = 0; initial if (!$value$plusargs("mutant=%d", {CHOSE
 
 
 def _heads(text: str) -> list[int]:
-    """Where the headers of modules end."""
+    """Return the ends of the module headers."""
     return [span(node.header)[1] for node in found(tree(text), "ModuleDeclaration")]
 
 
 def instrumented(text: str, faults: Sequence[Fault]) -> str:
-    """The copy with these mutants."""
+    """Return the copy with these mutants."""
     places: dict[tuple[int, int, bool], list[Fault]] = {}
     for fault in faults:
         places.setdefault((fault.start, fault.end, fault.dropped), []).append(fault)
-    # Outer places first; a statement that may be left out is outside of what it holds.
+    # Outer places first; a statement that may be removed is outside its contents.
     order = sorted(places, key=lambda place: (place[0], -place[1], not place[2]))
     heads = _heads(text)
 
     def render(start: int, end: int, within: list[tuple[int, int, bool]]) -> str:
-        """The text of [start, end) with all places in it, of which none is that of the caller."""
+        """Return the text of [start, end) with all places inside it, except the caller's own place."""
         parts, at, rest = [], start, within
         while rest:
             place = rest[0]
@@ -41,7 +41,7 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
         return "".join([*parts, plain(at, end)])
 
     def plain(start: int, end: int) -> str:
-        """Unchanged text, with the declaration behind each header in it."""
+        """Return unchanged text, with the declaration after each module header in it."""
         piece, at = [], start
         for head in heads:
             if start < head <= end:
@@ -61,5 +61,5 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
 
 
 def _flat(text: str) -> str:
-    """On one line, without comments, so that all lines behind keep their numbers."""
+    """Return a text on one line without comments, so that all following lines keep their numbers."""
     return " ".join(line.partition("//")[0].strip() for line in text.splitlines())

@@ -1,9 +1,9 @@
-"""Which tests the mutants of a file meet: groups of tests, each a simulator process, the quickest first.
+"""Tests for the mutants of a file: groups of tests, each a simulator process, the fastest first.
 
-If a coverage campaign is on file (`make coverage`), they are the groups that reach the line of the mutant,
-first those of its block, then those that are newer than the campaign, then by the time that they took a point
-of the file. Else they are those of the folder: tests of blocks, then of the parts that have the file,
-directed ones before random ones.
+If results of a coverage campaign are stored (`make coverage`), the groups are those that cover the line of
+the mutant: first those of its block, then groups newer than the campaign, then by their time for each covered
+point of the file. Otherwise, they are the groups of the folder: tests of blocks, then of the parts that
+contain the file, directed tests before random tests.
 """
 
 from __future__ import annotations
@@ -28,33 +28,33 @@ BLOCKS = {
     "single": ("cocotb_tests/single/test_blocks.py",),
     "ppmc312": ("cocotb_tests/ppmc312/stages/test_blocks.py",),
 }
-"""Folder of rtl/ -> what tests its blocks alone."""
+"""Folder of rtl/ -> tests of its single blocks."""
 AT_LAST = ("cocotb_tests/common/test_benches.py", "cocotb_tests/board/")
 
 Group = tuple[str, ...]
 GUIDED, FEW = 6, 2
-"""Groups that one pytest runs: of those that are known to reach the line, and of those that may."""
+"""Number of groups in one pytest: of those that cover the line, and of those that may cover it."""
 
 
 @cache
 def every() -> list[Group]:
-    """All groups of `make test`."""
+    """Return all groups of `make test`."""
     return [tuple(tests) for tests in groups()]
 
 
 def _part(group: Group) -> parts.Row | None:
-    """The part whose tests they are."""
+    """Return the part that the tests of a group belong to."""
     rows = (row for row in parts.folders() if group[0].startswith(f"cocotb_tests/{row.name}/"))
     return next(rows, None)
 
 
 def _may_reach(group: Group, file: str) -> bool:
-    """Whether the group, of which nothing is known, may have the file."""
+    """Return whether a group without stored coverage may simulate the file."""
     return _part(group) is None or _rank(group, file) >= 0
 
 
 def _rank(group: Group, file: str) -> int:
-    """Place in the order of the folder: blocks, directed, random; -1 for tests that do not have the file."""
+    """Return the rank of a group: blocks, directed, random; -1 for tests that do not simulate the file."""
     folder, first = file.split("/")[1], group[0]
     if first.startswith(BLOCKS.get(folder, ())):
         return 0
@@ -69,7 +69,7 @@ def _rank(group: Group, file: str) -> int:
 
 @dataclass(frozen=True)
 class _Reach:
-    """What a group has reached: lines of files, and how many points of them."""
+    """Coverage of a group: lines of files, and the number of covered points of each file."""
 
     group: Group
     seconds: float
@@ -78,7 +78,7 @@ class _Reach:
 
 
 class Suites:
-    """Groups of tests for lines of files; `of` asks."""
+    """Groups of tests for lines of files, returned by `of`."""
 
     def __init__(self) -> None:
         self._reached: list[_Reach] = []
@@ -92,11 +92,11 @@ class Suites:
             points = Points.unpack(done.data["points"])
             self._reached.append(_Reach(known[key], done.seconds, _lines(points), _weights(points)))
         self._new = [group for key, group in known.items() if key not in latest]
-        # A sample tells nothing of the groups that it lacks; a few new tests do not make it one.
+        # A sample of coverage is not sufficient, because groups are missing; a few new tests are permitted.
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """The groups in the order in which they are tried, several as one: each start takes seconds."""
+        """Return the groups in order of their runs; several are joined, because each start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
@@ -116,18 +116,18 @@ class Suites:
 
 
 def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
-    """So many groups as one, in their order."""
+    """Yield `size` groups as one, in their order."""
     for at in range(0, len(all_groups), size):
         yield tuple(test for group in all_groups[at : at + size] for test in group)
 
 
 def _weights(points: Points) -> Counter[str]:
-    """File -> points that were reached."""
+    """Return file -> number of covered points."""
     return Counter(name.split(" ", 1)[0] for name, was in points.reached.items() if was)
 
 
 def _lines(points: Points) -> dict[str, set[int]]:
-    """File -> lines that were reached; with those of assignments and instances, which have no points."""
+    """Return file -> covered lines, including lines of assignments and instances, which have no points."""
     found: dict[str, set[int]] = {}
     for name, was in points.reached.items():
         file = name.split(" ", 1)[0]

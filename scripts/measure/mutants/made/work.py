@@ -1,5 +1,7 @@
-"""One mutant on a worker: the proofs of its block, then its groups of tests, then the proofs of the blocks
-that hold it, one after the other, until one fails."""
+"""One mutant on a worker: run proofs and tests until one fails.
+
+The order is: the proofs of its block, its groups of tests, the proofs of the blocks that contain it.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +25,14 @@ from scripts.measure.mutants.made.schema import instrumented
 from scripts.measure.mutants.made.suites import Group
 
 WALL_S = "100"
-"""Of one test, in s."""
+"""Time limit of one test in s."""
 PROOF = "proof "
 KILLED, ALIVE, ENDLESS, BROKEN = "killed", "alive", "no end", "no build"
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """One, and the tests that it meets; `briefly`: no proof but those of its block."""
+    """A mutant and its tests; `briefly`: only the proofs of its own block."""
 
     file: str
     fault: Fault
@@ -39,17 +41,17 @@ class Mutant:
 
     @property
     def key(self) -> str:
-        """Unique among all mutants of the tree."""
+        """Key that is unique among all mutants of the tree."""
         return f"{self.file} {self.fault.number}"
 
 
 def digest(file: str) -> str:
-    """Of the file that mutants are made of."""
+    """Return the digest of a source file."""
     return hashlib.sha256((ROOT / file).read_bytes()).hexdigest()[:12]
 
 
 def copy_of(file: str) -> Path:
-    """The copy with all mutants of a file; written if need be."""
+    """Return the copy with all mutants of a file; write it if needed."""
     text = (ROOT / file).read_text(encoding="utf-8")
     copy = instrumented(text, faults(text))
     path = BUILD / "mutants" / hashlib.sha256(copy.encode()).hexdigest()[:12] / Path(file).name
@@ -61,7 +63,7 @@ def copy_of(file: str) -> Path:
 
 
 def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
-    """Run some tests; what became of the mutant, and the first test that failed."""
+    """Run tests; return the verdict on the mutant, and the first test that failed."""
     environment = {
         **os.environ,
         MUTANT: f"{mutant.file} {mutant.fault.number} {copy_of(mutant.file)}",
@@ -81,7 +83,7 @@ def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
 
 
 def met(mutant: Mutant) -> tuple[str, str]:
-    """What became of the mutant, and what it was killed by: the name of a test, or `PROOF` and of a proof."""
+    """Return the verdict on the mutant, and the test that killed it, or `PROOF` and the proof."""
     own, others = proofs_of(mutant.file)
     if name := failing(mutant.file, mutant.fault, own):
         return KILLED, PROOF + name
@@ -95,6 +97,6 @@ def met(mutant: Mutant) -> tuple[str, str]:
 
 
 def run_one(mutant: Mutant) -> Result:
-    """Try one mutant. A result without end counts apart from one that a check has found."""
+    """Try one mutant; an endless test is counted separately from a failing check."""
     verdict, test = met(mutant)
     return Result(verdict != BROKEN, {"verdict": verdict, "test": test, "file": digest(mutant.file)})
