@@ -17,7 +17,7 @@ from openppmc.model.ppmc312.motion.operation import Operation
 NONE = "a code that is none"
 CODES = {code.value: f"{code:02X} {code.name}" for code in Code}
 INSTRUCTIONS = Cross(
-    "instruction and state that it meets", (*CODES.values(), NONE), tuple(state.name for state in State)
+    "instruction and state at its execution", (*CODES.values(), NONE), tuple(state.name for state in State)
 )
 NEVER_REFUSED = {
     **{("F5 COMMAND", "OVERRIDE"): "a registration has checked the code"},

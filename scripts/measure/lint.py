@@ -327,7 +327,7 @@ def checks() -> list[Check]:
         ),
         Check("requirements.lock", "installed packages", locked),
         Check("texts", "marks, tabs, line ends", texts),
-        Check("prose", "lint/prose.txt", prose.worse),
+        Check("prose", "lint/prose.txt", prose.errors),
     ]
 
 

@@ -1,8 +1,7 @@
 """Check the wording of comments, docstrings, messages and Markdown against lint/prose.txt.
 
-`python -m scripts.measure.prose` prints each finding and the counts for each 1000 lines.
-`--sample 60 --seed N` draws passages for a reader. While the texts are converted, lint/prose_baseline.json
-holds the number of errors of each file: `make lint` fails if one has grown; `--baseline` writes this file.
+`python -m scripts.measure.prose` prints each finding and the counts per 1000 lines. `make lint` fails if
+there is an error. `--sample 60 --seed N` draws passages for a reader.
 """
 
 from __future__ import annotations
@@ -10,7 +9,6 @@ from __future__ import annotations
 import argparse
 import ast
 import io
-import json
 import random
 import re
 import subprocess
@@ -25,7 +23,6 @@ from pathlib import Path
 from cocotb_tests.harness.project import ROOT, console, run
 
 WORDS = ROOT / "lint" / "prose.txt"
-BASELINE = ROOT / "lint" / "prose_baseline.json"
 NEUTRAL = "X"
 """Replaces code within a sentence."""
 SLASHES = {".sv", ".svh", ".c", ".h", ".cpp", ".ts", ".tsx", ".mjs", ".css"}
@@ -213,20 +210,10 @@ def findings(item: Item) -> Iterator[tuple[str, str]]:
             yield "warn", f"{item.file}:{item.line}: {len(sentence.split())} words in a sentence"
 
 
-def errors(items: list[Item]) -> Counter[str]:
-    """Return the number of errors of each file."""
-    return Counter(item.file for item in items for level, _ in findings(item) if level == "error")
-
-
-def worse() -> str:
-    """Return the errors of files that have more errors than the baseline allows (0 without a baseline)."""
-    allowed = json.loads(BASELINE.read_text(encoding="utf-8")) if BASELINE.is_file() else {}
-    items = all_items()
-    grown = {file for file, number in errors(items).items() if number > allowed.get(file, 0)}
-    found = [
-        text for item in items if item.file in grown for level, text in findings(item) if level == "error"
-    ]
-    return "\n".join(found)
+def errors() -> str:
+    """Return all errors, one per line."""
+    found = (finding for item in all_items() for finding in findings(item))
+    return "\n".join(text for level, text in found if level == "error")
 
 
 def commits() -> list[Item]:
@@ -256,7 +243,6 @@ def main() -> int:
     )
     parser.add_argument("paths", nargs="*", type=Path, help="files to check (default: all)")
     parser.add_argument("--warn", action="store_true", help="print warnings, too")
-    parser.add_argument("--baseline", action="store_true", help="write lint/prose_baseline.json")
     parser.add_argument("--sample", type=int, metavar="NUMBER", help="print passages drawn at random")
     parser.add_argument("--seed", type=int, default=1, help="seed of the sample")
     args = parser.parse_args()
@@ -265,22 +251,18 @@ def main() -> int:
             print(f"{number}. [{item.kind}] {item.file}:{item.line}", *item.lines, "", sep="\n")
         return 0
     items = [item for path in args.paths for item in items_of(path.resolve())] if args.paths else all_items()
-    if args.baseline:
-        BASELINE.write_text(
-            json.dumps(dict(sorted(errors(items).items())), indent=0) + "\n", encoding="utf-8"
-        )
     every = [finding for item in items for finding in findings(item)]
     lines = sum(len(item.lines) for item in items)
     for level, text in every:
-        if not args.baseline and (level == "error" or args.warn):
+        if level == "error" or args.warn:
             print(f"{level}: {text}")
     counts = Counter(level for level, _ in every)
     console.print(
-        f"{lines} lines of prose; for each 1000 lines: {1000 * counts['error'] / max(lines, 1):.1f} errors"
+        f"{lines} lines of prose; per 1000 lines: {1000 * counts['error'] / max(lines, 1):.1f} errors"
         f" ({counts['error']}), {1000 * counts['warn'] / max(lines, 1):.1f} warnings",
         highlight=False,
     )
-    return int(bool(counts["error"])) if args.paths else 0
+    return int(bool(counts["error"]))
 
 
 if __name__ == "__main__":

@@ -79,7 +79,7 @@ def test_header():
     sources = verilog.project.files("ppmc104")
     text = plain.header("ppmc104", "a part", sources, {"CLK_HZ": 50_000_000})
     assert "SPDX-License-Identifier: Apache-2.0" in text and f"OpenPPMC {__version__}" in text
-    assert "CLK_HZ     = 50000000   frequency of clk in Hz" in text and "TIMING     = FAST " in text
+    assert "CLK_HZ     = 50000000   clock frequency in Hz" in text and "TIMING     = FAST " in text
     assert all(line.startswith("//") for line in text.splitlines())
 
 
