@@ -29,7 +29,7 @@ SHARED = {
     "scripts": {"fpga", "demo", "site", "release", "measure", "pages"},
     "scripts/pages": {"pictures", "wiring"},
     "tests": {"common"},
-    "docs": {"img", "boards"},
+    "docs": {"img", "boards", "decisions"},
     "rtl": {"common", "motion", "single", "host", "boards"},
     "tb": {"board", "cdriver", "formal", "fuzz", "line", "litex"},
 }

@@ -76,7 +76,7 @@ def test_verilator_builds_in_an_odd_folder(tmp_path: Path) -> None:
 
 def test_verilator_elsewhere_in_an_odd_folder_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("openppmc.sim.common.build.package", lambda: Path("/opt/my env/verilator"))
-    with pytest.raises(SimError, match="put environment and project into one folder"):
+    with pytest.raises(SimError, match="put the Python environment and the project into one folder"):
         verilator_environment(Path("/srv/project/build"))
 
 

@@ -261,7 +261,7 @@ def test_a_run_without_a_recording_says_so(tmp_path: Any) -> None:
 
 def test_replay_needs_a_recording(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "recording.json").write_text("{}", encoding="utf-8")
-    assert replay([str(tmp_path / "recording.json")]) == 2 and "no recording" in capsys.readouterr().out
+    assert replay([str(tmp_path / "recording.json")]) == 2 and "not a recording" in capsys.readouterr().out
     assert replay([]) == 2
 
 

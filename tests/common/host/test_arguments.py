@@ -370,7 +370,7 @@ def test_help_still_shows_what_a_method_takes() -> None:
         assert "pulses: 'int'" in pydoc.plain(pydoc.render_doc(axis.move))
         assert "move" in repr(axis.move)
     text = pydoc.plain(pydoc.render_doc(Ppmc104.open))
-    assert "open(spec: 'str | Port', baud: 'int'" in text and "and check what is there" in text
+    assert "open(spec: 'str | Port', baud: 'int'" in text and "check which part is connected" in text
 
 
 # ---------------------------------------------------------------------- text of a set-up

@@ -250,7 +250,7 @@ def test_machine_text() -> None:
     assert (machine.part, machine.others) == ("ppmc2104", {})
     assert machine.plants == (Plant(start=1), Plant(cw=77, alarm=(1, 2)))
     for text in ("start", "start=", "cw=1.5", "alarm=5", "alarm=9..1", "alarm=a..b", f"cw={1 << 31}"):
-        with pytest.raises(ValueError, match=r"form|number|outside|behind"):
+        with pytest.raises(ValueError, match=r"form|number|outside|exceed"):
             parse_machine(text)
     for text, complaint in (
         ("part=ppmc999", "part=ppmc999: there are ppmc104, ppmc2104"),
