@@ -160,7 +160,7 @@ class Item:
 
     @property
     def full_name(self) -> str:
-        """cocotb's name of the test."""
+        """Name that cocotb has for the test."""
         return f"{self.module}.{self.test}"
 
     @property

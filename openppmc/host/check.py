@@ -188,7 +188,7 @@ def _value(bound: Bound, *others: object) -> Any:
     raise bound._misused()
 
 
-class Bound:
+class Bound:  # noqa: D101 - help() shows the docstring of the function
     # A method of an object. Its truth value, equality and hash are those of a Python method. Arithmetic with
     # it and a comparison with a number raise an error. Its help and its names are those of the function.
 

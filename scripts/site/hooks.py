@@ -68,7 +68,8 @@ def on_post_page(output: str, page: Any, **_: Any) -> str:
 def on_post_template(output_content: str, template_name: str, **_: Any) -> str:
     """Make 404.html work for an address at any depth and from a file; called by MkDocs for each template.
 
-    Its links are relative to the base: the root of the host, or the folder of the file."""
+    Its links are relative to the base: the root of the host, or the folder of the file.
+    """
     if template_name != "404.html":
         return output_content
     local = output_content.replace(SHIM, "iframe-worker.js")

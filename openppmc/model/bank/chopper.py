@@ -41,7 +41,7 @@ def round_clk(axes: int) -> int:
 
 
 class Visits:
-    """Visits of axis `axis`: edges axis + 8 + n R after `released`, n = 1, 2, …"""
+    """Visits of axis `axis`: edges axis + 8 + n R after `released`, for n = 1, 2 and so on."""
 
     def __init__(self, axis: int, axes: int, released: int) -> None:
         self.round = round_clk(axes)

@@ -215,8 +215,10 @@ def _status(name: str) -> int:
 
 
 class Figures(NamedTuple):
-    """Figures of a file. rate: edges/s of processor time; plain: seconds / those of a plain numpy pass; size:
-    peak bytes per edge."""
+    """Figures of a file.
+
+    rate: edges/s of processor time. plain: seconds / those of a plain numpy pass. size: peak bytes per edge.
+    """
 
     edges: int
     rate: float

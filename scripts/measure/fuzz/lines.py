@@ -24,8 +24,11 @@ PMC006_ADDRESS, PPMC312_ADDRESS = 3, 5
 
 @dataclass(frozen=True)
 class Line:
-    """A line. top: of tb/fuzz; group: of rtl/files.yml; good, special: see `words.stream`; params: of top;
-    expected: events of the golden model."""
+    """A line.
+
+    top: of tb/fuzz. group: of rtl/files.yml. good, special: see `words.stream`. params: of top. expected: events
+    of the golden model.
+    """
 
     top: str
     group: str

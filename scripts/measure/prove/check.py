@@ -22,8 +22,11 @@ TRACE = "read_rtlil prove.il; sim -q -zinit -multiclock -r prove.aiw -map prove.
 
 @dataclass(frozen=True)
 class Outcome:
-    """Result of a proof. `trouble`: empty if it holds; `reached`: cycle in which each cover was reached;
-    `refuted`: a property has a counterexample."""
+    """Result of a proof.
+
+    trouble: empty if it holds. reached: cycle in which each cover was reached. refuted: a property has a
+    counterexample.
+    """
 
     name: str
     trouble: str

@@ -1,4 +1,4 @@
-"""Which tests run on netlists, and how a netlist is built. (Netlists themselves: `make test-gates`.)"""
+"""Which tests run on netlists, and how a netlist is built; `make test-gates` runs them."""
 
 from __future__ import annotations
 
