@@ -105,7 +105,7 @@ def full_names(part: str, view: View) -> Mapping[str, str]:
 
 
 def gtkwave(vcd: Path, target: Path, part: str, view: View, end_ps: int, marks: Sequence[int]) -> None:
-    """Write a GTKWave save file: the whole run, the speed as an analog curve, marks (in ps) as A, B and so on."""
+    """Write a GTKWave save file: the whole run, the speed as an analog curve, marks in ps as A, B and on."""
     # The zoom is minus log2 of the time between two grid lines; the window shows about five grid lines.
     zoom = math.log2(end_ps / 5)
     names = full_names(part, view)

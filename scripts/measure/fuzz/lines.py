@@ -26,8 +26,8 @@ PMC006_ADDRESS, PPMC312_ADDRESS = 3, 5
 class Line:
     """A line.
 
-    top: of tb/fuzz. group: of rtl/files.yml. good, special: see `words.stream`. params: of top. expected: events
-    of the golden model.
+    top: of tb/fuzz. group: of rtl/files.yml. good, special: see `words.stream`. params: of top. expected:
+    events of the golden model.
     """
 
     top: str
