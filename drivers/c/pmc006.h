@@ -79,7 +79,7 @@ typedef struct {
     bool ext1, ext2;    /**< stopped by EXT1, EXT2 */
     bool stall;         /**< the controller has detected a stall */
     bool stopped;       /**< a stop was sent */
-    int32_t steps;      /**< made, forward positive */
+    int32_t steps;      /**< steps made, forward positive */
     int32_t position;   /**< step counter of the controller */
 } pmc006_end_t;
 

@@ -231,8 +231,8 @@ ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8
     return result;
 }
 
-/* Send one byte: wait for an empty buffer, write, check the response of the part. A stop does not wait for
- * an empty buffer during a motion: it may replace only a byte whose own call has timed out. */
+/* Send one byte: wait for an empty buffer, write, check the response of the part. During a motion, a
+ * stop does not wait for an empty buffer: a byte that is still in the buffer is from a call that timed out. */
 static ppmc104_result_t put(ppmc104_t *dev, unsigned reg, uint8_t value)
 {
     const bool stop = reg == PPMC104_REG_STATUS && (value == CODE_STOP || value == CODE_STOP_SLOWLY);

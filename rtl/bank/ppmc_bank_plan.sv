@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_plan: decisions of a visit: whether the byte is accepted, the effect of byte and switches on the
-//         motion, the edge to order, and the cycles to the next edge.
+//         motion, the edge to order from the pin cell, and the cycles to the next edge.
 // Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
 //         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.

@@ -76,7 +76,7 @@ module ppmc_bridge_answer
     full4_o  <= length_o > 9'd252;
     full16_o <= length_o > 9'd240;
     if (clear_i) length_o <= '0;
-    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // minus 3 or plus 1
+    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // COUNT again: -3, else +1
     if (ident_i || count_i) begin
       counting_q <= count_i;
       left_q     <= count_i ? 4'd3 : 4'd15;

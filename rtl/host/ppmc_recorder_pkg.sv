@@ -10,7 +10,7 @@ package ppmc_recorder_pkg;
 
   localparam int unsigned LeastTime = 14;  // minimum number of time bits in a record
 
-  // Bytes of a record with `width` levels.
+  // Number of bytes in a record with `width` levels.
   function automatic int unsigned record_bytes(int unsigned width);
     return (width + LeastTime + 7) / 8;
   endfunction

@@ -13,7 +13,7 @@ module ppmc_setup
     input  wire logic       rst_ni,
     input  wire logic       init_i,        // initialisation accepted
     input  wire init_code_t code_i,        // initialisation code, with init_i
-    input  wire logic       home_i,        // the phases are set to index 0 for the first time
+    input  wire logic       home_i,        // set the phases to index 0: first initialisation
     input  wire logic       positive_i,    // 1: high = energised, with home_i
     input  wire logic       ready_i,       // the initialisation is complete
     input  wire logic       off_i,         // return to the state before an initialisation

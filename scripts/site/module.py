@@ -17,7 +17,7 @@ from scripts.site.webparts import WebPart
 
 ROW = struct.Struct("<dII")
 INPUT = 1 << 16
-"""Added to the number of a word of an input in a row."""
+"""A row with the change of an input word has this value plus the number of the word."""
 QUEUE = 1 << 16
 """Number of future changes that a module can store."""
 Call = Callable[..., Any]

@@ -15,7 +15,7 @@ struct PlantText {
     int64_t origin = 0;        // CNP active at and below this position,
     int64_t origin_from = INT64_MIN;  // and at and above this one: a cam
     int64_t index = 0;         // the index is active once per this number of pulses, at kIndexAt; 0: never
-    std::optional<int64_t> block;  // CW end stop of the axle
+    std::optional<int64_t> block;  // CW end stop of the shaft
     std::optional<int64_t> alarm_from, alarm_to;  // ALM active between these positions
 };
 
@@ -23,7 +23,7 @@ class Plant {
    public:
     explicit Plant(const PlantText& text = {}) : text_(text), position_(text.start) { look(); }
 
-    // Make a pulse, or a step of the phases; `dir` = 0 turns CW. Return false if the axle cannot follow.
+    // Make a pulse, or a step of the phases; `dir` = 0 turns CW. Return false if the shaft cannot follow.
     bool pulse(bool dir) {
         ++pulses_;
         if (!dir && text_.block && position_ >= *text_.block) return false;

@@ -11,7 +11,7 @@ module bridge_fuzz
     input  wire logic  [7:0] byte_i,     // a character
     input  wire logic        valid_i,    // strobe: byte_i was received
     input  wire logic        error_i,    // strobe: byte_i has no stop bit
-    input  wire logic        silence_i,  // 1 during a silence; a cycle is a millisecond
+    input  wire logic        silence_i,  // 1 during a silence; each cycle counts as 1 ms
     output logic             event_o,    // strobe
     output logic      [63:0] what_o      // event
 );

@@ -12,7 +12,7 @@
 #include "Vfuzz.h"
 
 namespace {
-constexpr unsigned kBetween = 12, kSilence = 160;  // cycles from one character to the next, of a silence
+constexpr unsigned kBetween = 12, kSilence = 160;  // cycles from one character to the next; cycles of a silence
 
 class Bench {
   public:

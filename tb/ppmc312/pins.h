@@ -36,7 +36,7 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
 
 inline unsigned phases(const Vboard&, unsigned) { return 0; }
 
-// Pulses of the encoder are as long as those of the motor; one occurs for each pulse that the axle follows.
+// For each motor pulse that the shaft follows, the encoder outputs a pulse of the same length.
 inline void encoder_low(Vboard& top) { top.epin = 0; }
 inline void encoder_pulse(Vboard& top, bool ccw) {
     top.epdir = ccw;

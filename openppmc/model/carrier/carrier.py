@@ -33,7 +33,7 @@ class Plant:
         origin: active at positions <= origin and, with a cam, >= origin_from.
         alarm: active from the first to the second of these positions.
         index: period of the encoder's index in pulses, one index at -20; 0: no index.
-        block: position that the axle cannot pass in direction CW; the encoder then stops while pulses
+        block: position that the shaft cannot pass in direction CW; the encoder then stops while pulses
             continue. `None`: no such position.
     """
 
@@ -49,7 +49,7 @@ class Plant:
     block: int | None = None
 
     def steps(self, position: int, ccw: int) -> bool:
-        """Return True if the axle follows a pulse."""
+        """Return True if the shaft follows a pulse."""
         return bool(ccw) or self.block is None or position < self.block
 
     def index_level(self, position: int) -> int:

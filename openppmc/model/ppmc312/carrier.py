@@ -22,8 +22,8 @@ class Carrier(carrier.Carrier[Ppmc312]):
 
     Straps bit 0 is RUN, bits 1 and 2 are event inputs 1 and 2.
 
-    The encoder outputs a pulse for each pulse that the axle follows. The drive asserts END immediately.
-    `positions` holds the position of the axle; the part itself counts pulses.
+    The encoder outputs a pulse for each pulse that the shaft follows. The drive asserts END immediately.
+    `positions` holds the position of the shaft; the part itself counts pulses.
     """
 
     ADDRESS_BITS = 3

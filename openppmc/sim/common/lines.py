@@ -257,8 +257,9 @@ S = TypeVar("S", bound=LineSpec)
 class LineKind(Generic[S]):
     """Functions and texts for the lines of a part.
 
-    parse: returns the spec of a text, raises ValueError. at_rate: returns the text for a host with this line
-    rate. known: the words as text. make: returns the modelled line of a spec.
+    parse: returns the spec of a text; raises ValueError if the text is invalid. at_rate: returns the text for
+    a host with this line rate. known: list of the accepted words, as text. make: returns the modelled line of
+    a spec.
 
     For the RTL: `parameters` returns the parameters of its `line_node`, including CLK_HZ. `arguments` returns
     the arguments of the program in tb/line; it may write files into the folder, and raises ValueError for an

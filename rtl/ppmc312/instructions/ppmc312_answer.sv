@@ -26,7 +26,7 @@ module ppmc312_answer
     output logic         [           1:0]      peek_at_o,    // TailCodes: entry of this code
     input  wire logic    [           7:0]      code_i,       // code of entry peek_at_o, two cycles later
     // source of the instruction
-    output logic         [BLOCK_BITS-1:0]      echo_addr_o,  // byte, 0 = header
+    output logic         [BLOCK_BITS-1:0]      echo_addr_o,  // byte number, 0 = header
     input  wire logic    [           7:0]      echo_data_i,  // byte at echo_addr_o, two cycles later
     // store of class 2
     output answer_byte_t                       byte_o,       // byte of the answer

@@ -20,11 +20,11 @@ module ppmc312_fetch
     output logic                          done_o,      // strobe
     output block_t                        block_o,     // the instruction; valid from done_o on
     // source of the instruction
-    output logic         [BLOCK_BITS-1:0] addr_o,      // byte, 0 = header
+    output logic         [BLOCK_BITS-1:0] addr_o,      // byte number, 0 = header
     input  wire logic    [           7:0] data_i,      // byte at addr_o, two cycles later
     // destination of the copy
     output logic                          put_we_o,    // strobe
-    output logic         [           3:0] put_addr_o,  // byte, 0 = header
+    output logic         [           3:0] put_addr_o,  // byte number, 0 = header
     output logic         [           7:0] put_data_o   // with put_we_o
 );
 

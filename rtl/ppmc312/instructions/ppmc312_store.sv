@@ -27,7 +27,7 @@ module ppmc312_store
     input  wire remove_t        remove_i,       // entries to be removed
     // bytes of the entry that was taken last
     input  wire logic           fetch_event_i,  // 1: the entry is from an event buffer
-    input  wire logic    [ 3:0] fetch_addr_i,   // byte, 0 = header
+    input  wire logic    [ 3:0] fetch_addr_i,   // byte number, 0 = header
     input  wire logic           peek_i,         // 1: read the code of an entry instead
     input  wire logic           peek_n_i,       // with peek_i: event buffer
     input  wire logic    [ 1:0] peek_at_i,      // with peek_i: entry

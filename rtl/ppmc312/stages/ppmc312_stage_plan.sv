@@ -69,8 +69,9 @@ module ppmc312_stage_plan
 
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
-  logic [1:0] valid_q, in_acc_q, in_dec_q;  // stage is in the side: [0] this one, [1] the one before
-  // In StMeet, one cycle late: no pulse left, result below 0, first cycle, stage counts.
+  // valid_q[1]: the table outputs stage `at`. in_…_q: the side contains stage `at` [0], the stage before [1].
+  logic [1:0] valid_q, in_acc_q, in_dec_q;
+  // In StMeet, registered: no pulse remains, `ahead` is negative, first cycle, the stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;

@@ -82,5 +82,5 @@ def _levels(use: Use) -> str:
     pins = ", ".join(f"`{pad.where.split(',')[0]}`" for pad in use.pads)
     far = use.circuit.level
     never = "" if far.startswith(("3.3 V", "GND")) else f" **{far}**: never to the header"
-    here = "no voltage: see the drawing" if use.circuit.key == "straps" else "3.3 V"
+    here = "no voltage (see the drawing)" if use.circuit.key == "straps" else "3.3 V"
     return f"| {use.circuit.title} | {pins}: {here} | {never.strip() or far} |"

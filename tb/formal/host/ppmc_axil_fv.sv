@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_axil_fv: proves the handshake rules of AXI4-Lite for any manager that keeps its own rules. Each
-// request gets one response in time; if a read and a write are both waiting, they alternate.
+// ppmc_axil_fv: proves the handshake rules of an AXI4-Lite subordinate for any manager that obeys the manager
+// rules. Each request gets one response in time; if a read and a write are both waiting, they alternate.
 `include "ppmc_fv.svh"
 `default_nettype none
 

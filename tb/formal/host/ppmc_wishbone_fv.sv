@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_wishbone_fv: proves the rules of Wishbone B4 classic cycles for any master that keeps its own rules.
-// Each access reaches the part once and gets its response in time.
+// ppmc_wishbone_fv: proves the slave rules of Wishbone B4 classic cycles for any master that obeys the master
+// rules. Each access reaches the part once and gets its response in time.
 `include "ppmc_fv.svh"
 `default_nettype none
 

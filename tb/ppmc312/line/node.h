@@ -27,8 +27,8 @@ class Node {
 
     uint64_t look(const Vboard& top) const { return top.pout; }
 
-    // The motor steps with the rising edges of POUT. Pulses of the encoder are as long; one occurs for each
-    // pulse that the axle follows.
+    // The motor steps at the rising edges of POUT. For each pulse that the shaft follows, the encoder outputs
+    // a pulse of the same length.
     void follow(Vboard& top) {
         top.epin = 0;
         if (!top.pout) return;

@@ -146,7 +146,7 @@ def played(play: Any, seed: int, build: Config) -> Recording:
 
 
 def test_all_acts_together_are_the_run() -> None:
-    """The acts contain every pin change at its time, and the messages every act.
+    """All acts together contain every pin change at its time; all messages together contain every act.
 
     Checked for a bus, a line, noise, clocks and resets.
     """

@@ -310,7 +310,7 @@ USES: list[Callable[[Any], object]] = [
 
 
 def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
-    """Programs that look up a method, store it, or choose between two methods need not call it."""
+    """A method that is not called is true, hashable and equal only to itself, like a method of Python."""
     motion = axis.start_move(40)
     for thing in (axis, motion):
         names = [name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), check.Entry)]

@@ -1,4 +1,5 @@
-// node built.mjs HTML SHOTS PACKAGES [CHECK]: the MkDocs site in a real Chromium. One line of JSON per check.
+// node built.mjs HTML SHOTS PACKAGES [CHECK]: checks the MkDocs site in a real Chromium. Prints one line of JSON per
+// check.
 import fs from "node:fs";
 import http from "node:http";
 import path from "node:path";

@@ -53,7 +53,7 @@ def test_pulses_and_registers(start_board: StartBoard, tmp_path: Path) -> None:
 
 
 def test_switches_and_encoder(start_board: StartBoard) -> None:
-    """Origin, index, limits and encoder act on the part, and an obstacle stops the axle."""
+    """Origin, index, limits and encoder act on the part, and an obstacle stops the shaft."""
     board = start_board(
         part="ppmc312", speed="max", start=600, ccw=-900, slow_ccw=-700, block=1500, alarm="-500..-450"
     )

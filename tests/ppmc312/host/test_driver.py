@@ -519,7 +519,7 @@ def test_an_event_that_fails(part: Ppmc312) -> None:
 
 
 def test_encoder_that_stands() -> None:
-    """If an obstacle stops the axle after 50 pulses, the pulses continue and both monitors report it."""
+    """If an obstacle stops the shaft after 50 pulses, the pulses continue and both monitors report it."""
     with board("block=4050") as part:
         part.watch_encoder(20)
         part.watch_position(20)

@@ -204,7 +204,7 @@ class Station312(Axis[SerialMotion]):
     def _position(self, encoder: bool) -> int:
         """Read the position until two successive reads agree.
 
-        They agree if they are equal, or differ by no more than the motor can move.
+        They agree if they are equal, or differ by no more than the motor can move between them.
         """
         times: list[float] = []
 
