@@ -46,8 +46,9 @@ module ppmc_stop_guard
   assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
   assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
 
-  // Deceleration can be requested once. An immediate end at the same edge has priority. This does not matter
-  // to a user that evaluates the request with a pulse, because no pulse occurs then.
+  // Deceleration can be requested once. An immediate end at the same edge has priority over the request, but
+  // slow_seen_o and forced_o do not include this priority. Their user evaluates them with a pulse, and no
+  // pulse occurs at an immediate end.
   assign free = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = free && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = free && slow_i;
