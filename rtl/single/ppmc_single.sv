@@ -63,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] judgement;
   logic [23:0] answer, remaining;
-  action_t act_taken;  // actions requested at the C-event; act_o: when they take effect
+  action_t act_taken;  // act_taken: actions requested at the C-event; act_o: the same when they take effect
 
   assign sent_o.left = judgement[2:0];
 
