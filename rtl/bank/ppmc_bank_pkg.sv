@@ -83,10 +83,10 @@ package ppmc_bank_pkg;
     logic       slow;   // base clock of 125 kHz
     logic       extra;  // extra time of 7.5 us
     logic       down;   // the deceleration has begun
-    logic [7:0] rate;   // of the running interval; while accelerating, after its low time, of the next one
+    logic [7:0] rate;   // of the running interval; while accelerating, after the low time: of the next one
   } pace_t;
 
-  // State of a motion. At standstill, slack is the number of remaining pulses that a host reads, and climb
+  // State of a motion. At standstill, slack is the number of remaining pulses that a host reads, and climb is
   // the number of remaining units of a chopper phase.
   typedef struct packed {
     logic        busy;
@@ -142,7 +142,7 @@ package ppmc_bank_pkg;
   // Order of a visit to the pin cell: executed immediately, or in one cycle of the next round.
   typedef struct packed {
     logic       halt;    // no more pulses, immediately
-    logic       pulse;   // one of these three is executed in its cycle: a pulse begins
+    logic       pulse;   // a pulse begins; at most one of pulse, rise, sets is 1
     logic       rise;    // the pulse ends
     logic       sets;    // the other pins change
     logic       arm;     // with sets: pulses may follow; with pulse: another pulse may follow
