@@ -31,7 +31,7 @@ module pmc006_exec
     // instruction in progress
     output order_t             order_o,      // instruction
     output access_t            access_o,     // register of the instruction
-    output logic               legal_o,      // its data are in range
+    output logic               legal_o,      // the data of order_o are in range
     output logic               act_o,        // order_o is executed in this cycle
     output logic               place_o,      // the position is set in this cycle
     input  wire logic          step_i,       // a step is counted in this cycle

@@ -14,7 +14,7 @@ module pmc006_program
     input  wire logic         autostart_i,  // strobe: the program starts without a command
     // executor
     input  wire order_t       order_i,      // instruction
-    input  wire logic         legal_i,      // its data are in range
+    input  wire logic         legal_i,      // the data of order_i are in range
     input  wire logic         act_i,        // order_i is executed in this cycle
     input  wire logic         begin_i,      // next_o was accepted
     output logic              next_o,       // the next program instruction is scheduled
@@ -61,7 +61,8 @@ module pmc006_program
 
   // ---- sources --------------------------------------------------------------------------------------------
 
-  // During WAIT its own option is used, because the executor may process another instruction.
+  // During WAIT the option of the WAIT instruction is used, because the executor may process another
+  // instruction.
   assign option = (state_q == StWait) ? option_q : order_i.option;
   assign bits = {stall_i, busy_i, flags_i, gpi_i};
 
