@@ -190,7 +190,7 @@ module ppmc2104_pace
     assign poll_o = poll_q == PollBits'(PollClk - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) poll_q <= PollBits'(1);  // not 0, because reset ends one cycle late
+      if (!rst_ni) poll_q <= PollBits'(1);  // starts at 1, because reset ends one cycle late
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;
     end
