@@ -30,7 +30,7 @@ module ppmc312_block
   always_ff @(posedge clk_i) begin
     if (we_i && !head_i && at_i == InnerLen) begin
       inner_q <= data_i[3:0];
-      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // above 8
+      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // the received length is above 8
     end
   end
 

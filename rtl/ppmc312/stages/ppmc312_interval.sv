@@ -36,7 +36,7 @@ module ppmc312_interval #(
   logic [2:0] age_q;  // cycles since the pulse, up to 4
   logic [PreBits-1:0] pre_q, pre_load;
   logic rest_q;  // 1: pre_q is 0; separate because of its fan-out
-  logic [RateBits-1:0] left_q, half_q;  // remaining base clocks; value at half of the interval
+  logic [RateBits-1:0] left_q, half_q;  // left_q: base clocks left; half_q: left_q at half of the interval
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;

@@ -73,7 +73,7 @@ module ppmc312_stage_seq
   choice_t choice, choice_q, do_q;
   mode_t now_q, next, next_q, then_q;
   logic [1:0][6:0] addr_q;
-  logic [1:0] low_end_q, ramp_end_q;  // end of this direction
+  logic [1:0] low_end_q, ramp_end_q;  // low_end_q: this direction ends at first_dec_i; ramp_end_q: at ramp_to
   logic low_end, ramp_end;
   target_t held_q, target_q;
   logic held_valid_q, held_ramp_q, load_q, endless_q, no_point_q, first_q;
@@ -88,7 +88,7 @@ module ppmc312_stage_seq
   logic zero_q, point_q, walk_ok_q, spent_q, edge_q;
   logic [6:0] addr, beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, back, forget;
-  logic seek_q, look, in_use_q, in_use, stage_ge;  // search
+  logic seek_q, look, in_use_q, in_use, stage_ge;  // signals of the search
   logic [1:0] look_q;
   logic [6:0] seek_at_q;
   logic [3:0] ramp_ready_q;
@@ -315,7 +315,8 @@ module ppmc312_stage_seq
       more_q <= (do_q.enter ? (do_q.part ? from_q.left : stage_i.pulses) : more_q) - 1'b1;
       left_q <= left_q - 1'b1;
     end
-    // Before pulse 1 a waiting change is ignored here: it may be replaced, and it is compared with the plan.
+    // Before pulse 1 a waiting change does not affect rate_q, because another change may still replace it,
+    // and because it is compared with the planned rate.
     if (step_i || (first_q && !do_q.take)) rate_q <= next_rate_o;
   end
 
