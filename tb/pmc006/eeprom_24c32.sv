@@ -86,8 +86,8 @@ module eeprom_24c32 #(
     filled = '0;
   endfunction
 
-  // STOP: a write begins if only complete bytes were received. The rise of SCL before it was counted as a
-  // bit.
+  // STOP: a write begins only if all received bytes are complete. The rise of SCL before STOP was counted as
+  // a bit.
   function automatic void stop();
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];

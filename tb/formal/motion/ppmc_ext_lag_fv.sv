@@ -25,8 +25,10 @@ module ppmc_ext_lag_fv (
       .*
   );
 
-  logic run_q, counting_q, hit_q;  // an interval is running; its first base edge has occurred; its last one
-  logic [3:0] before_q, after_q;  // cycles before the first and after the last one, at most 15
+  // run_q: an interval is running; counting_q: its first base edge has occurred; hit_q: its last base edge
+  // has occurred
+  logic run_q, counting_q, hit_q;
+  logic [3:0] before_q, after_q;  // cycles before the first and after the last base edge, at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {run_q, counting_q, hit_q, before_q, after_q} <= '0;
