@@ -49,7 +49,7 @@ module ppmc_axis
     input wire logic halt_i,  // immediate stop command
     input wire logic decel_i,  // deceleration stop command
     input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on the slow-down limit: equal to slow_seen_o, or later
+    input wire logic slow_i,  // act on the slow-down limit; slow_seen_o, delayed or not
     output logic slow_seen_o,  // an effective slow-down limit is active
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 is held back

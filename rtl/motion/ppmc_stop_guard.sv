@@ -26,7 +26,7 @@ module ppmc_stop_guard
     input  wire logic      dec_i,        // natural deceleration has begun
     input  wire logic      halt_i,       // immediate stop command
     input  wire logic      decel_i,      // deceleration stop command
-    input  wire logic      slow_i,       // act on the slow-down limit: equal to slow_seen_o, or later
+    input  wire logic      slow_i,       // act on the slow-down limit; slow_seen_o, delayed or not
     output logic           slow_seen_o,  // an effective slow-down limit is active; not valid with stop_o
     output logic           stop_o,       // end the motion now, no further pulse
     output logic           forced_o,     // forced deceleration is requested; not valid with stop_o

@@ -45,7 +45,7 @@ module ppmc_single
     // motion
     input  wire logic             clock_pin_i,    // external base clock, asynchronous
     input  wire switches_t        switches_i,     // synchronous levels
-    input  wire logic             slow_i,         // act on a slow-down limit: slow_seen_o, or later
+    input  wire logic             slow_i,         // act on the slow-down limit; slow_seen_o, delayed or not
     output logic                  slow_seen_o,    // an effective slow-down limit is active
     output motion_t               motion_o,       // state of the motion
     output logic           [ 7:0] rate_o,         // rate of the running interval

@@ -26,7 +26,7 @@ module pmc006_program
     output logic              put_o,        // a word is written
     output logic              took_o,       // a word instruction, z or E is accepted
     input  wire logic         burning_i,    // the program is written to the EEPROM: no word may change
-    output logic        [7:0] pp_o,         // word address of the pointer PP
+    output logic        [7:0] pp_o,         // pointer PP, a word address
     // sources
     input  wire logic         us_i,         // strobe every microsecond
     input  wire logic   [4:0] gpi_i,        // general inputs, synchronised

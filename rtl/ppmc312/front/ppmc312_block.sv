@@ -21,7 +21,7 @@ module ppmc312_block
 
   localparam logic [3:0] Flags = 4'd3;  // position of the first parameter
   localparam logic [3:0] InnerLen = 4'd5;  // position of the length byte of the embedded block
-  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes before those that the inner length counts
+  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes that precede those counted by the inner length
   localparam logic [BLOCK_BITS:0] None = 6'd2;  // causes the error "size abnormality"
 
   logic [3:0] inner_q;

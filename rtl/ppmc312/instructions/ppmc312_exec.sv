@@ -18,7 +18,7 @@ module ppmc312_exec
     input  wire logic                          clk_i,        // clock
     input  wire logic                          rst_ni,       // reset, asynchronous
     input  wire logic                          serial_i,     // 1: answers never wait to be read
-    input  wire logic                          boot_i,       // reset caused by an instruction; report it
+    input  wire logic                          boot_i,       // leaving a reset by an instruction: report it
     output logic                               reset_o,      // strobe: reset the device
     // sources of instructions
     input  wire offer_t                        offer_i,      // block from the host

@@ -117,7 +117,7 @@ module ppmc312_stage_seq
     walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || !ppmc_pkg::less(32'(stage_q), 32'(first_dec_i)));
     spent_q <= more_q == '0;
     edge_q <= stage_q == edge_at_q;
-    // The stage next to this one, or next to the constant rate; for pulse 1 this stage.
+    // beside_q: stage next to the running one, or next to the constant rate; for pulse 1, the running stage.
     beside_q  <= ((now_q.flat && ramp_down_q) ? target_q.gt1 : here) +
         {{6{back}}, back || now_q.flat || !first_q};
     ramp_down_q <= held_q.rate >= rate_q;
