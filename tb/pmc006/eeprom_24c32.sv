@@ -16,10 +16,10 @@ module eeprom_24c32 #(
 ) (
     input  wire logic clk_i,
     input  wire logic on_i,      // power
-    input  wire logic scl_i,     // level of the line, regardless of the driver
-    input  wire logic sda_i,
-    output logic      scl_oe_o,  // 1: the device pulls the line low
-    output logic      sda_oe_o
+    input  wire logic scl_i,     // level of the clock line, regardless of the driver
+    input  wire logic sda_i,     // level of the data line, regardless of the driver
+    output logic      scl_oe_o,  // 1: the device pulls the clock line low
+    output logic      sda_oe_o   // 1: the device pulls the data line low
 );
 
   localparam int unsigned Log = 256;
@@ -41,8 +41,8 @@ module eeprom_24c32 #(
   int unsigned write_clk  /* verilator public_flat_rw */ = WriteClk;
   int unsigned stretch_clk  /* verilator public_flat_rw */ = StretchClk;
   logic missing  /* verilator public_flat_rw */ = Missing;
-  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the line is held low
-  logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;
+  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the clock line is held low
+  logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
   int unsigned writing  /* verilator public_flat_rw */ = 0;  // cycles left of a write
 
   // Page writes since power-on: first address, number of bytes, bytes; 32 entries each.

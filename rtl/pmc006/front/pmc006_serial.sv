@@ -3,8 +3,8 @@
 // Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
 // Timing: e = the edge of the last stop-bit sample. frame_o.go is high in the cycle after e; de_o rises
 //         ceil(1 bit) after e; bit edge n occurs ceil((2 + n) bits) after e; de_o falls ceil(82 bits) after
-//         e. The receiver is off from e + 1 until ceil(81.5 bits) after e, the middle of the last stop bit:
-//         there a host has received the complete reply.
+//         e. The receiver is off from e + 1 until ceil(81.5 bits) after e. This is the middle of the last
+//         stop bit, when a host has received the complete reply.
 // How:    each bit lasts one full turn of an accumulator with an exact modulus.
 `include "ppmc_assert.svh"
 `default_nettype none

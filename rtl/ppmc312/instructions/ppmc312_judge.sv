@@ -151,7 +151,7 @@ module ppmc312_judge
       default: begin
         value_bad = 1'b0;
         if (ov && trig_pos) begin
-          // only instructions that stop or change a motion, with a position
+          // Only stops and rate changes can wait for a position, and only with a position in the block.
           value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_long;
           value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
         end else if (!ov && info_i.counted && count_bad_q) begin

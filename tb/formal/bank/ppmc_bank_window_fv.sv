@@ -21,7 +21,7 @@ module ppmc_bank_window_fv
     input wire logic        answers_i,      // the engine answers the byte it accepts
     input wire logic        long_i,         // the answer has three bytes
     input wire logic [23:0] answer_data_i,
-    input wire logic [ 6:0] others_i,       // status of other axes; of the watched one without taken
+    input wire logic [ 6:0] others_i,       // status of other axes; of the watched axis, all except taken
     input wire logic [ 1:0] position_i,     // positions
     input wire logic [ 3:0] map_i           // pending interrupts
 );
