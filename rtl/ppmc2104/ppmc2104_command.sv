@@ -52,7 +52,7 @@ module ppmc2104_command
 
   error_e value;
   logic external, operation;
-  setup_t setup;  // of the axis whose data are collected
+  setup_t setup;  // settings of the axis whose data bytes are collected
   init_code_t init_code;
   logic [RATE_BITS:0] gap;
 

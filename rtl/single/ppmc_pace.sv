@@ -184,7 +184,7 @@ module ppmc_pace
 
     logic triangle;
 
-    // The number of pulses is below 2 * PA.
+    // triangle: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
     assign triangle = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );

@@ -121,8 +121,8 @@ module ppmc_single
   logic [Traits.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
-  assign op_code     = op_code_t'(code_late);  // code_late as code of an operation or an initialisation
-  assign init_late   = init_code_t'(code_late);
+  assign op_code     = op_code_t'(code_late);  // code_late as the code of an operation
+  assign init_late   = init_code_t'(code_late);  // code_late as the code of an initialisation
   assign unused_bits = &{1'b0, op_code, init_late, chop_i, verdict_i};
 
   ppmc_setup #(

@@ -56,7 +56,7 @@ module pmc006_eeprom
   localparam logic [4:0] LastField = 5'h15;
 
   typedef enum logic [3:0] {
-    StReset,   // wait for FSET, then check the bus
+    StReset,   // wait until FSET is high or a restore is requested
     StFree,
     StStart,
     StDevice,

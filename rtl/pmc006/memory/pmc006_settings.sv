@@ -26,7 +26,7 @@ module pmc006_settings
 
   always_comb begin
     data = order_i.data[13:0];
-    // The value 6 is equivalent to 5.
+    // The value 6, which only the user program can set, is equivalent to 5.
     if (order_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
     // An EXTEN instruction that is not from a frame switches both inputs.
     if (order_i.op == I_EXTEN && order_i.source != FromFrame) data[1] = data[0];

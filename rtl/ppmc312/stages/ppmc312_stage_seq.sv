@@ -113,7 +113,7 @@ module ppmc312_stage_seq
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
     point_q <= left_q == 32'(dec_q) && !no_point_q;
-    // A constant rate faster than R[first_dec] has a stage there or above.
+    // A constant rate faster than R[first_dec_i] has a stage at first_dec_i or above.
     walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || !ppmc_pkg::less(32'(stage_q), 32'(first_dec_i)));
     spent_q <= more_q == '0;
     edge_q <= stage_q == edge_at_q;
