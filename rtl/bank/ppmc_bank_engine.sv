@@ -4,7 +4,7 @@
 // Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters each cycle:
 //         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
 //         6 the order is valid in the cell: first cycle at whose end an edge can be ordered
-//         The rate is read two cycles earlier, because it is part of the address of its threshold.
+//         The rate is read two cycles earlier, because the address of a threshold contains the rate.
 `default_nettype none
 
 module ppmc_bank_engine

@@ -24,7 +24,7 @@ package ppmc_bank_pkg;
   localparam logic [7:0] INFO_MARK = 8'h42;
   localparam logic [7:0] INFO_VERSION = 8'h01;
 
-  // Byte in the input buffer. It is new while seq differs from that of the byte that its axis accepted last.
+  // Byte in the input buffer. It is new while seq differs from that of the byte accepted last.
   typedef struct packed {
     logic [1:0] seq;
     logic       command;
@@ -43,7 +43,7 @@ package ppmc_bank_pkg;
     logic [23:0] data;   // first byte in the low bits
   } answer_t;
 
-  // Status register of an axis, and seq of the byte that it accepted last.
+  // Status register of an axis, and seq of the byte that the axis accepted last.
   typedef struct packed {
     logic [1:0] taken;
     logic       error;
@@ -64,7 +64,7 @@ package ppmc_bank_pkg;
     logic [23:0] params;  // the last one in the high bits
   } words_t;
 
-  // Settings of an initialisation, written when it is complete.
+  // Settings of an initialisation, written when its last byte is accepted.
   typedef struct packed {
     logic                              chop;   // chop at standstill
     logic [7:0]                        slow;   // start-up rate
@@ -152,7 +152,7 @@ package ppmc_bank_pkg;
     logic [5:1] s;       // pin levels
   } order_t;
 
-  // Comparisons of a visit, made one cycle before it decides.
+  // Comparisons of a visit, made one cycle before the decisions.
   typedef struct packed {
     logic fire;   // the awaited edge is in the next round
     logic more;   // the rate is not yet the rate of its index

@@ -59,7 +59,7 @@ module ppmc_bank_step
   logic [24:0] slack_add;
   logic [24:0] slack;  // with finish: remaining pulses minus 1
   logic down;  // climb decreases by 1
-  logic ccw, counts;  // ccw: direction of a pulse that is added or removed; counts: there is one
+  logic ccw, counts;  // ccw: direction of a pulse that is added or removed; counts: there is such a pulse
 
   assign ccw    = walk_i.ccw ^ plan_i.undo;
   assign counts = plan_i.pulse || plan_i.undo;

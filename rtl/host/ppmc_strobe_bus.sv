@@ -32,7 +32,7 @@ module ppmc_strobe_bus (
     input  wire logic [7:0] data_i,        // data byte for the host
     input  wire logic       data_valid_i,  // data_i has not been read yet
     input  wire logic       data_new_i,    // data_i changes at the next edge
-    output logic            rd_busy_o,     // data_i is being read: the status must not indicate it again
+    output logic            rd_busy_o,     // data_i is being read: the status must not indicate this byte
     output logic            rd_done_o      // data_i has been read
 );
 

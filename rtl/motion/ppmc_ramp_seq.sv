@@ -3,7 +3,7 @@
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
 // Timing: all state changed by pulse_i is valid after its edge, except rate_o, the rate of the new interval.
 //         - Accelerating or at constant rate: rate_o changes at the same edge. The look-up of the next rate
-//           follows; for its 3 n + 1 cycles, n = rates that the ramp skips, seek_o keeps a pulse back.
+//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); seek_o then keeps a pulse back.
 //         - First deceleration step: rate_o changes one cycle later (rising_o), to the rate of the interval
 //           before the last acceleration step.
 //         - Further deceleration steps: rate_o is valid when rising_o falls. The look-up runs in the new
@@ -168,7 +168,7 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // No reset, because the first step up loads it.
+  // No reset, because the first step up loads back_q.
   always_ff @(posedge clk_i) begin
     if (pulse_i && up) back_q <= rate_o;
   end

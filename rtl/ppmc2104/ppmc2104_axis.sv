@@ -203,7 +203,8 @@ module ppmc2104_axis
     end
   end
 
-  // The causes are valid until the next operation; while it runs, a read of the end status is rejected.
+  // The causes are valid until the next operation. While an operation runs, a read of the end status is
+  // rejected.
   always_comb begin
     answer_o = remaining;  // only this answer uses the second and third byte
     unique case (code_late_i[2:0])

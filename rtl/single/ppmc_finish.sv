@@ -56,7 +56,8 @@ module ppmc_finish
     end
   end
 
-  // The causes are valid until the next operation starts; while it runs, read commands are rejected.
+  // The causes are valid until the next operation starts. While an operation runs, read commands are
+  // rejected.
   always_comb begin
     answer_o = remaining_i;  // only SEL_REMAINING uses the bytes after the first one
     unique case (select_i)

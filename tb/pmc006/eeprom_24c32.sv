@@ -3,9 +3,9 @@
 // polling.
 // Rules:  same device as openppmc/model/carrier/eeprom.py; a test compares both.
 // Timing: both lines are sampled on every rising edge of clk_i; the outputs change on the same edge.
-// How:    a test loads and reads `memory` by its name, sets the options after it, and reads the log of page
-//         writes. Without power (on_i = 0) the device drives no line. The memory becomes blank when the power
-//         is removed.
+// How:    a test loads and reads `memory` by its name, sets the options declared below it, and reads the log
+//         of page writes. Without power (on_i = 0) the device drives no line. The memory becomes blank when
+//         the power is removed.
 `default_nettype none
 
 module eeprom_24c32 #(

@@ -14,7 +14,7 @@ module pmc006_range
     input  wire logic         take_i,     // read the limits of op_i
     input  wire logic         program_i,  // with take_i: instruction of the user program
     input  wire logic   [7:0] op_i,       // with take_i: instruction code
-    input  wire order_t       order_i,    // the same instruction, from the next cycle on
+    input  wire order_t       order_i,    // instruction op_i, from the next cycle on
     output access_t           access_o,   // register of the instruction
     output logic              ok_o        // the data are accepted
 );

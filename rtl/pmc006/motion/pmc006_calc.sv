@@ -4,7 +4,7 @@
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
 // Timing: an instruction takes 2 cycles without operand, 3 with one, n + 2 with n steps. A planning ends
 //         within 785 cycles of plan_i, an update tick within 590 of advance_i. Either strobe may occur during
-//         a run; it ends that run.
+//         a run and then ends this run.
 `include "ppmc_assert.svh"
 `default_nettype none
 

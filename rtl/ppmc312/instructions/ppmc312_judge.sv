@@ -14,7 +14,7 @@ module ppmc312_judge
     input  wire logic          clk_i,       // clock
     input  wire logic          rst_ni,      // reset, asynchronous
     input  wire block_t        block_i,     // the instruction
-    input  wire info_t         info_i,      // properties of its code
+    input  wire info_t         info_i,      // properties of block_i.code
     input  wire logic          keep_i,      // 1: the verdict does not change
     input  wire status_e       status_i,    // status of the device
     input  wire logic          end_wait_i,  // a motion waits for END

@@ -6,9 +6,8 @@
 //         end takes at most 7 cycles more, a triangular one 60. If the deceleration does not begin with a
 //         full stage, 5 cycles + the stages of the deceleration side are added. Results are valid until the
 //         next start.
-// How:    one pass reads the table upward and adds the pulses of the sides. At the last stage
-//         that is fast enough it keeps two sums: of the stages that both sides have, and of the stages that
-//         only one side has.
+// How:    one pass reads the table upward and adds the pulses of the sides. At the last stage that is fast
+//         enough it keeps two sums: of the stages that both sides have, and of those that only one side has.
 // Note:   t(x) and t(x) + 1 are output. If no stage qualifies, t(x) is the stage before the first used one.
 //         Rates need not fall with the stages.
 `default_nettype none

@@ -54,8 +54,8 @@ module ppmc_excitation_fv
   end
 
   `FV_ASSUME(a_motor, motor_i != MotorNone)
-  // ppmc_setup loads both in the first initialisation, which sets the phases to index 0, and holds them until
-  // Excitation OFF.
+  // ppmc_setup loads motor_i and half_i in the first initialisation, which sets the phases to index 0, and
+  // holds them until Excitation OFF.
   `FV_ASSUME(motor_stays, !on_q || $past(home_i) || {motor_i, half_i} == $past({motor_i, half_i}))
 
   `FV_ASSERT(p104_phs_01_row_of_the_table, pattern_o == (on_q ? row : 5'd0))
