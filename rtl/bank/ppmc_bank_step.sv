@@ -46,7 +46,7 @@ module ppmc_bank_step
 );
 
   op_code_t   code;
-  init_code_t init;  // code_i as code of an operation or an initialisation
+  init_code_t init;  // code_i as the code of an initialisation
   logic ramped, unused_bits;
 
   assign unused_bits = &{1'b0, plan_i, seen_i, code, init};

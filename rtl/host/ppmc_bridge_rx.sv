@@ -114,7 +114,7 @@ module ppmc_bridge_rx
     if (valid_q && !busy_q) quiet_q <= QuietBits'(SilenceMs);
     else if (ms_i) quiet_q <= quiet_q - 1'b1;
     if (valid_q && !busy_q) escaped_q <= content || is_flag_q ? 1'b0 : is_escape_q;
-    // One cycle after the flag, so that length_o is valid with request_o.
+    // index_q is cleared one cycle after the flag, so that length_o is valid with request_o.
     if (begin_q) begin
       index_q <= Empty;
       crc_q   <= '1;

@@ -31,7 +31,7 @@ module ppmc_pulse_shaper #(
 
   localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthClk - 2, Width));
 
-  logic [Width-1:0] age_q;  // cycles since the pulse; not used after up_o
+  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after up_o
   logic full_q;
   logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the top bit is always 0
 

@@ -51,7 +51,7 @@ module ppmc_pace
     output logic                        linger_o        // the motion must not end yet
 );
 
-  // In crystal cycles: microseconds times 16.
+  // Times in crystal cycles: microseconds times 16.
   localparam int unsigned INIT_PHASES = 44 * 16;
   localparam int unsigned BUSY_CONSTANT = 27 * 16;
   localparam int unsigned BUSY_RAMP = 112 * 16;

@@ -36,12 +36,12 @@ module ppmc_pace_motion #(
     output logic             closed_o     // no byte may be accepted, because the motion ends
 );
 
-  // In crystal cycles.
+  // Times in crystal cycles.
   localparam int unsigned INIT_BASE = 264_000;
   localparam int unsigned INIT_STEP = 209;
-  localparam int unsigned PULSE = 7;  // for each pulse of a triangular profile, whole crystal cycles
-  localparam int unsigned PULSE_PART = 11;  // for each pulse of a triangular profile, 1/16 crystal cycles
-  // In units of 16 crystal cycles, which are microseconds at 16 MHz.
+  localparam int unsigned PULSE = 7;  // for each pulse of a triangular profile: whole crystal cycles
+  localparam int unsigned PULSE_PART = 11;  // for each pulse of a triangular profile: sixteenths
+  // Times in units of 16 crystal cycles, which are microseconds at 16 MHz.
   localparam logic [7:0] FIRST_CONSTANT = 8'd194;
   localparam logic [7:0] FIRST_RAMP = 8'd200;
   localparam logic [7:0] FIRST_SINGLE = 8'd86;

@@ -27,7 +27,7 @@ module pmc006_eeprom
     output logic                 burning_o,    // the program is being written
     output logic                 boot_o,       // registers and program are not loaded yet
     output logic                 autostart_o,  // strobe: the program starts without a command
-    output logic                 rst_set_no,   // reset of the parameter registers: a restore at boot
+    output logic                 rst_set_no,   // reset of the parameter registers by a restore at boot
     // registers
     input  wire settings_t       settings_i,   // parameter registers
     input  wire control_t        control_i,    // registers of the control

@@ -26,11 +26,11 @@ module ppmc312_stage_seq
     input  wire stage_t        stage_i,        // stage at look_o, two cycles later
     // operation
     input  wire logic          load_i,         // strobe: start plan_i
-    input  wire plan_t         plan_i,         // with load_i; plan_i.to of a change 2 cycles after change_i
+    input  wire plan_t         plan_i,         // with load_i; for a change, plan_i.to: 2 cycles later
     input  wire logic          single_i,       // with load_i: one pulse, regardless of plan_i.dec
     // requests
     input  wire logic          change_i,       // strobe: change the rate; replaces an older change
-    input  wire logic          change_ramp_i,  // 1: change along the table; 2 cycles after change_i
+    input  wire logic          change_ramp_i,  // 1: change along the table; sampled 2 cycles after change_i
     input  wire logic          slow_i,         // 1: decelerate to the end
     // decision
     output logic               next_end_o,     // no further pulse: the motion ends

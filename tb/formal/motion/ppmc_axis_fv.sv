@@ -162,7 +162,7 @@ module ppmc_axis_fv
 
   // ---- intervals of the internal base clock --------------------------------------------------------
 
-  logic [4:0] quanta_q;  // since the last pulse, at most 31
+  logic [4:0] quanta_q;  // quanta since the last pulse, at most 31
 
   always_ff @(posedge clk_i)
     if (!rst_ni || event_o.pulse) quanta_q <= '0;
