@@ -178,8 +178,8 @@ module ppmc_bank
 
   seen_t views[AXES];
 
-  // AND and OR need half the cells of a multiplexer. The axis in stage 2 is three axes after the one in the
-  // last stage.
+  // AND and OR need half the cells of a multiplexer. turn marks the axis in the last stage. The axis in stage
+  // 2 is three axes after it.
   always_comb begin
     seen = '0;
     for (int unsigned i = 0; i < AXES; i++) seen |= views[i] & {$bits(seen_t) {turn[(i+Round-3)%Round]}};

@@ -4,7 +4,7 @@
 //         complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
 //         (from 0) has bit a of each port, and bits 5 a to 5 a + 4 of s (S1 to S5).
-// Timing: that of ppmc_bank; the inputs need no synchroniser outside.
+// Timing: that of ppmc_bank; the inputs need no external synchroniser.
 `default_nettype none
 
 module ppmc_bank_carrier #(

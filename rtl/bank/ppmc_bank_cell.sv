@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_cell: pins of one axis of a bank: executes the orders of its visits, each in its cycle, and
+// ppmc_bank_cell: pins of one axis of a bank. Executes each order of a visit in the cycle of the order, and
 //         suppresses pulses when a switch ends the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: an order is valid in the cell from the cycle after load_i on. It is executed at the end of the
@@ -39,7 +39,7 @@ module ppmc_bank_cell
 
   order_t order_q;
   logic [RoundBits-1:0] at_q;
-  logic given;  // a pulse is being ordered
+  logic given;  // the order that is loaded has a pulse
   logic now, limit, halt, ends, pulse, rise, set, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
@@ -52,8 +52,8 @@ module ppmc_bank_cell
   assign rise = now && order_q.rise;
   assign set = now && order_q.sets;
 
-  // One of the three actions of an order may still be pending when the next order is loaded: it is executed
-  // in exactly that cycle.
+  // The action of an order (pulse, rise or sets) may still be pending when the next order is loaded. Then it
+  // is executed in exactly this cycle.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       order_q                       <= '0;

@@ -4,7 +4,7 @@
 // Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters each cycle:
 //         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
 //         6 the order is valid in the cell: first cycle at whose end an edge can be ordered
-//         The rate is read two cycles earlier, because it is part of the address of its threshold.
+//         The rate is read two cycles earlier, because the address of a threshold contains the rate.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -47,7 +47,7 @@ module ppmc_bank_engine
   localparam int unsigned StepBits = ppmc104_pkg::STEP_BITS;
 
   // Small FPGAs have few block RAMs. With few axes, the memory with the fewest bits is therefore built from
-  // logic. Simulation does not read an attribute.
+  // logic. Only an attribute uses this parameter, and simulation ignores attributes.
   // verilator lint_off UNUSEDPARAM
   localparam string PaceStyle = (Round > 8) ? "block" : "logic";
   // verilator lint_on UNUSEDPARAM
@@ -56,7 +56,7 @@ module ppmc_bank_engine
 
   // ---- memories ------------------------------------------------------------------------------------
 
-  // early_t is needed for comparisons, late_t only later.
+  // early_t: state that the comparisons need; late_t: state that only later stages need.
   typedef struct packed {
     logic [TimeBits-1:0] rem;      // cycles to the awaited edge
     walk_t               walk;
@@ -73,7 +73,7 @@ module ppmc_bank_engine
   (* ram_style = "block", no_rw_check *)early_t earlies[Round];
   (* ram_style = "block", no_rw_check *)late_t  lates  [Round];
   (* ram_style = PaceStyle, no_rw_check *)pace_t  paces  [Round];
-  // Written when a byte sets them, and not by each visit, so that they are not carried through its stages.
+  // These words are written when a byte sets them, not by each visit, so a visit does not carry them through.
   (* ram_style = "block", no_rw_check *)words_t words  [Round];
   (* ram_style = "block", no_rw_check *)ramp_t  ramps  [Round];
   (* ram_style = "block", no_rw_check *)units_t chops  [Round];
@@ -108,7 +108,7 @@ module ppmc_bank_engine
     words1_q <= words[axis_i[0]];
     ramp1_q <= ramps[axis_i[0]];
     units3_q <= chops[axis_i[2]];
-    // During deceleration the threshold of the next slower rate is compared.
+    // pace0_q.down = 1 (deceleration): the threshold of the next slower rate is compared.
     pace0_q <= pace_r_q;
     probe0_q <= pace_r_q.rate + 8'(pace_r_q.down);
     pace1_q <= pace0_q;
@@ -323,7 +323,7 @@ module ppmc_bank_engine
     answer_o    <= clear_i[4] ? '0 : answer;
     answer_we_o <= clear_i[4] || plan4_q.read;
     order_o     <= clear_i[4] ? '0 : order;
-    // Immediately, or rem cycles after the first cycle that can be ordered.
+    // The order is executed immediately, or rem cycles after the first cycle in which an edge can be ordered.
     at_o        <= axis_i[0] + axis_t'(2) + (order.sets && !plan4_q.toggle ? '0 : axis_t'(early4_q.rem));
     call_o      <= call && !clear_i[4];
     calm_o      <= calm && !clear_i[4];

@@ -24,7 +24,7 @@ package ppmc_bank_pkg;
   localparam logic [7:0] INFO_MARK = 8'h42;
   localparam logic [7:0] INFO_VERSION = 8'h01;
 
-  // Byte in the input buffer. It is new while seq differs from that of the byte that its axis accepted last.
+  // Byte in the input buffer. It is new while seq differs from that of the byte accepted last.
   typedef struct packed {
     logic [1:0] seq;
     logic       command;
@@ -43,7 +43,7 @@ package ppmc_bank_pkg;
     logic [23:0] data;   // first byte in the low bits
   } answer_t;
 
-  // Status register of an axis, and seq of the byte that it accepted last.
+  // Status register of an axis, and seq of the byte that the axis accepted last.
   typedef struct packed {
     logic [1:0] taken;
     logic       error;
@@ -64,7 +64,7 @@ package ppmc_bank_pkg;
     logic [23:0] params;  // the last one in the high bits
   } words_t;
 
-  // Settings of an initialisation, written when it is complete.
+  // Settings of an initialisation, written when its last byte is accepted.
   typedef struct packed {
     logic                              chop;   // chop at standstill
     logic [7:0]                        slow;   // start-up rate
@@ -83,10 +83,10 @@ package ppmc_bank_pkg;
     logic       slow;   // base clock of 125 kHz
     logic       extra;  // extra time of 7.5 us
     logic       down;   // the deceleration has begun
-    logic [7:0] rate;   // of the running interval; while accelerating, after its low time, of the next one
+    logic [7:0] rate;   // of the running interval; while accelerating, after the low time: of the next one
   } pace_t;
 
-  // State of a motion. At standstill, slack is the number of remaining pulses that a host reads, and climb
+  // State of a motion. At standstill, slack is the number of remaining pulses that a host reads, and climb is
   // the number of remaining units of a chopper phase.
   typedef struct packed {
     logic        busy;
@@ -142,7 +142,7 @@ package ppmc_bank_pkg;
   // Order of a visit to the pin cell: executed immediately, or in one cycle of the next round.
   typedef struct packed {
     logic       halt;    // no more pulses, immediately
-    logic       pulse;   // one of these three is executed in its cycle: a pulse begins
+    logic       pulse;   // a pulse begins; at most one of pulse, rise, sets is 1
     logic       rise;    // the pulse ends
     logic       sets;    // the other pins change
     logic       arm;     // with sets: pulses may follow; with pulse: another pulse may follow
@@ -152,7 +152,7 @@ package ppmc_bank_pkg;
     logic [5:1] s;       // pin levels
   } order_t;
 
-  // Comparisons of a visit, made one cycle before it decides.
+  // Comparisons of a visit, made one cycle before the decisions.
   typedef struct packed {
     logic fire;   // the awaited edge is in the next round
     logic more;   // the rate is not yet the rate of its index

@@ -37,9 +37,9 @@ module ppmc_bank_round #(
     end
   end
 
-  // Remaining cycles of the round after this one.
+  // Cycles for which go_o and stop_o stay high after this one.
   logic [RoundBits-1:0] go_left_q;
-  logic [RoundBits:0] stop_left_q;  // one cycle more: an operation that starts last is armed then
+  logic [RoundBits:0] stop_left_q;  // one more than a round: an operation that starts last is armed by then
   logic again_q;  // another GO is pending
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

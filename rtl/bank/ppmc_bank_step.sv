@@ -46,7 +46,7 @@ module ppmc_bank_step
 );
 
   op_code_t   code;
-  init_code_t init;  // code_i as code of an operation or an initialisation
+  init_code_t init;  // code_i as the code of an initialisation
   logic ramped, unused_bits;
 
   assign unused_bits = &{1'b0, plan_i, seen_i, code, init};
@@ -59,7 +59,7 @@ module ppmc_bank_step
   logic [24:0] slack_add;
   logic [24:0] slack;  // with finish: remaining pulses minus 1
   logic down;  // climb decreases by 1
-  logic ccw, counts;  // of a pulse that is added or removed
+  logic ccw, counts;  // ccw: direction of a pulse that is added or removed; counts: there is such a pulse
 
   assign ccw    = walk_i.ccw ^ plan_i.undo;
   assign counts = plan_i.pulse || plan_i.undo;
@@ -194,7 +194,7 @@ module ppmc_bank_step
         s: (rest_o.pattern & {5{rest_o.on}}) ^ {5{!rest_o.positive}}
     };
 
-    // The seq of an answer differs from that of the previous answer and of the answer read last.
+    // The new seq differs from the seq of the previous answer and from that of the answer read last.
     answer_o.seq = rest_i.seq + 2'd1;
     if (answer_o.seq == read_seq_i) answer_o.seq = rest_i.seq + 2'd2;
     answer_o.bytes = (plan_i.select == SEL_REMAINING) ? 2'd3 : 2'd1;

@@ -5,9 +5,9 @@
 // Timing: a write acts at the first edge after the end of its strobe has left the synchronisers. d_o is valid
 //         from the third edge after the start of a read strobe has left them. mail_o, progress_o and
 //         config_no are valid one cycle after axis_i.
-// How:    RAM words of the addressed axis are read in every cycle. If a visit writes a word in the cycle in
-//         which it is read, the word read before is kept. The registers of the
-//         bank (other1_q, other2_q) are passed on in every cycle.
+// How:    the RAM words of the addressed axis are read in every cycle. If a visit writes these words in the
+//         cycle in which they are read, the words read before are kept. The registers of the bank (other1_q,
+//         other2_q) are updated in every cycle.
 `default_nettype none
 
 module ppmc_bank_window
@@ -45,8 +45,9 @@ module ppmc_bank_window
 );
 
   localparam int unsigned Slots = 1 << RoundBits;
-  // With few axes only positions use block RAM, because small FPGAs have few of them. A status has so few
-  // bits that the tool decides. Simulation does not read an attribute.
+  // With few axes, only the positions use block RAM, because small FPGAs have few of them. For the few bits
+  // of a status the synthesis tool decides. Only attributes use these parameters, and simulation ignores
+  // attributes.
   // verilator lint_off UNUSEDPARAM
   localparam string AnswerStyle = (Slots > 8) ? "block" : "logic";
   localparam string StatusStyle = (Slots > 8) ? "block" : "auto";
@@ -112,7 +113,7 @@ module ppmc_bank_window
       configs_n[i]  = '0;
     end
 
-  // Every word is cleared until the bank is ready.
+  // All words are cleared while the bank is not ready.
   assign mail_we     = !ready_i || (write && wa_q[3:1] == 3'd0);
   assign config_we   = !ready_i || (write && wa_q[3:0] == REG_CONFIG);
   assign progress_we = !ready_i || (read_done && shown_q);
@@ -156,7 +157,7 @@ module ppmc_bank_window
   } view_t;
 
   view_t view1_q, view2_q;
-  logic [7:0] other1_q, other2_q;  // MASK, map or INFO
+  logic [7:0] other1_q, other2_q;  // MASK, map or INFO, one and two cycles after the address
   logic clash_q;
   logic [RoundBits-1:0] axis2;
   logic [63:0] masks, maps;
@@ -196,10 +197,10 @@ module ppmc_bank_window
     endcase
     clash_q <= done_axis_i == axis2;
     if (!clash_q) view2_q <= view1_q;
-    other2_q <= other1_q;  // any visit may change the map, not only that of this axis
+    other2_q <= other1_q;  // even if clash_q: any visit may change the map
   end
 
-  // The seq of a byte differs from that of the previous byte and of the byte accepted last.
+  // The new seq differs from the seq of the previous byte and from that of the byte accepted last.
   always_comb begin
     mail_w.command = wa_q[0];
     mail_w.data    = wd_q;
@@ -211,7 +212,7 @@ module ppmc_bank_window
   logic [1:0] done, number;
   logic [7:0] data, status, value;
   logic ibf, obf, exists;
-  logic [23:0] kept_q;  // bytes 1..3 of a position
+  logic [23:0] kept_q;  // bytes 1..3 of the position, loaded with byte 0
   logic ready_q;  // ready_i at the time of the read data
 
   assign exists = 32'(a2[9:4]) < Axes;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assertion macros for Boolean properties that use only $past, so that one line works both in Verilator and
-// in proofs with read_slang. The label is the rule (or the contract of the block) that the assertion
-// checks. The macro uses clk_i and rst_ni of the module that contains it. Flip-flops have an
-// asynchronous reset, but Verilator counts `disable iff` as a synchronous use of it (SYNCASYNCNET).
+// Assertion macro for Boolean properties that use only $past: the same line works in Verilator and in proofs
+// with read_slang. label_ is the rule, or the contract of the block, that the assertion checks. The macro
+// uses clk_i and rst_ni of the module that contains it. The warning SYNCASYNCNET is off, because Verilator
+// counts `disable iff` as a synchronous use of the asynchronous reset.
 `ifndef PPMC_ASSERT_SVH
 `define PPMC_ASSERT_SVH
 

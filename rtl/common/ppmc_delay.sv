@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_delay: reports whether a number of ticks, known at elaboration, has passed since the last restart.
 // Rules:  P104-GEN-02/03; P312-GEN-02, times of P312-OUT-01/02, P312-INP-33, P312-SER-10..17.
-// Timing: as ppmc_timer. With tick_i = 1, a time of n crystal cycles is ppmc_pkg::cyc(n, ClkHz, XtalHz)
+// Timing: that of ppmc_timer. With tick_i = 1, a time of n crystal cycles is ppmc_pkg::cyc(n, ClkHz, XtalHz)
 //         ticks: after a restart at edge e, past_o is high from edge e + ceil(n * ClkHz / XtalHz) on.
 `default_nettype none
 

@@ -19,10 +19,10 @@ module ppmc_i2c_master
 ) (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
-    output logic                tick_o,    // tick of a quarter of a bit
+    output logic                tick_o,    // strobe: tick, four per bit
     input  wire i2c_cmd_e       cmd_i,     // command
     input  wire logic     [7:0] byte_i,    // byte to send; 8'hff to receive
-    input  wire logic           ack_i,     // ninth bit to send; 1 leaves it to the other device
+    input  wire logic           ack_i,     // ninth bit to send; 1: the other device may drive it
     output logic                first_o,   // byte_i and ack_i are loaded at the next edge
     output logic                done_o,    // single-cycle strobe: the command is complete
     output logic                fail_o,    // SCL or SDA is stuck; both are released
@@ -35,7 +35,8 @@ module ppmc_i2c_master
 );
 
   localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;
-  // 0.55 of a bit in cycles, less the shortest two ticks with SCL low. 24C32: low for >= 1.3 us at 400 kHz.
+  // LowClk: 0.55 of a bit in cycles (a 24C32 at 400 kHz needs SCL low for 1.3 us). RiseClk: LowClk minus two
+  // ticks, at their shortest length.
   localparam longint unsigned Scl20 = 64'd20 * 64'(SclHz);
   localparam int unsigned LowClk = 32'((64'd11 * 64'(ClkHz) + Scl20 - 64'd1) / Scl20);
   localparam int unsigned RiseClk = LowClk - ClkHz / (2 * SclHz);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_square: square wave of a whole number of crystal cycles, made by phase accumulation; no drift.
+// ppmc_square: square wave with a half period of HalfXtal crystal cycles, made by phase accumulation; no
+//         drift.
 // Rules:  P2104-PORT-06.
 // Timing: toggle t occurs at rising edge number ceil(t * HalfXtal * ClkHz / XtalHz), where edge 1 is the
 //         first one after reset. Half a period lasts at least one cycle.

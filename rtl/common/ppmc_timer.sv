@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_timer: reports whether a number of ticks has passed since the last restart; for one of a few numbers
-//         that are known at elaboration (ppmc_delay: for a single number; ppmc_xtal_timer: for any number).
+// ppmc_timer: reports whether a number of ticks has passed since the last restart. The number is one of a few
+//         that are known at elaboration. ppmc_delay serves a single number, ppmc_xtal_timer any number.
 // Rules:  P104-GEN-02/03.
-// Timing: past_o rises at the edge that ends the cycle of that tick, and is high until the next restart_i. A
-//         tick in the cycle of restart_i does not count.
+// Timing: past_o rises at the edge that ends the cycle of the last of these ticks, and is high until the next
+//         restart_i. A tick in the cycle of restart_i does not count.
 // Assumes: no block uses past_o before the first restart, because the flip-flops have no reset.
 `default_nettype none
 

@@ -47,16 +47,17 @@ module ppmc_uart_rx #(
       .q2_o(line)
   );
 
-  // The idle phase is one half, so the first carry marks the middle of the start bit. The edge of the line
-  // lies half a cycle before the cycle that samples it, so this cycle counts as well.
+  // Between characters the phase is one half, so the first carry marks the middle of the start bit. On
+  // average the edge of the line occurs half a cycle before the cycle that samples it. Therefore this cycle
+  // counts as part of the start bit.
   if (Modulus == 0) begin : g_binary
     logic unused_wrap;
 
     assign unused_wrap = &{1'b0, wrap_i};
     assign {middle, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
   end else begin : g_modulus
-    // The phase starts at an offset with which one bit time ends with a carry; the step after a carry
-    // restores this offset. The end of a character sets the phase already, because the next character may
+    // The phase starts at an offset, so that a carry marks the end of each bit time. The step after a carry
+    // restores this offset. The end of a character already sets the phase, because the next character may
     // begin in the very next cycle.
     logic over_q, ends;
     logic [Width-1:0] sum;

@@ -40,8 +40,8 @@ module ppmc_uart_tx #(
     end
   end
 
-  // From phase 0, bit edge n occurs after ceil(n * bit time) cycles: nearest to a grid that is half a cycle
-  // late.
+  // The phase starts at 0, so bit edge n occurs ceil(n * bit time) cycles after the start. These are the
+  // cycles nearest to an ideal grid that begins half a cycle later.
   always_ff @(posedge clk_i) begin
     phase_q <= ready_o ? '0 : phase_d;
     if (ready_o) begin

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axil: AXI4-Lite subordinate (32 bits) for the strobe bus of a device.
 // Rules:  register map and responses in docs/integration.md; strobes by UB-BUS-01.
-// Timing: all outputs except the data multiplexer are registered. One write and one read may wait here; they
-//         are executed one after the other, alternately if both wait. The B response is valid 8 cycles after
-//         both AW and W were accepted, R 10 cycles after AR; for the bridge register, 2 cycles. It takes
-//         longer if another access is in progress.
+// Timing: all outputs except the data multiplexer are registered. The block holds at most one write and one
+//         read. It executes one access at a time; if both wait, writes and reads alternate. The B response is
+//         valid 8 cycles after both AW and W were accepted, R 10 cycles after AR; for the bridge register, 2
+//         cycles. It takes longer if another access is in progress.
 `default_nettype none
 `include "ppmc_assert.svh"
 
@@ -47,9 +47,9 @@ module ppmc_axil #(
   word_t aw_q, ar_q;
   logic [7:0] w_q;
   logic strobe_q;  // byte lane 0 of W is enabled
-  logic busy_q, write_q;  // a strobe access is in progress; it is a write
-  logic turn_q;  // 1: a write goes first when both wait
-  logic own_q;  // R returns the bridge register, or 0
+  logic busy_q, write_q;  // busy_q: a strobe access is in progress; write_q: it is a write
+  logic turn_q;  // 1: if both wait, the write is next
+  logic own_q;  // 1: R returns the bridge register or 0, no device data
   logic flag_q, unused;
   assign unused = &{1'b0, awaddr_i[1:0], araddr_i[1:0], wdata_i[31:8], wstrb_i[3:1]};
 
@@ -59,7 +59,7 @@ module ppmc_axil #(
   word_t word;
   logic [7:0] rdata;
 
-  // A ready signal is low exactly while its register is full.
+  // awready_o, wready_o and arready_o are low exactly while the register of their channel is full.
   assign want_write = !busy_q && !awready_o && !wready_o && !bvalid_o;
   assign want_read  = !busy_q && !arready_o && !rvalid_o;
   assign pick_write = want_write && (turn_q || !want_read);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_answer: collects the data of an answer in its buffer: single bytes, IDENT, VERSION, RECORDED,
-//         COUNT.
+// ppmc_bridge_answer: collects the data of an answer in the answer buffer: single bytes, IDENT, VERSION,
+//         RECORDED, COUNT.
 // Rules:  UB ops IDENT, VERSION, RECORDED and COUNT, UB-ANS-02 (256 bytes), UB-ANS-05 (free space).
 // Timing: put_i stores a byte at the next edge. A block takes one cycle for each byte; COUNT is restarted if
 //         the counter has changed during this time. The full flags are valid two cycles after the last byte.
-// Assumes: each counter changes by one at a time and not twice within 4 cycles; for COUNT to end, not twice
-//         within 8 cycles.
+// Assumes: each counter changes by one at a time, and at most once in 4 cycles. For COUNT to end, it
+//         changes at most once in 8 cycles.
 `default_nettype none
 
 module ppmc_bridge_answer
@@ -24,7 +24,7 @@ module ppmc_bridge_answer
     input  wire block_e               block_i,    // block to store; stable while busy_o
     input  wire logic   [       63:0] info_i,     // data of RECORDED, followed by zeros
     input  wire logic                 count_i,    // strobe: begin a block of COUNT
-    input  wire logic                 second_i,   // COUNT of axis 2; stable while busy_o
+    input  wire logic                 second_i,   // 1: COUNT of axis 2; stable while busy_o
     input  wire logic   [Axes*32-1:0] counter_i,  // pulse counters, axis 1 in the low bits
     output logic                      busy_o,     // a block is being stored
     output logic                      full_o,     // no space for one more byte
@@ -76,7 +76,7 @@ module ppmc_bridge_answer
     full4_o  <= length_o > 9'd252;
     full16_o <= length_o > 9'd240;
     if (clear_i) length_o <= '0;
-    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // COUNT again: -3, else +1
+    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // +1 per byte; -3 if COUNT is restarted
     if (ident_i || count_i) begin
       counting_q <= count_i;
       left_q     <= count_i ? 4'd3 : 4'd15;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode: decodes an op of a script: its first need, and whether it may begin.
+// ppmc_bridge_decode: decodes the code of an op: the first need of the op (need_e), and whether the op may
+//         begin.
 // Rules:  the op table of docs/uart_bridge.md, UB-ANS-02, -05.
 // Timing: combinational.
 `default_nettype none

@@ -62,14 +62,14 @@ module ppmc_bridge_exec
     StArg2,
     StCheck,     // operands are complete
     StLoop,      // next byte of the op
-    StPoll,      // a read of a wait
-    StJudge,     // check of this read
+    StPoll,      // read access of a wait
+    StJudge,     // check of the data of this read
     StWrite,
     StWriteEnd,
     StRead,
     StReadEnd,
     StPut,       // store a byte in the answer
-    StPause,     // RESET, IDENT, COUNT
+    StPause,     // pause of RESET, or storing a block
     StAnswer
   } state_e;
 
@@ -77,13 +77,13 @@ module ppmc_bridge_exec
   result_e result_q;
   logic [8:0] length;  // number of data bytes in the answer
   logic [7:0] pos_q;
-  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: first operand, then remaining bytes; left_q: of the script
-  logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2 its results are valid
+  logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then op bytes left; left_q: script bytes left
+  logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2, the results of the byte are valid
   logic none_q, cut_q, zero_q, bad_q, hit_q, judge_q, over;
   logic first_q, written_q, seen_q;
   logic [3:0] kind, low;
   logic system, fetched, take;
-  logic system_q, reading_q, sends_q, pair_q, fetch_q;  // kind of the op; valid after StDecode
+  logic system_q, reading_q, sends_q, pair_q, fetch_q;  // flags of the kind of op; valid after StDecode
 
   assign {kind, low} = op_q;
   assign system = kind == OpSystem;
@@ -256,7 +256,7 @@ module ppmc_bridge_exec
   assign answer_o   = state_q == StAnswer;
   assign rec_next_o = Recorder && state_q == StPut && fetch_q;
 
-  logic set, sets_q;  // an op with a setting is legal
+  logic set, sets_q;  // set: an op with a setting is legal; sets_q: set, one cycle later
   logic [7:0] straps_q;
   assign set = state_q == StCheck && fetched && system_q && !bad_q;
 

@@ -2,8 +2,8 @@
 // ppmc_bridge_rate: selects the line rate: change of the rate after an answer, and return to the initial
 //         rate.
 // Rules:  UB-LIN-02, UB-LIN-03, UB-LIN-06, UB-LIN-07.
-// Timing: step_o follows the code by one cycle. A new rate without a valid frame is abandoned after 1000 ..
-//         1001 ms.
+// Timing: step_o follows the code by one cycle. If no valid frame is received at a new rate, the initial rate
+//         returns 1000 .. 1001 ms after the answer.
 `default_nettype none
 
 module ppmc_bridge_rate

@@ -15,8 +15,8 @@ module ppmc_bridge_rx
     input  wire logic       ms_i,        // strobe every millisecond
     // receiver
     input  wire logic [7:0] byte_i,      // character
-    input  wire logic       valid_i,     // the character has a stop bit
-    input  wire logic       error_i,     // the character has no stop bit
+    input  wire logic       valid_i,     // strobe: byte_i was received with a stop bit
+    input  wire logic       error_i,     // strobe: byte_i was received without a stop bit
     // request buffer
     output logic            we_o,        // write enable of the request buffer
     output logic      [7:0] waddr_o,     // write address
@@ -54,7 +54,7 @@ module ppmc_bridge_rx
   assign content  = valid_q && !busy_q && !hunt_q && !is_flag_q && (escaped_q || !is_escape_q);
   assign silent   = ms_i && quiet_over_q && open_q && !hunt_q && !busy_q;
 
-  // Decoded one cycle before use, because the operands are stable between two characters.
+  // These signals are decoded one cycle before use. Their operands are stable between two characters.
   always_ff @(posedge clk_i) begin
     is_flag_q    <= byte_i == Flag;
     is_escape_q  <= byte_i == Escape;
@@ -114,7 +114,7 @@ module ppmc_bridge_rx
     if (valid_q && !busy_q) quiet_q <= QuietBits'(SilenceMs);
     else if (ms_i) quiet_q <= quiet_q - 1'b1;
     if (valid_q && !busy_q) escaped_q <= content || is_flag_q ? 1'b0 : is_escape_q;
-    // One cycle after the flag, so that length_o is valid with request_o.
+    // index_q is cleared one cycle after the flag, so that length_o is valid with request_o.
     if (begin_q) begin
       index_q <= Empty;
       crc_q   <= '1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_wait: compares the duration of a wait of a script with its limit.
 // Rules:  UB-WAIT-01, op TIMEOUT.
-// Timing: the time is restarted while waiting_i is low. over_o rises limit .. limit + 1 ms and one cycle
-//         after waiting_i; with limit 0 it is always high.
+// Timing: the time is held at 0 while waiting_i is low. over_o rises limit .. limit + 1 ms and one cycle
+//         after waiting_i; with limit 0, over_o is always high.
 `default_nettype none
 
 module ppmc_bridge_wait
@@ -26,7 +26,7 @@ module ppmc_bridge_wait
     if (start_i) limit_q <= DefaultLimitMs;
     else if (set_i) limit_q <= limit_i;
     look_once_q <= limit_q == '0;
-    at_limit_q  <= waiting_i && wait_q == limit_q;  // of this wait, not of the previous one
+    at_limit_q  <= waiting_i && wait_q == limit_q;  // waiting_i excludes a match of the previous wait
     if (!waiting_i) begin
       overdue_q <= 1'b0;
       wait_q    <= '0;

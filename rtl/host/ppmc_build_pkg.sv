@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_build_pkg: identification of the sources of a bitstream, for op VERSION. The tools of this project
-//         define it as PPMC_BUILD (scripts/flow/build_id.py). With other tools it is 0, which means
-//         "unknown".
+//         pass the value as macro PPMC_BUILD (scripts/flow/build_id.py). With other tools the value is 0,
+//         which means "unknown".
 // Rules:  docs/uart_bridge.md, UB-VER.
 `default_nettype none
 

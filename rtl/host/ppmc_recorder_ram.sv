@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_recorder_ram: RAM of the records. It has one port, so that the large RAMs of an iCE40 UP5K (SPRAM) can
 //         be used.
-// Timing: rdata_o is valid one cycle after addr_i in a cycle without we_i; it is undefined after a cycle with
-//         we_i.
+// Timing: rdata_o is valid one cycle after addr_i in a cycle without we_i. After a cycle with we_i, rdata_o
+//         is undefined.
 // Note:   contents are neither reset nor initialised.
 `default_nettype none
 

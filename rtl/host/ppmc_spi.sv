@@ -57,7 +57,7 @@ module ppmc_spi #(
   // ---- pins ------------------------------------------------------------------------------------------
 
   logic sck, mosi, cs_n;
-  logic [2:0] meta, sck_q;  // previous samples of sck, the newest in bit 0
+  logic [2:0] meta, sck_q;  // sck_q: previous samples of sck, the newest in bit 0
 
   ppmc_sync #(
       .Width   (3),

@@ -32,7 +32,7 @@ module ppmc_strobe_bus (
     input  wire logic [7:0] data_i,        // data byte for the host
     input  wire logic       data_valid_i,  // data_i has not been read yet
     input  wire logic       data_new_i,    // data_i changes at the next edge
-    output logic            rd_busy_o,     // data_i is being read: the status must not indicate it again
+    output logic            rd_busy_o,     // data_i is being read: the status must not indicate this byte
     output logic            rd_done_o      // data_i has been read
 );
 
@@ -76,10 +76,10 @@ module ppmc_strobe_bus (
     wr2    = is_write(s2, style_i);
   end
 
-  // Write: the byte of the last sample with the strobe counts. The second stage of address and data stores
-  // them. The first stage of the strobe enables it. At the end of the strobe this stage may be metastable.
-  // Address and data are stable since the previous sample (P104-BUS-04), so that it makes no difference if
-  // they are loaded once more.
+  // Write: the byte of the last sample in which the strobe is active is used. a01 and d1 sample the pins;
+  // wr_a0_o and wr_data_o load them while wr1 is high. At the end of the strobe, wr1 may be metastable. Then
+  // it makes no difference whether the registers are loaded once more, because address and data have been
+  // stable since the previous sample (P104-BUS-04).
   logic wr3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -96,9 +96,9 @@ module ppmc_strobe_bus (
   assign wr_o      = wr3_q && !wr2;
   assign wr_busy_o = wr1 || wr2 || wr3_q;
 
-  // Read: the byte counts as read if it was valid when d_o loaded it for the last time, unless a new byte
-  // arrives. A strobe of a single sample has no refresh, so that a byte which arrived at its edge 0 was not
-  // output.
+  // Read: the byte counts as read if it was valid at the last load of d_o and no new byte arrives during the
+  // read. A strobe of a single sample has no refresh. Therefore a byte that arrived at edge 0 of such a
+  // strobe was not output.
   logic taking_q, new_q, new2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -165,7 +165,8 @@ module ppmc_uart_bridge
     else if (start) last_seq_q <= seq;
   end
 
-  // The lower half holds the request, the upper half the answer. No request is received while a script runs.
+  // The lower half of the RAM holds the request, the upper half the answer. While a script runs, no request
+  // is received.
   ppmc_ram #(
       .Width   (8),
       .AddrBits(9)

@@ -2,9 +2,9 @@
 // ppmc_wishbone: Wishbone B4 slave (classic cycles, 32 bits) for the strobe bus of a device.
 // Rules:  register map and responses in docs/integration.md; strobes by UB-BUS-01.
 // Timing: a device register responds 6 cycles (write) or 8 cycles (read) after the first cycle with CYC and
-//         STB, one cycle later if it directly follows another access. The bridge register and masked accesses
-//         respond 1 cycle after it. A master may abort an access: a strobe that has begun still ends, and
-//         there is no response.
+//         STB, one cycle later if the access directly follows another one. The bridge register and masked
+//         accesses respond 1 cycle after that first cycle. A master may abort an access: a strobe that has
+//         begun still ends, and there is no response.
 `default_nettype none
 `include "ppmc_assert.svh"
 
@@ -37,9 +37,9 @@ module ppmc_wishbone #(
   logic call, own, bad, done, ready, req, unused;
   logic [7:0] rdata;
   logic busy_q;  // a strobe access of this bridge is in progress
-  logic live_q;  // the master of this access still waits
-  logic quick_q;  // response that needs no strobe
-  logic error_q;  // this response is ERR
+  logic live_q;  // 1: the master still waits for this response
+  logic quick_q;  // 1: this response needs no strobe
+  logic error_q;  // 1: this response is ERR, not ACK
   logic flag_q;  // data bit 0 of this response
 
   assign unused = &{1'b0, sel_i[3:1], dat_i[31:8]};

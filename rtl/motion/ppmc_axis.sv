@@ -49,7 +49,7 @@ module ppmc_axis
     input wire logic halt_i,  // immediate stop command
     input wire logic decel_i,  // deceleration stop command
     input wire switches_t switches_i,  // synchronous levels
-    input wire logic slow_i,  // act on the slow-down limit: equal to slow_seen_o, or later
+    input wire logic slow_i,  // act on the slow-down limit; slow_seen_o, delayed or not
     output logic slow_seen_o,  // an effective slow-down limit is active
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 is held back
@@ -208,17 +208,19 @@ module ppmc_axis
       .up_o   (up)
   );
 
-  // Interval: internal base clock or edges of the pin, counted, and the extra time.
+  // Interval: counts base clocks, which are internal or edges of the clock pin, and adds the extra time.
   // With the external clock, pulses and cuts occur in the cycle of an effective edge and act at the end of
   // this cycle:
-  // - Edge number rate + 1 after a pulse is the next pulse (u_rate: hit_o), or the extra time follows it. An
-  //   edge makes no pulse while low_o = 1; the next edge does. This needs a pulse of rate 0 that is not
-  //   brisk.
-  // - Edge number floor((rate + 1) / 2) is the half (u_rate: half_o). It cuts low_o, unless the pulse is a
-  //   full one. At rate 0 the falling edge cuts it, if the pulse is brisk (u_shaper, P104-TIM-05).
-  // Both count to the rate of the running interval, which u_seq outputs with the pulse. Only from the second
-  // deceleration step on, this rate may still rise for some cycles (rising). During this time neither event
-  // occurs: the half is made up for afterwards, and the pulse cannot be reached yet (times in ppmc_ramp_seq).
+  // - Edge number rate + 1 after a pulse outputs the next pulse (u_rate: hit_o), or the extra time follows
+  //   this edge. An edge while low_o = 1 outputs no pulse; the next edge does. This can occur only after a
+  //   pulse of rate 0 that is not brisk.
+  // - Edge number floor((rate + 1) / 2) marks half of the interval (u_rate: half_o). It cuts low_o, unless
+  //   the pulse is a full one. At rate 0, the falling edge cuts low_o if the pulse is brisk (u_shaper,
+  //   P104-TIM-05).
+  // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. Only from the
+  // second deceleration step on, this rate may still rise for some cycles (rising). During these cycles
+  // neither event occurs: the half is made up for afterwards, and the next pulse cannot be reached yet (times
+  // in ppmc_ramp_seq).
   assign edges = base_q.external && rise;
   assign tick  = base_q.external ? edges && ext_count : base_tick;
   assign cut   = base_q.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !rising));

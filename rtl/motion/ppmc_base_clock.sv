@@ -23,7 +23,7 @@ module ppmc_base_clock #(
   localparam int unsigned Longest = (Slower > ExtraQuanta) ? Slower : ExtraQuanta;
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
-  logic [Width-1:0] left_q, whole;  // remaining quanta without the last one; next start value
+  logic [Width-1:0] left_q, whole;  // left_q: remaining quanta minus 1; whole: its next start value
   logic extra_q;  // the extra time is running
   logic last_q;  // the next quantum ends the period
   logic ends;
@@ -48,7 +48,7 @@ module ppmc_base_clock #(
     end
   end
 
-  // No reset, because the first pulse of a motion restarts it.
+  // No reset, because the first pulse of a motion restarts left_q.
   always_ff @(posedge clk_i) begin
     if (restart_i || ends) left_q <= whole;
     else if (quantum_i) left_q <= Width'(ppmc_pkg::dec(32'(left_q)));

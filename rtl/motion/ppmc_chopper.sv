@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_chopper: switches the phases of a motor on and off at standstill.
 // Rules:  P104-SW-01..06, P104-AUX-03. An ON or OFF phase lasts base + UnitQuanta * units quanta; both values
-//         are loaded at its beginning.
+//         are loaded at the beginning of the phase.
 // Timing: on_o changes at the edge that ends the cycle of a quantum tick. restart_i acts at the next edge.
 //         run_i = 0 switches the phases on in the same cycle.
 `default_nettype none

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ext_lag: fixed extra time of an interval with an external base clock.
-// Rules:  P104-INT-03, P104-INT-04. The extra time runs from a pulse to the first base edge at or after it;
-//         the rest runs after the edge that ends the count. So an interval lasts (rate + 1) periods plus the
-//         extra time, and no frequency has to be measured.
+// Rules:  P104-INT-03, P104-INT-04. The extra time has two parts. The first part runs from a pulse to the
+//         first base edge at or after it. The rest runs after the edge that ends the count. So an interval
+//         lasts (rate + 1) periods plus the extra time, and no frequency has to be measured.
 // Timing: fire_o is combinational: it is high in the cycle of hit_i, or when the rest of the extra time has
 //         passed.
 `default_nettype none
@@ -25,7 +25,7 @@ module ppmc_ext_lag #(
   localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(LagClk - 2, Width));
 
   logic [Width-1:0] spent_q;  // elapsed part of the extra time
-  logic last_q, over_q;  // one cycle of the extra time is left; no cycle is left
+  logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: no cycle is left
   logic before_q;  // no base edge since the pulse
   logic after_q;  // the count has ended, the rest of the extra time runs
   logic spend;
@@ -52,7 +52,7 @@ module ppmc_ext_lag #(
     end
   end
 
-  // No reset, because the first pulse restarts it.
+  // No reset, because the first pulse restarts spent_q.
   always_ff @(posedge clk_i) begin
     if (restart_i) spent_q <= Width'(1);
     else if (spend) spent_q <= Width'(ppmc_lfsr_pkg::step(31'(spent_q), Width));

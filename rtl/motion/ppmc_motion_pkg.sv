@@ -74,8 +74,8 @@ package ppmc_motion_pkg;
   typedef struct packed {
     logic [31:0] on_base;    // base time of the ON phase, quanta, at least 1
     logic [31:0] off_base;   // base time of the OFF phase, quanta, at least 1
-    logic [7:0]  on_units;   // units set by the host
-    logic [7:0]  off_units;
+    logic [7:0]  on_units;   // ON units set by the host
+    logic [7:0]  off_units;  // OFF units set by the host
   } chop_t;
 
   // Phases of a motor, 1 = energised. No table is needed: a full step rotates the pattern by one phase. Half

@@ -23,7 +23,7 @@ module ppmc_pulse_shaper #(
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
     input  wire logic                cut_i,    // end the low time now, unless the pulse is a full one
     output logic                     low_o,    // 1 = pulse active
-    output logic                     up_o      // WidthClk cycles have passed
+    output logic                     up_o      // WidthClk cycles have passed since arm_i or pulse_i
 );
 
   localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
@@ -31,9 +31,9 @@ module ppmc_pulse_shaper #(
 
   localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthClk - 2, Width));
 
-  logic [Width-1:0] age_q;  // cycles since the pulse; not used after up_o
+  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after up_o
   logic full_q;
-  logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the highest is 0
+  logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the top bit is always 0
 
   assign halves[HalfRates] = 1'b0;
 
@@ -60,7 +60,7 @@ module ppmc_pulse_shaper #(
     end
   end
 
-  // No reset, because each use restarts it.
+  // No reset, because each use restarts age_q.
   always_ff @(posedge clk_i) begin
     if (arm_i || pulse_i) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

@@ -34,7 +34,7 @@ module ppmc_ramp_builder
   (* fsm_encoding = "none" *)
   pass_e pass_q;  // running pass
   pass_e pass;  // next pass
-  logic first_q, begin_q;  // first and second cycle of a build
+  logic first_q, begin_q;  // first_q, begin_q: first and second cycle of a build
   logic slower_q;  // 1: the factor is 2a; 0: the factor is b
   logic again_q;  // second multiplication by this factor
   logic [MulBits-1:0] mul_q;  // index of the multiplier bit; between two factors the highest
@@ -82,11 +82,11 @@ module ppmc_ramp_builder
   );
 
   // A quotient may be rounded down before the next division, and before an integer is subtracted, without
-  // changing the result. So thr(r) takes four divisions by short numbers, two at a time: by s and s, then by
-  // a - b and a + b. A subtraction is between the pairs, an increment follows them. All are bit-serial
-  // (ppmc_ramp_serial).
-  // Next pass: n is multiplied by b, b, 2a and 2a once, with one pass for each multiplier bit; then four
-  // passes follow for each r.
+  // changing the result. So thr(r) takes four divisions by short numbers in two pairs: by s and s,
+  // then by a - b and a + b. The subtraction is between the pairs, the increment follows the second pair. All
+  // operations are bit-serial (ppmc_ramp_serial).
+  // Next pass: once per build, n is multiplied by b, b, 2a and 2a, with one pass for each multiplier bit.
+  // Then four passes follow for each r.
   always_comb begin
     unique case (pass_q)
       PassInit:   pass = PassMulBit;

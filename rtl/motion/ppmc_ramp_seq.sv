@@ -3,7 +3,7 @@
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
 // Timing: all state changed by pulse_i is valid after its edge, except rate_o, the rate of the new interval.
 //         - Accelerating or at constant rate: rate_o changes at the same edge. The look-up of the next rate
-//           follows; for its 3 n + 1 cycles, n = rates that the ramp skips, seek_o keeps a pulse back.
+//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); seek_o then keeps a pulse back.
 //         - First deceleration step: rate_o changes one cycle later (rising_o), to the rate of the interval
 //           before the last acceleration step.
 //         - Further deceleration steps: rate_o is valid when rising_o falls. The look-up runs in the new
@@ -53,16 +53,16 @@ module ppmc_ramp_seq #(
   } state_e;
 
   state_e state_q;
-  // climb: acceleration pulses output and not yet reversed, which is the index of the running interval + 1.
-  // room_q stores it inverted, so that the comparison is an addition without inverters.
+  // climb: number of acceleration pulses that were output and not yet reversed; this is the index of the
+  // running interval + 1. room_q is climb inverted, so that the comparison is an addition without inverters.
   logic [StepBits-1:0] climb, room_q;
   logic [RateBits-1:0] probe_q;  // rate under test
   logic [RateBits-1:0] back_q;  // rate of the interval before the last step up
-  logic near_q, full_q, zero_q, low_q;  // comparisons, one cycle after the counters
+  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and climb, one cycle late
   logic load_q;  // probe_q is the rate of the running interval
   logic slower_q;  // the deceleration has begun
-  logic end_q;  // the look-up is at the end of the ramp; its operands are stable before a test
-  logic probe_slow_q;  // probe_q is the start-up rate; it is stable long before it is used
+  logic end_q;  // the look-up is at the end of the ramp; valid before each test
+  logic probe_slow_q;  // probe_q is the start-up rate; valid long before it is used
   logic up, down, turn, odd, high, step, below, reached, more;
   logic [StepBits:0] unused_sum;
 
@@ -86,7 +86,7 @@ module ppmc_ramp_seq #(
       dec_o  <= 1'b0;
     end else begin
       near_q <= !high && !ppmc_pkg::less(32'(climb), 32'(left_o[StepBits-1:0]));
-      full_q <= reached;  // no look-up, before deceleration: climb = PA, no other threshold is left
+      full_q <= reached;  // 1 without a look-up and before deceleration: climb = PA
       zero_q <= !high && left_o[StepBits-1:0] == '0;
       low_q  <= climb[StepBits-1:1] == '0;
       if (load_i) begin
@@ -99,8 +99,7 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // Synchronous reset, for which the reset of the core is long enough: it also serves as the load of a single
-  // step.
+  // Synchronous reset, because it also loads a single step. The reset of the core is long enough for it.
   always_ff @(posedge clk_i) begin
     if (!rst_ni || (load_i && single_i)) left_o <= '0;
     else if (load_i) left_o <= count_i;
@@ -125,14 +124,14 @@ module ppmc_ramp_seq #(
     else if (pulse_i && (up || down)) room_q <= room_q + {{(StepBits - 1) {!down}}, 1'b1};
   end
 
-  // Rate look-up. While accelerating, probe_q decreases as long as climb has reached its threshold; after the
-  // look-up it is the rate of the next step up. While decelerating, rate_o follows probe_q as long as the
-  // index, climb - 1, is below its threshold; after the look-up probe_q is the next slower rate. Its
-  // threshold is valid then, so that a look-up begins with a test.
-  // below: climb < threshold; while decelerating, climb <= threshold. Then the sum has a carry.
+  // Rate look-up. While accelerating, probe_q decreases as long as climb has reached the threshold of
+  // probe_q; after the look-up, probe_q is the rate of the next step up. While decelerating, rate_o follows
+  // probe_q as long as the index, climb - 1, is below the threshold of probe_q; after the look-up, probe_q is
+  // the next slower rate. The threshold of probe_q is valid then, so that a look-up begins with a test.
+  // below: climb < threshold; while decelerating, climb <= threshold. In these cases the sum has a carry.
   // Base clocks 4 cycles apart never reach the end of an interval before its look-up ends, because n is at
-  // most the rate of the interval. Base clocks 6 cycles apart do not reach its middle before either: on ramps
-  // of 4 steps and more, n is smaller than the rate, or 1.
+  // most the rate of the interval. Base clocks 6 cycles apart do not reach the middle of the interval before
+  // the look-up ends: on ramps of 4 steps and more, n is smaller than the rate, or 1.
   assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), slower_q} + {1'b0, room_q, slower_q};
   assign reached             = !below;
   assign more                = !end_q && reached != slower_q;
@@ -169,7 +168,7 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // No reset, because the first step up loads it.
+  // No reset, because the first step up loads back_q.
   always_ff @(posedge clk_i) begin
     if (pulse_i && up) back_q <= rate_o;
   end

@@ -60,15 +60,15 @@ module ppmc_ramp_serial
   endfunction
 
   word_t rd, wr;
-  addr_t read_at_q, at;  // word to read; word in use, which was read two cycles before
+  addr_t read_at_q, at;  // read_at_q: word to read; at: word in use, read two cycles before
   addr_t turn, turned;
   logic down;
-  logic run_q, read_q, use_q, second_q;  // stages: address, RAM, use, second division
+  logic run_q, read_q, use_q, second_q;  // stages of a word: address, RAM, use, second division
 
   assign down   = pass_i inside {PassSquare, PassShare};
   assign use_o  = use_q;
   assign last_o = use_q && !read_q;
-  // Two words back: minus 2 in a pass that runs upwards, else plus 2; built from gates.
+  // at is read_at_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from gates.
   assign turn   = {{(AddrBits - 1) {!down}}, 1'b0};
   assign turned = read_at_q ^ turn;
   assign at     = {(AddrBits - 1)'(ppmc_pkg::inc(32'(turned[AddrBits-1:1]))), turned[0]} ^ turn;
@@ -98,14 +98,14 @@ module ppmc_ramp_serial
 
   // ---- sums: one serial adder ----------------------------------------------------------------------
 
-  logic [1:0] v_q;  // previous two bits
+  logic [1:0] v_q;  // previous two bits of v
   logic carry_q, addend, operand, sum;
 
   always_comb begin
     unique case (pass_i)
       PassInit:               addend = 1'b0;
       PassMulBit, PassMulOne: addend = v_q[0];  // times 2
-      PassLess:               addend = v_q[1];  // it is stored two words lower
+      PassLess:               addend = v_q[1];  // the difference is stored two words lower
       default:                addend = rd.v;
     endcase
     unique case (pass_i)
@@ -117,7 +117,7 @@ module ppmc_ramp_serial
     sum = addend ^ operand ^ carry_q;
   end
 
-  // Cleared between passes; PassLess and PassTell begin with a carry.
+  // carry_q is cleared between passes; before PassLess and PassTell it is set.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       v_q     <= '0;

@@ -28,7 +28,7 @@ module ppmc_ramp_table #(
 
   assign slow_o = waddr;  // the builder has stopped at this address
 
-  // No reset, because a build sets them.
+  // No reset, because a build sets these outputs.
   always_ff @(posedge clk_i) begin
     if (busy_o) {steps_o, fast_o} <= {steps_i, fast_i};
   end

@@ -3,8 +3,8 @@
 // Rules:  P104-INT-01, P104-TIM-05 (b), P104-BCK-05 (base clocks are passed over while the rate is still
 //         looked up).
 // Timing: hit_o and half_o are combinational from tick_i. half_o is high from its base clock on. If rising_i
-//         is still high then, it is high from 2 cycles after the last cycle of rising_i: late, but never
-//         missed.
+//         is high at this base clock, half_o rises 2 cycles after the last cycle of rising_i: late, but it is
+//         never missed.
 // Assumes: ticks are at least 3 cycles apart. A device whose hosts send divisors (J105 STMC) uses
 //         divisor - 1 as rate_i.
 // Note:   the count runs upwards so that the rate may still rise while an interval runs (see ppmc_ramp_seq).
@@ -46,8 +46,8 @@ module ppmc_rate_counter #(
     end
   end
 
-  // No reset, because the first pulse of a motion restarts it. The count stops where it cannot be used
-  // (P104-BCK-05).
+  // No reset, because the first pulse of a motion restarts count_q. The count stops at rate_i, where later
+  // base clocks have no effect (P104-BCK-05).
   always_ff @(posedge clk_i) begin
     if (restart_i) count_q <= '0;
     else if (tick_i && !equal) count_q <= number;

@@ -26,7 +26,7 @@ module ppmc_stop_guard
     input  wire logic      dec_i,        // natural deceleration has begun
     input  wire logic      halt_i,       // immediate stop command
     input  wire logic      decel_i,      // deceleration stop command
-    input  wire logic      slow_i,       // act on the slow-down limit: equal to slow_seen_o, or later
+    input  wire logic      slow_i,       // act on the slow-down limit; slow_seen_o, delayed or not
     output logic           slow_seen_o,  // an effective slow-down limit is active; not valid with stop_o
     output logic           stop_o,       // end the motion now, no further pulse
     output logic           forced_o,     // forced deceleration is requested; not valid with stop_o
@@ -46,8 +46,9 @@ module ppmc_stop_guard
   assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
   assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
 
-  // Deceleration can be requested once. An immediate end at the same edge has priority. This does not matter
-  // to a user that evaluates the request with a pulse, because no pulse occurs then.
+  // Deceleration can be requested once. An immediate end at the same edge has priority over the request, but
+  // slow_seen_o and forced_o do not include this priority. Their user evaluates them with a pulse, and no
+  // pulse occurs at an immediate end.
   assign free = armed_i && op_i.ramp && !flagged_o && !dec_i;
   assign slow_seen_o = free && slow && (SlowAlways || top_i || !op_i.pout_only);
   assign slow_now = free && slow_i;

@@ -144,8 +144,8 @@ package pmc006_pkg;
   // Frame from the host; code and data are valid until the next one.
   typedef struct packed {
     logic        go;    // strobe: a frame has arrived
-    logic [7:0]  code;  // instruction
-    logic [31:0] data;
+    logic [7:0]  code;  // instruction code
+    logic [31:0] data;  // data of the instruction
   } frame_t;
 
   // Start of a motion; start and run are never high in the same cycle.
@@ -185,12 +185,12 @@ package pmc006_pkg;
   typedef struct packed {
     logic [7:0]  mstep;     // 0, 2, 4, .. 128
     logic [11:0] cur;       // mA, 400 .. 4000
-    logic [2:0]  acc;       // 0 .. 5
-    logic [2:0]  dec;
+    logic [2:0]  acc;       // acceleration coefficient, 0 .. 5
+    logic [2:0]  dec;       // deceleration coefficient, 0 .. 5
     logic        autodec;
     logic [2:0]  att;       // 1 .. 4
     logic [11:0] vstart;    // pps, 65 .. 3000
-    logic [11:0] vstop;
+    logic [11:0] vstop;     // pps, 65 .. 3000
     logic [10:0] ccomp;     // 100 .. 1200
     logic [10:0] scomp;     // 300 .. 2000
     logic [13:0] vmax;      // pps, 0 .. 16000

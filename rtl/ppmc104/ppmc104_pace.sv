@@ -27,11 +27,11 @@ module ppmc104_pace
   // Crystal periods: microseconds times 16.
   localparam int unsigned FLAG_LIMIT = 12 * 16;
   localparam int unsigned FLAG_LIMIT_TOP = 17 * 16;
-  // Quanta; during a shorter interval the mailbox is closed.
+  // Intervals in quanta: during a shorter one, only stop commands are accepted.
   localparam int unsigned BRISK_POUT = 100;
   localparam int unsigned BRISK_PHASE = 148;
 
-  // Number of rates r with (r + 1) * period + extra time below the limit.
+  // Number of rates r for which (r + 1) * period + extra time is below this limit.
   function automatic int unsigned brisk_rates(bit pout_only, bit slow, bit extra);
     int unsigned room, period;
     room   = (pout_only ? BRISK_POUT : BRISK_PHASE) - (extra ? EXTRA_QUANTA : 0);
@@ -81,7 +81,7 @@ module ppmc104_pace
 
     assign slow_o = slow_busy_q && slow_past;
 
-    // First rate that is too slow to close the mailbox, by pout_only, slow and extra.
+    // Lowest rate value at which all commands are accepted, by pout_only, slow and extra.
     function automatic logic [7:0] brisk(logic pout_only, logic slow, logic extra);
       logic [7:0] found;
       found = '0;

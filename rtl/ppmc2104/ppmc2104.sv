@@ -118,7 +118,7 @@ module ppmc2104
   logic [AXES:1] collecting, building, window, cmnd, busy;
   logic [23:0] answer;
   logic [AXES:1][23:0] answers;
-  action_t act_taken, act;  // requested at the C-event; taking effect in this cycle
+  action_t act_taken, act;  // act_taken: requested at the C-event; act: takes effect in this cycle
   charge_t charge;
   error_e speed;
   error_e [AXES:1] errors;

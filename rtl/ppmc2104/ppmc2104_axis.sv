@@ -23,7 +23,7 @@ module ppmc2104_axis
     input  wire logic         [         31:0] params_i,       // parameters of code_i
     input  wire logic         [          7:0] code_late_i,    // code of the other actions
     input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
-    input  wire logic                         ready_i,        // 1: no table build and no open window
+    input  wire logic                         ready_i,        // 1: no table build runs and no window is open
     output state_t                            state_o,        // state for the other blocks
     output logic                              end_o,          // an operation with I = 0 ends
     input  wire error_e                       error_i,        // error register
@@ -183,7 +183,7 @@ module ppmc2104_axis
 
   // ---- end status, answers ------------------------------------------------------------------------
 
-  logic fresh_q, silent_q;  // end status not read yet; no interrupt requested
+  logic fresh_q, silent_q;  // fresh_q: end status not read yet; silent_q: no interrupt requested
   logic [2:0] op_q;
 
   assign end_o = event_now.done && !silent_q;
@@ -203,9 +203,10 @@ module ppmc2104_axis
     end
   end
 
-  // The causes are valid until the next operation; while it runs, a read of the end status is rejected.
+  // The causes are valid until the next operation. While an operation runs, a read of the end status is
+  // rejected.
   always_comb begin
-    answer_o = remaining;  // only this answer outputs the second and third byte
+    answer_o = remaining;  // only this answer uses the second and third byte
     unique case (code_late_i[2:0])
       SEL_END:   answer_o[7:0] = {fresh_q, cause, op_q};
       SEL_INPUTS: begin

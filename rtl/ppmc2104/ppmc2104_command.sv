@@ -52,7 +52,7 @@ module ppmc2104_command
 
   error_e value;
   logic external, operation;
-  setup_t setup;  // of the axis whose data are collected
+  setup_t setup;  // settings of the axis whose data bytes are collected
   init_code_t init_code;
   logic [RATE_BITS:0] gap;
 
@@ -89,9 +89,9 @@ module ppmc2104_command
     error_e       error;      // error of the byte, regardless of the axis state
     logic         stop;       // stop instruction
     logic         abandons;   // stop that cancels outstanding data bytes
-    logic         rest;       // error while the axis is busy
-    logic         operation;  // error while the axis is not initialised
-    logic         table_use;  // waits while the ramp table is being built
+    logic         rest;       // the byte is an error while the axis is busy
+    logic         operation;  // the byte is an error while the axis is not initialised
+    logic         table_use;  // the instruction waits while the ramp table is being built
     logic         anyone;     // errors are charged to axis 1, regardless of second
     logic         second;     // the instruction is for axis 2
     logic         ccw;
@@ -185,7 +185,7 @@ module ppmc2104_command
 
   // ---- errors: order of the checks as in P2104-ERR-04/05 ------------------------------------------
 
-  logic busy, decel_ok, initialised, error;  // of the addressed axis
+  logic busy, decel_ok, initialised, error;  // states of the addressed axis
   error_e number;
 
   assign busy = wish_q.second ? state_i[2].busy : state_i[1].busy;

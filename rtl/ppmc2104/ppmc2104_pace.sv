@@ -26,7 +26,7 @@ module ppmc2104_pace
     input  wire state_t  [AXES:1] state_i,        // states of both axes
     output logic                  open_o,         // bytes may be accepted
     output logic         [AXES:1] window_o,       // a window of this axis is open
-    // when it takes effect
+    // actions that take effect
     output action_t               act_o,          // actions, effective at the next rising edge
     output logic         [   7:0] code_o,         // code of the actions at the end of a window
     output logic         [  31:0] params_o,       // data bytes of code_o
@@ -190,7 +190,7 @@ module ppmc2104_pace
     assign poll_o = poll_q == PollBits'(PollClk - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
-      if (!rst_ni) poll_q <= PollBits'(1);  // not 0, because reset ends one cycle late
+      if (!rst_ni) poll_q <= PollBits'(1);  // starts at 1, because reset ends one cycle late
       else if (begins || window_q || poll_o) poll_q <= '0;
       else poll_q <= poll_q + 1'b1;
     end

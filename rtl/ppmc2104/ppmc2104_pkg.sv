@@ -176,7 +176,7 @@ package ppmc2104_pkg;
     logic                 half;         // E: half step
     logic [1:0]           motor;        // MM, as motor_e
     logic [7:0]           on;           // on time of the chopper, units of two quanta
-    logic [7:0]           off;
+    logic [7:0]           off;          // off time of the chopper, units of two quanta
     logic [7:0]           hold_delay;   // units of HOLD_QUANTA, minus 1
   } setup_t;
 

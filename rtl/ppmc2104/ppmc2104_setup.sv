@@ -14,7 +14,7 @@ module ppmc2104_setup
     input  wire init_code_t          code_i,         // setting code of act_i.init
     input  wire logic         [31:0] params_i,       // data bytes of act_i.init
     input  wire logic         [31:0] params_late_i,  // data bytes of act_i.switching, act_i.hold_delay
-    input  wire logic                ready_i,        // 1: no table build, no open window for this axis
+    input  wire logic                ready_i,        // 1: no table build and no open window of this axis
     output setup_t                   setup_o,        // current settings
     output logic                     home_o,         // set the phases to index 0
     output logic                     chop_o          // chop at standstill

@@ -28,7 +28,7 @@ module ppmc2104_speed
     assign error_o = ErrNone;
   end else begin : g_datasheet
 
-    // Lowest legal rate values: axis alone or together with the other axis, with fast or slow internal clock.
+    // Lowest legal rate values: with one or two operating axes, with the fast or the slow internal clock.
     typedef struct packed {
       logic [RATE_BITS-1:0] alone_fast;
       logic [RATE_BITS-1:0] beside_fast;
@@ -44,7 +44,7 @@ module ppmc2104_speed
     state_t mine, other;
     limits_t limits;
     logic [RATE_BITS-1:0] rate;
-    logic [3:0] below, below_q;  // the rate value is below each limit
+    logic [3:0] below, below_q;  // below: the rate value is below each limit; below_q: one cycle later
     logic counts, second_q, csel, alone, beside, unused_bits;
 
     assign op_code = op_code_t'(code_i);

@@ -153,8 +153,8 @@ module ppmc312_carrier #(
       .out_oe
   );
 
-  // cd_n is asserted 100 ms after the last pulse, but not before the first one; hold covers this case with
-  // moved_q.
+  // cd_n is asserted 100 ms after the last pulse, but not before the first pulse. Therefore moved_q asserts
+  // hold until the first pulse.
   always_ff @(posedge clk or negedge part_rst_n) begin
     if (!part_rst_n) moved_q <= 1'b0;
     else if (pout) moved_q <= 1'b1;

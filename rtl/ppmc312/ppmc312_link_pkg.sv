@@ -143,7 +143,7 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic                  we;
     logic [BLOCK_BITS-1:0] addr;  // logical: 0 = header
-    logic [7:0]            data;
+    logic [7:0]            data;  // byte at addr
   } answer_byte_t;
 
   // Result of a triggered instruction. The comments are the codes in the answer to a poll.
@@ -165,7 +165,7 @@ package ppmc312_link_pkg;
   typedef struct packed {
     logic full;       // an answer can be read
     logic full_host;  // this answer is for the host
-    logic waits;      // a second answer waits after it
+    logic waits;      // a second answer waits after this one
   } class2_t;
 
   // Result of a block from the host, for the serial station.

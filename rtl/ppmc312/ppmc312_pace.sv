@@ -25,7 +25,7 @@ module ppmc312_pace
   localparam int unsigned Width = 22;
 
   if (Datasheet) begin : g_pace
-    // Crystal periods. The latency of the instruction up to this block, about 1 us, is neglected.
+    // Times in crystal periods. The latency of the instruction up to this block, about 1 us, is neglected.
     localparam int unsigned PerUs = 16;
     localparam int unsigned Lead = WIDTH_XTAL + 8;
 
@@ -62,7 +62,7 @@ module ppmc312_pace
         I_CONST, I_CONT: limit = pulse_us(400);
         I_HIGH, I_ZERO:  limit = given ? pulse_us(400) : pulse_us(60);
         I_ORIGIN, I_STEP: limit = pulse_us(500);
-        // A halt at a position: the position comparison itself stops the pulses.
+        // A halt at a position has no processing time, because the position comparison stops the pulses.
         I_HALT:    limit = (block_i.source == SrcOverride && !block_i.par[0][0]) ? '0 : us(350);
         I_AUX_OUT: limit = us(300);
         default:   ;

@@ -77,8 +77,8 @@ package ppmc312_pkg;
     logic       counted;    // parameters 3 .. 6 are a number of pulses
     logic [5:0] now;        // statuses that accept the code with OV = 0
     logic [5:0] later;      // statuses that accept the code with OV = 1
-    logic [4:0] len_a;      // legal lengths of code and parameters, len_a >= len_b
-    logic [4:0] len_b;
+    logic [4:0] len_a;      // longer legal length of code and parameters
+    logic [4:0] len_b;      // shorter legal length, at most len_a
   } info_t;
 
   localparam logic [5:0] AT_REST = StatusIni | StatusNor;

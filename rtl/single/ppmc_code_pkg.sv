@@ -89,7 +89,7 @@ package ppmc_code_pkg;
     logic [31:0] params;  // parameters received so far, the last one in the high bits
   } asking_t;
 
-  // Settings of the initialisation, except the ramp (ppmc_setup).
+  // Settings of the initialisation (ppmc_setup), without the ramp.
   typedef struct packed {
     logic       external;  // base clock from the pin
     logic       chop;      // chop at standstill; 0 until an initialisation is complete

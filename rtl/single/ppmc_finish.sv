@@ -28,7 +28,7 @@ module ppmc_finish
     output logic                 int_no        // L: a motion has ended
 );
 
-  logic fresh_q, silent_q;  // not read yet; no interrupt requested
+  logic fresh_q, silent_q;  // fresh_q: not read yet; silent_q: no interrupt requested
   logic [2:0] op_q;
   logic unused_bits;
 
@@ -56,9 +56,10 @@ module ppmc_finish
     end
   end
 
-  // The causes are valid until the next operation starts; while it runs, read commands are rejected.
+  // The causes are valid until the next operation starts. While an operation runs, read commands are
+  // rejected.
   always_comb begin
-    answer_o = remaining_i;  // bytes after the first one are read only with SEL_REMAINING
+    answer_o = remaining_i;  // only SEL_REMAINING uses the bytes after the first one
     unique case (select_i)
       SEL_FINISH:  answer_o[7:0] = {fresh_q || !Fresh, cause_i, op_q};
       SEL_INPUTS:  answer_o[7:0] = inputs_i;

@@ -24,7 +24,7 @@ module ppmc_pace
     // command unit, at the C-event
     input  wire action_t                act_i,          // actions requested by the byte
     input  wire logic    [         7:0] code_i,         // code of act_i
-    input  wire logic    [        31:0] params_i,       // parameters of act_i; one cycle later a byte lower
+    input  wire logic    [        31:0] params_i,       // parameters of act_i; next cycle: one byte lower
     input  wire logic    [         7:0] code_held_i,    // code_i after the C-event
     input  wire logic    [        31:0] params_held_i,  // params_i after the C-event
     input  wire logic    [         2:0] base_i,         // base clock that is selected now
@@ -51,7 +51,7 @@ module ppmc_pace
     output logic                        linger_o        // the motion must not end yet
 );
 
-  // In crystal cycles: microseconds times 16.
+  // Times in crystal cycles: microseconds times 16.
   localparam int unsigned INIT_PHASES = 44 * 16;
   localparam int unsigned BUSY_CONSTANT = 27 * 16;
   localparam int unsigned BUSY_RAMP = 112 * 16;
@@ -67,7 +67,7 @@ module ppmc_pace
   endfunction
 
   if (!Datasheet) begin : g_fast
-    logic built_q;  // building_i, one cycle later; the table is complete then
+    logic built_q;  // building_i, one cycle later
     logic unused_bits;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -88,8 +88,8 @@ module ppmc_pace
                            last_i, final_i};
   end else begin : g_datasheet
 
-    // When its time has passed, the byte is no longer in the mailbox. So its data are those held after the
-    // C-event.
+    // When the time of a command has passed, its byte is no longer in the mailbox. Therefore the code and the
+    // parameters that were held after the C-event are used.
     op_code_t op_code, op_held;
     logic ramp;  // the requested operation has a ramp
     logic unused_bits;
@@ -184,7 +184,7 @@ module ppmc_pace
 
     logic triangle;
 
-    // The number of pulses is below 2 * PA.
+    // triangle: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
     assign triangle = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );

@@ -6,8 +6,8 @@
 //         last_i. The event that a time releases occurs one cycle after the nominal time.
 // How:    the parts of a time that grow with a number are 209 crystal cycles for each step of PA, or 123/16
 //         for each pulse of a triangular profile. They are subtracted from the count in portions, one portion
-//         a cycle, as soon as the count is large enough. This always keeps up with the count. PA arrives one
-//         cycle late, on the wires of the pulses, which is early enough for the first portion.
+//         a cycle, as soon as the count is large enough. This always keeps up with the count. number_i
+//         carries PA one cycle after init_i, which is early enough for the first portion.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -36,12 +36,12 @@ module ppmc_pace_motion #(
     output logic             closed_o     // no byte may be accepted, because the motion ends
 );
 
-  // In crystal cycles.
+  // Times in crystal cycles.
   localparam int unsigned INIT_BASE = 264_000;
   localparam int unsigned INIT_STEP = 209;
-  localparam int unsigned PULSE = 7;  // for each pulse of a triangular profile, whole crystal cycles
-  localparam int unsigned PULSE_PART = 11;  // for each pulse of a triangular profile, 1/16 crystal cycles
-  // In units of 16 crystal cycles, which are microseconds at 16 MHz.
+  localparam int unsigned PULSE = 7;  // for each pulse of a triangular profile: whole crystal cycles
+  localparam int unsigned PULSE_PART = 11;  // for each pulse of a triangular profile: sixteenths
+  // Times in units of 16 crystal cycles, which are microseconds at 16 MHz.
   localparam logic [7:0] FIRST_CONSTANT = 8'd194;
   localparam logic [7:0] FIRST_RAMP = 8'd200;
   localparam logic [7:0] FIRST_SINGLE = 8'd86;
@@ -64,8 +64,8 @@ module ppmc_pace_motion #(
 
   (* fsm_encoding = "none" *)
   state_e state_q;
-  logic slow_q, brief_q;  // the end uses END_RAMP; the end has no StClosed
-  logic last_q;  // the count starts in this cycle, with the change of the pins
+  logic slow_q, brief_q;  // slow_q: the end uses END_RAMP; brief_q: the end has no StClosed
+  logic last_q;  // the count of the end starts in this cycle, in which the pins change
   logic init_q;  // init_i, one cycle later
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
@@ -138,8 +138,8 @@ module ppmc_pace_motion #(
     if (more) past = 1'b0;
   end
 
-  // All times except that of an initialisation have passed: pulse 1 may have to wait for a clock
-  // indefinitely.
+  // full: all times except that of an initialisation have passed. Then the count stops, because pulse 1 may
+  // have to wait for a clock indefinitely.
   assign full = count_q[12] && state_q != StInit;
 
   assign more    = !store_q[StoreBits];

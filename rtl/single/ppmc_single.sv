@@ -45,7 +45,7 @@ module ppmc_single
     // motion
     input  wire logic             clock_pin_i,    // external base clock, asynchronous
     input  wire switches_t        switches_i,     // synchronous levels
-    input  wire logic             slow_i,         // act on a slow-down limit: slow_seen_o, or later
+    input  wire logic             slow_i,         // act on the slow-down limit; slow_seen_o, delayed or not
     output logic                  slow_seen_o,    // an effective slow-down limit is active
     output motion_t               motion_o,       // state of the motion
     output logic           [ 7:0] rate_o,         // rate of the running interval
@@ -63,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] judgement;
   logic [23:0] answer, remaining;
-  action_t act_taken;  // actions requested at the C-event; act_o: when they take effect
+  action_t act_taken;  // act_taken: actions requested at the C-event; act_o: the same when they take effect
 
   assign sent_o.left = judgement[2:0];
 
@@ -121,8 +121,8 @@ module ppmc_single
   logic [Traits.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
-  assign op_code     = op_code_t'(code_late);  // code_late as code of an operation or an initialisation
-  assign init_late   = init_code_t'(code_late);
+  assign op_code     = op_code_t'(code_late);  // code_late as the code of an operation
+  assign init_late   = init_code_t'(code_late);  // code_late as the code of an initialisation
   assign unused_bits = &{1'b0, op_code, init_late, chop_i, verdict_i};
 
   ppmc_setup #(

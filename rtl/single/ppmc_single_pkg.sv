@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_single_pkg: types that connect ppmc_single with the device around it, and the device configuration.
 // Rules:  those of ppmc_single.
-// How:    the current byte is output (sent_t) and its meaning is returned (meaning_t). With this meaning the
-//         parameters are complete: they are output (asked_t), and the result of their check is returned
-//         (verdict_t). There are four bundles instead of two, so that no bundle depends on itself.
+// How:    ppmc_single outputs the current byte (sent_t), and the device returns its meaning (meaning_t). With
+//         this meaning the parameters are complete: ppmc_single outputs the command (asked_t), and the device
+//         returns the result of its check (verdict_t). There are four bundles instead of two, so that no
+//         bundle depends on itself.
 `default_nettype none
 
 package ppmc_single_pkg;

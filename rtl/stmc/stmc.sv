@@ -61,7 +61,7 @@ module stmc
   end
 
   localparam bit Sheet = 128'(READ_MAP) == "SHEET";
-  // A quantum lasts at least two cycles. Chopper times that are not a multiple of it are rounded up.
+  // A quantum lasts at least two cycles. Chopper times that are not a multiple of a quantum are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
   localparam int unsigned HoldRest = ppmc_pkg::cyc(

@@ -21,8 +21,8 @@ package stmc_pkg;
 
   localparam int unsigned STEP_XTAL = 1_280;  // crystal periods in a period of the internal step clock
 
-  // Data that a read command selects. The headings of the data sheet count 0, 2, 3, 4, related devices
-  // 0, 1, 2, 3.
+  // Data that a read command selects. The headings of the data sheet number them 0, 2, 3, 4; related devices
+  // use 0, 1, 2, 3.
   function automatic logic [2:0] selected(logic sheet, logic [2:0] number);
     return (sheet && number != 3'd0) ? number - 3'd1 : number;
   endfunction

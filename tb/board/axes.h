@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Definitions for the pins.h of several parts. A pins.h (tb/<part>/) connects the virtual board to the ports
-// of its carrier, by axis; ports of two axes are one number, bit 0 = axis 1. It defines kAxes and kAllAxes,
-// motion_pins, Motors, idle_inputs, set_switches, phases, encoder_low, encoder_pulse and interrupt.
+// Definitions for the pins.h of several parts. The pins.h of a part (tb/<part>/) connects the virtual board
+// to the ports of its carrier, axis by axis. The ports of two axes are one number; bit 0 is axis 1. Each
+// pins.h defines kAxes and kAllAxes, motion_pins, Motors, idle_inputs, set_switches, phases, encoder_low,
+// encoder_pulse and interrupt.
 #pragma once
 
 #include <cstdint>

@@ -74,8 +74,8 @@ void Board::simulate(uint64_t end) {
     now_ = now;
 }
 
-// The only work between two clock edges apart from the DUT: a change at the UART or at the pins that the
-// motors follow.
+// Between two clock edges the board does only this work in addition to the DUT: it handles a change at the
+// UART or at the pins that the motors follow.
 void Board::change() {
     Vboard& top = dut_.top;
     txd_ = top.uart_txd;

@@ -22,12 +22,12 @@ class Board {
 
     const std::string& port() const { return pty_.path(); }
 
-    // Simulate a slice of board time (1/8 ms) and serve the host; sleep to keep the pace. While nothing can
-    // happen without a character from the host, wait for the host, for `wake_fd` (-1: not used), or for 1/4
+    // Simulate a slice of board time (1/8 ms), serve the host, and sleep to keep the pace. While only a
+    // character from the host can cause a change, wait for the host, for `wake_fd` (-1: not used), or for 1/4
     // s.
     void run(int wake_fd);
 
-    // Return "name=value name=value …": see docs/virtual_board.md.
+    // Return the state as "name=value name=value …" (docs/virtual_board.md).
     std::string status() const;
 
    private:

@@ -25,7 +25,8 @@ class Dut {
         top.clk = 0;
         top.uart_rxd = 1;
         idle(top);
-        // Reset needs a falling edge of rst_n: without one, flip-flops would keep their initial values.
+        // A reset needs a falling edge of rst_n: without this edge, flip-flops would keep their initial
+        // values.
         top.rst_n = 1;
         top.eval();
         top.rst_n = 0;
@@ -48,7 +49,7 @@ class Dut {
         trace_->open(path.c_str());
         if (!trace_->isOpen()) throw std::runtime_error("cannot write " + path);
     }
-    // Like tick(), with both edges recorded; times in ps.
+    // Simulate one cycle like tick() and record both edges; times in ps.
     void tick_traced(uint64_t at, uint64_t fall) {
         top.clk = 1;
         top.eval();

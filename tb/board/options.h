@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments name=value of the virtual board. openppmc.sim checks them for the user; here an error only ends
-// the program.
+// Arguments name=value of the virtual board. openppmc.sim checks the arguments for the user; here an error
+// only ends the program.
 #pragma once
 
 #include <cstdint>

@@ -23,8 +23,8 @@ class Pty {
     // open. Never blocks.
     void read(std::vector<uint8_t>& to, size_t room);
 
-    // Send bytes to the host. Bytes that do not fit are discarded, as with a full receive buffer. All bytes
-    // are discarded while the port is closed.
+    // Send bytes to the host. Bytes that do not fit into the receive buffer of the host are discarded. All
+    // bytes are discarded while the port is closed.
     void write(const std::vector<uint8_t>& bytes);
 
     // Return true if a process had the port open at the last read().

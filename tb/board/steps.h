@@ -27,8 +27,8 @@ class PhaseSteps {
         }
     }
 
-    // Update the phase levels: return 1 for a step CW, -1 CCW, 0 for no step. If all levels are equal
-    // (chopper, or no excitation yet), the motor does not move.
+    // Update the phase levels. Return 1 for a step CW, -1 for a step CCW, 0 for no step. While all levels are
+    // equal (chopper, or no excitation yet), the motor does not move.
     int step(unsigned levels) {
         levels &= kAll;
         if (levels == 0 || levels == kAll) return 0;

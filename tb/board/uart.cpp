@@ -25,7 +25,8 @@ void Uart::step(uint64_t now, bool txd) {
 void Uart::send_step(uint64_t now) {
     if (tx_bit_ == 10) {
         tx_bit_ = 0;
-        // Consecutive characters keep their fractions; the base is advanced so that the numbers stay small.
+        // Consecutive characters keep their fractions of a cycle. The base advances, so that the numbers
+        // stay small.
         const uint64_t whole = tx_time_ >> kFraction;
         tx_base_ += whole;
         tx_time_ -= whole << kFraction;

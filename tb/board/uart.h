@@ -31,7 +31,7 @@ class Uart {
     bool level() const { return level_; }
     uint64_t next() const { return tx_at_ < rx_at_ ? tx_at_ : rx_at_; }
 
-    // Must be called before clock edge `now` if now == next() or if uart_txd has changed to `txd`.
+    // Call before clock edge `now` if now == next() or if uart_txd has changed to `txd`.
     void step(uint64_t now, bool txd);
 
     // Bytes received from the board.

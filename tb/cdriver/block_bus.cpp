@@ -102,7 +102,7 @@ bool block_receive(void*, uint8_t* byte, unsigned milliseconds) {
 void block_reset(bool held, bool line) {
     bus().mode(line);
     bus().reset(held);
-    bus().run(15'000);  // DATASHEET: 1.6 ms
+    bus().run(15'000);  // longer than the reset with DATASHEET, 1.6 ms
 }
 
 void block_run(unsigned cycles) { bus().run(cycles); }

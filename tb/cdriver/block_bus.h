@@ -17,12 +17,12 @@ void block_write(void *ctx, unsigned reg, uint8_t value);
 void block_send(void *ctx, const uint8_t *bytes, unsigned count);
 bool block_receive(void *ctx, uint8_t *byte, unsigned milliseconds);
 
-void block_reset(bool held, bool line);          /* with the mode of the pins */
+void block_reset(bool held, bool line);          /* line: serial mode, else the parallel bus */
 void block_run(unsigned cycles);
 void block_run_pulses(unsigned count);           /* ends the program after 1 s */
 void block_pin(block_pin_t which, bool high);
-void block_damage(unsigned at, uint8_t flip);    /* of a byte received on the line */
-unsigned block_outputs(void);                    /* auxo_n */
+void block_damage(unsigned at, uint8_t flip);    /* invert bits of received byte `at` of the line */
+unsigned block_outputs(void);                    /* pins auxo_n */
 void block_print_pulses(const char *name);
 
 #ifdef __cplusplus

@@ -208,7 +208,7 @@ static void unconfirmed(ppmc104_t *dev)
     show("U replaced", ppmc104_wait(dev, (ppmc104_finish_t *)0));
     show("U move", ppmc104_move(dev, PPMC104_CW, 5));
     while (ppmc104_busy(dev)) {}
-    show("U routine", ppmc104_finish(dev, &f)); /* an interrupt routine has read it before */
+    show("U routine", ppmc104_finish(dev, &f)); /* an interrupt routine has read the status before */
     show("U after it", ppmc104_wait(dev, &f));
     printf("U after it raw=%02x\n", f.raw);
     for (n = 0; n < sizeof cases / sizeof cases[0]; ++n) {

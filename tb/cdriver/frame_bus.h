@@ -18,7 +18,7 @@ void frame_run_steps(unsigned count);          /* ends the program after 2 s */
 void frame_ext(unsigned number, bool high);
 void frame_switch(unsigned after, bool high);  /* sets EXT1 with step number `after` from now */
 void frame_eeprom(bool on);
-void frame_damage(unsigned at, uint8_t flip);  /* of a received byte */
+void frame_damage(unsigned at, uint8_t flip);  /* invert bits of received byte `at` */
 unsigned frame_outputs(void);
 void frame_print_steps(const char *name);
 

@@ -53,7 +53,7 @@ static void put(uint8_t byte)
     if (length < STREAM_MAX) stream[length++] = byte;
 }
 
-/* Cut, flip, insert or repeat bytes; 0: no change. */
+/* Cut, flip, insert or repeat bytes of the reply, depending on kind; 0: no change. */
 static void damage(unsigned kind)
 {
     if (length == 0u) return;

@@ -19,8 +19,8 @@ void isa_out(unsigned port, uint8_t value);
 #define STMC_INB(port) isa_in(port)
 #define STMC_OUTB(port, value) isa_out((port), (value))
 
-void isa_reset(bool held);                   /* pulse the reset, or leave it active */
-void isa_run(unsigned clk);                  /* let time pass */
+void isa_reset(bool held);                   /* held: leave the reset active; else pulse it */
+void isa_run(unsigned clk);                  /* run this number of cycles */
 void isa_run_steps(unsigned count);          /* until `count` steps; ends the program after 1 s */
 void isa_level(isa_input_t which, bool high);
 bool isa_irq(void);                          /* IRQ line */

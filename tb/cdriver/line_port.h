@@ -12,7 +12,7 @@ class LinePort {
   public:
     LinePort(uint64_t clk_hz, unsigned baud) : uart_(clk_hz) { uart_.set_rate(baud); }
 
-    // After each cycle: accept txd of the station, return the level of its rxd.
+    // After each cycle: accept the level of the station's txd, and return the level of its rxd.
     bool seen(uint64_t now, bool txd) {
         if (uart_.next() <= now || txd != txd_) uart_.step(now, txd);
         txd_ = txd;

@@ -18,8 +18,8 @@ typedef enum { SIM_L1, SIM_L2, SIM_L3, SIM_L4, SIM_CNP, SIM_ALM } sim_switch_t;
 uint8_t sim_read(void *ctx, unsigned reg);
 void sim_write(void *ctx, unsigned reg, uint8_t value);
 
-void sim_reset(bool held);               /* pulse the reset, or leave it active: no response then */
-void sim_run(unsigned clk);              /* let time pass */
+void sim_reset(bool held);               /* held: leave the reset active, without responses; else pulse it */
+void sim_run(unsigned clk);              /* run this number of cycles */
 void sim_run_pulses(unsigned count);     /* until `count` pulses; ends the program after 1 s */
 void sim_switch(sim_switch_t which, bool active);
 unsigned sim_phases(void);               /* pins S5..S1 in bits 4..0 */

@@ -15,8 +15,8 @@ extern "C" {
 uint8_t window_read(void *ctx, unsigned address);
 void window_write(void *ctx, unsigned address, uint8_t value);
 
-void window_reset(bool held);                              /* pulse the reset, or leave it active */
-void window_run(unsigned clk);                             /* let time pass */
+void window_reset(bool held);                              /* held: leave the reset active; else pulse it */
+void window_run(unsigned clk);                             /* run this number of cycles */
 void window_run_pulses(unsigned axis, unsigned count);     /* until `count` pulses; at most 1 s */
 void window_limit(unsigned axis, bool active);             /* CW limit of the axis */
 bool window_irq(void);                                     /* int_n is low */

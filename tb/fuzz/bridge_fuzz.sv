@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bridge_fuzz: the deframer of the UART bridge for tb/fuzz/main.cpp.
-// what_o: 1, SEQ, length, digest of the script for a request; 2, NAK.
+// what_o of a request: 1, SEQ, length and digest of the script. what_o of a NAK: 2 and its code.
 `default_nettype none
 
 module bridge_fuzz

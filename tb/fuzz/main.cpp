@@ -36,7 +36,7 @@ class Bench {
     }
 
   private:
-    // The outputs are those before the edge, for the inputs as they are set.
+    // These are the outputs before the edge, for the current inputs.
     void clk() {
         dut_.clk_i = 0;
         dut_.eval();

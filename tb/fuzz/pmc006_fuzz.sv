@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_fuzz: the deframer of the PMC006B4 for tb/fuzz/main.cpp, address 3.
-// what_o: 1, instruction code, data.
+// what_o: 1, code and data of an instruction.
 `default_nettype none
 
 module pmc006_fuzz (

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fuzz: the deframer of the PPMC-312's serial mode with its table of codes for tb/fuzz/main.cpp, address 5.
-// what_o: 1 poll; 2, code, number and digest of the data for an instruction; 3 wrong checksum; 4, code: unknown.
+// what_o: 1 for a poll; 2, code, number and digest of the data for an instruction; 3 for a wrong checksum;
+// 4 and the code for an unknown code.
 `default_nettype none
 
 module ppmc312_fuzz

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments name=value of the virtual line; those of a station end in its number on the line, from 0.
-// openppmc.sim checks them for the user; here an error only ends the program.
+// Arguments name=value of the virtual line. The name of a station's argument ends in the number of the
+// station on the line, from 0. openppmc.sim checks the arguments for the user; here an error only ends the
+// program.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ bool Line::run(int wake_fd) {
     return true;
 }
 
-// Transfer bytes from and to the host. A byte that may concern a station wakes it.
+// Transfer bytes from and to the host. If a byte may concern a station, wake this station.
 void Line::serve() {
     bytes_.clear();
     if (sends_.queued() < kQueue) pty_.read(bytes_, kQueue - sends_.queued());
@@ -115,7 +115,8 @@ void Line::run_stations(uint64_t end) {
     }
 }
 
-// Receiver of the master up to `end`: drivers that pull the line low, in order of time.
+// Run the receiver of the master up to `end`; it samples the drivers that pull the line low, in order of
+// time.
 void Line::hear(std::vector<Change>& changes, uint64_t end) {
     const auto before = [](const Change& a, const Change& b) { return a.at < b.at; };
     std::stable_sort(changes.begin(), changes.end(), before);

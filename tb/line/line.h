@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual line: stations, each of them the RTL of its board, and a master at a pseudo-terminal. The
-// stations receive the master. The master receives the drivers, which are wired together and pull the line
-// low (four wires). Stations do not receive each other. Therefore each station is simulated separately for a
+// The virtual line: stations, each of them the RTL of its board, and a master at a pseudo-terminal. The line
+// has four wires: the stations receive only the master. The drivers of the stations are wired together and
+// pull the line low; the master receives this line. Therefore each station can be simulated separately for a
 // slice of time in which the levels of the master are known.
 #pragma once
 
@@ -23,7 +23,7 @@ class Line {
 
     const std::string& port() const { return pty_.path(); }
 
-    // Simulate a slice of time (1/8 ms), or sleep until the host sends while all stations are idle. Return
+    // Simulate a slice of time (1/8 ms); while all stations are idle, sleep until the host sends. Return
     // false when the line has to be disconnected.
     bool run(int wake_fd);
 

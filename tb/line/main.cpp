@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual line as a program. It first prints "port PATH" on standard output, or "error TEXT" and ends.
-// Then it answers the lines "status" and "inputs NUMBER LEVELS" on standard input. It ends with its standard
-// input, so it never outlives its parent process.
+// The virtual line as a program. It first prints "port PATH" on standard output, or it prints "error TEXT"
+// and ends. Then it answers the lines "status" and "inputs NUMBER LEVELS" on standard input. The program ends
+// when its standard input ends, so it never outlives its parent process.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

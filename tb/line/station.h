@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A station of the virtual line: the Verilated node, its time, and whether it has to be simulated at all. The
-// plant at its pins is defined in node.h of the part, as a class Node with Node(arguments, clk_hz),
-// set_up(top), look(top) (pins to observe), follow(top) (called after a change), named(byte), inputs(top,
-// levels), booted(top), words(top), and linger(clk_hz): the time for which the node may still act after a
-// character.
+// node.h of the part defines the plant at the pins of the node. This is a class Node with Node(arguments,
+// clk_hz), set_up(top), look(top) (pins to observe), follow(top) (called after a change), named(byte),
+// inputs(top, levels), booted(top), words(top) and linger(clk_hz). linger() returns the time for which the
+// node may still act after a character.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +47,8 @@ class Station {
         if (addressed_) until_ = now + linger_;
     }
 
-    // Return whether the station need not be simulated from edge `now` on: it is idle and was not addressed
-    // for some time. It does not fall asleep in a character (quiet: the master is silent).
+    // Return true if the station need not be simulated from edge `now` on: it is idle and was not addressed
+    // for some time. It does not fall asleep during a character (quiet: the master is silent).
     bool asleep(uint64_t now, bool quiet) {
         if (now < until_ || dut_.top.busy || !dut_.top.line)
             asleep_ = false;
@@ -57,7 +57,7 @@ class Station {
         return asleep_;
     }
 
-    // Simulate edges from … to - 1: receive `sent`, append the changes of its driver.
+    // Simulate edges `from` to `to` - 1: receive `sent`, and append the changes of the station's driver.
     void run(uint64_t from, uint64_t to, const std::vector<Change>& sent, std::vector<Change>& driven) {
         Vboard& top = dut_.top;
         auto next = sent.begin();

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     for (uint64_t now = 0; now < kClks && !done; ++now) {
         soc.sys_clk = 0;
         soc.eval();
-        // Sampled at the next rising edge.
+        // The DUT samples this level at the next rising edge.
         const bool sent = soc.serial_source_valid;
         const char letter = static_cast<char>(soc.serial_source_data);
         soc.sys_clk = 1;

@@ -3,9 +3,9 @@
 // polling.
 // Rules:  same device as openppmc/model/carrier/eeprom.py; a test compares both.
 // Timing: both lines are sampled on every rising edge of clk_i; the outputs change on the same edge.
-// How:    a test loads and reads `memory` by its name, sets the options after it, and reads the log of page
-//         writes. Without power (on_i = 0) the device drives no line. The memory becomes blank when the power
-//         is removed.
+// How:    a test loads and reads `memory` by its name, sets the options declared below it, and reads the log
+//         of page writes. Without power (on_i = 0) the device drives no line. The memory becomes blank when
+//         the power is removed.
 `default_nettype none
 
 module eeprom_24c32 #(
@@ -16,10 +16,10 @@ module eeprom_24c32 #(
 ) (
     input  wire logic clk_i,
     input  wire logic on_i,      // power
-    input  wire logic scl_i,     // level of the line, regardless of the driver
-    input  wire logic sda_i,
-    output logic      scl_oe_o,  // 1: the device pulls the line low
-    output logic      sda_oe_o
+    input  wire logic scl_i,     // level of the clock line, regardless of the driver
+    input  wire logic sda_i,     // level of the data line, regardless of the driver
+    output logic      scl_oe_o,  // 1: the device pulls the clock line low
+    output logic      sda_oe_o   // 1: the device pulls the data line low
 );
 
   localparam int unsigned Log = 256;
@@ -41,8 +41,8 @@ module eeprom_24c32 #(
   int unsigned write_clk  /* verilator public_flat_rw */ = WriteClk;
   int unsigned stretch_clk  /* verilator public_flat_rw */ = StretchClk;
   logic missing  /* verilator public_flat_rw */ = Missing;
-  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the line is held low
-  logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;
+  logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the clock line is held low
+  logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
   int unsigned writing  /* verilator public_flat_rw */ = 0;  // cycles left of a write
 
   // Page writes since power-on: first address, number of bytes, bytes; 32 entries each.
@@ -86,8 +86,8 @@ module eeprom_24c32 #(
     filled = '0;
   endfunction
 
-  // STOP: a write begins if only complete bytes were received. The rise of SCL before it was counted as a
-  // bit.
+  // STOP: a write begins only if all received bytes are complete. The rise of SCL before STOP was counted as
+  // a bit.
   function automatic void stop();
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];

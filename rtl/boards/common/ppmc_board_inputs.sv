@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_inputs: input pins of the part. With a recorder they are synchronised here, so that recorder and
-// part sample the same levels in the same cycle. Without one they pass unchanged.
+// ppmc_board_inputs: input pins of the part. With a recorder the pins are synchronised here, so that recorder
+//         and part sample the same levels in the same cycle. Without a recorder they pass unchanged.
 // Rules:  UB-REC-05.
 // Timing: latency 2 cycles with Sync = 1, else combinational.
 `default_nettype none

@@ -25,9 +25,9 @@ module ppmc_board_steps (
     return count <= 3'd2;
   endfunction
 
-  // Adjacent patterns of a ring of 3, 4 or 5 phases share exactly one energised phase, and the smaller half
-  // of the pins is energised. Only rings of 5 have half steps between 2 and 3 phases; there either half
-  // works.
+  // The smaller group of equal pins is taken as the energised phases. Then adjacent patterns of 3, 4 or 5
+  // phases share exactly one energised phase. Only 5-phase motors have half steps between 2 and 3 energised
+  // phases. For such a step either group can be taken.
   function automatic logic clockwise(logic [5:1] was, logic [5:1] is);
     logic [5:1] a, b, from, to, changed;
     changed = was ^ is;
@@ -43,7 +43,7 @@ module ppmc_board_steps (
       to   = a & b;
       from = a & ~b;
     end
-    // One position up, or from the last phase to the first, regardless of the number of phases.
+    // The step is one position up, or from the last phase to the first, regardless of the number of phases.
     return to == {from[4:1], 1'b0} || (to < from && to != {1'b0, from[5:2]});
   endfunction
 

@@ -3,8 +3,8 @@
 // Rules:  P006-EXC-10..13, P006-EXC-20, P006-EXC-30, P006-STA-12.
 // Timing: every 32 cycles, beginning with the first one after reset, all inputs are sampled at one edge. The
 //         four outputs change together 24 cycles later.
-// How:    peak code, reduced by the decay; then two products in 8 steps of one bit, with the rounding added
-//         first.
+// How:    the peak code is reduced by the decay. Then each of two products takes 8 steps of one bit. The
+//         first step also adds the rounding.
 `default_nettype none
 
 module pmc006_refs (
@@ -42,7 +42,7 @@ module pmc006_refs (
 
   // ---- sine and product -----------------------------------------------------------------------------------
 
-  // Phase A leads by a quarter. Its product is made in cycles 8 to 15, that of phase B in cycles 16 to 23.
+  // Phase A leads by a quarter turn. Cycles 8 to 15 compute its product, cycles 16 to 23 that of phase B.
   assign angle_a = {angle_q[8:7] + 2'd1, angle_q[6:0]};
   assign angle   = at_d[4] ? angle_q[7:0] : angle_a[7:0];
   assign index   = angle[7] ? 8'd128 - 8'(angle[6:0]) : 8'(angle[6:0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_frame: assembles the bytes from the host to frames of eight and checks them.
+// pmc006_frame: assembles the bytes from the host into frames of eight bytes and checks the frames.
 // Rules:  P006-FRM-01/02/04/06/08, P006-UART-03, P006-BAD-01..05.
 // Timing: frame_o.go is high in the cycle of the last byte; code and data are valid from then until the next
 //         frame.

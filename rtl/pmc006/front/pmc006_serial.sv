@@ -3,8 +3,8 @@
 // Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
 // Timing: e = the edge of the last stop-bit sample. frame_o.go is high in the cycle after e; de_o rises
 //         ceil(1 bit) after e; bit edge n occurs ceil((2 + n) bits) after e; de_o falls ceil(82 bits) after
-//         e. The receiver is off from e + 1 until ceil(81.5 bits) after e, the middle of the last stop bit:
-//         there a host has received the complete reply.
+//         e. The receiver is off from e + 1 until ceil(81.5 bits) after e. This is the middle of the last
+//         stop bit, when a host has received the complete reply.
 // How:    each bit lasts one full turn of an accumulator with an exact modulus.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -36,10 +36,11 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(Unit);
   localparam logic [Width-1:0] Wrap = Width'(Unit + Rest);
   localparam logic [Width-1:0] WrapHalf = Width'(Unit + Rest + Modulus / 64'd2);
-  // Bits are counted from the sample on. The sample is two cycles old when its result is in the registers.
+  // Phases after a sample. Bits are counted from the sample, whose result is available two cycles later.
   localparam logic [Width-1:0] Zero = Width'(Rest + 64'd2 * Unit);
   localparam logic [Width-1:0] Half = Width'(Rest + 64'd2 * Unit + Modulus / 64'd2);
-  localparam int unsigned Silence = 202;  // 192 bits to the next start bit, 9.5 from there to its end
+  // 192 bits to the next start bit, then 9.5 bits to the middle of the stop bit of this byte.
+  localparam int unsigned Silence = 202;
 
   logic [7:0] char, next, sum_q, bits_q;
   logic valid, error, unused_break, line, unused_meta;
@@ -49,8 +50,8 @@ module pmc006_serial
 
   // ---- receiver -------------------------------------------------------------------------------------------
 
-  // After the receiver was off, the line has to be high once; otherwise the rest of a byte could be taken for
-  // a start bit.
+  // After the receiver was off, the line must be high once before a byte is received. Otherwise the rest of a
+  // byte could be mistaken for a start bit.
   ppmc_sync u_line (
       .clk_i,
       .rst_ni,

@@ -13,7 +13,7 @@ module pmc006_accept
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
     input  wire order_t    order_i,     // instruction
-    input  wire logic      legal_i,     // its data are in range
+    input  wire logic      legal_i,     // the data of order_i are in range
     input  wire logic      act_i,       // order_i is executed in this cycle
     input  wire settings_t settings_i,  // parameter registers
     input  wire logic      busy_i,      // a motion is in progress
@@ -48,7 +48,8 @@ module pmc006_accept
     else mode_o <= run_o || speed_o;
   end
 
-  // VSTART and VSTOP compared with the maximum; no instruction can change them in between.
+  // limits_q: VSTART and VSTOP are at most VMAX. It is one cycle late; no instruction can change them in
+  // between.
   always_ff @(posedge clk_i) begin
     limits_q <= {2'b00, settings_i.vstart} <= settings_i.vmax && {2'b00, settings_i.vstop} <= settings_i.vmax;
     if (start_o || run_o) endless_q <= run_o;

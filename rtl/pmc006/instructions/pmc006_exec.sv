@@ -22,7 +22,7 @@ module pmc006_exec
     output logic               claim_o,      // the executor owns the address of the buffer
     output logic               second_o,     // word W1 instead of W0
     output logic               trial_o,      // the address is that of the instruction at PP
-    input  wire logic   [31:0] word_i,       // two cycles after the address
+    input  wire logic   [31:0] word_i,       // word of the buffer, two cycles after the address
     // EEPROM
     input  wire logic          load_i,       // a parameter is available, during the boot
     input  wire logic   [ 7:0] load_op_i,    // instruction that loads the parameter
@@ -31,7 +31,7 @@ module pmc006_exec
     // instruction in progress
     output order_t             order_o,      // instruction
     output access_t            access_o,     // register of the instruction
-    output logic               legal_o,      // its data are in range
+    output logic               legal_o,      // the data of order_o are in range
     output logic               act_o,        // order_o is executed in this cycle
     output logic               place_o,      // the position is set in this cycle
     input  wire logic          step_i,       // a step is counted in this cycle

@@ -10,7 +10,7 @@ module pmc006_ports
     input  wire logic         clk_i,
     input  wire logic         rst_ni,
     input  wire order_t       order_i,  // instruction
-    input  wire logic         write_i,  // order_i is executed, its data are in range
+    input  wire logic         write_i,  // order_i is executed, with data in range
     input  wire logic         pull_i,   // a stall drives GPO5
     output logic        [4:0] out_o,    // register GPO
     output logic        [4:0] gpo_o     // pins

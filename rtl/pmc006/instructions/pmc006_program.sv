@@ -14,7 +14,7 @@ module pmc006_program
     input  wire logic         autostart_i,  // strobe: the program starts without a command
     // executor
     input  wire order_t       order_i,      // instruction
-    input  wire logic         legal_i,      // its data are in range
+    input  wire logic         legal_i,      // the data of order_i are in range
     input  wire logic         act_i,        // order_i is executed in this cycle
     input  wire logic         begin_i,      // next_o was accepted
     output logic              next_o,       // the next program instruction is scheduled
@@ -26,7 +26,7 @@ module pmc006_program
     output logic              put_o,        // a word is written
     output logic              took_o,       // a word instruction, z or E is accepted
     input  wire logic         burning_i,    // the program is written to the EEPROM: no word may change
-    output logic        [7:0] pp_o,         // word address of the pointer PP
+    output logic        [7:0] pp_o,         // pointer PP, a word address
     // sources
     input  wire logic         us_i,         // strobe every microsecond
     input  wire logic   [4:0] gpi_i,        // general inputs, synchronised
@@ -61,7 +61,8 @@ module pmc006_program
 
   // ---- sources --------------------------------------------------------------------------------------------
 
-  // During WAIT its own option is used, because the executor may process another instruction.
+  // During WAIT the option of the WAIT instruction is used, because the executor may process another
+  // instruction.
   assign option = (state_q == StWait) ? option_q : order_i.option;
   assign bits = {stall_i, busy_i, flags_i, gpi_i};
 

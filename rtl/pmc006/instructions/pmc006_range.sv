@@ -14,7 +14,7 @@ module pmc006_range
     input  wire logic         take_i,     // read the limits of op_i
     input  wire logic         program_i,  // with take_i: instruction of the user program
     input  wire logic   [7:0] op_i,       // with take_i: instruction code
-    input  wire order_t       order_i,    // the same instruction, from the next cycle on
+    input  wire order_t       order_i,    // instruction op_i, from the next cycle on
     output access_t           access_o,   // register of the instruction
     output logic              ok_o        // the data are accepted
 );
@@ -110,7 +110,8 @@ module pmc006_range
     return l;
   endfunction
 
-  // One constant with all words: synthesis evaluates the branches of limits_of wrongly in an initial block.
+  // The words are one constant, because synthesis evaluates the branches of limits_of wrongly in an initial
+  // block.
   function automatic limits_t [511:0] every_limits();
     limits_t [511:0] words;
     for (int unsigned i = 0; i < 512; i++) words[9'(i)] = limits_of(i >= 256, 8'(i));
@@ -124,7 +125,9 @@ module pmc006_range
   limits_t limits_q;
   logic [31:0] data;
   logic may, own;
-  logic above_q, below_q, may_q, own_q;  // at least low, at most high, legal otherwise; legal anyway
+  // above_q: data >= low; below_q: data <= high; may_q: the other conditions are met; own_q: legal regardless
+  // of these three
+  logic above_q, below_q, may_q, own_q;
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = Words[9'(i)];
 
@@ -133,7 +136,7 @@ module pmc006_range
   assign access_o = limits_q.access;
   assign data = order_i.data;
 
-  // For an instruction without limits, any value of the lowest 14 bits passes.
+  // If an instruction has no limits, low and high pass any value of the lowest 14 bits.
   always_comb begin
     may = !limits_q.listed || data[31:14] == '0;
     own = 1'b0;

@@ -27,7 +27,7 @@ module pmc006_eeprom
     output logic                 burning_o,    // the program is being written
     output logic                 boot_o,       // registers and program are not loaded yet
     output logic                 autostart_o,  // strobe: the program starts without a command
-    output logic                 rst_set_no,   // reset of the parameter registers: a restore at boot
+    output logic                 rst_set_no,   // reset of the parameter registers by a restore at boot
     // registers
     input  wire settings_t       settings_i,   // parameter registers
     input  wire control_t        control_i,    // registers of the control
@@ -44,7 +44,7 @@ module pmc006_eeprom
     input  wire logic      [7:0] byte_i,       // byte of the buffer at byte_at_o
     // bus, synchronised
     input  wire logic            scl_i,        // clock of the bus
-    input  wire logic            sda_i,        // clock of the bus
+    input  wire logic            sda_i,        // data of the bus
     output logic                 scl_oe_o,     // 1: pull the clock low
     output logic                 sda_oe_o      // 1: pull the data low
 );
@@ -56,7 +56,7 @@ module pmc006_eeprom
   localparam logic [4:0] LastField = 5'h15;
 
   typedef enum logic [3:0] {
-    StReset,   // wait for FSET, then check the bus
+    StReset,   // wait until FSET is high or a restore is requested
     StFree,
     StStart,
     StDevice,
@@ -156,7 +156,7 @@ module pmc006_eeprom
   assign we_o = got || (state_q == StWipe && program_bad_q);
   assign byte_o = (state_q == StWipe) ? 8'd0 : received;
 
-  // The executor has priority for the buffer; between two bytes there is enough time.
+  // The executor has priority for the buffer. The time between two bytes is long enough for both.
   always_ff @(posedge clk_i) begin
     fresh_q <= {fresh_q[0], !claim_i};
     if (fresh_q[1]) ahead_q <= byte_i;
@@ -165,8 +165,8 @@ module pmc006_eeprom
 
   // ---- factory restore ------------------------------------------------------------------------------------
 
-  // The reset values are the factory values: the registers get them immediately and keep them until the boot
-  // is over.
+  // A restore at boot resets the parameter registers, because their reset values are the factory values. The
+  // reset lasts until the boot is over.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) rst_set_no <= 1'b0;
     else rst_set_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));
@@ -174,7 +174,7 @@ module pmc006_eeprom
 
   // ---- sequence -------------------------------------------------------------------------------------------
 
-  // A boot that finds an invalid page tries the copy, once.
+  // If a boot finds an invalid page, the copy is tried once.
   assign second = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
   assign free_o = state_q == StIdle && !restore_q;
   assign failed_o = fail_q;

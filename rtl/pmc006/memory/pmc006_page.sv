@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_page: memory map of the EEPROM: bytes to be sent, or expected where they are checked; their sum; the
-// instruction that loads a parameter.
+// pmc006_page: memory map of the EEPROM. Outputs the byte to be sent, or the byte that a check expects, sums
+//         the bytes, and outputs the instruction that loads a parameter.
 // Rules:  section 13.1 (map, factory page), P006-EEP-10/11/22, P006-BAD-14/15.
 // Timing: byte_o and wrong_o are combinational. The high byte of a pair is stored when the low byte is sent,
 //         so that both bytes are of the same register value.

@@ -11,7 +11,7 @@ module pmc006_settings
     input  wire logic           rst_ni,
     input  wire order_t         order_i,     // instruction
     input  wire access_t        access_i,    // register of the instruction
-    input  wire logic           write_i,     // order_i is executed, its data are in range
+    input  wire logic           write_i,     // order_i is executed, with data in range
     input  wire logic           take_i,      // sample the value for the reply
     output settings_t           settings_o,  // settings used by motion and drive
     output control_t            control_o,   // settings used only by the control
@@ -26,9 +26,9 @@ module pmc006_settings
 
   always_comb begin
     data = order_i.data[13:0];
-    // 6 is equivalent to 5.
+    // The value 6, which only the user program can set, is equivalent to 5.
     if (order_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
-    // The program enables both inputs.
+    // An EXTEN instruction that is not from a frame switches both inputs.
     if (order_i.op == I_EXTEN && order_i.source != FromFrame) data[1] = data[0];
   end
 

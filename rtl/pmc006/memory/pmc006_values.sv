@@ -45,8 +45,8 @@ module pmc006_values
     endcase
   endfunction
 
-  // The upper half is never written. The factory value of a register is stored one address before its place
-  // there, because it is written one cycle after it was read.
+  // The upper half is never written; it holds the factory values. Each value is stored one address before
+  // that of its register, because it is written to the lower half one cycle after it was read.
   function automatic logic [63:0][13:0] every_word();
     logic [63:0][13:0] words_of_all;
     words_of_all = '0;

@@ -4,7 +4,7 @@
 // Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
 // Timing: an instruction takes 2 cycles without operand, 3 with one, n + 2 with n steps. A planning ends
 //         within 785 cycles of plan_i, an update tick within 590 of advance_i. Either strobe may occur during
-//         a run; it ends that run.
+//         a run and then ends this run.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -42,7 +42,7 @@ module pmc006_calc
 );
 
 
-  instr_t instr, ir_q;  // fetched; delayed, for operand and execution
+  instr_t instr, ir_q;  // instr: fetched; ir_q: delayed, for operand and execution
   logic run_q, read_q, bare, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] left_q, steps;
@@ -50,7 +50,7 @@ module pmc006_calc
   logic [2:0] acc_q, dec_q;
 
   logic [31:0] hi_q, lo_q, operand_q, a, b;
-  logic [31:0] word, register;  // one of them is 0
+  logic [31:0] word, register;  // the word or the register is 0
   logic [32:0] sum;
   logic mul, div, root, shift_only;
   logic [2:0] coefficient;
@@ -129,7 +129,7 @@ module pmc006_calc
 
   assign coefficient = (instr.low[3] ? instr.aux[0] : !up_q) ? dec_q : acc_q;
 
-  // The word is 0 if the code is that of a register.
+  // The word is 0 if the operand is a register.
   pmc006_calc_words u_words (
       .clk_i,
       .we_i  (done && ir_q.op == OpStore),

@@ -77,7 +77,7 @@ module pmc006_rate (
       due_q     <= 1'b0;
       advance_o <= 1'b0;
     end else begin
-      // Cleared by BUSY, one cycle after stop_o, because stop_o is timing-critical.
+      // busy_i clears run_q one cycle after stop_o, because stop_o is timing-critical.
       run_q     <= busy_i && (run_q || launch_o);
       begun_q   <= tick;
       updated_q <= {2{busy_i}} & {updated_q[0], launch_o || update_o};
@@ -97,7 +97,7 @@ module pmc006_rate (
     if (!run_q) accu_q <= Rest;
     else if (begun_q || due_q) accu_q <= sum[19:0];
 
-    // V follows VSTART until a motion is accepted, because load_i is timing-critical.
+    // V follows VSTART until a motion is accepted, because the start of a motion is timing-critical.
     if (!busy_i) v_o <= 14'(vstart_i);
     else if (update_o || start_v_i) v_o <= next_i;
 

@@ -21,7 +21,7 @@ module ppmc312_block
 
   localparam logic [3:0] Flags = 4'd3;  // position of the first parameter
   localparam logic [3:0] InnerLen = 4'd5;  // position of the length byte of the embedded block
-  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes before those that the inner length counts
+  localparam logic [BLOCK_BITS:0] Inner = 6'd6;  // bytes that precede those counted by the inner length
   localparam logic [BLOCK_BITS:0] None = 6'd2;  // causes the error "size abnormality"
 
   logic [3:0] inner_q;
@@ -30,7 +30,7 @@ module ppmc312_block
   always_ff @(posedge clk_i) begin
     if (we_i && !head_i && at_i == InnerLen) begin
       inner_q <= data_i[3:0];
-      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // above 8
+      long_q  <= data_i[7:4] != '0 || (data_i[3] && data_i[2:0] != '0);  // the received length is above 8
     end
   end
 

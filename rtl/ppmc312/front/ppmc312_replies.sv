@@ -63,7 +63,8 @@ module ppmc312_replies
       .count_o(counts)
   );
 
-  // Errors and reads of the counters belong to different characters, so the counters may be one cycle late.
+  // The counters may be one cycle late, because errors and reads of the counters belong to different
+  // characters.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) errors_q <= '0;
     else errors_q <= {fault_i, overrun_i, framing_i};

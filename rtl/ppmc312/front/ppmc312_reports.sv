@@ -204,7 +204,7 @@ module ppmc312_reports
     end
   end
 
-  // The flag belongs to the second entry and moves to the first one with it.
+  // The flag belongs to the data of the second entry and moves with these data to the first entry.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) aux_flag_q <= 1'b0;
     else if (shift) aux_flag_q <= aux_over_q && aux_count_q == 2'd2;
@@ -246,7 +246,7 @@ module ppmc312_reports
     endcase
   end
 
-  // Same latency as the RAM.
+  // Two registers, so that these bytes have the same latency as the RAM.
   always_ff @(posedge clk_i) begin
     own_at_q <= rd_addr_i[2:0];
     own_q <= own_byte;

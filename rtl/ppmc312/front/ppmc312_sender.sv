@@ -2,9 +2,9 @@
 // ppmc312_sender: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
 // Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
-//         heard_i, the middle of a stop bit: SndWait + 0.5 bits after its end. Edge n of the frame occurs
-//         ceil(n * bit time) after the rise; the first start bit is edge SndLead, the fall of snd_o the last
-//         one.
+//         heard_i. heard_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end. Edge
+//         n of the frame occurs ceil(n * bit time) after the rise of snd_o; the first start bit is edge
+//         SndLead, the fall of snd_o is the last edge.
 // Rate:   the phase increases by step_i per cycle. When it overflows (Width bits), a bit has ended, and the
 //         next cycle adds wrap_i instead, which is step_i minus the modulus.
 `include "ppmc_assert.svh"

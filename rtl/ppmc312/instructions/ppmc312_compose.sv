@@ -21,7 +21,7 @@ module ppmc312_compose
     input  wire logic               at_move_i,    // a start or a rate change
     input  wire logic               fails_i,      // triggered, and cannot be executed
     input  wire logic               registers_i,  // to be registered in the command FIFO
-    input  wire logic               used_i,       // the trigger is used by the other kind
+    input  wire logic               used_i,       // the other kind of trigger uses the event pin
     input  wire logic         [2:0] evt_count_i,  // entries of the event buffer, 0 .. 4
     // result
     input  wire told_t              told_i,       // data of an executed instruction

@@ -18,7 +18,7 @@ module ppmc312_exec
     input  wire logic                          clk_i,        // clock
     input  wire logic                          rst_ni,       // reset, asynchronous
     input  wire logic                          serial_i,     // 1: answers never wait to be read
-    input  wire logic                          boot_i,       // reset caused by an instruction; report it
+    input  wire logic                          boot_i,       // leaving a reset by an instruction: report it
     output logic                               reset_o,      // strobe: reset the device
     // sources of instructions
     input  wire offer_t                        offer_i,      // block from the host
@@ -151,7 +151,7 @@ module ppmc312_exec
   assign hold_o = act || state_q inside {StWrite, StReadback} || write_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset is always executed. No other instruction of the host is executed while its last answer is unread.
+  // A reset is always executed. No other instruction of the host is executed while the last answer is unread.
   assign reset_o = state_q == StFirst && reset_q;
   assign unread = state_q == StFirst && host && class2_i.full_host && !reset_o;
 

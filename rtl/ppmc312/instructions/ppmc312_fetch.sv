@@ -46,12 +46,14 @@ module ppmc312_fetch
   assign put_addr_o = at_q[3:0];
   assign put_data_o = data_i;
 
-  // Parameters go to their places in the long form; the positions of 80 and 81 go to those of 87 and 88.
+  // Parameters go to their places in the long form. The position of 80 and 81 goes to the place of that of 87
+  // and 88.
   assign shifted = (block_o.code == I_INIT && block_o.len == 8'd9 && at_q >= 5'd6) ||
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
 
-  // Without a separate deceleration side, its stop rate and pulses are those of the acceleration.
+  // Without a separate deceleration side, the stop rate and the pulses of the deceleration are those of
+  // the acceleration.
   assign twins = block_o.code == I_INIT && !block_o.par[0][4];
 
   always_comb begin

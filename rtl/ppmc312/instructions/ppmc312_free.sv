@@ -55,7 +55,7 @@ module ppmc312_free
   assign word = {high_q, byte_i};
   assign whole = valid_q[1] && part_q == (rates ? 2'd1 : 2'd2);
   assign tiny = (rates ? 24'(word[15:0]) : word) <= 24'd1;
-  assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // for any list
+  assign sum = {1'b0, dec_sum_o} + {1'b0, word};  // running sum of the current list
   assign list_done = whole && left_o == 7'd1;
   assign addr_o = {4'(ppmc_pkg::inc(32'(sent_q[4:1]))), sent_q[0]};  // sent_q + 2
   assign busy_o = run_q;

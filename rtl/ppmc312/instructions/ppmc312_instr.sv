@@ -18,7 +18,7 @@ module ppmc312_instr
     input  wire logic                         clk_i,       // clock
     input  wire logic                         rst_ni,      // reset, asynchronous
     input  wire logic                         serial_i,    // 1: the front end is the serial station
-    input  wire logic                         boot_i,      // reset caused by an instruction; report it
+    input  wire logic                         boot_i,      // leaving a reset by an instruction: report it
     output logic                              reset_o,     // strobe: an instruction requests a reset
     // blocks from the host
     input  wire offer_t                       offer_i,     // block from the host

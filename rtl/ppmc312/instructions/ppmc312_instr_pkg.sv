@@ -72,7 +72,7 @@ package ppmc312_instr_pkg;
     logic        to_event;  // 1: event buffer n, 0: command FIFO
     logic        n;
     logic [3:0]  addr;      // byte of the block, 0 = header
-    logic [7:0]  data;
+    logic [7:0]  data;      // byte to be written
     logic        put;       // strobe: the entry is complete
     logic [7:0]  code;      // instruction code
     logic [1:0]  trig;      // bits 1:0 of the flags, x0: position, 01: event 0, 11: event 1
@@ -116,8 +116,8 @@ package ppmc312_instr_pkg;
     logic        complete;  // the curve is complete
     logic [1:0]  which;     // next list, 0: rates, 1: acceleration, 2: deceleration
     logic [6:0]  left;      // remaining stages of this list
-    logic [23:0] acc_sum;   // pulses of both sides; valid with complete
-    logic [23:0] dec_sum;
+    logic [23:0] acc_sum;   // acceleration pulses; valid with complete
+    logic [23:0] dec_sum;   // deceleration pulses; valid with complete
   } progress_t;
 
   typedef struct packed {

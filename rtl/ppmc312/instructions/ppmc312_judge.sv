@@ -14,7 +14,7 @@ module ppmc312_judge
     input  wire logic          clk_i,       // clock
     input  wire logic          rst_ni,      // reset, asynchronous
     input  wire block_t        block_i,     // the instruction
-    input  wire info_t         info_i,      // properties of its code
+    input  wire info_t         info_i,      // properties of block_i.code
     input  wire logic          keep_i,      // 1: the verdict does not change
     input  wire status_e       status_i,    // status of the device
     input  wire logic          end_wait_i,  // a motion waits for END
@@ -31,7 +31,8 @@ module ppmc312_judge
   logic [7:0] flags, inner, value_error, size_error;
   logic [15:0] rate, range, start, stop, fast, bound;
   logic [16:0] above_q;  // a rate minus its bound
-  logic [1:0] turn_q, above_turn_q;  // current comparison; comparison of above_q
+  // turn_q: current comparison; above_turn_q: comparison that above_q belongs to
+  logic [1:0] turn_q, above_turn_q;
   logic above, near, slow_bad_q, fast_bad_q, given_q, acc_slowest_q;
   logic [1:0] order_q, near_q;
   logic [31:0] count;
@@ -50,9 +51,9 @@ module ppmc312_judge
   assign count = {block_i.par[3], block_i.par[4], block_i.par[5], block_i.par[6]};
   assign at_table = block_i.code == I_TABLE;
 
-  // One subtractor makes four comparisons in turn: start-up rate and stop rate of an initialisation with its
-  // high-speed rate (less than 128 apart is near); a rate with the fastest and with the slowest rate of the
-  // table. All results are valid long before the block is complete.
+  // One subtractor makes four comparisons in turn. Two compare the start-up rate and the stop rate of an
+  // initialisation with its high-speed rate; a difference below 128 is near. Two compare a rate with the
+  // fastest and with the slowest rate of the table. All results are valid long before the block is complete.
   assign start = rate;
   assign stop = {block_i.par[3], block_i.par[4]};
   assign fast = {block_i.par[5], block_i.par[6]};
@@ -150,7 +151,7 @@ module ppmc312_judge
       default: begin
         value_bad = 1'b0;
         if (ov && trig_pos) begin
-          // only instructions that stop or change a motion, with a position
+          // Only stops and rate changes can wait for a position, and only with a position in the block.
           value_bad   = !(block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) || !len_long;
           value_error = (block_i.code inside {I_HALT, I_DECEL, I_RAMP, I_SPEED}) ? E_OPERAND : E_TRIGGER;
         end else if (!ov && info_i.counted && count_bad_q) begin

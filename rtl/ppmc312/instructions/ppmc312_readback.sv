@@ -123,7 +123,7 @@ module ppmc312_readback
   always_ff @(posedge clk_i) begin
     if (!run_q && stage_q == Fastest) rest_q <= ~first;  // 127 - first
     else if (stage_ends) rest_q <= 7'(ppmc_pkg::dec(32'(rest_q)));
-    // The rest of the item fits into this block: at most 6 rates or 4 pulse numbers.
+    // ends: the rest of the item fits into this block, at most 6 rates or 4 pulse numbers.
     ends <= rest_q[6:3] == '0 && (rates ? rest_q[2:0] != '1 : !rest_q[2] || rest_q[1:0] == '0);
   end
 

@@ -104,7 +104,7 @@ module ppmc312_store
     // Block RAMs are slow, so the next head is read in advance.
     ahead_q <= heads[armed_q+4'(head_valid_q)];
     if (!head_valid_q) {head_q, head_pos_q} <= ahead_q;
-    // These are two cycles late only after an entry has been taken, when no block uses them.
+    // done_trig_q is out of date for two cycles after an entry has been taken, when no block uses it.
     done_word_q <= trigs[done_q];
     done_trig_q <= done_word_q;
   end

@@ -66,7 +66,8 @@ module ppmc312_motion
   logic hard, fire, due, ends, rest, decel_q, org_q, slow_q, near, slow, gate;
   logic limit, high_limit, origin;
   logic too_fast, fast_q, complete_q;
-  logic why_slow_q;  // requests that led to the decision in next_*
+  // why_…_q: requests that led to the decision in next_*
+  logic why_slow_q;
   logic [1:0] why_decel_q, why_near_q;
   logic [5:0] young_q;  // bit 5: the rate of pulse 1 is not valid yet
   logic next_end, next_low, next_count, next_slow, next_walk, flat, walking, first, complete;

@@ -4,7 +4,7 @@
 //         status.
 // Rules:  P312-CMD-20..26, P312-OUT-01..03, P312-INP-31/33, P312-MON-06.
 // Timing: pins follow by one cycle. Clear pulses last 24.576 ms; the current is reduced 100 ms after the last
-//         motion.
+//         motion, or immediately while alm_ni is low.
 `default_nettype none
 
 module ppmc312_outputs #(
@@ -28,8 +28,8 @@ module ppmc312_outputs #(
     input  wire logic       lock_i,      // 1: interlock control is active
     input  wire logic       alm_ni,      // alarm, active low
     input  wire logic       end_ni,      // END, active low
-    input  wire logic       near_i,      // in-position: inside, coupled to the zero clamp
-    input  wire logic       coupled_i,   // in-position: evaluated, coupled to the zero clamp
+    input  wire logic       near_i,      // 1: in-position is inside and coupled to the zero clamp
+    input  wire logic       coupled_i,   // 1: in-position is evaluated and coupled to the zero clamp
     output logic            leave_o,     // strobe: the abnormal status ends
     // pins, active low
     output logic            intlk_no,    // interlock

@@ -41,8 +41,8 @@ module ppmc312_position
     output logic      [ 1:0] value_o,         // content of the report: 1: outside
     input  wire logic [ 1:0] load_i,          // strobes: the report is being loaded
     input  wire logic [ 1:0] read_i,          // strobes: the report has been read
-    output logic             near_o,          // zero clamp: coupled, pulses ended, position inside
-    output logic             coupled_o        // zero clamp: coupled, in-position evaluated
+    output logic             near_o,          // 1: coupled to the zero clamp, pulses ended, position inside
+    output logic             coupled_o        // 1: coupled to the zero clamp, in-position evaluated
 );
 
   logic epin_q, couple_q, hit, quiet;

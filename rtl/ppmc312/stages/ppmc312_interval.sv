@@ -19,7 +19,7 @@ module ppmc312_interval #(
     input  wire logic                clk_i,    // clock
     input  wire logic                rst_ni,   // reset, asynchronous
     input  wire logic [         2:0] base_i,   // 0..5: crystal / 2, 16, 32, 64, 256, 1024; 6: rise, 7: fall
-    input  wire logic                extck_i,  // external clock pin, its edges for base_i 6, 7
+    input  wire logic                extck_i,  // external clock pin; base_i 6 and 7 use its edges
     input  wire logic                arm_i,    // strobe: start of a motion
     input  wire logic                first_i,  // 1: the next pulse is pulse 1
     input  wire logic                fire_i,   // strobe: a pulse, in a cycle of due_o
@@ -36,7 +36,7 @@ module ppmc312_interval #(
   logic [2:0] age_q;  // cycles since the pulse, up to 4
   logic [PreBits-1:0] pre_q, pre_load;
   logic rest_q;  // 1: pre_q is 0; separate because of its fan-out
-  logic [RateBits-1:0] left_q, half_q;  // remaining base clocks; value at half of the interval
+  logic [RateBits-1:0] left_q, half_q;  // left_q: base clocks left; half_q: left_q at half of the interval
 
   assign external = base_i >= ExtRise;
   assign restart  = fire_i && first_i;

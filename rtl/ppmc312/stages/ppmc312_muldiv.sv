@@ -31,9 +31,9 @@ module ppmc312_muldiv #(
 
   logic [5:0] left_q;
   logic mul_q, load, last;
-  logic busy_q, shift_q;  // left_q is not 0; a division is in progress
+  logic busy_q, shift_q;  // busy_q: left_q is not 0; shift_q: a division is in progress
   logic mend_q;  // adds the operand to a remainder below 0
-  logic take_q, less_q, take, less;  // the operand is used; it is subtracted
+  logic take_q, less_q, take, less;  // take…: the operand is used; less…: the operand is subtracted
   logic [HiBits-1:0] hi_q, x, y;
   logic [HiBits:0] sum;
   logic under;

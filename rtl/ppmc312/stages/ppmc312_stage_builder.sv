@@ -99,7 +99,7 @@ module ppmc312_stage_builder
   assign first = {first_dec_i, first_acc_i};
   assign begins_o = {side_q, !side_q} & {2{state_q == StBegin && hit}};
 
-  // ---- one operation per state: h is read, then the operand, then it is started -------------------
+  // ---- one operation per state: read h, read the operand, start the operation ---------------------
 
   assign works = state_q inside {StBase, StScale, StSpeed, StHalf, StCurve, StRate, StSum, StShare, StPulses};
   assign done = wait_q && !op_busy_i;
@@ -110,7 +110,7 @@ module ppmc312_stage_builder
     h_word     = WordBase;
     x_word     = WordSpeed;
     to_word    = WordSpeed;
-    // When idle the word is 0, because the planner's operand is combined with it.
+    // While the builder is idle, the word is 0, because the planner's operand is combined with it.
     if (state_q inside {StIdle, StBase, StScale}) h_word = WordZero;
     unique case (state_q)
       StBase: begin
@@ -258,7 +258,7 @@ module ppmc312_stage_builder
     slow_q   <= (curve_i.start > curve_i.stop) ? curve_i.start : curve_i.stop;
     spread_q <= slow_q - curve_i.fast;
     if (state_q == StBegin) hit_q[side_q] <= hit;
-    // Second pass: the sides that have begun.
+    // open_q: the sides that have begun in the second pass.
     for (int unsigned n = 0; n < 2; n++) begin
       if (!pass_q) open_q[n] <= 1'b0;
       else if (stage_q == first[n]) open_q[n] <= 1'b1;

@@ -20,7 +20,7 @@ package ppmc312_stage_pkg;
   // Start of a deceleration along the table.
   typedef struct packed {
     logic [6:0]  stage;
-    logic        part;   // 1: with only some pulses of this stage
+    logic        part;   // 1: uses only some pulses of this stage
     logic [23:0] left;   // with part: number of pulses
   } walk_t;
 
@@ -41,13 +41,13 @@ package ppmc312_stage_pkg;
     logic        valid;      // 1: a table exists
     logic        split;      // 1: separate acceleration and deceleration sides
     logic [2:0]  base;       // base clock, see ppmc312_interval
-    logic [6:0]  first_acc;  // first stage of each side
-    logic [6:0]  first_dec;
-    logic [15:0] rate_acc;   // rate of the first stage of each side
-    logic [15:0] rate_dec;
+    logic [6:0]  first_acc;  // first stage of the acceleration side
+    logic [6:0]  first_dec;  // first stage of the deceleration side
+    logic [15:0] rate_acc;   // rate of stage first_acc
+    logic [15:0] rate_dec;   // rate of stage first_dec
     logic [15:0] fast;       // high-speed rate
-    logic [23:0] acc;        // pulses of each side
-    logic [23:0] dec;
+    logic [23:0] acc;        // pulses of the acceleration side
+    logic [23:0] dec;        // pulses of the deceleration side
   } table_t;
 
   // Write port of the table.

@@ -6,10 +6,10 @@
 //         end takes at most 7 cycles more, a triangular one 60. If the deceleration does not begin with a
 //         full stage, 5 cycles + the stages of the deceleration side are added. Results are valid until the
 //         next start.
-// How:    one pass reads the table upward and adds the pulses of the sides. It keeps the sums at the last
-//         stage that is fast enough: of stages that both sides have, and of stages that only one side has.
-// Note:   t(x) is output as it is and plus 1; "no such stage" is the stage before the first used one. Rates
-//         need not fall with the stages.
+// How:    one pass reads the table upward and adds the pulses of the sides. At the last stage that is fast
+//         enough it keeps two sums: of the stages that both sides have, and of those that only one side has.
+// Note:   t(x) and t(x) + 1 are output. If no stage qualifies, t(x) is the stage before the first used one.
+//         Rates need not fall with the stages.
 `default_nettype none
 
 module ppmc312_stage_plan
@@ -69,9 +69,11 @@ module ppmc312_stage_plan
 
   state_e state_q;
   logic slows_q, ramp_q, run_q, next_q, done_q, wait_q, op_done, inner_q, acc_first, both, dec_some, dec_none;
-  // valid_q[1]: the table outputs stage `at`. in_…_q: the side contains stage `at` [0], the stage before [1].
+  // valid_q[1]: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains stage `at` ([0]) or the
+  // stage before it ([1]).
   logic [1:0] valid_q, in_acc_q, in_dec_q;
-  // In StMeet, registered: no pulse remains, `ahead` is negative, first cycle, the stage counts.
+  // In StMeet. over_none: no pulse remains; one cycle late: below_q: `ahead` is negative; begins_q: first
+  // cycle; counts_q: the stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
   logic [1:0][6:0] at_q;
@@ -146,7 +148,7 @@ module ppmc312_stage_plan
     end
   end
 
-  // Pulses of the operation that remain after those of the sum.
+  // ahead: pulses of the operation that remain after the pulses in sum_q.
   assign ahead = {1'b0, count_i[24:0]} - {1'b0, sum_q};
   assign big = count_i[31:25] != '0;
   assign full = big || !ahead[25];
@@ -169,7 +171,7 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // Deceleration pulses: all of them, or the rest.
+  // dec_o: all deceleration pulses, or those that remain.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 

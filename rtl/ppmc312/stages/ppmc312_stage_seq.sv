@@ -26,11 +26,11 @@ module ppmc312_stage_seq
     input  wire stage_t        stage_i,        // stage at look_o, two cycles later
     // operation
     input  wire logic          load_i,         // strobe: start plan_i
-    input  wire plan_t         plan_i,         // with load_i; plan_i.to of a change 2 cycles after change_i
+    input  wire plan_t         plan_i,         // with load_i; for a change, plan_i.to: 2 cycles later
     input  wire logic          single_i,       // with load_i: one pulse, regardless of plan_i.dec
     // requests
     input  wire logic          change_i,       // strobe: change the rate; replaces an older change
-    input  wire logic          change_ramp_i,  // 1: change along the table; 2 cycles after change_i
+    input  wire logic          change_ramp_i,  // 1: change along the table; sampled 2 cycles after change_i
     input  wire logic          slow_i,         // 1: decelerate to the end
     // decision
     output logic               next_end_o,     // no further pulse: the motion ends
@@ -73,7 +73,7 @@ module ppmc312_stage_seq
   choice_t choice, choice_q, do_q;
   mode_t now_q, next, next_q, then_q;
   logic [1:0][6:0] addr_q;
-  logic [1:0] low_end_q, ramp_end_q;  // end of this direction
+  logic [1:0] low_end_q, ramp_end_q;  // low_end_q: this direction ends at first_dec_i; ramp_end_q: at ramp_to
   logic low_end, ramp_end;
   target_t held_q, target_q;
   logic held_valid_q, held_ramp_q, load_q, endless_q, no_point_q, first_q;
@@ -88,7 +88,7 @@ module ppmc312_stage_seq
   logic zero_q, point_q, walk_ok_q, spent_q, edge_q;
   logic [6:0] addr, beside_q, ramp_end_at_q, here, a, b, ramp_at, ramp_to;
   logic ramp_down_q, ramp_some_q, back, forget;
-  logic seek_q, look, in_use_q, in_use, stage_ge;  // search
+  logic seek_q, look, in_use_q, in_use, stage_ge;  // signals of the search
   logic [1:0] look_q;
   logic [6:0] seek_at_q;
   logic [3:0] ramp_ready_q;
@@ -113,11 +113,11 @@ module ppmc312_stage_seq
   always_ff @(posedge clk_i) begin
     zero_q <= left_q == '0 && !endless_q;
     point_q <= left_q == 32'(dec_q) && !no_point_q;
-    // A constant rate faster than R[first_dec] has a stage there or above.
+    // A constant rate faster than R[first_dec_i] has a stage at first_dec_i or above.
     walk_ok_q <= rate_q < rate_dec_i && (now_q.flat || !ppmc_pkg::less(32'(stage_q), 32'(first_dec_i)));
     spent_q <= more_q == '0;
     edge_q <= stage_q == edge_at_q;
-    // The stage next to this one, or next to the constant rate; for pulse 1 this stage.
+    // beside_q: stage next to the running one, or next to the constant rate; for pulse 1, the running stage.
     beside_q  <= ((now_q.flat && ramp_down_q) ? target_q.gt1 : here) +
         {{6{back}}, back || now_q.flat || !first_q};
     ramp_down_q <= held_q.rate >= rate_q;
@@ -315,7 +315,8 @@ module ppmc312_stage_seq
       more_q <= (do_q.enter ? (do_q.part ? from_q.left : stage_i.pulses) : more_q) - 1'b1;
       left_q <= left_q - 1'b1;
     end
-    // Before pulse 1 a waiting change is ignored here: it may be replaced, and it is compared with the plan.
+    // Before pulse 1 a waiting change does not affect rate_q, because another change may still replace it,
+    // and because it is compared with the planned rate.
     if (step_i || (first_q && !do_q.take)) rate_q <= next_rate_o;
   end
 

@@ -80,7 +80,7 @@ module ppmc312_stage_unit
       .steps_i  (op_steps),
       .keep_i   (!op_mul),
       .lo_i     (op_lo),
-      .operand_i(word | 40'(plan_operand)),  // the idle source is 0
+      .operand_i(word | 40'(plan_operand)),  // the operand of an idle block is 0
       .busy_o   (op_busy),
       .hi_o     (hi),
       .lo_o     (lo)

@@ -95,7 +95,7 @@ module ppmc_bank_engine_fv
   units_t units_q;
   status_t status_q;
   logic [31:0] position_q;
-  logic worded_q, ramped_q, chopped_q;  // set by the host
+  logic worded_q, ramped_q, chopped_q;  // the host has set words_q; ramp_q; units_q
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {worded_q, ramped_q, chopped_q} <= '0;
@@ -112,7 +112,7 @@ module ppmc_bank_engine_fv
       end
     end
 
-  // For the induction: the same words in the stages before those that use them.
+  // For the induction: the words are the same in the stages before those that use them.
   for (genvar i = 1; i < 6; i++) begin : g_stage
     `FV_ASSERT(lemma_axis, clk_q < 5'(i) || axis[i] == axis[0] - 3'(i))
     `FV_ASSERT(lemma_clear, clear[i] == (clk_q < 5'(8 + i)))

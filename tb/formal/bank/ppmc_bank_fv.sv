@@ -45,10 +45,10 @@ module ppmc_bank_fv
   logic [3:0] clk_q;  // cycles since reset, at most 15
   logic pending_q, pout_q, dir_q, hold_q;
   logic [4:0] s_q;
-  logic now_q, ordered_q;  // in the cycle before: order_q acted; it had a pulse
-  logic [2:0] alarm_q, cw_q;  // switches of the watched axis in the last three cycles
+  logic now_q, ordered_q;  // now_q: order_q acted in the cycle before; ordered_q: it had a pulse
+  logic [2:0] alarm_q, cw_q;  // alarm and CW limit of the watched axis in the last three cycles
   logic told_q;  // an interrupt has begun or ended
-  logic ends, known_q;  // a visit of the watched axis is in its last stage; one has ended
+  logic ends, known_q;  // ends: a visit of the watched axis is in its last stage; known_q: one has ended
 
   assign ends = dut.axis[5] == {1'b0, watched_i} && clk_q == '1;
 
@@ -65,7 +65,7 @@ module ppmc_bank_fv
     end
   end
 
-  logic steady;  // the state is unknown before the first visit with an order
+  logic steady;  // 1: a visit with an order has ended; before, the state is unknown
   logic known2_q;
   always_ff @(posedge clk_i) known2_q <= rst_ni && known_q;
   assign steady = known2_q;

@@ -30,7 +30,7 @@ module ppmc_bank_tables_fv (
 
   `FV_ASSUME(when_free, !(book_i && booked_o))
 
-  logic axis_q, word_q;  // axis that has booked; its word was written
+  logic axis_q, word_q;  // axis_q: axis that has booked; word_q: its word was written
   logic [7:0] slow_q;
   logic [1:0] steps_q;
   logic [3:0] age_q;

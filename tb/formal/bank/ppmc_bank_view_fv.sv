@@ -38,7 +38,9 @@ module ppmc_bank_view_fv (
       .*
   );
 
-  logic [7:0] choice_q, latest_q;  // byte written to register 3; the same while it is being written
+  // latest_q: byte of the last access, which may still be in progress; choice_q: last byte written to
+  // register 3
+  logic [7:0] choice_q, latest_q;
   logic write_q;
   always_ff @(posedge clk_i)
     if (!rst_ni) {choice_q, latest_q, write_q} <= '0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_window_fv: the window, driven by the strobe master of the bridges, with an engine that accepts
 // and answers bytes at any time.
-// Proves for one axis, regardless of accesses to the others: a visit reads the last byte that the host has
-// written, unchanged, and the byte is new until it was accepted; the bytes of an answer are read in order,
-// each once.
+// The proof is for one axis, regardless of accesses to the others. A visit reads the last byte that the host
+// has written, unchanged, and the byte is new until it was accepted. The bytes of an answer are read in
+// order, each once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -21,7 +21,7 @@ module ppmc_bank_window_fv
     input wire logic        answers_i,      // the engine answers the byte it accepts
     input wire logic        long_i,         // the answer has three bytes
     input wire logic [23:0] answer_data_i,
-    input wire logic [ 6:0] others_i,       // status of other axes; of the watched one without taken
+    input wire logic [ 6:0] others_i,       // status of other axes; of the watched axis, all except taken
     input wire logic [ 1:0] position_i,     // positions
     input wire logic [ 3:0] map_i           // pending interrupts
 );
@@ -59,7 +59,7 @@ module ppmc_bank_window_fv
 
   logic [2:0] axis_q, done_axis;
   logic [3:0] clear_q;  // remaining cycles of the reset of all axes
-  logic ready, mine_1, mine_3, mine_5;  // the visit of the watched axis is in this stage
+  logic ready, mine_1, mine_3, mine_5;  // mine_n: the visit of the watched axis is in stage n
   mail_t mail, mail_q;
   progress_t progress, progress_q;
   logic [1:0] config_n, taken_q, answer_seq_q, new_taken_q;
@@ -136,7 +136,8 @@ module ppmc_bank_window_fv
 
   // ---- input buffer ----------------------------------------------------------------------------------
 
-  logic written, full_q, seen_q;  // a byte is waiting; the current visit has read it
+  // written: a byte is written; full_q: a byte is waiting; seen_q: the current visit has read a waiting byte
+  logic written, full_q, seen_q;
   logic late_q;  // a byte was written after the read of that visit
   logic [8:0] held_q, byte_seen_q;
 
@@ -166,8 +167,10 @@ module ppmc_bank_window_fv
     logic [23:0] data;
   } answer_view_t;
 
-  answer_view_t now_q, view1_q, view2_q;  // current state, and its copies in the registers of a read
-  logic shows, there, current_q;  // the byte shown belongs to the last answer
+  answer_view_t now_q, view1_q, view2_q;  // now_q: current state; view1_q, view2_q: its copies in a read
+  // shows: a data byte is loaded; there: an unread byte is left; current_q: the loaded byte is of the last
+  // answer
+  logic shows, there, current_q;
   logic [7:0] byte_q;
   logic shows_q, there_q;
 

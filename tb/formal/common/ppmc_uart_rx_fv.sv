@@ -26,7 +26,8 @@ module ppmc_uart_rx_fv (
       .*
   );
 
-  logic [6:0] high_q, quiet_q;  // cycles with a high line; cycles without an outcome; at most 127
+  // high_q: cycles with a high line; quiet_q: cycles without an outcome; both at most 127
+  logic [6:0] high_q, quiet_q;
   logic wait_q;  // an error has occurred, and the line has not been high since
 
   always_ff @(posedge clk_i)
@@ -39,11 +40,11 @@ module ppmc_uart_rx_fv (
       wait_q  <= (error_o || wait_q) && !dut.line;
     end
 
-  // For the induction: phase and bit are functions of the time since the start bit was found. After a fault
-  // on the line, this time may begin at any phase.
+  // For the induction: phase and bit are functions of the time since the receiver found the start bit. After
+  // a fault on the line, the phase at the start bit is arbitrary.
   logic [6:0] age_q;
   logic [7:0] phases;
-  logic [3:0] first_q, first;  // phase at the beginning of the character
+  logic [3:0] first_q, first;  // phase at the start bit; first_q: one cycle later
   logic busy;
 
   assign busy   = dut.state_q == 1 || dut.state_q == 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_uart_tx_fv: proves that every byte accepted arrives in ppmc_uart_rx unchanged, once and in time, at 8
+// ppmc_uart_tx_fv: proves that every accepted byte arrives in ppmc_uart_rx unchanged, once and in time, at 8
 // cycles per bit.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -54,9 +54,9 @@ module ppmc_uart_tx_fv (
       else if (rx_valid) {way_q, again_q} <= 2'b01;
     end
 
-  // For the induction: both shift registers and phases are functions of the byte and its age. The unit is a
-  // sixteenth of a bit: sixteenths sent by the transmitter and sampled by the receiver. The upper half counts
-  // bits.
+  // For the induction: shift registers and phases are functions of the byte and its age. sent and seen count
+  // sixteenths of a bit: those that the transmitter has sent and those that the receiver has sampled. Their
+  // upper half counts bits.
   logic [7:0] sent, seen;
   logic [8:0] rest;  // bits still to be sent
   logic line, rx_idle;

@@ -57,7 +57,7 @@ module ppmc_bridge_msg_fv
   `FV_ASSUME(no_script_with_an_answer, !(script_i && answer_q))
   `FV_ASSUME(nak_stands, !$past(rst_ni && nak_i != NakNone && !nak_taken_o) || nak_i == $past(nak_i))
 
-  logic own_q, asked_q;  // the frame began for the answer; an answer was valid one cycle ago
+  logic own_q, asked_q;  // own_q: the frame began for the answer; asked_q: answer_i one cycle ago
   logic [3:0] bytes_q;
 
   always_ff @(posedge clk_i)

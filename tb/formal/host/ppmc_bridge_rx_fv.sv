@@ -38,9 +38,9 @@ module ppmc_bridge_rx_fv
   `FV_ASSUME(characters_apart, !(valid_i || error_i) || gap_q == '1)
   `FV_ASSUME(one_outcome, !(valid_i && error_i))
 
-  logic flag_q, flag2_q;  // a flag arrived one and two cycles ago
+  logic flag_q, flag2_q;  // flag_q: a flag arrived one cycle ago; flag2_q: two cycles ago
   logic fresh_q;  // only flags since the last flag
-  logic idle_q, idle2_q;  // no script one and two cycles ago
+  logic idle_q, idle2_q;  // idle_q: no script ran one cycle ago; idle2_q: two cycles ago
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {flag_q, flag2_q, fresh_q, idle_q, idle2_q} <= '0;

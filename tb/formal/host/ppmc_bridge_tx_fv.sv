@@ -36,7 +36,7 @@ module ppmc_bridge_tx_fv
   `FV_ASSUME(start_when_idle, !start_i || idle_o)
   `FV_ASSUME(more_stands, ready_i || more_i == $past(more_i))
 
-  logic open_q, escape_q, taken_q;  // in a frame; the last character was an escape; a byte is waiting
+  logic open_q, escape_q, taken_q;  // in a frame; the last character was an escape; byte_q is waiting
   logic [7:0] byte_q;  // the waiting byte
   logic [1:0] crc_q;  // bytes sent after the last byte of the message
 
@@ -67,7 +67,7 @@ module ppmc_bridge_tx_fv
   `FV_ASSERT(two_crc_bytes, crc_q <= 2'd2)
   `FV_ASSERT(idle_between_frames, !(idle_o && open_q))
 
-  logic was_q;  // a flag was sent escaped
+  logic was_q;  // an escaped flag has been sent
   always_ff @(posedge clk_i)
     was_q <= rst_ni && (was_q || (valid_i && escape_q && byte_o == 8'h5E && taken_q));
 

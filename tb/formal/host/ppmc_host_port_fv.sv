@@ -31,8 +31,8 @@ module ppmc_host_port_fv (
   assign take_i = want_i && ready_o;
   assign write  = !cs_ni && !wr_ni && rd_ni;
 
-  logic w1_q, w2_q, w3_q, full_q;  // samples of a write 1, 2, 3 cycles ago; a byte is waiting
-  logic [8:0] at1_q, at2_q, last_q, held_q;  // register and data
+  logic w1_q, w2_q, w3_q, full_q;  // w…_q: write was high 1, 2, 3 cycles ago; full_q: a byte is waiting
+  logic [8:0] at1_q, at2_q, last_q, held_q;  // register and data: 1, 2 cycles ago; last write; waiting byte
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {w1_q, w2_q, w3_q, full_q, at1_q, at2_q, last_q, held_q} <= '0;

@@ -42,7 +42,7 @@ module ppmc_mailbox_fv (
 
   // Output: bytes of the last answer, and the number of bytes already read.
   logic [23:0] answer_q;
-  logic [1:0] bytes_q, read_q;  // bytes of the answer; bytes of it already read
+  logic [1:0] bytes_q, read_q;  // bytes_q: bytes of the answer; read_q: bytes already read
   logic gap_q;  // the cycle after a read
 
   always_ff @(posedge clk_i)
@@ -56,7 +56,7 @@ module ppmc_mailbox_fv (
   `FV_ASSERT(p104_hsk_05_valid_until_all_are_read, obf_o == (read_q < bytes_q && !gap_q))
   `FV_ASSERT(p104_hsk_06_in_order, !obf_o || out_o == 8'(answer_q >> {read_q, 3'd0}))
   `FV_ASSERT(p104_hsk_08_never_more_than_there_are, read_q <= bytes_q)
-  logic [1:0] behind;  // bytes after the one that is output
+  logic [1:0] behind;  // bytes after the byte that is output
   assign behind = bytes_q - read_q - 2'(obf_o);
   `FV_ASSERT(lemma_behind, dut.have_q == {behind >= 2'd2, behind != 2'd0})
   `FV_ASSERT(new_is_told, !$past(rst_ni && !new_o) || out_o == $past(out_o))

@@ -31,7 +31,7 @@ module ppmc_spi_fv (
       same_q <= (sck_i != last_q) ? 2'd0 : (same_q == '1) ? '1 : same_q + 1'b1;
     end
 
-  // Low for more than 3 cycles, high for more than 1.
+  // sck is low for more than 3 cycles and high for more than 1.
   `FV_ASSUME(sck_within_its_limits, sck_i == last_q || (last_q ? same_q >= 2'd1 : same_q == 2'd3))
 
   logic [4:0] bits_q;  // bits of this frame, at most 31

@@ -21,10 +21,10 @@ module ppmc_strobe_master_fv (
 
   ppmc_strobe_master #(.AddrBits(2)) dut (.*);
 
-  logic way_q, write_q;  // an access is in progress; it is a write
+  logic way_q, write_q;  // way_q: an access is in progress; write_q: it is a write
   logic [1:0] addr_q;
   logic [7:0] data_q;
-  logic [3:0] age_q, low_q, high_q;  // cycles since the request; of the strobe; of the gap, at most 15
+  logic [3:0] age_q, low_q, high_q;  // cycles since the request, of the strobe, of the gap; at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {way_q, write_q, addr_q, data_q, age_q, low_q, high_q} <= '1;

@@ -31,7 +31,7 @@ module ppmc_uart_host_fv (
       .*
   );
 
-  logic [11:0] first_q, seen_q;  // switches one and two cycles ago
+  logic [11:0] first_q, seen_q;  // first_q: switches one cycle ago; seen_q: two cycles ago
   logic [1:0] before_nq;  // pulse outputs one cycle ago
   logic [1:0][31:0] pulses_q, counts;  // net pulses of each axis since its counter was cleared
   logic [7:0] pins;

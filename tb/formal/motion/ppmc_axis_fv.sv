@@ -82,7 +82,7 @@ module ppmc_axis_fv
   op_t   op_q;
   base_t base_q;
   logic  ended_q;  // an immediate cause has occurred
-  logic [4:0] total_q, pulses_q;  // requested pulses; pulses made
+  logic [4:0] total_q, pulses_q;  // total_q: requested pulses; pulses_q: pulses made
   logic [1:0] rate_q;
   logic immediate, limit;
 
@@ -146,7 +146,7 @@ module ppmc_axis_fv
 
   // ---- set-up, direction, low time -----------------------------------------------------------------
 
-  logic [2:0] setup_q, age_q;  // cycles since start or end of gate; since pulse; at most 7
+  logic [2:0] setup_q, age_q;  // setup_q: cycles since start or end of gate; age_q: since pulse; at most 7
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {setup_q, age_q} <= '0;
@@ -162,7 +162,7 @@ module ppmc_axis_fv
 
   // ---- intervals of the internal base clock --------------------------------------------------------
 
-  logic [4:0] quanta_q;  // since the last pulse, at most 31
+  logic [4:0] quanta_q;  // quanta since the last pulse, at most 31
 
   always_ff @(posedge clk_i)
     if (!rst_ni || event_o.pulse) quanta_q <= '0;
@@ -183,7 +183,7 @@ module ppmc_axis_fv
   logic [3:0] since_q;  // cycles since the start or the last pulse, at most 15
   logic [1:0] from_q;  // rate before the last pulse
   logic still_q;  // no change of rate or base clock in the cycle before
-  logic between, inner;  // between pulses; the same with the internal base clock
+  logic between, inner;  // between: between pulses; inner: also on the internal base clock
 
   assign between = motion_o.running;
   assign inner   = between && !base_q.external;

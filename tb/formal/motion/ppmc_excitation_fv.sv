@@ -39,7 +39,7 @@ module ppmc_excitation_fv
     else if (step_i) index_q <= (index_q + stride >= length) ? index_q + stride - length : index_q + stride;
 
   // Even rows have two adjacent phases. Odd rows have one phase of 3 or 4, or three phases of 5.
-  logic [3:0] one, two, three;  // phases starting at the one of the index, counted from 0
+  logic [3:0] one, two, three;  // one, two or three adjacent phases, from the phase of the index on
 
   assign one   = {1'b0, index_q[3:1]};
   assign two   = (one + 4'd1 == (length >> 1)) ? 4'd0 : one + 4'd1;
@@ -54,8 +54,8 @@ module ppmc_excitation_fv
   end
 
   `FV_ASSUME(a_motor, motor_i != MotorNone)
-  // ppmc_setup loads both in the first initialisation, which sets the phases to index 0, and holds them until
-  // Excitation OFF.
+  // ppmc_setup loads motor_i and half_i in the first initialisation, which sets the phases to index 0, and
+  // holds them until Excitation OFF.
   `FV_ASSUME(motor_stays, !on_q || $past(home_i) || {motor_i, half_i} == $past({motor_i, half_i}))
 
   `FV_ASSERT(p104_phs_01_row_of_the_table, pattern_o == (on_q ? row : 5'd0))

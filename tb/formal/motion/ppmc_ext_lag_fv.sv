@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag_fv: proves to the cycle that the time before the first base edge of an interval and the time
-// after its last one add up to the extra time, unless the former alone is at least as long.
+// ppmc_ext_lag_fv: proves to the cycle that two times add up to the extra time: the time before the first
+// base edge of an interval, and the time after the last one. If the first time alone is at least as long as
+// the extra time, the interval ends without more extra time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,8 +26,10 @@ module ppmc_ext_lag_fv (
       .*
   );
 
-  logic run_q, counting_q, hit_q;  // an interval is running; its first base edge has occurred; its last one
-  logic [3:0] before_q, after_q;  // cycles before the first and after the last one, at most 15
+  // run_q: an interval is running; counting_q: its first base edge has occurred; hit_q: its last base edge
+  // has occurred
+  logic run_q, counting_q, hit_q;
+  logic [3:0] before_q, after_q;  // cycles before the first and after the last base edge, at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {run_q, counting_q, hit_q, before_q, after_q} <= '0;

@@ -38,7 +38,8 @@ module ppmc_pulse_shaper_fv (
   );
 
   logic [3:0] since_q;  // cycles since the pulse or the arming, at most 15
-  logic pulse_q, full_q, may_q;  // last event was a pulse; a full one; a cause may have ended it
+  // pulse_q: the last event was a pulse; full_q: a full one; may_q: a cause may have ended it
+  logic pulse_q, full_q, may_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) {since_q, pulse_q, full_q, may_q} <= {4'd15, 3'b000};

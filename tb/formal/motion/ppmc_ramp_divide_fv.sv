@@ -25,7 +25,7 @@ module ppmc_ramp_divide_fv (
   logic [3:0] divisor;
   logic [4:0] next;
   logic [3:0] rest_q;  // remainder of the bits so far, less than the divisor
-  logic bit_q, valid_q, one_q;  // bit of the quotient; it is valid; a bit was 1
+  logic bit_q, valid_q, one_q;  // bit_q: bit of the quotient; valid_q: it is valid; one_q: a bit was 1
 
   assign divisor = {1'b0, less_i} + 4'd1;
   assign next    = {rest_q, bit_i};

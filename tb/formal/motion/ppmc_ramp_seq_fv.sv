@@ -34,7 +34,8 @@ module ppmc_ramp_seq_fv (
       .*
   );
 
-  logic loaded_q, over_q, rated_q;  // a motion was loaded; its last pulse was made; its rate is valid
+  // loaded_q: a motion was loaded; over_q: its last pulse was made; rated_q: its rate is valid
+  logic loaded_q, over_q, rated_q;
   logic [5:0] due_q;  // pulses still to be made
   logic [2:0] gap_q;  // cycles since load or pulse, at most 7
   logic [2:0] addr1_q, addr2_q;  // addresses of the table, one and two cycles ago
@@ -70,7 +71,7 @@ module ppmc_ramp_seq_fv (
   `FV_ASSUME(ramp_steady, load_i || $past(load_i) || !loaded_q || ramp_i == $past(ramp_i))
   `FV_ASSUME(first_rate, !$past(rst_ni && load_i) || !ramp_i || $past(rate_i == slow_i))
   `FV_ASSUME(legal_ramp, slow_i >= fast_i && steps_i != '0)
-  // The guard withdraws it only with the end of a motion, after which no pulse occurs.
+  // The guard withdraws forced_i only with the end of a motion, after which no pulse occurs.
   logic forced_q, taken_back_q;
   always_ff @(posedge clk_i)
     if (!rst_ni || load_i) {forced_q, taken_back_q} <= '0;

@@ -34,8 +34,8 @@ module ppmc_ramp_serial_fv
       .*
   );
 
-  logic run_q, again_q;  // a pass is running; one has ended
-  logic [4:0] age_q, words;  // cycles of the pass; words of the pass
+  logic run_q, again_q;  // run_q: a pass is running; again_q: a pass has ended
+  logic [4:0] age_q, words;  // age_q: cycles of the pass; words: its number of words
 
   always_comb begin
     unique case (pass_i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ramp_table_fv: proves that the words written by the builder are in the table when busy_o falls, and
+// ppmc_ramp_table_fv: proves that the words written by the builder are in the table from the fall of busy_o
 // until the next build. The same holds for the numbers from which the table was built.
 `include "ppmc_fv.svh"
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_rate_counter_fv: proves that only base clock number rate + 1 ends an interval, and that number
-// floor((rate + 1) / 2) is its half.
+// ppmc_rate_counter_fv: proves that only base clock number rate + 1 ends an interval, and that base clock
+// number floor((rate + 1) / 2) marks half of the interval.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -19,7 +19,7 @@ module ppmc_rate_counter_fv (
 
   ppmc_rate_counter #(.RateBits(4)) dut (.*);
 
-  logic began_q, over_q;  // an interval is running; it has ended
+  logic began_q, over_q;  // began_q: an interval is running; over_q: it has ended
   logic [4:0] ticks_q;  // base clocks since the restart
   logic [1:0] gap_q;  // cycles since restart or tick, at most 3
   logic fresh_q;  // the restart was in the cycle before

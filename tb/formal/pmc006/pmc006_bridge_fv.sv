@@ -28,7 +28,7 @@ module pmc006_bridge_fv (
 
   assign high = high0_o || high1_o;
 
-  logic [3:0] off_q, on_q;  // cycles with both low; cycles with one high; at most 15
+  logic [3:0] off_q, on_q;  // off_q: cycles with both low; on_q: cycles with one high; at most 15
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {off_q, on_q} <= '0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_position_fv: proves that only a step or an instruction changes the position, a step by one in its
-// direction.
+// pmc006_position_fv: proves that only a step or an instruction changes the position, and that a step changes
+// it by one in the direction of the step.
 `include "ppmc_fv.svh"
 `default_nettype none
 

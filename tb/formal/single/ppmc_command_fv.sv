@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command_fv: proves that a byte is accepted if and only if it is ready and the mailbox is open, and
+// ppmc_command_fv: proves that a byte is accepted if and only if it is available and the mailbox is open, and
 // that its meaning was decoded one cycle before.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -34,7 +34,7 @@ module ppmc_command_fv
 
   ppmc_command dut (.*);
 
-  // With the mailbox from which it reads, and a motion that it starts.
+  // The proof includes the mailbox that this block reads, and a motion that it starts.
   ppmc_mailbox u_mailbox (
       .rd_done_i(1'b0),
       .out_o    (out),

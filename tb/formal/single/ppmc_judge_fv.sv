@@ -29,7 +29,7 @@ module ppmc_judge_fv
 
   ppmc_judge dut (.*);
 
-  // Register of the parser state, and a motion that the byte starts.
+  // The register of the parser state, and a motion that the byte starts.
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));
   always_ff @(posedge clk_i) asking_i <= rst_ni ? asking_o : '0;
 
@@ -44,7 +44,7 @@ module ppmc_judge_fv
              !(command_i && decoded_i.params != '0 && decoded_i.kind != KindOperation) || !byte_i[6])
   `FV_ASSUME(one_kind_in_motion, !(command_i && decoded_i.kind == KindAuxOut) || (byte_i[7] && byte_i[1]))
 
-  logic welcome;  // allowed during a motion
+  logic welcome;  // the code is allowed during a motion
   assign welcome = decoded_i.kind inside {KindHalt, KindDecel, KindAuxOut, KindExcOff, KindAuxOn, KindAuxOff};
 
   `FV_ASSERT(p104_err_03_a_fault_does_nothing, !(take_i && asking_o.error) || act_o == '0)

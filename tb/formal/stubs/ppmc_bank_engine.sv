@@ -23,15 +23,15 @@ module ppmc_bank_engine
     input wire progress_t progress_i,  // stage 1: bytes of the answer already read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] due_i,  // W less the cycles since GO
+    input wire logic [TimeBits-1:0] due_i,  // W minus the cycles since GO
     // from cells and switches
-    input wire seen_t seen_i,  // stage 2
+    input wire seen_t seen_i,  // stage 2: pin cell and switches
     // results of a visit, stage 5
-    output status_t status_o,  // for the status register
+    output status_t status_o,  // status register
     output logic [31:0] position_o,  // position
     output logic answer_we_o,  // an answer is written
     output answer_t answer_o,  // the answer
-    output order_t order_o,  // to the pin cell
+    output order_t order_o,  // order to the pin cell
     output logic [RoundBits-1:0] at_o,  // cycle of the edge in the round
     output logic call_o,  // set the interrupt
     output logic calm_o  // clear the interrupt

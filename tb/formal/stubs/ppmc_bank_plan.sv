@@ -34,11 +34,11 @@ module ppmc_bank_plan
     output logic          [         7:0] code_o,     // code of the action
     output logic          [        31:0] params_o,   // parameters of the action
     // decisions
-    input  wire logic     [TimeBits-1:0] due_i,      // W less the cycles since GO
+    input  wire logic     [TimeBits-1:0] due_i,      // W minus the cycles since GO
     input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_times
     output plan_t                        plan_o,     // decision
-    output logic                         anew_o,     // time_i is not used
-    output logic          [TimeBits-1:0] add_o       // added to time_i
+    output logic                         anew_o,     // restart rem from 0
+    output logic          [TimeBits-1:0] add_o       // cycles to add to rem
 );
 
 endmodule

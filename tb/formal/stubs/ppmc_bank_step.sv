@@ -26,15 +26,15 @@ module ppmc_bank_step
     input  wire logic                    chop_i,      // the initialisation enables chopping
     input  wire logic     [         7:0] slow_i,      // start-up rate
     input  wire rest_t                   rest_i,      // outputs
-    input  wire logic     [HoldBits-1:0] left_i,      // rounds of the hold time, less 1
-    input  wire logic     [        31:0] position_i,  // pulses CW less pulses CCW
+    input  wire logic     [HoldBits-1:0] left_i,      // remaining rounds of the hold time, minus 1
+    input  wire logic     [        31:0] position_i,  // CW pulses minus CCW pulses
     // state after the visit
     output walk_t                        walk_o,      // motion
     output pace_t                        pace_o,      // interval
     output setting_t                     setting_o,   // initialisation
     output rest_t                        rest_o,      // outputs
-    output logic          [HoldBits-1:0] left_o,      // rounds of the hold time, less 1
-    output logic          [        31:0] position_o,  // pulses CW less pulses CCW
+    output logic          [HoldBits-1:0] left_o,      // remaining rounds of the hold time, minus 1
+    output logic          [        31:0] position_o,  // CW pulses minus CCW pulses
     // outputs of the visit
     output order_t                       order_o,     // to the pin cell
     output answer_t                      answer_o,    // with plan_i.read

@@ -41,7 +41,7 @@ class Node {
     }
 
     void follow(Vboard& top) {
-        // The shorter way around a circle of four full steps.
+        // Difference of two angles: the shorter way around a circle of four full steps.
         const int turned = (top.angle - angle_ + 3 * kTurn / 2) % kTurn - kTurn / 2;
         angle_ = top.angle;
         way_ += turned;

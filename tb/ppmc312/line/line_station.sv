@@ -12,8 +12,8 @@ module line_station #(
 ) (
     input  wire logic        clk,
     input  wire logic        rst_n,
-    input  wire logic [15:0] pins_i,  // packed as in `ppmc312_line`
-    output logic      [27:0] pins_o
+    input  wire logic [15:0] pins_i,  // input pins, packed as in `ppmc312_line`
+    output logic      [27:0] pins_o   // output pins, packed as in `ppmc312_line`
 );
 
   logic rxd, evt0_n, evt1_n, fl_n, bl_n, org_n, alm_n, end_n, run;

@@ -4,8 +4,8 @@
 // Timing: each rising edge samples the levels that master and stations drive before it. A reset takes effect
 //         at an edge.
 // Note:   the stations are compiled separately (`line_station`, station.cpp), with the same code for all.
-//         Every station receives the master. hear_others: also the other stations; hear_self: also itself.
-//         noise inverts the level that one station receives.
+//         Every station receives the master. With hear_others, a station also receives the other stations;
+//         with hear_self, it also receives itself. noise inverts the level that one station receives.
 `default_nettype none
 
 module ppmc312_line #(
@@ -58,7 +58,7 @@ module ppmc312_line #(
     input int pins
   );
 
-  // Output of each driver, and level that each station receives.
+  // Output of each driver, and the level that each station receives.
   logic [N-1:0] driven, rxd;
 
   assign driven = txd | ~snd;
