@@ -116,7 +116,7 @@ class Square:
 
     @property
     def next_level(self) -> int:
-        """Level from that edge on."""
+        """Level from the next toggle on."""
         return self._n & 1
 
     def advance(self) -> None:

@@ -41,7 +41,7 @@ def widths(axes: int) -> dict[str, int]:
 
 
 class Member(Protocol):
-    """Members of an axis that GO and STOP use."""
+    """Members of an axis that the registers GO and STOP use."""
 
     visits: Visits
 

@@ -236,14 +236,14 @@ class Engine:
     def _give(self, make: Callable[[], int]) -> None:
         """Append one byte to the answer.
 
-        If the answer is full, the op is rejected before it reads the byte.
+        If the answer is full, the operation is rejected before it reads the byte.
         """
         if len(self._data) >= MOST_DATA:
             raise Stop(4)
         self._data.append(make())
 
     def _give_all(self, values: bytes) -> None:
-        """Append all bytes of an op, or no byte."""
+        """Append all bytes of an operation. If they do not all fit, append no byte."""
         if len(self._data) + len(values) > MOST_DATA:
             raise Stop(4)
         self._data += values

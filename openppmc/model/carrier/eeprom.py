@@ -70,14 +70,14 @@ class Eeprom24C32:
         self._idle()
 
     def _idle(self) -> None:
-        """Wait for a START."""
+        """Set the state in which the device waits for a START."""
         self._phase = ""
         self._bits = self._shift = 0
         self._pull = 0
         self._page: list[int] = []
 
     def occupy(self, until: int) -> None:
-        """End a write cycle that another device has started at this edge."""
+        """Set the edge at which a write cycle that another device has started ends."""
         self._busy_until = until
 
     def busy(self, t: int) -> bool:

@@ -28,13 +28,14 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
     for first in range(phases):
         steps.append(ring(first, 2))
         if half:
-            # Between two full steps: the phase that they share (1-2 phase), or all three (2-3 phase).
+            # Patterns between two full steps: the phase that both full steps share (1-2 phase), or all three
+            # phases (2-3 phase).
             steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
     return tuple(steps)
 
 
 def step_directions() -> dict[tuple[int, int], int]:
-    """Return the directions of steps by (pin levels before, after): 1 CW, -1 CCW.
+    """Return the directions of steps, by pin levels (before, after): 1 = CW, -1 = CCW.
 
     The table is valid for any motor and logic.
 

@@ -11,9 +11,9 @@ from ..clock import Timebase
 class ExternalInterval:
     """Counter of effective base edges from pulse to pulse; times are edges of `clk`.
 
-    plain: vsel level of the operation. With 1 the pulse occurs at edge number rate+1 after the last pulse.
-    With 0 the edges are counted from the first one at or after the pulse, and the pulse is delayed by 7.5 us
-    minus the wait for that first edge (P104-INT-03).
+    plain: level of vsel during the operation. If it is 1, the pulse occurs at edge number rate + 1 after the
+    last pulse. If it is 0, the edges are counted from the first one at or after the pulse, and the pulse is
+    delayed by 7.5 us minus the wait for that first edge (P104-INT-03).
     """
 
     def __init__(self, timebase: Timebase, plain: bool) -> None:

@@ -144,7 +144,7 @@ class Motion:
 
     @property
     def is_ramp(self) -> bool:
-        """True for types 011 and 110."""
+        """True for operation types 011 and 110."""
         return self.operation in RAMP_OPERATIONS
 
     @property

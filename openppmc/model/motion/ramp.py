@@ -62,7 +62,7 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
 
 
 def natural_deceleration(kp: int, m: int, pa: int) -> bool:
-    """Return True at the pulse event where the move begins to decelerate by count (P104-PRO-05)."""
+    """Return True at the pulse event where the move begins its natural deceleration (P104-PRO-05)."""
     return 0 < m and m - 1 < min(kp + 1, pa)
 
 

@@ -50,8 +50,8 @@ class Ppmc2104(Chip):
     def _build(self, released: int, pins: Mapping[str, int]) -> None:
         """Create blocks in their reset state. released: first edge after the reset."""
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # The synchronisers start with idle inputs, except extck, so that no clock edge occurs that was not on
-        # the pin.
+        # The synchronisers start with idle inputs. The exception is extck, which starts with its pin level,
+        # so that no clock edge occurs that was not on the pin.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context

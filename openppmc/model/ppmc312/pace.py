@@ -56,8 +56,8 @@ class Pace:
         young: t0 to the first check of the high-speed limit.
         least: shortest interval (P312-MOT-04).
         armed: new head of the command FIFO to its trigger (P312-OVR-02, <= 4).
-        compare_lag: monitors: POS or ENC to inside or outside; one cycle more to the status bit, two to the
-            report.
+        compare_lag: monitors: change of POS or ENC to the result of the comparison. The status bit follows
+            one cycle later, the report two cycles later.
         quiet: standstill to the first evaluation of the in-position monitor.
         heard: serial mode: middle of the stop bit to the character.
         frame: last character to the event that is a header write in parallel mode.

@@ -100,7 +100,7 @@ class TimedMotion(Motion):
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))
         self._ending(t)
-        # Before COMMAND: a byte that waited for this edge is checked with BUSY = 0.
+        # Runs before Phase.COMMAND, so that a byte that waited for this edge is checked with BUSY = 0.
         context.queue.at(since + context.timebase.cyc(end_cycles), Phase.BEGIN, self._finish)
 
     def _ending(self, t: int) -> None:

@@ -68,7 +68,7 @@ class Desk:
 
     @property
     def port_word(self) -> int:
-        """Answer to x (P006-IO-01)."""
+        """Answer to instruction x (P006-IO-01)."""
         seen = self.levels
         gpi = seen["gpi"]
         return (
@@ -120,22 +120,22 @@ class Desk:
         self._position = (self._position + (1 if forward else -1)) % (1 << 32)
 
     def load_position(self, position: int) -> None:
-        """Execute i."""
+        """Execute instruction i."""
         self._position = position % (1 << 32)
 
     def start(self, t: int, count: int) -> None:
-        """Execute s or ROT."""
+        """Execute instruction s or ROT."""
         self.guard.started()
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
-        """Execute N=1 in IDLE."""
+        """Execute instruction N=1 in IDLE."""
         self.guard.started()
         self.speed_on = self.running = True
         self.motion.run(t)
 
     def speed(self, t: int, on: bool) -> None:
-        """Execute N while the speed mode is running or ending."""
+        """Execute instruction N while the speed mode is running or ending."""
         if self.running:
             self.speed_on = on
             self.motion.speed_mode(t, on)
@@ -168,7 +168,7 @@ class Executor:
         self._look(t)
 
     def wake(self, t: int, afresh: bool = False) -> None:
-        """Continue the program after edge t. afresh: it has been started."""
+        """Continue the program after edge t. afresh: True if the program has just been started."""
         if afresh:
             self._next_slot = 0
         self._run = t + 1
@@ -183,7 +183,7 @@ class Executor:
         self._look(t)
 
     def _look(self, t: int) -> None:
-        """Schedule the next begin."""
+        """Schedule the beginning of the next instruction."""
         if self._begin:
             self._begin.cancel()
             self._begin = None

@@ -203,7 +203,7 @@ class Engine:
 
     @property
     def state(self) -> int:
-        """Answer to V: 1 = a job is in progress, 2 = the last one has failed, otherwise 0."""
+        """Answer to instruction V: 1 = a job is in progress, 2 = the last one has failed, otherwise 0."""
         return 1 if self.busy else 2 * self.failed
 
     @property

@@ -113,7 +113,7 @@ class Guard:
     # ------------------------------------------------------------------ executor
 
     def clear(self, t: int, latch: str) -> None:
-        """Execute b, l or p; a latch that is set in the same cycle stays set (P006-STA-14)."""
+        """Execute instruction b, l or p; a latch that is set in the same cycle stays set (P006-STA-14)."""
         if self._set_at.get(latch) == t:
             return
         if latch == "stall":

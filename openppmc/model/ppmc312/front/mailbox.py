@@ -161,7 +161,7 @@ class Mailbox:
         return self._busy or not self._is_ready
 
     def _load(self, t: int) -> None:
-        """Choose the response; the host sees it when its bytes are loaded."""
+        """Select the response to load; the host can read it when its bytes are loaded."""
         self._loading = None
         picked = self._responses.pick()
         if picked is not None:

@@ -118,7 +118,7 @@ class Station:
     """Station on a line.
 
     Args:
-        bit: cycles of a bit, `None` for a silent station.
+        bit: bit time in cycles, `None` for a silent station.
         address: 0..15.
         mode: SUM_MODE.
         log: log of all frames and characters sent.

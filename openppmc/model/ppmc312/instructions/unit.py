@@ -244,7 +244,7 @@ class Unit:
         self.holding = False
         self._core.host.offer(t)
         if work.check:
-            # The levels of that edge are used.
+            # The check uses the levels of that edge.
             look = t + self._core.pace.limits
             self._core.context.queue.at(look, Phase.COMMAND, lambda now: self._check(now, job, work, due))
         else:

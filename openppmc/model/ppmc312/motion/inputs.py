@@ -62,7 +62,7 @@ class InputChange:
         self._next: Event | None = None
 
     def set_up(self, t: int, mask: int, auto: bool) -> None:
-        """Execute 28."""
+        """Execute instruction 28."""
         self._mask, self._auto, self._since = mask, auto, t
         self._former = self._context.levels["auxi"]
         if self._next:
@@ -114,7 +114,7 @@ class Outputs:
             event.cancel()
 
     def counter_clear(self, t: int) -> None:
-        """Execute 22: the pulse begins, or starts again if it is active."""
+        """Execute instruction 22: the pulse begins, or starts again if it is active."""
         self.cclr_n = 0
         self._after("cclr", t, CLEAR_PULSE, self._counter_cleared)
 
@@ -122,7 +122,7 @@ class Outputs:
         self.cclr_n = 1
 
     def alarm_clear(self, t: int) -> None:
-        """Execute 24."""
+        """Execute instruction 24."""
         self.aclr_n = 0
         self._after("aclr", t, CLEAR_PULSE, self._alarm_cleared)
 

@@ -26,7 +26,7 @@ class Order:
         target: rate that the start check compares with the high-speed limit.
         origin: it ends at the origin.
         turns: zero return, phase 1.
-        index: the origin needs index_n as well.
+        index: the origin also requires an index (index_n).
     """
 
     plan: Plan
@@ -131,7 +131,7 @@ class Motion:
             self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
 
     def slow_stop(self, t: int) -> None:
-        """Process 81 (P312-MOT-30)."""
+        """Process instruction 81 (P312-MOT-30)."""
         if self.active:
             sequence = self.sequence
             self._slow_from = t + 1
@@ -146,10 +146,10 @@ class Motion:
         self._rest_at(t + 1)
 
     def change(self, t: int, change: Change) -> None:
-        """Process 87 or 88."""
+        """Process instruction 87 or 88."""
         if self.active:
             sequence, lead = self.sequence, self._pace.ramp_lead if change.ramp else self._pace.change_lead
-            # The change that it replaces is removed before it counts itself.
+            # A change that is still pending is removed before the new change takes effect.
             self._flag(t + self._pace.drop_lead, lambda at: sequence.drop_change())
             self._changes.append((t, self._flag(t + lead, lambda at: sequence.change(change))))
             if change.ramp:
@@ -210,7 +210,7 @@ class Motion:
         self._context.queue.at(t, Phase.BEGIN, self.look_at_rest)
 
     def look_at_rest_soon(self, t: int) -> None:
-        """Schedule a check at edge t, because a condition of a stop at a position may be fulfilled."""
+        """Schedule a check at edge t, because a condition of a stop at a position may have become true."""
         if self._at_position and self._ended is not None:
             self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
 

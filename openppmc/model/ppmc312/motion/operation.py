@@ -132,7 +132,7 @@ class Operation:
     # ------------------------------------------------------------------ stops
 
     def stop(self, t: int, cause: Cause = Cause.STOP) -> None:
-        """Process 80, or the alarm of a multiple occurrence or of alm_n."""
+        """Process instruction 80, or the alarm of a multiple occurrence or of alm_n."""
         if cause is Cause.ALARM:
             self._alarm_at = t
         if self._held:
@@ -144,11 +144,11 @@ class Operation:
             self.motion.stop(t, cause)
 
     def slow_stop(self, t: int) -> None:
-        """Process 81."""
+        """Process instruction 81."""
         self.motion.slow_stop(t)
 
     def change(self, t: int, change: Change) -> None:
-        """Process 87 or 88."""
+        """Process instruction 87 or 88."""
         self.motion.change(t, change)
 
     # ------------------------------------------------------------------ end

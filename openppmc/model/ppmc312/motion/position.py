@@ -87,7 +87,7 @@ class Monitor:
         return block(SPONTANEOUS, self._code, self._shown)
 
     def set_up(self, t: int, flags: int, distance: int) -> None:
-        """Execute 02 or 03 with legal parameters."""
+        """Execute instruction 02 or 03 with legal parameters."""
         self._responses.withdraw(self.kind)
         self.enabled, self.auto, self.clamps = bool(flags & 1), bool(flags & 2), bool(flags & 4)
         self.range, self.far, self._told, self._kept = distance, False, False, False
@@ -147,7 +147,7 @@ class Watch:
         self._awake = False
 
     def set_up(self, t: int, monitor: Monitor, flags: int, distance: int) -> None:
-        """Execute 02 or 03."""
+        """Execute instruction 02 or 03."""
         monitor.set_up(t, flags, distance)
         if monitor is self.in_position:
             self._quiet = -1

@@ -93,7 +93,7 @@ class Sequence:
         self._held = True
 
     def change(self, change: Change) -> None:
-        """Process 87 or 88 for the next boundary; it replaces a waiting one."""
+        """Process instruction 87 or 88 for the next boundary; it replaces a waiting one."""
         self._change = change
         self._held = change.ramp
 
@@ -122,7 +122,7 @@ class Sequence:
             wanted = self._requests
             self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
         else:
-            wanted = set()  # the deceleration waits until its first stage is known
+            wanted = set()  # the first stage of the deceleration is not known yet, so the deceleration waits
         if wanted and self._mode is not _Mode.WALK:
             end = self._decelerate(next(cause for cause in _ORDER if cause in wanted))
             if end is not None:
@@ -132,7 +132,7 @@ class Sequence:
         plan = self.plan
         if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.WALK:
             if self._held:
-                # It could only accelerate the rest.
+                # The change could only accelerate the remaining pulses, so it is discarded.
                 self.drop_change()
                 self.drops = self._changed = True
             if self._changed:
