@@ -99,8 +99,9 @@ def verilate(
 ) -> None:
     """Build `folder`/`top`; write all output of the tools to `log`. Raises subprocess.CalledProcessError.
 
-    args: arguments of Verilator. Sources and folders among them are absolute paths, which may contain any
-    character.
+    Args:
+        args: arguments of Verilator. Sources and folders among them are absolute paths, which may contain any
+            character.
     """
     # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
     # `-rdynamic`: `Native` looks up the functions of our main program by name.
@@ -132,12 +133,16 @@ VERILATOR_ARGS += ["--output-split", "0"]
 class Design:
     """Sources of one simulated design; paths are relative to the project root or absolute.
 
-    `args` are further arguments of Verilator, appended last so that they take precedence. `ports`: all
-    signals that a test may access ("*": every signal of the top). Verilator can then optimise the inner
-    signals, which doubles the speed. Without `ports`, and in runs with waves, every signal is visible.
-    `inside`: paths of inner signals that are visible in addition to the ports, together with all other
-    signals of the same name. `libraries`: archives to link, each with the digest of its content in its path.
-    `main`: the main program (see `verilate`).
+    `args` are further arguments of Verilator, appended last so that they take precedence.
+
+    Attributes:
+        ports: all signals that a test may access ("*": every signal of the top). Verilator can then optimise
+            the inner signals, which doubles the speed. Without `ports`, and in runs with waves, every signal
+            is visible.
+        inside: paths of inner signals that are visible in addition to the ports, together with all other
+            signals of the same name.
+        libraries: archives to link, each with the digest of its content in its path.
+        main: the main program (see `verilate`).
     """
 
     top: str

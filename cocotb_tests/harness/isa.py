@@ -25,8 +25,12 @@ STROBES_ISA = BusStyle(
 class Times:
     """An 8-bit I/O access in ns: the shortest at a bus clock of 8.33 MHz, with the usual wait states.
 
-    `setup`: address before the command; `command`: IOR or IOW low; `late`: write data after the fall of IOW;
-    `hold`: address and write data after its rise; `gap`: to the next access.
+    Attributes:
+        setup: address before the command.
+        command: IOR or IOW low.
+        late: write data after the fall of IOW.
+        hold: address and write data after its rise.
+        gap: to the next access.
     """
 
     setup: int = 91

@@ -134,8 +134,10 @@ class SerialLine(LineTimes):
     ) -> None:
         """Send one character.
 
-        stop: level of its stop bit. spikes: (place in bits, cycles) where the line has the wrong level. bits:
-        number of its bits that are sent before the line becomes idle.
+        Args:
+            stop: level of its stop bit.
+            spikes: (place in bits, cycles) where the line has the wrong level.
+            bits: number of its bits that are sent before the line becomes idle.
         """
         await self._drive(self._character(byte, stop, spikes, bits))
 
@@ -146,7 +148,11 @@ class SerialLine(LineTimes):
                 self.side.set(rxd=level)
 
     async def send(self, line: Iterable[int], gap: float = 0) -> None:
-        """Send characters without errors; gap: idle time after each of them in bits."""
+        """Send characters without errors.
+
+        Args:
+            gap: idle time after each of them in bits.
+        """
         for byte in line:
             await self.character(byte)
             self._rest(gap)
@@ -166,9 +172,11 @@ def characters(
 ) -> bytes:
     """Return the bytes that a transmitter sends without a gap, the first start bit beginning at `start`.
 
-    edges: changes (t, level) of the line since then; the line is high before. AssertionError if a change
-    occurs more than `within` cycles after its place, or before it (more than `within` cycles, if that is not
-    0), or if a start or stop bit is missing.
+    AssertionError if a change occurs more than `within` cycles after its place, or before it (more than
+    `within` cycles, if that is not 0), or if a start or stop bit is missing.
+
+    Args:
+        edges: changes (t, level) of the line since then; the line is high before.
     """
     for t, _ in edges:
         number = round((t - start) / bit)

@@ -18,8 +18,9 @@ from .side import Handle, PinChange, Side
 class MovingPins:
     """Schedules pin changes on a side; a change in the past is made immediately.
 
-    kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd. clock: the
-    external clock.
+    Args:
+        kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd.
+        clock: the external clock.
     """
 
     def __init__(self, side: Side, kept: Sequence[str] = (), clock: str = "extck") -> None:
@@ -70,8 +71,10 @@ UNCOMPARED = "levels change between two edges of clk, and either edge may sample
 class Noise:
     """Drives random levels; each call of `make` continues where the previous one ended.
 
-    strobes: active-low bus pins, each repeated according to its frequency. codes: bytes that are drawn often.
-    still: pins that keep their level. All other pins are drawn as switches.
+    Args:
+        strobes: active-low bus pins, each repeated according to its frequency.
+        codes: bytes that are drawn often.
+        still: pins that keep their level. All other pins are drawn as switches.
     """
 
     def __init__(
@@ -134,7 +137,9 @@ def weighted(rng: random.Random, table: Iterable[tuple[T, float]]) -> T:
 class Builds:
     """The build on which the host of a seed plays, where the build does not influence what the host does.
 
-    name: name of the device in the text of its seeds, such as "p312". weights: (build, weight).
+    Args:
+        name: name of the device in the text of its seeds, such as "p312".
+        weights: (build, weight).
     """
 
     def __init__(self, name: str, weights: Weights) -> None:
@@ -193,8 +198,11 @@ class HostWriter(RandomHost, ABC):
     Attributes: rng, config, scale (clk cycles per XTAL cycle), externals (clock pins in use), limit_clk,
     actions (so far).
 
-    name: first word of the seed text. weights: FAST builds; datasheet: DATASHEET builds, for one host in ten.
-    external: probability that a clock pin is used, one number per pin.
+    Args:
+        name: first word of the seed text.
+        weights: FAST builds.
+        datasheet: DATASHEET builds, for one host in ten.
+        external: probability that a clock pin is used, one number per pin.
     """
 
     def __init__(

@@ -274,8 +274,12 @@ class Summary:
 class SimOptions:
     """Options of the user on the command line; seed None = the fixed default of each test.
 
-    waves: keep a VCD of each test, also of passing ones. inside: every signal is visible. group: the items
-    that share a simulator process, in order. `done` holds the outcomes of the groups that have run.
+    `done` holds the outcomes of the groups that have run.
+
+    Attributes:
+        waves: keep a VCD of each test, also of passing ones.
+        inside: True if every signal is visible.
+        group: the items that share a simulator process, in order.
     """
 
     seed: int | None = None

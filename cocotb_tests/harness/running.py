@@ -43,7 +43,11 @@ Judge = Callable[[Any], Any]
 class Running:
     """One running test: its present side, if any, and the function that compares it (None: no comparison).
 
-    `differs`: a comparison has failed. `seed`: seed of its sides, if it is not that of the run.
+    Args:
+        seed: seed of its sides, if it is not that of the run.
+
+    Attributes:
+        differs: True if a comparison has failed.
     """
 
     def __init__(self, judge: Judge | None, seed: int | None = None) -> None:
@@ -125,8 +129,11 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
 def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
     """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in these builds.
 
-    `uncompared`: the reason why the outputs are not compared with the golden model; the run lists such tests.
     Raises ValueError for an invalid rule ID.
+
+    Args:
+        uncompared: the reason why the outputs are not compared with the golden model; the run lists such
+            tests.
     """
 
     def mark(test: Any) -> Any:
@@ -167,8 +174,9 @@ RandomTest = Callable[[Any, int], Awaitable[None]]
 def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[RandomTest], Any]:
     """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one side.
 
-    least: minimum number of output edges that a seed must make; all are compared. uncompared: the reason why
-    they are not compared.
+    Args:
+        least: minimum number of output edges that a seed must make; all are compared.
+        uncompared: the reason why they are not compared.
     """
 
     def mark(test: RandomTest) -> Any:

@@ -29,7 +29,11 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Act:
-    """One act. `what` describes it without the time. access: its entry in the host's log, if it has one."""
+    """One act. `what` describes it without the time.
+
+    Attributes:
+        access: its entry in the host's log, if it has one.
+    """
 
     what: str
     steps: tuple[Step, ...]
@@ -314,8 +318,10 @@ class _EnoughError(Exception):
 class Shrinker:
     """Shrinks a list: `acts` is the shortest list so far, `trials` the number of lists tried.
 
-    trials_at_most, seconds (CPU time of this process): limits. kept: called with each list that is shorter
-    than those before it.
+    trials_at_most, seconds (CPU time of this process): limits.
+
+    Attributes:
+        kept: called with each list that is shorter than those before it.
     """
 
     acts: list[Act]

@@ -12,7 +12,12 @@ from .frames import signed
 
 
 class View(ABC):
-    """Read access of `Host`. `t`: its next free edge; `mark`: steps are counted from here."""
+    """Read access of `Host`.
+
+    Attributes:
+        t: its next free edge.
+        mark: steps are counted from here.
+    """
 
     side: Side
     clk_hz: int

@@ -25,7 +25,11 @@ Instruction = tuple[int, list[int]]
 
 
 class Codes:
-    """Generator of instructions. `external`: whether each axis has a running external clock."""
+    """Generator of instructions.
+
+    Args:
+        external: whether each axis has a running external clock.
+    """
 
     def __init__(self, rng: random.Random, datasheet: bool, external: tuple[bool, bool]) -> None:
         self.rng = rng

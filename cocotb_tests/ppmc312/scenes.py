@@ -26,7 +26,11 @@ POLL = 60
 
 
 class Scenes(Player):
-    """Host that plays scenes; `follows`: probability that the encoder follows a pulse (0: no encoder)."""
+    """Host that plays scenes.
+
+    Attributes:
+        follows: probability that the encoder follows a pulse (0: no encoder).
+    """
 
     follows = 0.0
 
@@ -131,7 +135,11 @@ class Scenes(Player):
         return max(1, near + rng.choice((0, 0, -1, 1, 2, 5)))
 
     def finite_block(self, more: int = 0) -> bytes:
-        """Return an 82 or 83 with a plausible end; more: pulses after it."""
+        """Return an 82 or 83 with a plausible end.
+
+        Args:
+            more: pulses after it.
+        """
         rng = self.rng
         code, rate = rng.choice((0x82, 0x82, 0x82, 0x83)), self.speed()
         rate = 0 if code == 0x82 and rng.random() < 0.3 else rate

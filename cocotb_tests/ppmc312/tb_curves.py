@@ -34,7 +34,11 @@ async def p312_a_combined_curve_may_be_announced_with_four_bytes(dut: Any) -> No
 
 
 def curve(rates: list[int], up: list[int], down: list[int] | None, step: tuple[int, int]) -> list[str]:
-    """Return the blocks of a transfer; step: the largest number of rates and of pulse numbers in a block."""
+    """Return the blocks of a transfer.
+
+    Args:
+        step: the largest number of rates and of pulse numbers in a block.
+    """
     blocks = [
         bytes([2, 3 + (down is not None), 1, 0x11 if down else 1, len(up), *([len(down)] if down else [])])
     ]

@@ -125,11 +125,11 @@ class Axis(Checked):
             ramp_pulses: pulses from the start speed to the high speed.
             phases: 3, 4 or 5.
             half_step: half steps instead of full steps.
-            positive_logic: a high level switches a coil on (the default, where the part has both).
+            positive_logic: True if a high level switches a coil on (the default, where the part has both).
             chop: chop the coil currents while the motor is stopped.
             base_clock: one of the base clocks of the part in Hz, `None` to choose it by start_pps.
             external_clock: frequency at the clock pin of the part in Hz.
-            long_intervals: vsel low, which makes each interval 7.5 us longer.
+            long_intervals: set vsel low, which makes each interval 7.5 us longer.
 
         Raises:
             OutOfRange: an argument is out of range, or the part does not support it.
@@ -434,7 +434,11 @@ class Axis(Checked):
         return self.started(order, answer.number(2, signed=True))
 
     def started(self, order: Order, begin: int) -> Motion:
-        """Store the motion that the part has started. begin: pulse counter before it."""
+        """Store the motion that the part has started.
+
+        Args:
+            begin: pulse counter before the motion.
+        """
         self._motion = Motion(self, order, begin)
         return self._motion
 

@@ -194,7 +194,7 @@ class Master(Generic[Answer]):
     Attributes:
         port: open port.
         baud: line rate in bit/s.
-        echo: the master receives its own bytes.
+        echo: True if the master receives its own bytes.
         patience: seconds beyond line time until a station counts as silent, at most 60.
         counters: counters of each station, by its number.
     """

@@ -33,7 +33,8 @@ _LAG = 0.25
 class Pacer:
     """Coupling of virtual time to wall time.
 
-    speed: virtual seconds per second, `None` for as fast as possible.
+    Args:
+        speed: virtual seconds per second, `None` for as fast as possible.
     """
 
     def __init__(self, speed: float | None) -> None:

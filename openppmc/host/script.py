@@ -329,7 +329,7 @@ class Build:
 
     Attributes:
         version: for example "0.3.1".
-        changed: the sources differed from the commit.
+        changed: True if the sources differed from the commit.
         source, commit: hexadecimal, "" if unknown.
         board: 4 letters, or "".
     """

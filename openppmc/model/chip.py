@@ -48,7 +48,8 @@ class Phase(IntEnum):
 class Context:
     """Set-up and services of every block.
 
-    levels: synchronised input levels that decisions use; on a part with several axes those of one axis.
+    Attributes:
+        levels: synchronised input levels that decisions use; on a part with several axes those of one axis.
     """
 
     timebase: Timebase

@@ -230,7 +230,10 @@ class CommandUnit(ByteUnit):
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
         """Execute an action now, or with DATASHEET timing after a time (P104-DS-11).
 
-        The mailbox is closed during this time. cycles: the time in crystal cycles.
+        The mailbox is closed during this time.
+
+        Args:
+            cycles: time before the action in crystal cycles.
         """
         if not self._context.datasheet:
             action(t)

@@ -42,7 +42,9 @@ def families(of: PartTests) -> list[str]:
 class GateTest:
     """One simulation of one netlist. `item` is tagged with the family; `group` is its row in the table.
 
-    params: of the part's top. inside: as in `PartTests`.
+    Attributes:
+        params: of the part's top.
+        inside: as in `PartTests`.
     """
 
     family: str

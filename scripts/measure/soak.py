@@ -54,7 +54,11 @@ def names() -> list[str]:
 
 
 def some(what: tuple[str, int, int]) -> Result:
-    """Run a block of seeds. what: part, first seed, number of seeds."""
+    """Run a block of seeds.
+
+    Args:
+        what: part, first seed, number of seeds.
+    """
     part, first, count = what
     played = hosts(part).some(range(first, first + count))
     return Result(not played.failures, {"failures": played.failures, "compared": dict(played.compared)})

@@ -16,10 +16,15 @@ _HEADING = re.compile(r"^## \[([^\]\n]+)\].*$", re.M)
 
 @dataclass
 class Release:
-    """A release. version: without v; commit: in hex; epoch: its time in s, used for every file.
+    """A release.
 
-    missing: one sentence for each missing part, for the notes. only: names of the built bitstreams; empty:
-    all. trial: must not be published; the version ends in +trial.
+    Attributes:
+        version: without v.
+        commit: in hex.
+        epoch: its time in s, used for every file.
+        missing: one sentence for each missing part, for the notes.
+        only: names of the built bitstreams; empty: all.
+        trial: True if the release must not be published; its version ends in +trial.
     """
 
     version: str
@@ -72,7 +77,11 @@ def section(changelog: str, version: str, trial: bool = False) -> str:
 
 
 def check_tag(version: str, commit: str, tagged: str) -> None:
-    """Raise ProjectError if the tag of this version is on another commit. tagged: that commit, or ""."""
+    """Raise ProjectError if the tag of this version is on another commit.
+
+    Args:
+        tagged: that commit, or "".
+    """
     if tagged and tagged != commit:
         raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")
 

@@ -37,7 +37,11 @@ _KINDS = {
 
 
 class Module:
-    """One part after power-up. `call`: name -> function (site/core/core.cpp)."""
+    """One part after power-up.
+
+    Attributes:
+        call: name -> function (site/core/core.cpp).
+    """
 
     def __init__(self, part: WebPart, path: Path) -> None:
         pins = part.part

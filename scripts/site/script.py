@@ -54,7 +54,11 @@ class Pauses:
 
 
 class Player:
-    """Interpreter of a session's text. got: bytes that were read, in order."""
+    """Interpreter of a session's text.
+
+    Attributes:
+        got: bytes that were read, in order.
+    """
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         self.part = part

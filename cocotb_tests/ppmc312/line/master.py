@@ -118,7 +118,13 @@ def understood(data: bytes, mode: str = "BINARY") -> Reply:
 
 
 class Master:
-    """Master of the line. bit: cycles of one bit. `said` and `heard` record what was on the line."""
+    """Master of the line.
+
+    `said` and `heard` record what was on the line.
+
+    Args:
+        bit: cycles of one bit.
+    """
 
     def __init__(self, port: Port, bit: float = BIT, mode: str = "BINARY") -> None:
         self.port, self.bit, self.mode = port, bit, mode

@@ -46,8 +46,9 @@ WINDOW = 256
 class Difference:
     """Edge that only the chip or only the model has, or that occurs too late or too early.
 
-    t: ps of the capture. steady: not an edge but a stable level of the chip, which the model does not have
-    there.
+    Attributes:
+        t: ps of the capture.
+        steady: True if this is not an edge, but a stable level of the chip that the model does not have there.
     """
 
     pin: str
@@ -135,7 +136,11 @@ class Result:
         return self.total / max(1, self.compared)
 
     def add_pairs(self, pin: str, apart: Column) -> None:
-        """Count pairs. apart: distance of each pair in ps."""
+        """Count pairs.
+
+        Args:
+            apart: distance of each pair in ps.
+        """
         self.compared += len(apart)
         self.total += int(apart.sum())
         if (worst := int(apart.max(initial=0))) > self.worst:
@@ -213,7 +218,11 @@ class _Played:
 
 
 def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
-    """Drive a new model with the inputs. ratio: time of the model divided by time of the capture."""
+    """Drive a new model with the inputs.
+
+    Args:
+        ratio: time of the model divided by time of the capture.
+    """
     kind, wires = decoded.kind, decoded.wires
     straps = kind.straps(wires)
     clk_hz = _clk_hz(decoded)
@@ -358,8 +367,10 @@ def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
 def learned(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    It is measured in the lengths of moves of both in ps, and is 1 if they do not define it. slack: possible
-    error of a length in ps.
+    It is measured in the lengths of moves of both in ps, and is 1 if they do not define it.
+
+    Args:
+        slack: possible error of a length in ps.
     """
     if not alike:
         return 1.0
@@ -455,8 +466,9 @@ def match_edges(
 ) -> None:
     """Add pairs of edges, and edges without a partner.
 
-    known: both sides have the same first level; otherwise edges count from the first time at which they
-    agree.
+    Args:
+        known: True if both sides have the same first level; otherwise edges count from the first time at
+            which they agree.
     """
     np = numpy()
     mine, levels = chip.since(start)
@@ -495,7 +507,8 @@ def _unlike(
 
     It returns the number of matched edges of each side.
 
-    more: whether a side has further edges.
+    Args:
+        more: whether a side has further edges.
     """
     mine, levels, other, theirs = sides
     pairs: list[int] = []

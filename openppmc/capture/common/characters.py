@@ -16,9 +16,12 @@ GAP = 2.0
 
 
 class Character(NamedTuple):
-    """Character. begin: ps of the start bit.
+    """Character.
 
-    end: ps of the stop bit. byte: `None` without a stop bit.
+    Attributes:
+        begin: ps of the start bit.
+        end: ps of the stop bit.
+        byte: value of the character, `None` without a stop bit.
     """
 
     begin: int

@@ -28,7 +28,7 @@ class Layout(NamedTuple):
 
     Attributes:
         first: number of the line of its first row.
-        counted: times are sample numbers.
+        counted: True if times are sample numbers.
         unit: unit of the times in ps, `None` if the header states no unit.
     """
 
@@ -121,7 +121,11 @@ class _Block:
 
 
 class _Numbers(NamedTuple):
-    """Number value / 10**decimals; valid: the cell is a plain number."""
+    """Number value / 10**decimals.
+
+    Attributes:
+        valid: the cell is a plain number.
+    """
 
     value: Column
     decimals: Column
@@ -136,8 +140,8 @@ class Rows:
             numbers of the rows.
         levels: 0, 1, 2 (unknown).
         count: rows so far.
-        whole: no time has decimals.
-        absolute: the times have a unit or a date.
+        whole: True if no time has decimals.
+        absolute: True if the times have a unit or a date.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -244,7 +248,11 @@ class Rows:
         )
 
     def _row(self, text: str, line: int, cut: bool) -> tuple[list[int], Fraction]:
-        """Read a single line. cut: it has no line feed."""
+        """Read a single line.
+
+        Args:
+            cut: True if it has no line feed.
+        """
         timed, separator = self.layout.timed, self.layout.separator
         cells = cells_of(text, separator) if '"' in text else text.split(separator)
         if len(cells) == self.layout.channels + timed + 1 and not cells[-1].strip():
@@ -277,7 +285,11 @@ class Rows:
             raise self.fail(line, "times with and without a unit: write all of them alike")
 
     def _times(self, block: _Block, kept: Column, exact: dict[int, Fraction]) -> Column:
-        """Return the times of these lines. exact: known times."""
+        """Return the times of these lines.
+
+        Args:
+            exact: times that are already known.
+        """
         np = self.np
         plain = kept[~block.odd[kept]]
         value, decimals, valid = self._numbers(block, block.starts[plain], block.ends[plain])

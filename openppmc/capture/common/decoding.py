@@ -79,8 +79,10 @@ def decoder(part: str) -> DecodeKind:
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
     """Return "; it has the pins of …" if the capture lacks a required pin and matches other parts.
 
-    It matches a part if the channels have the names of its pins. without: the requested part. In other cases
-    the text is empty.
+    It matches a part if the channels have the names of its pins. In other cases the text is empty.
+
+    Args:
+        without: the requested part, which is not named.
     """
     if chosen.pins is not None or _has_pins(capture, chosen, without):
         return ""

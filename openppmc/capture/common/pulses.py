@@ -67,7 +67,8 @@ def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
 def moves(trains: list[Train], pause: int) -> list[Move]:
     """Return the moves in the order of their beginnings.
 
-    pause: shortest time between two moves in ps.
+    Args:
+        pause: shortest time between two moves in ps.
     """
     found = [_move(train.axis, *run) for train in trains for run in runs(train, pause)]
     return sorted(found, key=lambda move: move.begin)
@@ -100,7 +101,8 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
 
     The result is `None` if that pin was not captured.
 
-    way: pin of the direction, 1 = CCW.
+    Args:
+        way: pin of the direction, 1 = CCW.
     """
     pulses = wires.bits.get(port, {}).get(bit)
     if pulses is None:

@@ -71,7 +71,11 @@ class _Variable:
         self.times, self.levels, self.unknown = array("q"), array(code), array(code)
 
     def add(self, times: Any, levels: Any, unknown: Any) -> None:
-        """Add changes. unknown: `None` if all levels are known."""
+        """Add changes.
+
+        Args:
+            unknown: `None` if all levels are known.
+        """
         if unknown is not None:
             missing = len(self.levels) - len(self.unknown)
             self.unknown.frombytes(bytes(missing * self.unknown.itemsize))

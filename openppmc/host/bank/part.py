@@ -97,7 +97,8 @@ class PpmcBank(Part):
     def look(self, axes: Iterable[int] | None = None) -> dict[int, Look]:
         """Return status, position and switches of axes by number; allowed at any time.
 
-        axes: numbers of the axes, None for all.
+        Args:
+            axes: numbers of the axes, None for all.
         """
         numbers = tuple(self.axis) if axes is None else numbers_of(self.kind, axes)
         script = Script().read(STATUS).read_number(POSITION, POSITION_BYTES).pins()

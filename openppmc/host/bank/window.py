@@ -20,7 +20,11 @@ Piece = tuple[int, Script]
 
 
 class AxisLink:
-    """Link for the driver of one axis; see `link.Link`. number: number of the axis, from 1."""
+    """Link for the driver of one axis; see `link.Link`.
+
+    Args:
+        number: number of the axis, from 1.
+    """
 
     def __init__(self, link: Link, number: int) -> None:
         self._link = link

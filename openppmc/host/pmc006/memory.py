@@ -57,7 +57,11 @@ class Memory(Axis):
         return Program(tuple(self._read_words(range(WORDS), progress, WORDS).values()))
 
     def _read_words(self, places: Collection[int], progress: OnCount | None, total: int) -> dict[int, int]:
-        """Read words of the buffer. total: number of words of the whole operation, for `progress`."""
+        """Read words of the buffer.
+
+        Args:
+            total: number of words of the whole operation, for `progress`.
+        """
         words: dict[int, int] = {}
         self._here = None
         for place in places:

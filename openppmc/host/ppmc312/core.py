@@ -115,7 +115,11 @@ class Core(Checked, Generic[MotionT]):
         return response.data
 
     def _plain(self, code: int, gives: int = 0) -> bytes:
-        """Execute an instruction without parameters. gives: number of parameters of its response."""
+        """Execute an instruction without parameters.
+
+        Args:
+            gives: number of parameters of its response.
+        """
         return self.instruct(blocks.block(code), 3 + gives)
 
     # ------------------------------------------------------------------ reports
@@ -389,7 +393,7 @@ class Settings(Core[MotionT]):
             distance: report when pulses and encoder differ by more than this, 1 to 65 535, and when they
                 agree again; `None`: monitor off.
             auto: send more than one report.
-            clamp: ZCLMP is active while they agree.
+            clamp: True if ZCLMP is active while they agree.
         """
         self.instruct(blocks.in_position(distance is not None, distance or 0, auto, clamp))
 

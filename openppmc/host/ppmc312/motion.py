@@ -88,7 +88,8 @@ class Motion(Handle):
     def accepted(self, status: int | None) -> None:
         """Process the response to the start.
 
-        status: its status byte, `None` if the response contains none.
+        Args:
+            status: its status byte, `None` if the response contains none.
         """
         if status is not None:
             self.held, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
@@ -190,7 +191,11 @@ class Searching(homing.Searching, Protocol):
 
 
 class Homing(homing.Homing):
-    """Homing run; see `Axis.home`. index: searches end at an index of the encoder."""
+    """Homing run; see `Axis.home`.
+
+    Args:
+        index: True if searches end at an index of the encoder.
+    """
 
     def __init__(
         self,

@@ -54,7 +54,11 @@ class Overrides(Settings[MotionT]):
         self._register(blocks.change(self.rate_of(pps), ramped, _trigger(at, event), at))
 
     def override_move(self, pulses: int, event: int, pps: speeds.Number | None = None) -> None:
-        """Register a move on an event. pps: constant speed, `None` for a move with ramps."""
+        """Register a move on an event.
+
+        Args:
+            pps: constant speed, `None` for a move with ramps.
+        """
         self._register(self.move_block(pulses, pps, _trigger(None, event)))
 
     def override_run(self, direction: int, event: int, pps: speeds.Number | None = None) -> None:
@@ -223,7 +227,7 @@ class Axis(Overrides[MotionT]):
             fast: first make a zero return at high speed.
             to_limit: first run to the slow-down limit at high speed, and continue to the hard limit.
             back_off: pulses of each move away from the switch if it is active at the start of the search.
-            index: the origin is the first index of the encoder on the switch.
+            index: True if the origin is the first index of the encoder on the switch.
 
         Raises:
             OriginNotFound, LimitReached, AlarmStop, StoppedEarly: homing did not succeed.

@@ -121,7 +121,11 @@ _EXTERNAL = 0x10
 
 
 class Builder:
-    """Builder of ramp tables. free_from: first edge at which it accepts a new table."""
+    """Builder of ramp tables.
+
+    Attributes:
+        free_from: first edge at which it accepts a new table.
+    """
 
     def __init__(self) -> None:
         self.free_from = 0
@@ -130,8 +134,9 @@ class Builder:
 class CommandUnit(ppmc104.CommandUnit):
     """Commands of axis `axis`.
 
-    completed: visit that completed the last initialisation, or -1. initialised: an initialisation is complete
-    and active.
+    Attributes:
+        completed: visit that completed the last initialisation, or -1.
+        initialised: True if an initialisation is complete and active.
     """
 
     while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)

@@ -53,7 +53,11 @@ class Member(Protocol):
 
 
 class Group:
-    """Group registers of a bank. mask: MASK as it reads, bit i = axis i."""
+    """Group registers of a bank.
+
+    Attributes:
+        mask: MASK as it reads, bit i = axis i.
+    """
 
     def __init__(self, queue: Scheduler, axes: int, round_clk: int) -> None:
         self._queue = queue

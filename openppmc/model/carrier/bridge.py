@@ -126,7 +126,7 @@ class Bridge:
         xtal_hz, datasheet, counter: values in IDENT only.
         axes: number of pulse counters, 1 or 2.
         build: answer to VERSION, 16 bytes.
-        recorder: the bus has a recorder.
+        recorder: True if the bus has a recorder.
 
     rate: code of the current line rate. scripts: number of executed requests.
     """
@@ -206,7 +206,8 @@ class Bridge:
     def _serve(self, request: Request, meanwhile: bool) -> bytes:
         """Execute a request, or repeat its answer.
 
-        meanwhile: bytes arrive before the answer is sent (UB-FRM-07).
+        Args:
+            meanwhile: True if bytes arrive before the answer is sent (UB-FRM-07).
         """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:

@@ -66,7 +66,7 @@ class Engine:
     Args:
         set_events: called by op EVENTS; the owner of the engine handles pending events.
         build: answer to VERSION.
-        recorder: the bus has a recorder.
+        recorder: True if the bus has a recorder.
 
     events: state of the EVENTS switch. rate: rate code requested by op RATE, or `None`.
     """

@@ -31,7 +31,7 @@ class Eeprom24C32:
         device: 7-bit address.
         write_us: time of a write cycle, 0 or more.
         stretch_us: time that SCL is held low after each acknowledge.
-        missing: no device is connected.
+        missing: True if no device is connected.
 
     Raises:
         ValueError: the content is too long.

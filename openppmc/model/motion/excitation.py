@@ -53,7 +53,8 @@ def step_directions() -> dict[tuple[int, int], int]:
 class Excitation:
     """Index and output levels of the phase pins.
 
-    idle: level of all five pins until the first initialisation (P104-PHS-02).
+    Args:
+        idle: level of all five pins until the first initialisation (P104-PHS-02).
     """
 
     def __init__(self, idle: int = 1) -> None:
@@ -116,7 +117,8 @@ class Chopper:
 
     Phases are counted in ticks of the quantum counter.
 
-    due: edge at which the next phase begins, `None` while the chopper does not run.
+    Attributes:
+        due: edge at which the next phase begins, `None` while the chopper does not run.
     """
 
     def __init__(self, context: Context, times: Switching) -> None:

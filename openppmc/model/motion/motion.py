@@ -47,7 +47,9 @@ class Setup(NamedTuple):
 class Interval:
     """Interval `number` (from pulse `number` on).
 
-    index: ramp index, `None` at constant speed. quanta: length, `None` with the external clock.
+    Attributes:
+        index: ramp index, `None` at constant speed.
+        quanta: length of the interval in quanta, `None` with the external clock.
     """
 
     number: int
@@ -99,7 +101,7 @@ class Motion:
         Args:
             data: its bytes, rate before count.
             csel: level of the pin.
-            plain: no extra time in an interval.
+            plain: True if an interval has no extra time.
         """
         self.operation = command.operation
         self._command = command

@@ -86,7 +86,9 @@ class Eeprom(Protocol):
 class Desk(Protocol):
     """Everything that instructions read and change.
 
-    echo: STEP_ACK is "ECHO". version: FW_VERSION.
+    Attributes:
+        echo: True if STEP_ACK is "ECHO".
+        version: value of FW_VERSION.
     """
 
     shared: Shared
@@ -151,10 +153,10 @@ class Effect(NamedTuple):
     Attributes:
         reply: data of the answer; a function is called one cycle later.
         put: registers.
-        halt: stop immediately.
+        halt: True if the motor stops immediately.
         do: function for any other effect, called with the desk and the edge.
         early: the same, before the motion is processed at that edge.
-        still: no step may be counted in that cycle.
+        still: True if no step may be counted in that cycle.
         once: instruction of the program that E executes.
     """
 
@@ -179,7 +181,8 @@ class Instruction:
 class Setting(Instruction):
     """Instruction that writes a register if the data is legal. Its answer is the value of the register.
 
-    also: other registers that it writes, with their values.
+    Attributes:
+        also: other registers that it writes, with their values.
     """
 
     name: str

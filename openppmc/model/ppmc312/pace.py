@@ -138,8 +138,8 @@ class Pace:
         begin with a full stage. A triangular profile needs a multiplication and a division.
 
         Args:
-            single: single step, which needs no look-up.
-            ramped: the operation has a plan with ramps.
+            single: True for a single step, which needs no look-up.
+            ramped: True if the operation has a plan with ramps.
         """
         if single:
             return 3

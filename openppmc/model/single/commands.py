@@ -213,7 +213,8 @@ class ByteUnit(ABC):
     def _set_up(self, t: int, code: int, ramp: Ramp, reference: int, ds_build: int) -> None:
         """Store a checked initialisation and begin the table build (P104-INI-05, STMC-INI-04..07).
 
-        ds_build: crystal cycles of the build with DATASHEET timing, from `reference` on.
+        Args:
+            ds_build: crystal cycles of the build with DATASHEET timing, from `reference` on.
         """
         context = self._context
         if self.setup is None:

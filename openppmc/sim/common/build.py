@@ -120,9 +120,13 @@ def find_root() -> Path:
 class Program:
     """Sources of a virtual board.
 
-    part: the part on the carrier. top: top module. rtl: its sources in compile order. folders: folders of the
-    C++ code below tb/, the one with `main.cpp` first; all their headers belong to the program. cpp: patterns
-    of the C++ sources to compile.
+    Attributes:
+        part: the part on the carrier.
+        top: top module.
+        rtl: its sources in compile order.
+        folders: folders of the C++ code below tb/, the one with `main.cpp` first; all their headers belong to
+            the program.
+        cpp: patterns of the C++ sources to compile.
     """
 
     part: str
@@ -150,8 +154,10 @@ def board_program(root: Path, part: str) -> Program:
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
     """Return the program for stations on a line.
 
-    Its top is tb/<part>/line/line_node.sv, which contains the carrier. more: additional sources, relative to
-    tb/.
+    Its top is tb/<part>/line/line_node.sv, which contains the carrier.
+
+    Args:
+        more: additional sources, relative to tb/.
     """
     own = parts.part(part).folder
     rtl = _rtl(root, f"{parts.part(part).rtl}_carrier")
@@ -170,9 +176,12 @@ def build(
 ) -> Path:
     """Return the program that `make` describes for a checkout; build it if necessary.
 
-    params: parameters of the top module, including CLK_HZ. trace: with waveforms, which makes the program
-    slower. say: prints a line when the build takes long. Several processes may call this at the same time.
-    Raises SimError.
+    Several processes may call this at the same time. Raises SimError.
+
+    Args:
+        params: parameters of the top module, including CLK_HZ.
+        trace: with waveforms, which makes the program slower.
+        say: prints a line when the build takes long.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux (pseudo-terminals); use model: instead")

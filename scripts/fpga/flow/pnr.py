@@ -16,7 +16,13 @@ CLOCK = "clk"
 
 @dataclass(frozen=True)
 class Device:
-    """One FPGA. `ask_mhz`: clock constraint of nextpnr; `goal_mhz`: required clock; `pins`: I/O pins."""
+    """One FPGA.
+
+    Attributes:
+        ask_mhz: clock constraint of nextpnr.
+        goal_mhz: required clock.
+        pins: I/O pins.
+    """
 
     name: str
     family: str

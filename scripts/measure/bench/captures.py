@@ -43,7 +43,11 @@ _DECLARED = "$var wire 1 {} {} $end"
 
 
 class _Writer:
-    """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time. edges: number so far."""
+    """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time.
+
+    Attributes:
+        edges: number so far.
+    """
 
     def __init__(self, path: Path, names: list[str]) -> None:
         self.file, self.csv, self.edges = path.open("w"), path.suffix == ".csv", 0
@@ -217,7 +221,10 @@ def _status(name: str) -> int:
 class Figures(NamedTuple):
     """Figures of a file.
 
-    rate: edges/s of processor time. plain: seconds / those of a plain numpy pass. size: peak bytes per edge.
+    Attributes:
+        rate: edges/s of processor time.
+        plain: seconds / those of a plain numpy pass.
+        size: peak bytes per edge.
     """
 
     edges: int

@@ -25,7 +25,12 @@ NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
 
 @dataclass(frozen=True)
 class Call:
-    """A call in rtl/. inside: the function that contains it, or ""; constant: see above."""
+    """A call in rtl/.
+
+    Attributes:
+        inside: the function that contains it, or "".
+        constant: see above.
+    """
 
     name: str
     inside: str

@@ -45,7 +45,11 @@ class Figure:
 
 @dataclass(frozen=True)
 class Hole:
-    """A point in a file that no test covers. why: "" if there is no explanation."""
+    """A point in a file that no test covers.
+
+    Attributes:
+        why: "" if there is no explanation.
+    """
 
     file: str
     line: int

@@ -24,8 +24,10 @@ TRACE = "read_rtlil prove.il; sim -q -zinit -multiclock -r prove.aiw -map prove.
 class Outcome:
     """Result of a proof.
 
-    trouble: empty if it holds. reached: cycle in which each cover was reached. refuted: a property has a
-    counterexample.
+    Attributes:
+        trouble: empty if it holds.
+        reached: cycle in which each cover was reached.
+        refuted: True if a property has a counterexample.
     """
 
     name: str

@@ -15,7 +15,11 @@ FILLS = {"plain": "#eef2f6", "host": "#dbe8f7", "motion": "#dff0e1", "part": "#f
 
 @dataclass(frozen=True)
 class Box:
-    """A box with its centre at column x, row y (rows count downwards). text: the first line is bold."""
+    """A box with its centre at column x, row y (rows count downwards).
+
+    Attributes:
+        text: the first line is bold.
+    """
 
     x: float
     y: float
@@ -27,7 +31,12 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """An arrow between two boxes, given by name. via: corners between them; both: a head at each end."""
+    """An arrow between two boxes, given by name.
+
+    Attributes:
+        via: corners between them.
+        both: a head at each end.
+    """
 
     start: str
     end: str

@@ -25,7 +25,13 @@ class Outcome:
 
 
 class Bench:
-    """The model at 16 MHz with a polling host; `t`: next free edge. Keywords are passed to the model."""
+    """The model at 16 MHz with a polling host.
+
+    Keywords are passed to the model.
+
+    Attributes:
+        t: next free edge.
+    """
 
     def __init__(self, timing: str = "FAST", **parameters: object) -> None:
         self.chip = Stmc(timing=timing, **parameters)  # type: ignore[arg-type]

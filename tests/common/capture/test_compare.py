@@ -43,7 +43,11 @@ def decoded(part: str, seen: Seen, path: Path, **parameters: object) -> Decoded:
 
 
 def compared(part: str, seen: Seen, path: Path, tolerance: float = 1.0) -> Result:
-    """Compare the record with the golden model. tolerance: in µs."""
+    """Compare the record with the golden model.
+
+    Args:
+        tolerance: in µs.
+    """
     return compare(decoded(part, seen, path), round(tolerance * US))
 
 

@@ -51,7 +51,11 @@ def no_console() -> Iterator[None]:
 def printed(
     words: list[str], encoding: str, columns: int = 200, run: Callable[[list[str]], int] = main
 ) -> tuple[int, str, str]:
-    """Return exit status, stdout and stderr of a command with this encoding. run: its function."""
+    """Return exit status, stdout and stderr of a command with this encoding.
+
+    Args:
+        run: its function.
+    """
     both = [io.TextIOWrapper(io.BytesIO(), encoding) for _ in range(2)]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("COLUMNS", str(columns))

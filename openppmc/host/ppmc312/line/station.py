@@ -83,8 +83,10 @@ class Station312(Axis[SerialMotion]):
 
     Free curves, tables and event buffers cannot be accessed on the line (OutOfRange). Reports are read by
     polling the station. After a lost reply, an instruction is repeated only if that has no side effect
-    (`Doubt`). LostReply is raised where the driver cannot know whether the instruction was executed. number:
-    0 to 15.
+    (`Doubt`). LostReply is raised where the driver cannot know whether the instruction was executed.
+
+    Args:
+        number: 0 to 15.
     """
 
     kind = KIND

@@ -64,8 +64,8 @@ def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int
     Args:
         base: base code.
         added: compensation.
-        busy: BUSY.
-        decayed: the current has decayed by 2^att.
+        busy: level of BUSY.
+        decayed: True if the current has decayed by 2^att.
         att: exponent of the decay.
     """
     if busy:

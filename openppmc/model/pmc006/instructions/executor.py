@@ -25,15 +25,15 @@ class Desk:
     """Execution context of instructions. The part sets motion, program and eeprom.
 
     Args:
-        echo: STEP_ACK is "ECHO".
-        version: FW_VERSION.
+        echo: True if STEP_ACK is "ECHO".
+        version: value of FW_VERSION.
         changed: changed(t) is called when registers have new values after edge t.
 
     Attributes:
         judging: edge of the current instruction.
         stepped_at: edge of the last step.
-        speed_on: SPEED_MODE.
-        running: the motion belongs to the speed mode.
+        speed_on: value of SPEED_MODE.
+        running: True if the motion belongs to the speed mode.
     """
 
     motion: Motion
@@ -168,7 +168,11 @@ class Executor:
         self._look(t)
 
     def wake(self, t: int, afresh: bool = False) -> None:
-        """Continue the program after edge t. afresh: True if the program has just been started."""
+        """Continue the program after edge t.
+
+        Args:
+            afresh: True if the program has just been started.
+        """
         if afresh:
             self._next_slot = 0
         self._run = t + 1

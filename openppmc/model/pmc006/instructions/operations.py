@@ -24,7 +24,7 @@ class KeyFilter:
         low_ticks, high_ticks: these numbers of ticks. With high_ticks 0, any high level counts immediately.
         pressed: pressed(t) is called when the input was low for this time and the filter was armed.
         released: released(t) is called when the input was high for this time, which also arms the filter.
-        armed: the filter is armed at the beginning.
+        armed: True if the filter is armed at the beginning.
     """
 
     def __init__(
@@ -83,7 +83,11 @@ class Then(Enum):
 
 
 class Outcome(NamedTuple):
-    """Effect on the part, and the next action; target: target of a jump."""
+    """Effect on the part, and the next action.
+
+    Attributes:
+        target: target of a jump.
+    """
 
     effect: Effect = Effect()
     then: Then = Then.NEXT
@@ -94,7 +98,11 @@ NOTHING = Outcome()
 
 
 class Operation:
-    """Instruction of the program. single: E can also execute it."""
+    """Instruction of the program.
+
+    Attributes:
+        single: True if instruction E can also execute it.
+    """
 
     single = True
 
@@ -152,7 +160,11 @@ class Counter(Operation):
 
 @dataclass
 class Jump(Operation):
-    """JMP, JNE, JEQ. on: values of FLAG for which it jumps."""
+    """JMP, JNE, JEQ.
+
+    Attributes:
+        on: values of FLAG for which it jumps.
+    """
 
     on: Container[int]
     single = False
@@ -200,7 +212,11 @@ class Compare(Operation):
 
 @dataclass
 class Key(Operation):
-    """RESET_EN, PAUSE_EN. name: which of the two."""
+    """RESET_EN, PAUSE_EN.
+
+    Attributes:
+        name: name of the setting, RESET_EN or PAUSE_EN.
+    """
 
     name: str
     single = False

@@ -34,7 +34,10 @@ class Executes(Protocol):
 class Processor:
     """Processor of the user program.
 
-    The executor calls `next` while `runs` is true. words: the program.
+    The executor calls `next` while `runs` is true.
+
+    Attributes:
+        words: words of the program, two per instruction.
     """
 
     def __init__(self, desk: Desk, executor: Executes) -> None:

@@ -24,7 +24,11 @@ EXTS = ("ext1", "ext2")
 
 
 class Guard:
-    """Emergency inputs and stall detector. stall, stpos: STALL and the position where it was set."""
+    """Emergency inputs and stall detector.
+
+    Attributes:
+        stall, stpos: the flag STALL, and the position at which it was set.
+    """
 
     def __init__(self, desk: Desk) -> None:
         self._desk, self._queue, self._regs = desk, desk.shared.queue, desk.settings
@@ -171,7 +175,7 @@ class Motion:
     Attributes:
         busy, forward, b, w: levels after the last edge that was run.
         increment: angle units per step.
-        steady: constant speed (P006-STL-01).
+        steady: True at constant speed (P006-STL-01).
         tick: number of the us tick that is t = 0, `None` before the end of planning.
     """
 

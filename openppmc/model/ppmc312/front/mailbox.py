@@ -41,7 +41,11 @@ class Registers(Protocol):
 
 
 class Strobes:
-    """Strobes of the bus. registers: the current ones, in reset up to and including edge `closed`."""
+    """Strobes of the bus.
+
+    Args:
+        registers: the current registers, which are in reset up to and including edge `closed`.
+    """
 
     def __init__(self, queue: Scheduler, log: EdgeLog, registers: Registers) -> None:
         self._queue, self._log, self.registers = queue, log, registers

@@ -17,14 +17,22 @@ _REPLACED = (INTERLOCK, HOLD, STOPPED)
 
 
 def block(header: int, *content: int | bytes) -> bytes:
-    """Return a response block in logical order. content: without header and length."""
+    """Return a response block in logical order.
+
+    Args:
+        content: bytes of the block without header and length.
+    """
     body = b"".join(bytes([part]) if isinstance(part, int) else part for part in content)
     return bytes([header, len(body)]) + body
 
 
 @dataclass
 class Report:
-    """Blocks that the host has not read yet, in logical order. source: source of the instruction."""
+    """Blocks that the host has not read yet, in logical order.
+
+    Attributes:
+        source: source of the instruction.
+    """
 
     kind: int
     blocks: list[bytes]

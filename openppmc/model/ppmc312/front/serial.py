@@ -40,7 +40,11 @@ class Frame(NamedTuple):
 
 
 def checksum(control: int, data: bytes, mode: str) -> int:
-    """Return the checksum of a frame (P312-SER-13). mode: SUM_MODE."""
+    """Return the checksum of a frame (P312-SER-13).
+
+    Args:
+        mode: SUM_MODE.
+    """
     total = control + sum(data) if mode == "BINARY" else sum(data.hex().encode())
     return ~total & 0x7F
 
@@ -56,7 +60,12 @@ def addressed(character: int, address: int) -> bool:
 
 
 class Parser:
-    """Receiver of frames. lengths: number of data bytes of each instruction code. mode: SUM_MODE."""
+    """Receiver of frames.
+
+    Args:
+        lengths: number of data bytes of each instruction code.
+        mode: SUM_MODE.
+    """
 
     def __init__(self, address: int, lengths: Mapping[int, int], mode: str) -> None:
         self._address, self._lengths, self._mode = address, lengths, mode
@@ -265,7 +274,8 @@ def block_of(code: int, data: bytes) -> bytes:
 def reply_of(answer: bytes) -> tuple[int, bytes]:
     """Return kind and data of the reply to an instruction.
 
-    answer: the parallel response in logical order.
+    Args:
+        answer: the parallel response in logical order.
     """
     code, content = answer[2], answer[3:]
     if code in ERRORS:
@@ -282,7 +292,8 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
 def news_of(kind: int, report: bytes) -> tuple[int, bytes]:
     """Return kind and data of the reply to a poll (P312-SER-30).
 
-    report: report of a class in logical order.
+    Args:
+        report: report of a class in logical order.
     """
     content = report[3:]
     if kind == responses.STOPPED:

@@ -157,8 +157,9 @@ class Fifo:
 class EventBuffer:
     """Event buffer.
 
-    next: number of the entry that the next edge executes. edge: edge of `clk` of a stored event that is not
-    processed yet.
+    Attributes:
+        next: number of the entry that the next edge executes.
+        edge: edge of `clk` of a stored event that is not processed yet.
     """
 
     entries: list[bytes] = field(default_factory=list)

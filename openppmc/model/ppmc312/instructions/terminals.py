@@ -166,7 +166,11 @@ def _check_event(data: bytes) -> None:
 
 
 def act(core: Core, code: int, data: bytes) -> Work:
-    """Return the work of one of these instructions with a legal length. data: its parameters."""
+    """Return the work of one of these instructions with a legal length.
+
+    Args:
+        data: parameters of the instruction.
+    """
     if code == Code.TABLE_READ:
         return Work(lambda t: _table(core))
     if code in (Code.POSITION_READ, Code.POSITION_SET) and data[0] > 1:

@@ -26,7 +26,7 @@ class Job(NamedTuple):
         source: source of the instruction.
         since: edge that the DATASHEET times count from.
         buffer: number of the event buffer.
-        at_position: released by a position.
+        at_position: True if a position has released it.
     """
 
     block: bytes
@@ -39,8 +39,11 @@ class Job(NamedTuple):
 class Unit:
     """Instruction unit.
 
-    core: everything that instructions act on. holding: a response is about to be stored; reports of classes 3
-    to 8 follow it.
+    Args:
+        core: all blocks and state that instructions act on.
+
+    Attributes:
+        holding: True if a response is about to be stored; reports of classes 3 to 8 follow it.
     """
 
     def __init__(self, core: Core) -> None:

@@ -16,8 +16,9 @@ EVENT_PINS = ("evt0_n", "evt1_n")
 class Filters:
     """Filters of the guarded pins. changed(t, pin): called when the level of a pin has changed.
 
-    levels: filtered levels. With DATASHEET timing a low level counts only when it has lasted for the filter
-    time; a high level counts immediately.
+    Attributes:
+        levels: filtered levels. With DATASHEET timing a low level counts only when it has lasted for the
+            filter time; a high level counts immediately.
     """
 
     def __init__(self, context: Context, changed: Callable[[int, str], None]) -> None:

@@ -24,9 +24,9 @@ class Order:
 
     Attributes:
         target: rate that the start check compares with the high-speed limit.
-        origin: it ends at the origin.
-        turns: zero return, phase 1.
-        index: the origin also requires an index (index_n).
+        origin: True if the operation ends at the origin.
+        turns: True in phase 1 of a zero return.
+        index: True if the origin also requires an index (index_n).
     """
 
     plan: Plan

@@ -42,7 +42,11 @@ class Counters:
 
 @dataclass
 class Interlock:
-    """Interlock. on: the control is running, intlk_n is low."""
+    """Interlock.
+
+    Attributes:
+        on: True if the interlock control is running, so that intlk_n is low.
+    """
 
     position: int = 0
     on: bool = False
@@ -59,7 +63,9 @@ class Monitor:
 
     It sends reports of one class when the distance enters or leaves a range.
 
-    enabled: EN as in the status. far: the distance is out of range.
+    Attributes:
+        enabled: bit EN of the status.
+        far: True if the distance is out of range.
     """
 
     def __init__(self, kind: int, code: Answer, responses: Responses) -> None:

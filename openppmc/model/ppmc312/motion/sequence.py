@@ -36,9 +36,10 @@ class Sequence:
     Attributes:
         done: pulses output.
         running: current pulse and interval, `None` before pulse 1.
-        walk_begins: the last boundary began the deceleration to the end.
-        drops: the last boundary discarded a waiting 87.
-        sought: the constant rate of the last boundary was that of a stage, so t(x) had to be searched for it.
+        walk_begins: True if the last boundary began the deceleration to the end.
+        drops: True if the last boundary discarded a waiting instruction 87.
+        sought: True if the constant rate of the last boundary was that of a stage, so t(x) had to be searched
+            for it.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -110,8 +111,8 @@ class Sequence:
         Cause.RETURN means that phase 1 of a zero return is over.
 
         Args:
-            ramps: 87 may take effect at this boundary.
-            found: t(x) is known, if it had to be searched.
+            ramps: True if instruction 87 may take effect at this boundary.
+            found: True if the search for t(x) has ended; without effect if no search was required.
         """
         self.walk_begins = self.drops = False
         if self.complete:

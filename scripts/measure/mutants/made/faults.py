@@ -43,9 +43,12 @@ SKIPPED = (
 
 @dataclass(frozen=True)
 class Fault:
-    """A mutant. `text` replaces file[start:end]; dropped: the statement there is removed.
+    """A mutant. `text` replaces file[start:end].
 
-    number: from 1, in its file. what: description, for tables.
+    Attributes:
+        dropped: True if the statement there is removed.
+        number: from 1, in its file.
+        what: description, for tables.
     """
 
     number: int

@@ -32,7 +32,11 @@ SO_FAR = "The mutants ran at different times; for some survivors only the first 
 
 @dataclass(frozen=True)
 class Tried:
-    """A mutant and its verdict; `test`: the test that killed it."""
+    """A mutant and its verdict.
+
+    Attributes:
+        test: the test that killed it.
+    """
 
     file: str
     fault: Fault
@@ -86,7 +90,11 @@ class Score:
 
 
 def score(tried: Sequence[Tried], made: int) -> Score:
-    """Return the score of these mutants; made: number of all mutants."""
+    """Return the score of these mutants.
+
+    Args:
+        made: number of all mutants.
+    """
     alive = [one for one in tried if one.verdict == ALIVE]
     equivalent = sum(bool(one.why) for one in alive)
     count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in (KILLED, ENDLESS, BROKEN)}
@@ -138,7 +146,11 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
 
 
 def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
-    """Return the whole page. note: restriction of the tests (QUICK, SO_FAR)."""
+    """Return the whole page.
+
+    Args:
+        note: restriction of the tests (QUICK, SO_FAR).
+    """
     modules = [
         row(file, mine, len(of_file(file)))
         for file in files
