@@ -211,7 +211,7 @@ class Target:
     """A row of the table.
 
     Attributes:
-        kind: use, work or measure.
+        kind: section in the list of targets: use, work or measure.
     """
 
     kind: str
@@ -297,7 +297,7 @@ def fault(name: str, values: Mapping[str, str], target: str) -> str:
     """Return what is wrong with the value of a variable, or an empty text.
 
     Args:
-        values: of all variables.
+        values: values of all variables.
     """
     value, allowed = values[name], VARIABLES[name].values
     other, there = OTHER_VALUES.get(target, ("", ""))

@@ -69,13 +69,13 @@ class HostBus:
 
     Args:
         strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
-        lead: cycles for which the address is valid before a strobe.
-        base: added to every register number.
-        pause: called before each access, returns extra idle cycles.
+        lead: number of cycles for which the address is valid before a strobe.
+        base: number that is added to every register number.
+        pause: function that is called before each access; it returns the number of extra idle cycles.
         timeout: limit of every poll in cycles.
 
     Attributes:
-        names: name of an access of (kind, register) in `bench.accesses`, for buses with more than two
+        names: (kind, register) -> name of the access in `bench.accesses`, for buses with more than two
             registers.
     """
 

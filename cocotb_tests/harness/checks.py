@@ -28,9 +28,9 @@ class Move:
     """n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
 
     Attributes:
-        gaps: cycles from edge to edge of the clock, repeated indefinitely.
-        high: high time of the clock.
-        slowed: the pulse after which a slow-down limit is asserted (0: never).
+        gaps: numbers of cycles from edge to edge of the clock; the list is repeated indefinitely.
+        high: high time of the clock in cycles.
+        slowed: number of the pulse after which a slow-down limit is asserted (0: never).
     """
 
     n: int
@@ -93,7 +93,7 @@ class ExtMoves:
     Args:
         slow_pin: slow-down limit of the direction CW, active low.
         lows: True if the device has a pulse output.
-        rate_of: rates of ramp indices.
+        rate_of: function that returns the rates of ramp indices.
         delay: cycles from an edge at the pin to its pulse.
     """
 

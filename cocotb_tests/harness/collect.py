@@ -137,8 +137,8 @@ class Item:
     `target` is the make target of the command that repeats it.
 
     Attributes:
-        inside: inner signals that it reads.
-        skipped: the reason why it does not run.
+        inside: inner signals that the test reads.
+        skipped: reason why the test does not run.
         uncompared: the reason why a directed test is not compared with the golden model ("" if it is), None
             for other tests.
         shared: True if it may share a process with other tests of its module, although it is not a directed
@@ -182,10 +182,11 @@ class Item:
 def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
     """Return a pytest.param per cocotb test of `package`'s modules and configuration that it names.
 
-    Each must begin with a reset. Raises ValueError if a module has no cocotb test or two tests share a name.
+    Raises ValueError if a module has no cocotb test or two tests share a name.
 
     Args:
-        shared: True if tests of a module run in one process for each build.
+        shared: True if the tests of a module run in one process for each build. Each test must then begin with
+            a reset.
     """
     params, seen = [], set()
     for name in modules:

@@ -26,11 +26,11 @@ class Times:
     """An 8-bit I/O access in ns: the shortest at a bus clock of 8.33 MHz, with the usual wait states.
 
     Attributes:
-        setup: address before the command.
-        command: IOR or IOW low.
-        late: write data after the fall of IOW.
-        hold: address and write data after its rise.
-        gap: to the next access.
+        setup: time from the address to the command.
+        command: time for which IOR or IOW is low.
+        late: time from the fall of IOW to valid write data.
+        hold: time for which address and write data are valid after the rise of IOW.
+        gap: time to the next access.
     """
 
     setup: int = 91

@@ -135,9 +135,9 @@ class SerialLine(LineTimes):
         """Send one character.
 
         Args:
-            stop: level of its stop bit.
+            stop: level of the stop bit.
             spikes: (place in bits, cycles) where the line has the wrong level.
-            bits: number of its bits that are sent before the line becomes idle.
+            bits: number of bits that are sent before the line becomes idle.
         """
         await self._drive(self._character(byte, stop, spikes, bits))
 
@@ -151,7 +151,7 @@ class SerialLine(LineTimes):
         """Send characters without errors.
 
         Args:
-            gap: idle time after each of them in bits.
+            gap: idle time after each character in bits.
         """
         for byte in line:
             await self.character(byte)
@@ -176,7 +176,7 @@ def characters(
     `within` cycles, if that is not 0), or if a start or stop bit is missing.
 
     Args:
-        edges: changes (t, level) of the line since then; the line is high before.
+        edges: changes (t, level) of the line from `start` on; the line is high before.
     """
     for t, _ in edges:
         number = round((t - start) / bit)

@@ -55,7 +55,7 @@ def model_tests(module: str, package: str, *names: str, builds: Sequence[Config]
     Raises ValueError if two tests share a name.
 
     Args:
-        builds: used in place of the builds that the tests name.
+        builds: builds that are used in place of the builds that the tests name.
     """
     made: dict[str, Any] = {}
     for name in names:

@@ -55,7 +55,7 @@ def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> Ext
 
     Args:
         near: preferred periods in XTAL cycles.
-        scale: clk cycles per XTAL cycle.
+        scale: number of cycles of `clk` per XTAL cycle.
     """
     segments, total = [], 0
     while total < 250_000:

@@ -20,7 +20,7 @@ class MovingPins:
 
     Args:
         kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd.
-        clock: the external clock.
+        clock: name of the pin of the external clock.
     """
 
     def __init__(self, side: Side, kept: Sequence[str] = (), clock: str = "extck") -> None:
@@ -129,17 +129,17 @@ Weights = Sequence[tuple[Config, int]]
 
 
 def weighted(rng: random.Random, table: Iterable[tuple[T, float]]) -> T:
-    """Return a random thing of a table of (thing, weight)."""
+    """Draw a random entry of a table of (entry, weight)."""
     things, weights = zip(*table, strict=True)
     return rng.choices(things, weights)[0]
 
 
 class Builds:
-    """The build on which the host of a seed plays, where the build does not influence what the host does.
+    """Selection of the build for a seed, for hosts whose actions do not depend on the build.
 
     Args:
         name: name of the device in the text of its seeds, such as "p312".
-        weights: (build, weight).
+        weights: pairs (build, weight).
     """
 
     def __init__(self, name: str, weights: Weights) -> None:
@@ -200,8 +200,8 @@ class HostWriter(RandomHost, ABC):
 
     Args:
         name: first word of the seed text.
-        weights: FAST builds.
-        datasheet: DATASHEET builds, for one host in ten.
+        weights: weights of the FAST builds.
+        datasheet: weights of the DATASHEET builds, which one host in ten uses.
         external: probability that a clock pin is used, one number per pin.
     """
 

@@ -207,9 +207,9 @@ class RandomItems:
 
     Attributes:
         seeds: seeds that `make test` plays, up to `batch` of one build in a simulation.
-        build: build of a seed.
+        build: function that returns the build of a seed.
         design: the simulated design, if it is not the device alone.
-        takes: whether a seed is of this kind.
+        takes: function that returns whether a seed is of this kind.
     """
 
     part: str

@@ -277,7 +277,7 @@ class SimOptions:
     `done` holds the outcomes of the groups that have run.
 
     Attributes:
-        waves: keep a VCD of each test, also of passing ones.
+        waves: True if a VCD of each test is kept, also of passing ones.
         inside: True if every signal is visible.
         group: the items that share a simulator process, in order.
     """

@@ -44,7 +44,7 @@ class Running:
     """One running test: its present side, if any, and the function that compares it (None: no comparison).
 
     Args:
-        seed: seed of its sides, if it is not that of the run.
+        seed: seed of the benches of the test, if it is not that of the run.
 
     Attributes:
         differs: True if a comparison has failed.
@@ -176,7 +176,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
 
     Args:
         least: minimum number of output edges that a seed must make; all are compared.
-        uncompared: the reason why they are not compared.
+        uncompared: the reason why the output edges are not compared.
     """
 
     def mark(test: RandomTest) -> Any:

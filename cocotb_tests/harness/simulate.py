@@ -129,7 +129,7 @@ def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> d
     A process that ended normally must have run exactly these items.
 
     Args:
-        trouble: how the process ended, if not normally.
+        trouble: how the process ended, if it did not end normally.
     """
     text, names = read_log(log), named_in(results)
     wanted = sorted(item.full_name for item in items)

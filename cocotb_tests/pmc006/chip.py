@@ -24,9 +24,9 @@ class Chip:
         write_us: time of a write cycle.
         stretch_us: time for which SCL is held low after each acknowledge.
         missing: True if no device responds.
-        other: its address differs from the one that the part uses.
+        other: True if the address of the device differs from the one that the part uses.
         stuck: "scl" or "sda", a line that is held low.
-        busy_us: a write cycle is in progress for this time.
+        busy_us: time for which a write cycle is in progress.
     """
 
     content: bytes = b""

@@ -72,8 +72,8 @@ class Host(View, SerialLine):
 
         Args:
             address: address of the part that the host uses.
-            levels: of input pins from edge 0 on.
-            error: of the bit time of the host.
+            levels: levels of input pins from edge 0 on.
+            error: relative error of the bit time of the host.
             chip: the EEPROM, for tests in the bench that has one (test_memory.py). Without a chip, SDA is
                 held low, so that the part boots immediately, unless `levels` contains sda_i=1.
         """

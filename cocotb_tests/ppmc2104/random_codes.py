@@ -28,7 +28,7 @@ class Codes:
     """Generator of instructions.
 
     Args:
-        external: whether each axis has a running external clock.
+        external: for each axis, whether its external clock is running.
     """
 
     def __init__(self, rng: random.Random, datasheet: bool, external: tuple[bool, bool]) -> None:

@@ -48,9 +48,9 @@ class SerialHost(SerialLine, SideHost):
         """Reset a station and wait until it is ready; it acknowledges each instruction of `setting`.
 
         Args:
-            mod: speed.
-            adr: station.
-            error: of the master's bit time, 0.02 = 2 % too long.
+            mod: levels of the speed pins MOD.
+            adr: number of the station.
+            error: relative error of the master's bit time, 0.02 = 2 % too long.
             mode: level of MODE.
         """
         host = cls(await start_bench(dut, PPMC312, settle=8), adr, error)

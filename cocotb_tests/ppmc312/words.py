@@ -9,7 +9,7 @@ def message(code: int, *data: str, source: int = Source.HOST) -> str:
     """Return header, length, code and data as a text of hexadecimal bytes in logical order.
 
     Args:
-        data: hexadecimal texts.
+        data: parameters as hexadecimal texts.
         source: the header; for an answer, the source of the instruction.
     """
     behind = " ".join(data)
@@ -17,7 +17,7 @@ def message(code: int, *data: str, source: int = Source.HOST) -> str:
 
 
 def register(buffer: int, block: str) -> str:
-    """Return a 49 that registers a block in an event buffer."""
+    """Return a block of instruction 49 that registers another block in an event buffer."""
     return message(Code.EVENT_SET, f"{buffer:02X} {block}")
 
 

@@ -25,7 +25,7 @@ class View:
         split: names of the single bits of a vector, lowest first.
         motors: scope -> the pin or vector in which `pulses` finds the pulses of that motor.
         groups: (title, signals) of the saved views.
-        access: returns the text of a host access.
+        access: function that returns the text of a host access.
     """
 
     split: Mapping[str, Sequence[str]]
@@ -42,8 +42,8 @@ class Demo:
     `picture` returns the content of the standard picture; `own` draws another one.
 
     Attributes:
-        config: its build.
-        marks: chapters marked in the saved views.
+        config: build of the part.
+        marks: chapters that are marked in the saved views.
         motors: names of axes in the list of moves.
     """
 

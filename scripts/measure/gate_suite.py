@@ -43,7 +43,7 @@ class GateTest:
     """One simulation of one netlist. `item` is tagged with the family; `group` is its row in the table.
 
     Attributes:
-        params: of the part's top.
+        params: parameters of the part's top.
         inside: as in `PartTests`.
     """
 

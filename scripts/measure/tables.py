@@ -76,7 +76,7 @@ def differences(folder: Path) -> str:
     ProjectError if a tool fails.
 
     Args:
-        folder: work folder.
+        folder: folder for temporary files.
     """
     folder.mkdir(parents=True, exist_ok=True)
     run(sys.executable, "-m", "scripts.measure.tables", relative(folder))

@@ -15,7 +15,7 @@ from scripts.release.state import Release
 def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
     """Return name -> board and host.
 
-    ProjectError: unknown name.
+    Raises ProjectError for an unknown name.
 
     Args:
         only: names of bitstreams, empty: all.

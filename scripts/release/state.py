@@ -19,9 +19,9 @@ class Release:
     """A release.
 
     Attributes:
-        version: without v.
-        commit: in hex.
-        epoch: its time in s, used for every file.
+        version: version number without the letter v.
+        commit: hexadecimal number of the commit.
+        epoch: time of the commit in s; every file of the release has this time.
         missing: one sentence for each missing part, for the notes.
         only: names of the built bitstreams; empty: all.
         trial: True if the release must not be published; its version ends in +trial.
@@ -80,7 +80,7 @@ def check_tag(version: str, commit: str, tagged: str) -> None:
     """Raise ProjectError if the tag of this version is on another commit.
 
     Args:
-        tagged: that commit, or "".
+        tagged: commit that has the tag of this version, or "".
     """
     if tagged and tagged != commit:
         raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")

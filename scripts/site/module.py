@@ -40,7 +40,7 @@ class Module:
     """One part after power-up.
 
     Attributes:
-        call: name -> function (site/core/core.cpp).
+        call: name -> function of the module (site/core/core.cpp).
     """
 
     def __init__(self, part: WebPart, path: Path) -> None:

@@ -21,11 +21,11 @@ class Motor:
     Attributes:
         step: the pin with the steps: a bit of an output, or with `phases` the lowest of five bits.
         edge: level after the edge of a step.
-        dir: CCW at level `ccw`.
+        dir: pin of the direction, which is CCW at level `ccw`.
         switches: input pins in the order of tb/board/plant.h (CW and CCW limit, CW and CCW slow-down limit,
             origin, alarm), "" for a missing switch; a closed switch is low.
         windings: pins of the phases for the picture, S1 first.
-        encoder: a pulse and its direction.
+        encoder: pins of the encoder pulse and of its direction.
     """
 
     step: str

@@ -123,7 +123,7 @@ class Master:
     `said` and `heard` record what was on the line.
 
     Args:
-        bit: cycles of one bit.
+        bit: bit time in cycles.
     """
 
     def __init__(self, port: Port, bit: float = BIT, mode: str = "BINARY") -> None:

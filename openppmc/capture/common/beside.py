@@ -48,7 +48,7 @@ class Difference:
 
     Attributes:
         t: ps of the capture.
-        steady: True if this is not an edge, but a stable level of the chip that the model does not have there.
+        steady: True if this is not an edge, but a stable level of the chip that the model does not have.
     """
 
     pin: str

@@ -49,7 +49,7 @@ class Played:
     """Result of the host session.
 
     Attributes:
-        go: write event of GO.
+        go: edge of the write event of GO.
         ends: finish status and position of each axis.
     """
 

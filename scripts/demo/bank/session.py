@@ -48,7 +48,7 @@ class Session:
 
     Attributes:
         t: next free edge.
-        accesses: all, in order.
+        accesses: all accesses, in order of time.
     """
 
     def __init__(self, axes: int, clk_hz: int) -> None:

@@ -20,7 +20,7 @@ def write(comparison: Any, pulses: Sequence[Sequence[int]], path: Path) -> None:
     """Write the VCD file.
 
     Args:
-        pulses: edges of each axis.
+        pulses: edges of the pulses of each axis.
     """
     recording = comparison.recording
     clk_hz = int(recording.params["CLK_HZ"])

@@ -28,8 +28,8 @@ class Port:
     """A port.
 
     Attributes:
-        group: the comment line above it and its neighbours.
-        text: the comment after it.
+        group: comment line above the port and its neighbours.
+        text: comment after the port.
     """
 
     name: str

@@ -67,10 +67,10 @@ class Carried:
     """A part on a board.
 
     Attributes:
-        name: its folder, the part's name with or without its host.
+        name: name of its folder: the name of the part with or without the host.
         part: value of PART.
-        mhz: clk frequency.
-        goal: the minimum that the project requires.
+        mhz: frequency of `clk` in MHz.
+        goal: minimum frequency in MHz that the project requires.
         pll, set: parameters of the clock module and of the carrier.
         omit: parameters of the carrier that have no effect on this board.
         low: inputs without a pin that read as 0 (the others read as 1), each with its reason.

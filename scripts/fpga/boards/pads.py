@@ -17,9 +17,9 @@ class Pad:
     """One pin.
 
     Attributes:
-        bit: the port, or a bit of it.
-        way: in, out or inout.
-        pull: up, down or none.
+        bit: name of the port, or of a bit of the port.
+        way: direction: in, out or inout.
+        pull: pull resistor: up, down or none.
     """
 
     bit: str

@@ -17,7 +17,7 @@ class Board:
 
     Attributes:
         clk_hz: frequency of the part's `clk`.
-        goal_mhz: the minimum that the project requires on this board.
+        goal_mhz: minimum frequency of `clk` in MHz that the project requires on this board.
         oscillator: clock input with its frequency in MHz.
         loader: name of the board in openFPGALoader.
         part: the part on the board.

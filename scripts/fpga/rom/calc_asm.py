@@ -150,7 +150,7 @@ class Coder:
         """Return the code of a name in an enumeration of the package.
 
         Args:
-            prefix: its prefix in the package.
+            prefix: prefix of the name in the package.
         """
         codes = [known.removeprefix(prefix) for known in self.names[enum]]
         if name not in codes:

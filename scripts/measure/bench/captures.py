@@ -46,7 +46,7 @@ class _Writer:
     """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time.
 
     Attributes:
-        edges: number so far.
+        edges: number of edges written so far.
     """
 
     def __init__(self, path: Path, names: list[str]) -> None:
@@ -223,8 +223,8 @@ class Figures(NamedTuple):
 
     Attributes:
         rate: edges/s of processor time.
-        plain: seconds / those of a plain numpy pass.
-        size: peak bytes per edge.
+        plain: processor time divided by that of a plain numpy pass over the file.
+        size: peak memory in bytes per edge.
     """
 
     edges: int

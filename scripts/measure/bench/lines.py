@@ -37,7 +37,7 @@ class Case:
 
     Attributes:
         stations: number of stations, which all move.
-        text: the rest of its settings.
+        text: all other settings of the line.
     """
 
     what: str

@@ -28,8 +28,8 @@ class Call:
     """A call in rtl/.
 
     Attributes:
-        inside: the function that contains it, or "".
-        constant: see above.
+        inside: name of the function that contains the call, or "".
+        constant: True if the call is constant (see the text of the module).
     """
 
     name: str

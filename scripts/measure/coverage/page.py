@@ -132,7 +132,7 @@ def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool
     """Return the whole page, from `tests` of all tests.
 
     Args:
-        old: True if sources may have been in earlier states.
+        old: True if some results may be from earlier states of the sources.
     """
     much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
     much += " They ran at different times, some possibly with earlier sources." if old else ""

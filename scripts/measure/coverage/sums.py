@@ -48,7 +48,7 @@ class Hole:
     """A point in a file that no test covers.
 
     Attributes:
-        why: "" if there is no explanation.
+        why: explanation, "" if there is no explanation.
     """
 
     file: str

@@ -27,11 +27,11 @@ class Line:
     """A line.
 
     Attributes:
-        top: of tb/fuzz.
-        group: of rtl/files.yml.
+        top: name of the top module in tb/fuzz.
+        group: name of the group in rtl/files.yml.
         good, special: see `words.stream`.
-        params: of top.
-        expected: events of the golden model.
+        params: parameters of the top module.
+        expected: function that returns the events of the golden model.
     """
 
     top: str

@@ -25,7 +25,7 @@ class Outcome:
     """Result of a proof.
 
     Attributes:
-        trouble: empty if it holds.
+        trouble: reason of a failure, empty if the proof holds.
         reached: cycle in which each cover was reached.
         refuted: True if a property has a counterexample.
     """

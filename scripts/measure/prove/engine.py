@@ -69,7 +69,7 @@ def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, d
     It takes at most `limit` seconds. A counterexample is written to prove.aiw.
 
     Args:
-        induct: use induction of that length.
+        induct: length of the induction; 0 means no induction.
     """
     if induct:
         return induction(folder, induct, limit)

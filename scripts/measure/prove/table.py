@@ -35,7 +35,7 @@ class Change:
     """An RTL file with another text.
 
     Attributes:
-        name: distinguishes the folder of the run from others of the proof.
+        name: part of the name of the run's folder; it distinguishes this run from others of the proof.
     """
 
     name: str

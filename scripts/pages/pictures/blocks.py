@@ -18,7 +18,7 @@ class Box:
     """A box with its centre at column x, row y (rows count downwards).
 
     Attributes:
-        text: the first line is bold.
+        text: lines of text; the first line is bold.
     """
 
     x: float
@@ -34,8 +34,8 @@ class Arrow:
     """An arrow between two boxes, given by name.
 
     Attributes:
-        via: corners between them.
-        both: a head at each end.
+        via: corners of the arrow between the boxes.
+        both: True if the arrow has a head at each end.
     """
 
     start: str

@@ -22,7 +22,8 @@ class Row:
     `text` returns the text in the box of a vector's value; without it, the line is a single bit.
 
     Attributes:
-        host: True if driven by the host, so it changes half a cycle before the edge that samples it.
+        host: True if the host drives the line, which then changes half a cycle before the edge that samples
+            it.
         nodes: column -> letter for arrows.
     """
 
@@ -63,7 +64,7 @@ def record(
     """Drive a model with the schedule and sample it at the edges of the columns, which must be ascending.
 
     Args:
-        flags: returns further signals in addition to pins.
+        flags: function that returns further signals in addition to the pins.
     """
     pins, due = dict(inputs), list(schedule)
     found: list[Levels | None] = []

@@ -147,7 +147,7 @@ def cycle(
     """Return a bus access with one column for each cycle.
 
     Args:
-        texts: head, foot, arrows.
+        texts: texts of head, foot and arrows.
     """
     samples = look(host, schedule, columns)
     return {

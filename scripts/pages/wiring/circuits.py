@@ -48,12 +48,12 @@ class Circuit:
     """The circuit of a group of pins.
 
     Attributes:
-        ports: of the carrier.
-        chip: as drawn, with `channels` channels.
+        ports: ports of the carrier.
+        chip: name of the chip in the drawing; it has `channels` channels.
         far: connection of a pin on the other side, with the signal level `level`.
         pull: connection of a pin's resistor at the FPGA's side, "" without a resistor.
-        items: of the order list.
-        note: below the drawing.
+        items: items of the order list.
+        note: text below the drawing.
     """
 
     key: str

@@ -24,7 +24,7 @@ class Move:
     """Configuration and commands of a move.
 
     Attributes:
-        config: csel and vsel.
+        config: levels of csel and vsel.
         cut: a stop code or a switch, and its time in rounds after the start.
     """
 

@@ -48,7 +48,7 @@ def probe(
         jitter: maximum error of each edge in ps.
         begin, until: start and end of the capture in s.
         without: ports that are not connected.
-        ppm: how much too slow the analyser's clock is. d_i and d_o are one bus.
+        ppm: how much too slow the analyser's clock is.
     """
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6

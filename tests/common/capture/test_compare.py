@@ -46,7 +46,7 @@ def compared(part: str, seen: Seen, path: Path, tolerance: float = 1.0) -> Resul
     """Compare the record with the golden model.
 
     Args:
-        tolerance: in µs.
+        tolerance: largest distance of two edges in µs.
     """
     return compare(decoded(part, seen, path), round(tolerance * US))
 

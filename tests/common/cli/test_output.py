@@ -54,7 +54,7 @@ def printed(
     """Return exit status, stdout and stderr of a command with this encoding.
 
     Args:
-        run: its function.
+        run: function that runs the command.
     """
     both = [io.TextIOWrapper(io.BytesIO(), encoding) for _ in range(2)]
     with pytest.MonkeyPatch.context() as patch:

@@ -13,8 +13,8 @@ class Spoiled(ModelLine):
     """A modelled line.
 
     Attributes:
-        frames: all frames sent.
-        plan: returns the fault for a frame, or None.
+        frames: all frames that were sent.
+        plan: function that returns the fault for a frame, or None.
     """
 
     def __init__(self, text: str, baud: int, part: str) -> None:

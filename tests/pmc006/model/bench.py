@@ -22,7 +22,7 @@ class Bench:
     Attributes:
         steps: edges of mon_step.
         ends: edges at which a motion has ended without a stop.
-        position: steps, signed.
+        position: position in steps, signed.
     """
 
     def __init__(self, clk_hz: int = 16_000_000, t_off_ns: int = 20_000, **registers: int) -> None:

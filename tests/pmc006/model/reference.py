@@ -25,7 +25,9 @@ class Reference:
     """Reference motion; it ends when `done`.
 
     Attributes:
-        steps: (us, speed). target(t): live target. off(t): whether the speed mode is switched off.
+        steps: pairs (us, speed).
+        target: target(t) returns the live target.
+        off: off(t) returns whether the speed mode is switched off.
     """
 
     def __init__(

@@ -19,7 +19,7 @@ class Phases:
     """One chopper.
 
     Attributes:
-        changes: (edge, plus, minus).
+        changes: changes of the outputs as (edge, plus, minus).
     """
 
     def __init__(self, times: Times | None = None) -> None:

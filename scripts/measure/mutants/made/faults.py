@@ -46,9 +46,9 @@ class Fault:
     """A mutant. `text` replaces file[start:end].
 
     Attributes:
-        dropped: True if the statement there is removed.
-        number: from 1, in its file.
-        what: description, for tables.
+        dropped: True if the statement at this place is removed.
+        number: number of the mutant in its file, from 1.
+        what: description of the fault, for tables.
     """
 
     number: int

@@ -35,7 +35,7 @@ class Tried:
     """A mutant and its verdict.
 
     Attributes:
-        test: the test that killed it.
+        test: the test that killed the mutant.
     """
 
     file: str
@@ -93,7 +93,7 @@ def score(tried: Sequence[Tried], made: int) -> Score:
     """Return the score of these mutants.
 
     Args:
-        made: number of all mutants.
+        made: number of all mutants of the file or folder.
     """
     alive = [one for one in tried if one.verdict == ALIVE]
     equivalent = sum(bool(one.why) for one in alive)

@@ -35,7 +35,7 @@ class Mutant:
     """A mutant and its tests.
 
     Attributes:
-        briefly: only the proofs of its own block.
+        briefly: True if only the proofs of its own block are run.
     """
 
     file: str
