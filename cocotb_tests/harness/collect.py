@@ -185,8 +185,8 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
     Raises ValueError if a module has no cocotb test or two tests share a name.
 
     Args:
-        shared: True if the tests of a module run in one process for each build. Each test must then begin with
-            a reset.
+        shared: True if the tests of a module run in one process for each build. Each test must then begin
+            with a reset.
     """
     params, seen = [], set()
     for name in modules:

@@ -29,7 +29,8 @@ class Cross:
     """A table with two axes. `rows` and `columns`: all values of the data sheet, as they are counted.
 
     Attributes:
-        never: (row, column) -> reason why the combination cannot occur; "*" represents every row or every column.
+        never: (row, column) -> reason why the combination cannot occur; "*" represents every row or every
+            column.
     """
 
     name: str

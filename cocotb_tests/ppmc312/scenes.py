@@ -217,7 +217,7 @@ class Scenes(Player):
         await self.attend(6_000)
 
     async def meeting_point(self) -> None:
-        """Send instruction 87 twice shortly before the deceleration point, after an 88 to a rate with a long ramp."""
+        """Send 88 to a rate with a long ramp, then 87 twice shortly before the deceleration point."""
         host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:
             return

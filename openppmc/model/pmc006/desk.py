@@ -20,7 +20,7 @@ class Motion(Protocol):
 
     @property
     def busy(self) -> bool:
-        """BUSY."""
+        """True while BUSY is set."""
 
     @property
     def steady(self) -> bool:

@@ -254,12 +254,12 @@ class Pmc006(Chip):
 
     @property
     def position(self) -> int:
-        """POS."""
+        """Position register POS in steps, signed."""
         return self.desk.position
 
     @property
     def angle(self) -> int:
-        """TH."""
+        """Electrical angle TH, 0..511."""
         return self.drive.angle
 
     @property

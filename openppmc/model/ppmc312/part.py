@@ -293,5 +293,5 @@ class Ppmc312(Chip):
 
     @property
     def position(self) -> int:
-        """POS."""
+        """Pulse position POS, 0 .. 2^32 - 1."""
         return self.core.counters.pulse

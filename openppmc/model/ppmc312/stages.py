@@ -69,7 +69,7 @@ class Table:
 
     @property
     def high(self) -> int:
-        """RH."""
+        """Rate RH of the high speed in ticks."""
         return self.rates[LAST]
 
     @property

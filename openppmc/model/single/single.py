@@ -131,7 +131,7 @@ class SingleAxis(Chip):
 
     @property
     def busy(self) -> bool:
-        """BUSY."""
+        """True while BUSY is set."""
         return self._motion.busy
 
     @property

@@ -112,7 +112,7 @@ class Operation:
 
 
 class End(Operation):
-    """END and every undefined opcode."""
+    """Instruction END, and every undefined opcode."""
 
     single = False
 
@@ -137,7 +137,7 @@ class AsHost(Operation):
 
 
 class Speed(Operation):
-    """VSET."""
+    """Instruction VSET."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
         """Return the outcome; unlike in v, 0 is legal."""
@@ -148,7 +148,7 @@ class Speed(Operation):
 
 @dataclass
 class Counter(Operation):
-    """CNTI, CNTC."""
+    """Instructions CNTI and CNTC."""
 
     up: bool
 
@@ -160,7 +160,7 @@ class Counter(Operation):
 
 @dataclass
 class Jump(Operation):
-    """JMP, JNE, JEQ.
+    """Instructions JMP, JNE and JEQ.
 
     Attributes:
         on: values of FLAG for which it jumps.
@@ -179,7 +179,7 @@ class Jump(Operation):
 
 
 class Wait(Operation):
-    """WAIT."""
+    """Instruction WAIT."""
 
     single = False
 
@@ -190,7 +190,7 @@ class Wait(Operation):
 
 
 class Out(Operation):
-    """OUT."""
+    """Instruction OUT."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
         """Return the outcome, one bit of GPO."""
@@ -202,7 +202,7 @@ class Out(Operation):
 
 
 class Compare(Operation):
-    """CMP."""
+    """Instruction CMP."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
         """Return the outcome; an illegal option clears FLAG."""
@@ -212,7 +212,7 @@ class Compare(Operation):
 
 @dataclass
 class Key(Operation):
-    """RESET_EN, PAUSE_EN.
+    """Instructions RESET_EN and PAUSE_EN.
 
     Attributes:
         name: name of the setting, RESET_EN or PAUSE_EN.
