@@ -86,7 +86,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
             await axis.fetch(code)
         await lab.bench.clocks(100)
         lab.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
-        # An operation without pulses changes hold like any other.
+        # An operation without pulses changes hold like any other operation.
         axis.set(run=0)
         await axis.go(0x42)
         await axis.command(0x40)

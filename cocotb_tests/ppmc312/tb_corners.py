@@ -221,7 +221,8 @@ async def p312_high_speed_limit_before_pulse_1_and_at_a_slow_rate(dut: Any) -> N
     await host.ask(message(Code.RAMP, "00 0000 0000001E"))
     await host.pins(fhl_n=0)
     assert await host.response() == stopped(0x02, 11)
-    # Ignored at 400; it takes effect in the first interval at 200: a deceleration from the stage of 200.
+    # The instruction has no effect at rate 400. It takes effect in the first interval at rate 200, as a
+    # deceleration from the stage of 200.
     assert host.gaps() == [400] * 3 + [200] * 5 + [400] * 2
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C8")) == message(Answer.LIMIT)
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")

@@ -60,7 +60,7 @@ async def p312_datasheet_run_is_the_plain_pin(dut: Any) -> None:
         assert await host.pulse(1) - mark in range(80, 80 + 8)
         await host.ask(STOP)
         await host.response()
-    # Low for 20 cycles: the level takes effect only where it is sampled, directly before t0.
+    # RUN is low for 20 cycles. The level takes effect only if it is sampled directly before t0.
     host = await Host.start(dut, *TF)
     await host.issue(message(Code.STEP, "00"))
     delay = await host.pulse(1) - 80 - host.header
