@@ -33,7 +33,7 @@ ASCII = {
     "→": "->", "←": "<-", "↔": "<->", "²": "^2", "³": "^3", "µ": "u", "μ": "u", "Ω": "ohm", "°": "deg",
     "×": "x", "±": "+-", "≤": "<=", "≥": ">=", "≠": "!=", "≈": "~", "½": "1/2", "¼": "1/4", "¹": "^1",
     "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
-    "%": "\u066a",  # cp864 has only the Arabic one
+    "%": "\u066a",  # cp864 has only the Arabic percent sign
 }  # fmt: skip
 """Replacement of characters that an encoding does not have. Letters lose their accents."""
 

@@ -314,7 +314,8 @@ def log_tail(log: Path, lines: int) -> str:
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
-# Parameter: (legal values including its extremes, values just outside the range), as SystemVerilog literals.
+# Parameter -> (legal values including its extremes, values just outside the range), as SystemVerilog
+# literals.
 Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
 
 _PORT = re.compile(

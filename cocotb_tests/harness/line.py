@@ -37,7 +37,7 @@ class Wire:
     async def send(self, data: bytes) -> None:
         """Send bytes back to back."""
         for byte in data:
-            # One word with start and stop bit, least significant bit first.
+            # All bits of a character form one word with start and stop bit, least significant bit first.
             word = 1 << BITS + 1 | byte << 1
             for bit in range(BITS + 2):
                 self._out.value = word >> bit & 1

@@ -113,7 +113,8 @@ class Noise:
             bench.set_between_edges(**self._levels())
             gap = rng.choice((0.1, 0.4, 1, 1, 2, 2, 3, 7, 20, 60))
             steps = max(2, int(gap * bench.period * rng.random()))
-            # Never on an edge of `clk` itself: it would be a race whether the edge samples the change.
+            # A change is never on an edge of `clk` itself: it would be a race whether the edge samples the
+            # change.
             offset = (bench.sim_time() + steps - bench.edge_time(0)) % bench.period
             await Timer(steps + (2 if offset < 2 or offset == bench.period - 1 else 0), "ps")
 

@@ -354,7 +354,7 @@ def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.kind.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # A pulse may be a sample off at both ends: a smaller difference has no meaning.
+    # Both ends of a move may be a sample off, so a smaller difference has no meaning.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -374,7 +374,8 @@ def learned(alike: list[tuple[int, int]], slack: int) -> float:
     """
     if not alike:
         return 1.0
-    # A move that a switch or a stop ended, not its pulses, has another length than the others indicate.
+    # If a switch or a stop ended a move before its pulses were output, its length does not fit those of the
+    # other moves.
     middle = _middle([(other / mine, mine) for mine, other in alike])
     alike = [(mine, other) for mine, other in alike if abs(other - middle * mine) <= 2 * slack]
     chip, model = (sum(times) for times in zip(*alike, strict=True)) if alike else (0, 0)
@@ -474,13 +475,13 @@ def match_edges(
     mine, levels = chip.since(start)
     other, theirs = model.since(start)
     if not known and level_at(chip, start) != level_at(model, start):
-        # The side that changes first agrees with the other one from then on.
+        # From this time on, the side that changes first agrees with the other one.
         if int(mine[0] if len(mine) else end + 1) < int(other[0] if len(other) else end + 1):
             mine, levels = mine[1:], levels[1:]
         else:
             other, theirs = other[1:], theirs[1:]
     while len(mine) or len(other):
-        # Most edges have their partner at the same place of both columns.
+        # Most edges have their partner at the same place of the columns of both sides.
         least = min(len(mine), len(other), BLOCK)
         apart = np.abs(mine[:least] - other[:least])
         same = (apart <= tolerance) & (levels[:least] == theirs[:least])

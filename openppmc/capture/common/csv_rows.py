@@ -68,7 +68,7 @@ class _Block:
         if b" " in plain:
             for old in (separator + b" ", b" " + separator, b" \n"):
                 plain = plain.replace(old, old.strip(b" "))
-        # The levels with their separators are the last bytes of a line: a few words.
+        # The last bytes of a line are the levels with their separators. They are compared as a few words.
         words = -(-width // 8)
         pad = 8 * words + 32
         self.buf: Column = np.frombuffer(b" " * pad + plain, np.uint8)

@@ -141,7 +141,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
     crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))
     params = {**told, "XTAL_HZ": crystal, **chosen.parameters}
-    # In our own files each edge has the time of its clk edge, so nothing is sampled.
+    # In our own files each edge has the time of its edge of `clk`, so nothing is sampled.
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:

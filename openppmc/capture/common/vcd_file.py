@@ -517,7 +517,7 @@ class _Body:
                 continue
             level, doubt = levels[begin:end], unknown[begin:end]
             if variable.width > 1:
-                # A single x for all bits of a vector.
+                # A single x means that all bits of a vector are unknown.
                 full = (1 << variable.width) - 1
                 kind = np.dtype(level_type(variable.width)).type
                 level, doubt = level.astype(kind), doubt.astype(kind) * kind(full)

@@ -36,7 +36,7 @@ def speed_mode(desk: Desk, data: int) -> Effect:
     if data != 1 or desk.speed_on:
         return answer
     if desk.motion.busy:
-        # A move rejects it; a motion that is decelerating after N=0 continues.
+        # A move rejects N. A motion that is decelerating after N=0 continues.
         return answer._replace(early=lambda desk, t: desk.speed(t, True)) if desk.running else answer
     if desk.locked or desk.settings.vmax < 1:
         return answer

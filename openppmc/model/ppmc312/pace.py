@@ -184,7 +184,7 @@ class Pace:
         return len(block) + 3 * stages
 
 
-# Section 8, in crystal cycles from the write of the header, or from the trigger.
+# Times of section 8 in crystal cycles from the write of the header, or from the trigger.
 READY = 1600 * US
 BUILD = {(False, False): 115_000 * US, (False, True): 200_000 * US}
 BUILD |= {(True, False): 175_000 * US, (True, True): 260_000 * US}

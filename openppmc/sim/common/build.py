@@ -206,7 +206,7 @@ def build(
         ),
         *(
             "-CFLAGS",
-            # Relative to the build folder: these paths have no spaces.
+            # Paths relative to the build folder have no spaces.
             " ".join(
                 ["-std=c++17", _defines(params), *(f"-I../../../tb/{folder}" for folder in made.folders)]
             ),
@@ -313,7 +313,7 @@ def _locked(path: Path) -> Iterator[None]:
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
-    import fcntl  # not on every system; only a build needs it
+    import fcntl  # fcntl does not exist on every system; only a build needs it
 
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)

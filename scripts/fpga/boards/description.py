@@ -26,7 +26,7 @@ SHOWS = ("link", "moving", "switch", "running")
 LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cyclone5": "qsf"}
 """FPGA family -> suffix of its constraint files."""
 
-# Section -> required keys, optional keys.
+# Section -> (required keys, optional keys).
 KEYS = {
     "board": (
         "title place chip family clock reset lamps uart pads headers parts",
@@ -104,7 +104,7 @@ class Description:
     name: str
     path: Path
     title: str
-    revisions: str  # of the board, for which the pins were checked
+    revisions: str  # revisions of the board for which the pins were checked
     code: str
     place: int
     chip: str

@@ -147,7 +147,7 @@ class _Assembler:
         return Instruction.of(first, second)
 
 
-# Program to text, which assembles to the same words.
+# Conversion of a program to text, which assembles to the same words.
 
 _WIDTH = 8
 

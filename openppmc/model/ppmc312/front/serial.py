@@ -90,7 +90,7 @@ class Parser:
         self._open += bytes([character])
         size = self._size()
         if size is None:
-            # From here on, only the code is needed.
+            # From here on, only the instruction code is needed.
             self._open = self._open[:3]
         if len(self._open) != size:
             return None

@@ -295,7 +295,7 @@ class Unit:
     def _over(self, t: int) -> None:
         """Enable the next instruction."""
         self._idle(t)
-        # A response that has to wait lets other reports pass.
+        # While a response has to wait, other reports may be sent before it.
         self.holding = self._core.responses.answer is None
         self._core.operation.motion.look_at_rest_soon(t)
         self.kick(t)
@@ -320,7 +320,7 @@ class Unit:
             )
             return
         if not self._core.responses.post(t, ANSWER, [block], source):
-            # It follows a response to an event or an override; the mailbox stays closed (P312-RSP-20).
+            # The response follows one to an event or an override, and the mailbox stays closed (P312-RSP-20).
             self._late = block
             return
         self._late, self._storing, self.holding = None, False, bool(self._rest)
