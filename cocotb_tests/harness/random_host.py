@@ -185,7 +185,7 @@ class RandomHost:
 
     @property
     def model(self) -> Any:
-        """Golden model of the device: used to decide when to act, not for the responses."""
+        """Golden model of the device. The host uses it to decide when to act, not for the responses."""
         return self.host.side.golden
 
     def pick(self, acts: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:

@@ -146,7 +146,7 @@ def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:
 
 
 Failure = tuple[int, str, str]
-"""Seed, test id, message."""
+"""A failing run: seed, test ID, message."""
 
 
 @dataclass

@@ -97,13 +97,13 @@ def write_views(vcd: Path, design: Design) -> list[Path]:
 
 
 MOST = 40
-"""Tests in one process: two workers stay busy, and the imports of cocotb and pytest are negligible."""
+"""Maximum number of tests in one process: two workers stay busy, and the imports take little time."""
 
 T = TypeVar("T")
 
 
 def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
-    """Group things with the same key, at most MOST per group, in order; each thing with key None is alone."""
+    """Group items with the same key, at most MOST per group, in order; an item with key None is alone."""
     found: dict[Hashable, list[T]] = {}
     for number, thing in enumerate(things):
         found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)

@@ -143,7 +143,7 @@ async def p312_initial_setting_layouts_and_order_of_checks(dut: Any) -> None:
         (0x03, message(Code.INITIAL, "11 03E8 0100 03E8 0007D0 0007D0")),  # checked before errors 02 and 04
         (0x02, message(Code.INITIAL, "11 03E8 03E7 0380 000001 0007D0")),  # checked before errors 04 and 05
         (0x04, message(Code.INITIAL, "11 00F0 03E8 00C8 000001 0007D0")),  # checked before error 05
-        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0002F9")),  # deceleration ramp alone
+        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0002F9")),  # only the deceleration ramp
         (0x05, message(Code.INITIAL, "01 03E8 00C8 000000")),
         (0x00, message(Code.INITIAL, "01 03E8 00C8 0007D0 00")),
         (0x00, message(Code.INITIAL)),

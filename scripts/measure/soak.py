@@ -1,9 +1,10 @@
 """`make soak PART= SEED= COUNT=`: compare any number of random-host runs with the golden model.
 
-The column `soak` of the table of parts defines what a seed is; PART=all runs all parts one after the other.
-The seeds are one campaign, in blocks. A later run of the same part on the same sources, with more seeds or
-after an interruption, reuses passed blocks. A failure does not stop the other seeds. At the end, the failing
-seeds are listed with the command that repeats each. The exit code is 1 if a seed failed.
+The column `soak` of the table of parts defines the meaning of a seed; PART=all runs all parts one after
+the other. The seeds form one campaign, which is divided into blocks. A later run of the same part on the
+same sources, with more seeds or after an interruption, reuses passed blocks. A failure does not stop the
+other seeds. At the end, the failing seeds are listed with the command that repeats each. The exit code is
+1 if a seed failed.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .signals import Column
 
 GAP = 2.0
-"""Gap in characters between different frames, at least."""
+"""Shortest gap between two frames, in character times."""
 
 
 class Character(NamedTuple):

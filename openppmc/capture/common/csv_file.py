@@ -59,7 +59,7 @@ class _Lines:
             yield text_of(self._block[self._place : self._next])
 
     def rest(self) -> Iterator[bytes]:
-        """Yield everything from the line that was read last."""
+        """Yield the rest of the file, beginning with the line that was read last."""
         yield self._block[self._place :]
         self._block = b""
         yield from self._blocks

@@ -20,7 +20,7 @@ LONGEST = 1 << 62
 _DIGITS = 18
 """A number with this number of digits fits into an int64."""
 _NONE = 255
-"""Not a level."""
+"""Code of a cell that is not a level."""
 
 
 class Layout(NamedTuple):
@@ -97,11 +97,11 @@ class _Block:
         marks = cells[:, 1 - timed :: 2] == separator[0]
         if not marks.all() or (self.levels == _NONE).any():
             bad = ~marks.all(axis=1) | (self.levels == _NONE).any(axis=1)
-            # A line that equals the previous one is as good or bad as that.
+            # A line that equals the previous one is odd if and only if the previous one is odd.
             self.odd |= bad[np.cumsum(self.changed) - 1]
         self.levels = self.levels[~self.odd[self.changed]]
         self.ends = ends - width
-        """Ends of the times."""
+        """Places at which the times of the lines end."""
         self._lines: list[bytes] = []
 
     def gather(self, ends: Column, size: int) -> Column:

@@ -162,7 +162,7 @@ def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[i
 
 
 def _settled(whole: Channel, window: int) -> Iterator[tuple[int, int]]:
-    """Yield changes; those within `window` ps from the first of them are one."""
+    """Yield the changes; changes within `window` ps from the first of them are combined."""
     begin, last = None, 0
     for t, level in whole:
         if begin is not None and t - begin > window:

@@ -15,7 +15,7 @@ OnCount = Callable[[int, int], None]
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
 """Seconds that the EEPROM is busy, with some reserve."""
 _LOOKS = 10
-"""Number of these times to wait at most, for a slow I2C clock."""
+"""Longest wait as a multiple of these times, for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 

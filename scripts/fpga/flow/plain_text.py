@@ -173,7 +173,7 @@ def _wide_not(module: Module) -> None:
 
 
 def _pickers(module: Module) -> None:
-    """Name the functions that represent a `case`, and their arguments."""
+    """Give names to the functions that represent a `case`, and to their arguments."""
     inside = False
     for number, line in enumerate(module.lines):
         inside = inside or line.startswith("  function ")

@@ -1,4 +1,4 @@
-"""Timing diagrams and bit fields: from WaveDrom JSON to a small, stand-alone, reproducible SVG."""
+"""Conversion of timing diagrams and bit fields from WaveDrom JSON to a small, reproducible SVG."""
 
 from __future__ import annotations
 

@@ -336,7 +336,7 @@ CIRCUITS = (
     ),
 )
 OWN_GROUPS = 1
-"""Number of first groups that are on the board itself."""
+"""Number of groups at the beginning of the list whose circuits are on the board itself."""
 
 
 @dataclass(frozen=True)

@@ -132,7 +132,7 @@ def test_columns_stay_aligned() -> None:
     assert attempted and not failed
 
 
-# Tables, each with one of its headings.
+# Tables, each identified by one of its headings.
 TABLES = {
     "ppmc312-serial scan": "line faults",
     "ppmc312-serial status": "line faults",

@@ -20,7 +20,7 @@ from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 _MOST_PPS = 4_000_000
 """Speed in pulses/s that no table exceeds: rate 2 at 8 MHz."""
 _ENCODER_SLACK = 64
-"""Difference in counts of two reads that is accepted: half the value of the lowest bit 7."""
+"""Largest difference of two reads that is accepted: half the value of bit 7 of the lowest byte."""
 
 
 class ErrorCounts(NamedTuple):
