@@ -69,9 +69,12 @@ Changes = list[tuple[int, int]]
 class LineTimes:
     """Times of the level changes of characters.
 
-    t: the next free edge. bit: bit time of the line in cycles. error: relative error of the host's bit time,
-    0.02 = 2 % too long. middle: the middle of the last stop bit for a receiver with the correct bit time,
-    counted from the change of the pin.
+    Attributes:
+        t: next free edge.
+        bit: bit time of the line in cycles.
+        error: relative error of the host's bit time, 0.02 = 2 % too long.
+        middle: the middle of the last stop bit for a receiver with the correct bit time, counted from the
+            change of the pin.
     """
 
     t: int

@@ -110,9 +110,11 @@ OPTIONS = ("part", "speed", "clk", "xtal", "timing")
 class ModelPort:
     """Board that needs no hardware.
 
-    text: options of the machine model (`openppmc.sim.common.machine`), and `speed` (1: real time, 10: ten
-    times as fast, max: as fast as possible), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map`
-    (stmc) FAMILY or SHEET, `unplug` (the port disappears after this number of seconds of its time).
+    Args:
+        text: options of the machine model (`openppmc.sim.common.machine`), and `speed` (1: real time, 10: ten
+            times as fast, max: as fast as possible), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET,
+            `read_map` (stmc) FAMILY or SHEET, `unplug` (the port disappears after this number of seconds of
+            its time).
 
     Raises:
         PortError: text is invalid.

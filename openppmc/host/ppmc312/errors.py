@@ -16,9 +16,8 @@ from ..errors import CommandRefused, NothingToStop, NotInitialised, NotWhileBusy
 class ParameterRefused(CommandRefused):
     """F0: the part does not accept a value.
 
-    number: error number of the value.
-
     Attributes:
+        number: error number of the value.
         echo: instruction as the part received it.
     """
 

@@ -59,7 +59,8 @@ class Axis:
         shared: services of the bank.
         touched: set of the axes in which something may have changed.
 
-    config: CONFIG register.
+    Attributes:
+        config: content of the CONFIG register.
     """
 
     def __init__(

@@ -128,7 +128,9 @@ class Bridge:
         build: answer to VERSION, 16 bytes.
         recorder: True if the bus has a recorder.
 
-    rate: code of the current line rate. scripts: number of executed requests.
+    Attributes:
+        rate: code of the current line rate.
+        scripts: number of executed requests.
     """
 
     def __init__(

@@ -68,7 +68,9 @@ class Engine:
         build: answer to VERSION.
         recorder: True if the bus has a recorder.
 
-    events: state of the EVENTS switch. rate: rate code requested by op RATE, or `None`.
+    Attributes:
+        events: True if events are enabled (op EVENTS).
+        rate: rate code requested by op RATE, or `None`.
     """
 
     def __init__(

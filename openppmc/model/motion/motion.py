@@ -65,7 +65,8 @@ class Motion:
         guard: names of the switches in context.levels.
         on_end: on_end(t, masked) is called when BUSY falls; masked is that of the operation.
 
-    hold_cycles: crystal cycles from the fall of BUSY to HOLD.
+    Attributes:
+        hold_cycles: crystal cycles from the fall of BUSY to HOLD.
     """
 
     hold_cycles: int

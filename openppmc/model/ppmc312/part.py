@@ -40,8 +40,9 @@ class Ppmc312(Chip):
     Raises:
         ValueError: another value.
 
-    replies: (edge at which snd rises, whole frame) of all frames that the station has sent. sent: (edge in
-    the middle of the stop bit, character). Both lists may be cleared at any time.
+    Attributes:
+        replies: (edge at which snd rises, whole frame) of all frames that the station has sent.
+        sent: (edge in the middle of the stop bit, character). Both lists may be cleared at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS

@@ -54,7 +54,9 @@ class Drive:
         t_off_ns, t_blank_ns: times of the chopper.
         origin: first internal edge after the reset.
 
-    angle: TH, 0..511. decayed: the idle timer has expired.
+    Attributes:
+        angle: electrical angle TH, 0..511.
+        decayed: True if the idle timer has expired.
     """
 
     def __init__(

@@ -37,7 +37,7 @@ class Registers(Protocol):
         """Process the end of a read strobe."""
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """Process the strobe of this register that is seen at edge t; `None`: no strobe."""
+        """Process the strobe that is sampled at edge t: its register, or `None` without a strobe."""
 
 
 class Strobes:

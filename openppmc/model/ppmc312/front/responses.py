@@ -48,8 +48,10 @@ class Responses:
             longer contains.
         holding: holding() returns True if a response is about to be stored.
 
-    fresh: classes whose content is the state at the time of loading. serial: a newer report of classes 3 to 5
-    replaces the older one, and no report waits for responses (P312-SER-21).
+    Attributes:
+        fresh: classes whose content is the state at the time of loading.
+        serial: True in serial mode: a newer report of classes 3 to 5 replaces the older one, and no report
+            waits for responses (P312-SER-21).
     """
 
     def __init__(

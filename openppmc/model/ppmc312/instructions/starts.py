@@ -48,7 +48,8 @@ def is_reset(block: bytes) -> bool:
 def check(core: Core, block: bytes, source: Source, at_position: bool = False) -> Work:
     """Check a block in logical order; return its work.
 
-    at_position: True if a position has released it, which affects the DATASHEET time of instruction 80.
+    Args:
+        at_position: True if a position has released it, which affects the DATASHEET time of instruction 80.
 
     Raises:
         Refusal: the block is rejected. State that a rejection clears is already cleared.

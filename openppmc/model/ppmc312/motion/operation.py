@@ -32,8 +32,12 @@ class Operation:
             motor.
         abnormal: abnormal() returns True in state ABN.
 
-    run_level: RUN for decisions at this edge. end_monitored, run_ignored (CWS), speed_limit (HSL): settings.
-    last_cause: cause of the last stop report.
+    Attributes:
+        run_level: level of RUN for decisions at this edge.
+        end_monitored: setting that a motion waits for END.
+        run_ignored: setting CWS.
+        speed_limit: setting HSL.
+        last_cause: cause of the last stop report.
     """
 
     def __init__(
