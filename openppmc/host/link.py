@@ -173,7 +173,7 @@ class Link:
     def close(self) -> None:
         """Switch events off, return to 115 200 baud and close the port.
 
-        Never raises; a second call is allowed.
+        It never raises an exception, and may be called twice.
         """
         if self._closed:
             return

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .signals import Column
 
 CHOPPED = 20 * 10**9
-"""ps; off-times of choppers are shorter."""
+"""Time in ps that is longer than any off-time of a chopper."""
 
 
 @dataclass(frozen=True)

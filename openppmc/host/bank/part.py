@@ -82,20 +82,20 @@ class PpmcBank(Part):
     # ------------------------------------------------------------------ reading
 
     def positions(self) -> dict[int, int]:
-        """Return the positions of all axes by number; allowed at any time."""
+        """Return the positions of all axes by number. The call is allowed at any time."""
         seen = self._all(Script().read_number(POSITION, POSITION_BYTES))
         return {axis.number: axis.counted(_signed(one)) for axis, (one,) in zip(self.axes, seen, strict=True)}
 
     def position(self, axis: int) -> int:
-        """Return the position of one axis; allowed at any time."""
+        """Return the position of one axis. The call is allowed at any time."""
         return self.axis[axis].position
 
     def status(self) -> BankStatus:
-        """Return the status registers of all axes; allowed at any time."""
+        """Return the status registers of all axes. The call is allowed at any time."""
         return BankStatus.parse(b"".join(one for (one,) in self._all(Script().read(STATUS))))
 
     def look(self, axes: Iterable[int] | None = None) -> dict[int, Look]:
-        """Return status, position and switches of axes by number; allowed at any time.
+        """Return status, position and switches of axes by number. The call is allowed at any time.
 
         Args:
             axes: numbers of the axes, None for all.

@@ -137,7 +137,7 @@ class Axis(Settings):
         self.ask(Code.SET_POSITION, position, good=lambda value: value == position)
 
     def zero(self) -> None:
-        """Set the current position to 0; only while the motor is stopped."""
+        """Set the current position to 0. The motor must be stopped."""
         self.set_position(0)
 
     # ------------------------------------------------------------------ inside

@@ -53,7 +53,7 @@ class Memory(Axis):
                 )
 
     def read_program(self, progress: OnCount | None = None) -> Program:
-        """Return the program in the buffer; allowed at any time."""
+        """Return the program in the buffer. The call is allowed at any time."""
         return Program(tuple(self._read_words(range(WORDS), progress, WORDS).values()))
 
     def _read_words(self, places: Collection[int], progress: OnCount | None, total: int) -> dict[int, int]:

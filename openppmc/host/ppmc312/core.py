@@ -166,11 +166,11 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ registers
 
     def status(self) -> Status:
-        """Return state, monitors and registered instructions; allowed at any time."""
+        """Return state, monitors and registered instructions. The call is allowed at any time."""
         return Status.parse(self._plain(Code.STATUS, 3))
 
     def inputs(self) -> Inputs:
-        """Return switches and other inputs; allowed at any time."""
+        """Return switches and other inputs. The call is allowed at any time."""
         return Inputs.parse(self._plain(Code.TERMINALS, 2))
 
     def version(self) -> int:
@@ -179,12 +179,12 @@ class Core(Checked, Generic[MotionT]):
 
     @property
     def position(self) -> int:
-        """Pulse position of the part, CW positive; allowed at any time."""
+        """Pulse position of the part, CW positive. The call is allowed at any time."""
         return self._position(False)
 
     @property
     def encoder(self) -> int:
-        """Encoder position of the part; allowed at any time."""
+        """Encoder position of the part. The call is allowed at any time."""
         return self._position(True)
 
     def _position(self, encoder: bool) -> int:
@@ -211,19 +211,19 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ terminals
 
     def excitation_on(self) -> None:
-        """Activate the output EXON; only while the motor is stopped."""
+        """Activate the output EXON. The motor must be stopped."""
         self._plain(Code.EXCITATION_ON)
 
     def excitation_off(self) -> None:
-        """Deactivate the output EXON; only while the motor is stopped. The table is kept."""
+        """Deactivate the output EXON. The motor must be stopped. The table is kept."""
         self._plain(Code.EXCITATION_OFF)
 
     def counter_clear(self) -> None:
-        """Output a pulse of 24.6 ms (at 16 MHz) on CCLR; only while the motor is stopped."""
+        """Output a pulse of 24.6 ms (at 16 MHz) on CCLR. The motor must be stopped."""
         self._plain(Code.COUNTER_CLEAR)
 
     def zero_clamp(self) -> None:
-        """Activate the output ZCLMP until the next start; only while the motor is stopped."""
+        """Activate the output ZCLMP until the next start. The motor must be stopped."""
         self._plain(Code.ZERO_CLAMP)
 
     def clear_alarm(self) -> None:
@@ -356,7 +356,7 @@ class Settings(Core[MotionT]):
         return setup
 
     def read_table(self) -> TableRead:
-        """Return the table of the part; only while the motor is stopped.
+        """Return the table of the part. The motor must be stopped.
 
         Raises NotInitialised without a table.
         """

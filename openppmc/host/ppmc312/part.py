@@ -102,7 +102,7 @@ class Overrides(Settings[MotionT]):
         A buffer holds four instructions.
 
         A falling edge of the event input executes the next one; after the last one the first one follows.
-        Only while the motor is stopped.
+        The motor must be stopped.
         """
         status = self.instruct(blocks.event_register(event, block), 4)[0]
         if status == IN_USE:
@@ -115,7 +115,7 @@ class Overrides(Settings[MotionT]):
         return self.instruct(blocks.event_delete(event), 4)[0] != NOTHING
 
     def event_buffer(self, event: int) -> EventBuffer:
-        """Return the content of event buffer 1 or 2; only while the motor is stopped."""
+        """Return the content of event buffer 1 or 2. The motor must be stopped."""
         return EventBuffer.parse(self.instruct(blocks.event_read(event), 9))
 
 

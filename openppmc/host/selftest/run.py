@@ -182,7 +182,10 @@ class SelfTest:
         return self._judged(section, *self.fetch())
 
     def safe(self) -> None:
-        """End the recording, then reset the part: pulses end, phases are off. Never raises."""
+        """End the recording, then reset the part: pulses end, phases are off.
+
+        It never raises an exception.
+        """
         try:
             self.link.attempt(Script().record(False).reset().straps(0xFF))
         except LinkError:

@@ -162,19 +162,19 @@ class Station312(Axis[SerialMotion]):
     def error_code(self) -> int:
         """Return the last error code that the station replied (42 to 49), 0 for no error.
 
-        Reading clears it. Only while the motor is stopped (NotWhileBusy).
+        Reading clears it. Raises NotWhileBusy while the motor is moving.
         """
         return self.window.read(ERROR_CODE)[0]
 
     def error_counts(self) -> ErrorCounts:
         """Return the counters of framing errors, overruns and checksum errors of the station.
 
-        Reading clears them. Only while the motor is stopped (NotWhileBusy).
+        Reading clears them. Raises NotWhileBusy while the motor is moving.
         """
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
     def end_status(self) -> Cause | None:
-        """Return the cause of the last end of a motion; allowed at any time.
+        """Return the cause of the last end of a motion. The call is allowed at any time.
 
         Before the first end since the reset, it returns None.
         """

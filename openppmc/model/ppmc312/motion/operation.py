@@ -34,9 +34,9 @@ class Operation:
 
     Attributes:
         run_level: level of RUN for decisions at this edge.
-        end_monitored: setting that a motion waits for END.
-        run_ignored: setting CWS.
-        speed_limit: setting HSL.
+        end_monitored: True if a motion waits for END.
+        run_ignored: True if RUN is ignored (setting CWS).
+        speed_limit: rate HSL, which applies at the high-speed limits.
         last_cause: cause of the last stop report.
     """
 
