@@ -87,7 +87,7 @@ ICARUS = "icarus"
 
 
 def sim_main() -> str:
-    """Return the main program that SIM_MAIN selects; ValueError if it does not exist."""
+    """Return the main program that SIM_MAIN selects; raise ValueError if it does not exist."""
     name = os.environ.get("SIM_MAIN") or "own"
     if name not in (*MAINS, ICARUS):
         raise ValueError(f"SIM_MAIN={name}: there are {', '.join(MAINS)} and {ICARUS}")
@@ -246,7 +246,9 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 
 
 def build(design: Design, waves: bool = False) -> Path:
-    """Build once per (sources, parameters, arguments); return the folder. SimError with the log on failure.
+    """Build once per (sources, parameters, arguments); return the folder.
+
+    It raises SimError with the log on failure.
 
     pytest-xdist workers may call it at the same time: the first worker builds, the others wait for it.
     """
@@ -326,7 +328,10 @@ _BITS = re.compile(r"(?:(\d+)\s*\*\s*)?([A-Z]\w*)\s*-\s*1")
 
 
 def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
-    """Elaborate a design with each value; AssertionError unless exactly the legal values are accepted."""
+    """Elaborate a design with each value.
+
+    It raises AssertionError unless exactly the legal values are accepted.
+    """
     files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
     for name, (good, bad) in ranges.items():
         for value in (*good, *bad):

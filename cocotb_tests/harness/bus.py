@@ -27,7 +27,7 @@ class SideHost:
         return self.side.now
 
     async def go(self, t: int) -> None:
-        """Wait until just before edge t; ValueError if that edge has passed."""
+        """Wait until just before edge t; raise ValueError if that edge has passed."""
         await self.side.until(t)
 
     async def pause(self, clk: int) -> None:

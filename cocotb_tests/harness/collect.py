@@ -213,7 +213,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
 
 
 def all_tests(module: ModuleType) -> list[Any]:
-    """Return the cocotb tests that a module defines, in order; ValueError if it has no test."""
+    """Return the cocotb tests that a module defines, in order; raise ValueError if it has no test."""
     found = [
         obj
         for obj in vars(module).values()

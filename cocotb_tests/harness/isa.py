@@ -114,7 +114,7 @@ class IsaHost(HostBus):
         return edge0
 
     async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
-        """Perform one read access; AssertionError if the module does not drive the bus."""
+        """Perform one read access; raise AssertionError if the module does not drive the bus."""
         driven, byte, edge0 = await self.master.read(self.base + reg)
         self.bench.check("ISA-05", f"sd_oe at the end of a read of {self.base + reg:#x}", driven, 1)
         self.bench.accesses.append(Access(edge0, "read", reg, byte))

@@ -302,7 +302,7 @@ def run_sim(
     """Build if needed and run one cocotb test in one process; return the folder of the run.
 
     `folder` (default below build/runs/) receives log.txt, results.xml and the files of the test. Raises
-    SimError unless exactly this test ran and passed, and the process ended well.
+    Raises SimError unless exactly this test ran and passed, and the process ended well.
     """
     job = Job(design, (item,), seed, waves, {**(env or {}), **({REPRO: repro} if repro else {})})
     folder = folder or job.folder
@@ -401,7 +401,7 @@ def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> l
 
 
 def check_mains(item: Item, env: Mapping[str, str] | None = None, design: Design | None = None) -> int:
-    """Return the number of recordings of the test; AssertionError if the main programs differ."""
+    """Return the number of recordings of the test; raise AssertionError if the main programs differ."""
     design = design or part_design(item.part, item.config)
     own, cocotb = (recorded(item, main, env or {}, design) for main in MAINS)
     assert own and own == cocotb, f"{item.id}: {own} with our main program, {cocotb} with cocotb's"

@@ -111,7 +111,7 @@ class SerialHost(SerialLine, SideHost):
     async def begin(self, within: int = T_EXEC) -> int:
         """Return the edge of the next rise of snd.
 
-        TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
+        Raises TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
         """
         await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK

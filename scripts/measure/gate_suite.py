@@ -76,7 +76,7 @@ class GateTest:
 def left_out() -> dict[str, str]:
     """Return the tests of the parts' test modules that do not run on netlists, with the reason.
 
-    ProjectError for a test function without a reason, so that no test is omitted by mistake.
+    Raises ProjectError for a test function without a reason, so that no test is omitted by mistake.
     """
     every = suites()
     reasons: dict[str, str] = {}

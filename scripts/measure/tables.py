@@ -73,7 +73,7 @@ def run(*command: str) -> str:
 def differences(folder: Path) -> str:
     """Return the words that differ, one on each line.
 
-    ProjectError if a tool fails.
+    Raises ProjectError if a tool fails.
 
     Args:
         folder: folder for temporary files.

@@ -52,7 +52,9 @@ def git(*words: str) -> str:
 
 
 def section(changelog: str, version: str, trial: bool = False) -> str:
-    """Return the text below the newest heading of a changelog; ProjectError unless it is of this version.
+    """Return the text below the newest heading of a changelog.
+
+    It raises ProjectError unless it is of this version.
 
     [Unreleased] may be above it, without text. In a trial, its text is returned if there is any.
     """

@@ -38,7 +38,7 @@ def statements(text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 class Pauses:
-    """Growing pauses between polls; ScriptError if PATIENCE is exceeded."""
+    """Growing pauses between polls; raise ScriptError if PATIENCE is exceeded."""
 
     def __init__(self, side: ModelBench) -> None:
         self.side, self.end, self.count, self.pause = side, side.now + PATIENCE, 0, FIRST

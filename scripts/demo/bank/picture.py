@@ -141,7 +141,7 @@ def frame(figure: Figure, comparison: Any) -> None:
 def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Path) -> None:
     """Draw the picture into a PNG.
 
-    IndexError if an axis has no pulses.
+    Raises IndexError if an axis has no pulses.
 
     Args:
         first: edge of all first pulses.

@@ -70,7 +70,10 @@ def source(file: str) -> list[str]:
 
 
 def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
-    """Yield an entry for each line of a function; ProjectError if its file has no function of that name."""
+    """Yield an entry for each line of a function.
+
+    It raises ProjectError if its file has no function of that name.
+    """
     inside = False
     name = entry["function"]
     for line in source(entry["file"]):
@@ -83,7 +86,10 @@ def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
 
 
 def explained() -> list[Mapping[str, str]]:
-    """Return the entries of holes.yml, one for each line; ProjectError if a line is no longer in its file."""
+    """Return the entries of holes.yml, one for each line.
+
+    It raises ProjectError if a line is no longer in its file.
+    """
     entries: list[Mapping[str, str]] = []
     for entry in yaml.safe_load(HOLES.read_text(encoding="utf-8")) or []:
         entries += _of_function(entry) if "function" in entry else [entry]

@@ -100,7 +100,7 @@ def proofs() -> Iterator[Proof]:
 def chosen(words: Sequence[str], night: bool) -> list[Proof]:
     """Return proofs whose name contains one of these words; without words all (`night`) or all quick ones.
 
-    ProjectError if a word matches no proof.
+    Raises ProjectError if a word matches no proof.
     """
     every = list(proofs())
     if not words:
