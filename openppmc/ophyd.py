@@ -35,7 +35,7 @@ POLL = 0.03
 FREE = 0.01
 """Pause in seconds after each poll, so that other threads can use the port.
 
-A lock has no queue.
+A lock does not serve waiting threads in turn.
 """
 
 _locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()

@@ -160,7 +160,7 @@ class Item:
 
     @property
     def together(self) -> bool:
-        """Whether it may share a process with other tests of its build: directed tests begin with a reset."""
+        """Whether the test may share a process with others of its build, as directed tests may."""
         return self.shared or self.uncompared is not None
 
     @property

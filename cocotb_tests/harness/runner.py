@@ -302,7 +302,7 @@ def run_sim(
     """Build if needed and run one cocotb test in one process; return the folder of the run.
 
     `folder` (default below build/runs/) receives log.txt, results.xml and the files of the test. Raises
-    Raises SimError unless exactly this test ran and passed, and the process ended well.
+    SimError unless exactly this test ran and passed, and the process ended well.
     """
     job = Job(design, (item,), seed, waves, {**(env or {}), **({REPRO: repro} if repro else {})})
     folder = folder or job.folder

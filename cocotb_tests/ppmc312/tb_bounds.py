@@ -86,9 +86,9 @@ async def p312_stops_come_in_time(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
 async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
-    """An 88 in progress is finished before a stop by an event, which then takes more than 64 cycles.
+    """An instruction 88 in progress is finished before a stop by an event.
 
-    The motion stops regardless of the reads of the host.
+    The stop then takes more than 64 cycles, and the motion stops regardless of the reads of the host.
     """
     longest = 0
     for after in range(1, 260, 6):

@@ -165,7 +165,7 @@ async def p312_an_alarm_does_not_wait_for_the_positioning_end(dut: Any) -> None:
 
 @directed("P312-MOT-35", "P312-INP-30", "P312-MOT-34", "P312-MOT-06")
 async def p312_an_alarm_after_the_last_pulse_does_not_wait_for_end(dut: Any) -> None:
-    """An alarm in the last interval or near its end (begin of the END wait) causes E0 at once, with NOS."""
+    """An alarm in the last interval or near its end (start of END wait) causes E0 with NOS immediately."""
     for after in (20, 79, 80, 81, 2000, *range(6392, 6408)):
         host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
         await host.ask(message(Code.CONSTANT, "00 0190 00000003"))

@@ -99,7 +99,7 @@ async def p312_serial_changes(dut: Any) -> None:
 @cocotb.parametrize(case=[(0x20, "evt0_n"), (0x30, "evt1_n")])
 @directed("P312-OVR-01", "P312-OVR-02", "P312-SER-40", "P312-SER-22")
 async def p312_serial_overrides_by_pins(dut: Any, case: Any) -> None:
-    """80, 81, 89 and 8A wait for their pin, one after the other."""
+    """Instructions 80, 81, 89 and 8A wait for their pin, one after the other."""
     bits, pin = case
     host = await SerialHost.start(dut, TS)
     for code, data in ((0x8A, "0190"), (0x89, "01F4"), (0x81, ""), (0x80, "")):

@@ -246,7 +246,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
 
 @directed("P312-TIM-12", "P312-TIM-20", "P312-OVR-12", "P312-INP-31", builds=(D16,))
 async def p312_datasheet_triggered_stop(dut: Any) -> None:
-    """80 by EVT acts 350 us after the filtered edge; by position it acts immediately."""
+    """Instruction 80 by EVT acts 350 us after the filtered edge; by position it acts immediately."""
     host = await Host.start(dut, *TF, message(Code.STOP, "05"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     mark = host.mark
@@ -262,7 +262,7 @@ async def p312_datasheet_triggered_stop(dut: Any) -> None:
 
 @directed("P312-CMD-25", "P312-CMD-27", "P312-INP-01", "P312-EVT-01")
 async def p312_25_and_27_show_all_pins_at_one_clk(dut: Any) -> None:
-    """25 and 27 sample all pins in one cycle, for every source of the instruction."""
+    """Instructions 25 and 27 sample all pins in one cycle, for every source of the instruction."""
     names = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n", "evt1_n", "run")
     pins = dict.fromkeys(names, 0)
     for code, levels, shown in (

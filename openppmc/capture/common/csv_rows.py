@@ -355,7 +355,7 @@ class Rows:
         return found
 
     def _scaled(self, value: Fraction) -> int:
-        """Return a time from `base` on. Raises CaptureError."""
+        """Return a time, counted from `base`. Raises CaptureError."""
         found: int = round((value - (self.base or 0)) * 10**self.decimals)
         if abs(found) >= LONGEST:
             raise too_long(self.layout.name)

@@ -236,7 +236,7 @@ def misfit(build: Build | None, number: int) -> str:
     try:
         own = sources.digest(find_root(), f"{row.rtl}_carrier").hex()
     except (PpmcError, RuntimeError, OSError):
-        return ""  # not in a checkout
+        return ""  # the package is not in a checkout
     if own and build.source != own:
         return (
             f"the bitstream was built from other sources ({build.source}) than those of this checkout "

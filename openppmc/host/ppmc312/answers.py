@@ -280,7 +280,7 @@ class Response:
 
     @property
     def spontaneous(self) -> bool:
-        """True if it is no response to an instruction."""
+        """True if the block is no response to an instruction."""
         return bool(self.raw[0] & _SPONTANEOUS)
 
     @property

@@ -91,7 +91,7 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
 # Assertions would cost a third of the speed, and `make test` checks all of them.
-# One C++ file: with split files the precompiled header does not work with every Verilator.
+# There is one C++ file, because with split files the precompiled header does not work with every Verilator.
 VERILATE = (
     "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
 )

@@ -39,7 +39,7 @@ class Outcome:
 
     @property
     def good(self) -> bool:
-        """True if it is proved and all of its covers are reached."""
+        """True if the property is proved and all covers are reached."""
         return not self.trouble
 
 

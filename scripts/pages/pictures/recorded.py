@@ -12,7 +12,7 @@ Samples = Sequence[Levels | None]  # one for each column; None: cycles that are 
 
 LONG = 10_000
 LETTERS = "nmk"
-COLOURS = "345"  # WaveDrom's filled boxes, in turn
+COLOURS = "345"  # codes of WaveDrom's filled boxes, used in turn
 
 
 @dataclass(frozen=True)

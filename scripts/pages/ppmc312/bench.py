@@ -38,7 +38,7 @@ def flags(chip: Any) -> Levels:
 
 
 def marked(row: Row, samples: Samples, letters: str) -> Row:
-    """Return the row with letters for arrows at its changes; a full stop: no letter at this change."""
+    """Return the row with letters for arrows at its changes. A full stop means no letter."""
     levels = [None if found is None else row.of(found) for found in samples]
     changes, last = [], next(level for level in levels if level is not None)
     for column, found in enumerate(samples):

@@ -9,7 +9,7 @@ from itertools import pairwise
 from openppmc.model.stmc.part import Stmc
 
 CLK_HZ = 16_000_000
-TICK = 1280  # cycles of a tick of the internal 12.5 kHz
+TICK = 1280  # cycles of a tick of the internal clock, 12.5 kHz
 IBF, OBF = 2, 1
 FINISH, REMAINING = 0x80, 0x83
 

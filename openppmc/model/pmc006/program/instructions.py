@@ -192,7 +192,7 @@ class Instruction:
 
     @property
     def plain(self) -> bool:
-        """True if it can be written with its name: all operands legal, unused fields 0."""
+        """True if the instruction can be written by name: all operands are legal, unused fields are 0."""
         if self.kind is None or self.spare:
             return False
         used = {one.place for one in self.kind.operands}

@@ -35,7 +35,7 @@ class Counters:
 
     @property
     def distance(self) -> int:
-        """|POS - ENC| of the difference as signed 32 bits."""
+        """Absolute value of POS - ENC, where the difference is a signed 32-bit number."""
         difference = self.pulse - self.encoder & _WRAP
         return min(difference, _WRAP + 1 - difference)
 
