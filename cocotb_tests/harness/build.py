@@ -248,7 +248,7 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 def build(design: Design, waves: bool = False) -> Path:
     """Build once per (sources, parameters, arguments); return the folder.
 
-    It raises SimError with the log on failure.
+    The call raises SimError with the log on failure.
 
     pytest-xdist workers may call it at the same time: the first worker builds, the others wait for it.
     """
@@ -330,7 +330,7 @@ _BITS = re.compile(r"(?:(\d+)\s*\*\s*)?([A-Z]\w*)\s*-\s*1")
 def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
     """Elaborate a design with each value.
 
-    It raises AssertionError unless exactly the legal values are accepted.
+    The call raises AssertionError unless exactly the legal values are accepted.
     """
     files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
     for name, (good, bad) in ranges.items():

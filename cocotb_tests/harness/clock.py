@@ -47,7 +47,7 @@ class Stock:
     def read(self, port: int) -> int:
         """See `Clockwork.read`.
 
-        It raises AssertionError if a bit has no level (X), which only some simulators report.
+        The call raises AssertionError if a bit has no level (X), which only some simulators report.
 
         Undriven data, such as d_o with d_oe = 0, are not checked: such bits read as 0.
         """

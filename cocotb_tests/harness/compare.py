@@ -85,7 +85,7 @@ def leave_digest(recording: Recording, folder: Path) -> None:
 def check_against_model(bench: Any) -> Comparison:
     """Compare all changes that a bench has recorded so far.
 
-    It raises AssertionError with the report at a difference.
+    The call raises AssertionError with the report at a difference.
 
     The golden model is the one that has followed the bench (`Side.golden`), if a test has used it. The files
     of the report are written to bench.out.

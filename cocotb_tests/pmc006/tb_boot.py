@@ -108,7 +108,7 @@ async def p006_a_copy_stands_in_for_a_bad_block(dut: Any) -> None:
 async def p006_which_programs_count(dut: Any) -> None:
     """A program is valid if its own sum and its end mark are correct.
 
-    An invalid one leaves 200 words of 0 and is not started.
+    An invalid program leaves 200 words of 0 and is not started.
     """
     good = image(page(a0B=1, a04=4), BLINK)
     host = await booted(dut, good)

@@ -67,7 +67,7 @@ class View(ABC):
     def in_us(self, clk: int) -> int:
         """Convert cycles to whole us.
 
-        It raises AssertionError if the cycles deviate from whole us by more than one cycle.
+        The call raises AssertionError if the cycles deviate from whole us by more than one cycle.
         """
         micros = round(Fraction(clk * 1_000_000, self.clk_hz))
         assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} clk are not whole us"

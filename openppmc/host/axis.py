@@ -178,7 +178,7 @@ class Axis(Checked):
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:
         """Return base clock and rate byte of a constant speed.
 
-        It may be the other internal base clock than that of the ramp.
+        The base clock may be another internal clock than that of the ramp.
         """
         if pps is None:
             pps = self.search_speed
@@ -210,7 +210,7 @@ class Axis(Checked):
     def where(self, script: Script) -> Script:
         """Add a read of the position counter of this axis to a script.
 
-        It returns one value of 4 bytes.
+        The call returns one value of 4 bytes.
         """
         return script.count(self.number)
 
@@ -360,7 +360,7 @@ class Axis(Checked):
     def stop(self, wait: bool = True) -> End | None:
         """Stop with a ramp (constant speeds: immediately); return the End, or `None` if wait is False.
 
-        It is no error if the motor is already decelerating or has just stopped.
+        The call is no error if the motor is already decelerating or has just stopped.
 
         Raises:
             NothingToStop: the motor was stopped.

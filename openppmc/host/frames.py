@@ -65,7 +65,7 @@ class Broken:
 def crc16(data: bytes) -> int:
     """Return the CRC of UB-FRM-03.
 
-    It has the polynomial 1021 and the initial value FFFF, and is not reflected and not inverted.
+    The CRC has the polynomial 1021 and the initial value FFFF, and is not reflected and not inverted.
     """
     return binascii.crc_hqx(data, CRC_START)
 

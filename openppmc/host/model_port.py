@@ -58,7 +58,7 @@ class Pacer:
     def behind(self, seconds: float) -> float:
         """Return the virtual seconds that passed while the program did something else.
 
-        It returns 0 if there are few.
+        The call returns 0 if there are few.
         """
         if self.speed is None:
             return 0.0

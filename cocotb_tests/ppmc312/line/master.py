@@ -180,7 +180,7 @@ class Master:
     async def exchange(self, message: bytes, limit: int = T_EXEC) -> Reply | None:
         """Send characters and return the reply, None if there is none.
 
-        It raises NoFrameError if the reply is not a frame.
+        The call raises NoFrameError if the reply is not a frame.
         """
         await self.send(message)
         data = await self.hear(limit + round(1.2 * self.bit))
@@ -189,7 +189,7 @@ class Master:
     async def ask(self, station: int, text: str) -> Reply:
         """Send an instruction (hexadecimal text) and return its reply.
 
-        It raises NoFrameError if there is no reply.
+        The call raises NoFrameError if there is no reply.
         """
         data = bytes.fromhex(text)
         reply = await self.exchange(self.frame(INSTRUCTION | station, data), T_EXEC if data[0] else T_INIT)

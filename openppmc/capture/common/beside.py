@@ -171,7 +171,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
 def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
     """Return a line that proposes the other TIMING, or an empty text.
 
-    It is proposed if most edges differ and the other TIMING matches.
+    The other TIMING is proposed if most edges differ and the other TIMING matches.
     """
     if len(result.differences) <= result.compared:
         return ""
@@ -185,8 +185,8 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
     """Return the beginning of a comparison.
 
-    It consists of the time from which the model can follow, the times from which the edges of each axis
-    count, and whether the capture contains a reset.
+    The beginning consists of the time from which the model can follow, the times from which the edges of each
+    axis count, and whether the capture contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -314,7 +314,8 @@ class _Outputs:
 def _clk_hz(decoded: Decoded) -> int:
     """Return the clock frequency of the model.
 
-    It is that of the map, that of a captured clk (then our own captures are exact), or a high default.
+    The frequency is that of the map, that of a captured clk (then our own captures are exact), or a high
+    default.
     """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))
@@ -349,7 +350,7 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    It is measured in long moves that both have in common; without such moves it is 1.
+    The ratio is measured in long moves that both have in common; without such moves it is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
@@ -367,7 +368,7 @@ def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
 def learned(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    It is measured in the lengths of moves of both in ps, and is 1 if they do not define it.
+    The ratio is measured in the lengths of moves of both in ps, and is 1 if they do not define it.
 
     Args:
         slack: possible error of a length in ps.
@@ -506,7 +507,7 @@ def _unlike(
 ) -> tuple[int, int]:
     """Match edges one by one where the sides differ.
 
-    It returns the number of matched edges of each side.
+    The call returns the number of matched edges of each side.
 
     Args:
         more: whether a side has further edges.

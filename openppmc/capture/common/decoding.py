@@ -79,7 +79,7 @@ def decoder(part: str) -> DecodeKind:
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
     """Return "; it has the pins of …" if the capture lacks a required pin and matches other parts.
 
-    It matches a part if the channels have the names of its pins. In other cases the text is empty.
+    The capture matches a part if the channels have the names of its pins. In other cases the text is empty.
 
     Args:
         without: the requested part, which is not named.

@@ -113,7 +113,7 @@ class PpmcBank(Part):
     def pending(self) -> tuple[int, ...]:
         """Return the numbers of the axes whose interrupt is pending (BANK-WIN-08).
 
-        This is allowed at any time.
+        The call is allowed at any time.
 
         The motion of such an axis has ended, and no program has read its end.
         """

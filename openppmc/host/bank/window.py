@@ -81,9 +81,9 @@ class AxisLink:
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
     """Execute scripts at several axes in as few frames as possible.
 
-    It returns the values of each script.
+    The call returns the values of each script.
 
-    It raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
+    The call raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
     following scripts are not executed.
     """
     values: list[tuple[bytes, ...]] = []

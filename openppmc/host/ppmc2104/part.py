@@ -165,7 +165,7 @@ class Ppmc2104(Part):
     def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until both have ended; return the motion that ended early, if any.
 
-        Its end stops the other one.
+        The end of this motion stops the other motion.
         """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None

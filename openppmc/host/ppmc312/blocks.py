@@ -75,7 +75,7 @@ def number(value: int, width: int, what: str, least: int = 0) -> bytes:
 def position_bytes(position: int) -> bytes:
     """Return the bytes of a position.
 
-    It is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
+    The position is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
 
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'

@@ -102,7 +102,7 @@ class Core(Checked, Generic[MotionT]):
     def instruct(self, block: bytes, gives: int = 3, milliseconds: int = ANSWER_MS) -> bytes:
         """Execute any instruction block in logical order (`blocks`).
 
-        It returns the parameters of the response.
+        The call returns the parameters of the response.
 
         Raises the error of the part.
         """
@@ -400,7 +400,7 @@ class Settings(Core[MotionT]):
     def watch_encoder(self, distance: int | None, auto: bool = True) -> None:
         """Set the encoder monitor, which also reports during motions (`EncoderChange`).
 
-        It detects lost steps and a motor that does not move. Arguments as for `watch_position`.
+        The monitor detects lost steps and a motor that does not move. Arguments as for `watch_position`.
         """
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 

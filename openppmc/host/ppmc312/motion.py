@@ -97,7 +97,7 @@ class Motion(Handle):
     def stopped(self, report: Stopped) -> None:
         """Process the report that the pulses have ended.
 
-        It is a confirmed end if the pulses are those of the order.
+        The end is confirmed if the pulses are those of the order.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:

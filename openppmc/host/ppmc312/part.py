@@ -251,7 +251,7 @@ class Axis(Overrides[MotionT]):
     def stop(self, wait: bool = True) -> End | None:
         """Stop with a ramp; return the End, or `None` if wait is False.
 
-        It is no error if the motor has just stopped.
+        The call is no error if the motor has just stopped.
 
         Raises:
             NothingToStop: the motor was stopped.
@@ -266,7 +266,7 @@ class Axis(Overrides[MotionT]):
     def brake(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        It is no error if the motion has ended.
+        The call is no error if the motion has ended.
         """
         try:
             self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())

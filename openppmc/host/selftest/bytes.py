@@ -232,7 +232,7 @@ class ByteBus:
     def registers(self) -> Section:
         """Return a section that reads the status and every register.
 
-        It reads them before and after the initialisation.
+        The registers are read before and after the initialisation.
         """
 
         def play(talk: Talk) -> None:

@@ -184,7 +184,7 @@ class SelfTest:
     def safe(self) -> None:
         """End the recording, then reset the part: pulses end, phases are off.
 
-        It never raises an exception.
+        The call never raises an exception.
         """
         try:
             self.link.attempt(Script().record(False).reset().straps(0xFF))

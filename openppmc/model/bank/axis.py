@@ -113,7 +113,7 @@ class Axis:
     def _waits(self, t: int, command: bool) -> int | None:
         """Return the first edge at which the waiting byte of this axis may be tried again.
 
-        It returns None if visit t may accept the byte (BANK-HSK-02, -05).
+        The call returns None if visit t may accept the byte (BANK-HSK-02, -05).
         """
         if t in (self.motion.ended, self.commands.completed, self._spent) or self.chopper.orders(t):
             return t + 1

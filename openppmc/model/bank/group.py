@@ -84,7 +84,7 @@ class Group:
     def go(self, t: int) -> None:
         """Process write event t of GO.
 
-        It acts from `t` on, or after the end of an active GO (BANK-GRP-03).
+        This GO acts from `t` on, or after the end of an active GO (BANK-GRP-03).
         """
         if self._go > t:
             return

@@ -162,7 +162,7 @@ class Bridge:
     def receive(self, data: bytes) -> bytes:
         """Process bytes without framing error.
 
-        It returns the line bytes that the bridge sends in response.
+        The call returns the line bytes that the bridge sends in response.
         """
         sent = b""
         place = 0
@@ -239,7 +239,7 @@ class Bridge:
     def interrupt(self) -> bytes:
         """Process a fall of `int_n`; return the event message.
 
-        It is empty if events are disabled or must wait for an answer.
+        The message is empty if events are disabled or must wait for an answer.
         """
         if not self._engine.events:
             return b""

@@ -67,7 +67,7 @@ class Excitation:
     def configure(self, phases: int, half: bool, positive: bool) -> None:
         """Process the first accepted initialisation (P104-PHS-03).
 
-        It fixes type, method and logic, and sets index 0.
+        This initialisation fixes type, method and logic, and sets index 0.
         """
         self._steps = step_list(phases, half)
         self.positive = positive

@@ -93,7 +93,7 @@ def try_program(desk: Desk, data: int) -> Effect:
 def single(desk: Desk, data: int) -> Effect:
     """Execute instruction E: one instruction of the program (P006-PRG-20).
 
-    It acts as an instruction of the host.
+    The instruction acts as if the host had sent it.
     """
     pp = desk.settings.pp
     if not desk.program.halted or pp >= 200:

@@ -154,7 +154,7 @@ class Core:
     def _on_pulse(self, t: int, direction: int) -> bool:
         """Count a pulse in the position and compare the position.
 
-        It returns True if the output ends permanently at this position.
+        The call returns True if the output ends permanently at this position.
         """
         position = self.counters.pulse
         released = self.fifo.count(t, position)

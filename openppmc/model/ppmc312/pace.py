@@ -127,7 +127,7 @@ class Pace:
     def look_up(self) -> int:
         """Return the cycles of one look-up in the table.
 
-        It lies between the effect of 87 or 88 and the change, or t0 without a plan.
+        The look-up lies between the effect of 87 or 88 and the change, or t0 without a plan.
         """
         return self.scan + 4
 

@@ -1,6 +1,6 @@
 """Prediction of one move from its initialisation bytes, for plots and tables.
 
-It contains pulse times and speeds.
+A prediction contains pulse times and speeds.
 
 `predict_move` calls the `predict` function of the part, which the table of parts names. This module has the
 shared code of parts with four initialisation bytes.

@@ -153,7 +153,7 @@ class CommandUnit(ByteUnit):
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
         """Process the fourth byte of an initialisation (STMC-INI-02..07).
 
-        It is checked and stored, and the table build begins.
+        The initialisation is checked and stored, and the table build begins.
         """
         d1, d2 = data[0], data[1]
         pa = data[2] | data[3] << 8

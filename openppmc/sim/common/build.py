@@ -100,7 +100,8 @@ VERILATE = (
 def find_root() -> Path:
     """Return the checkout of the project. Raise SimError if there is none.
 
-    It is OPENPPMC_ROOT if this is set, else the checkout that contains this package or the current folder.
+    The checkout is OPENPPMC_ROOT if this is set, else the checkout that contains this package or the current
+    folder.
     """
     named = os.environ.get("OPENPPMC_ROOT")
     here = Path.cwd()
@@ -154,7 +155,7 @@ def board_program(root: Path, part: str) -> Program:
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
     """Return the program for stations on a line.
 
-    Its top is tb/<part>/line/line_node.sv, which contains the carrier.
+    The top of the program is tb/<part>/line/line_node.sv, which contains the carrier.
 
     Args:
         more: additional sources, relative to tb/.

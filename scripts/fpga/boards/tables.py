@@ -96,7 +96,7 @@ def bridge(text: str) -> str:
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
     """Return `text` with `body` between the lines `begin` and `end`.
 
-    It raises ProjectError if a line is missing.
+    The call raises ProjectError if a line is missing.
     """
     head, found, rest = text.partition(f"{begin}\n")
     _, closed, tail = rest.partition(end)

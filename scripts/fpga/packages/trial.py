@@ -157,7 +157,7 @@ def try_template(name: str) -> None:
 def try_other(program: str) -> None:
     """Use the packages with another Verilator.
 
-    It raises ProjectError if the program is not a Verilator or reports a fault.
+    The call raises ProjectError if the program is not a Verilator or reports a fault.
     """
     found = shutil.which(program)
     if found is None:

@@ -22,7 +22,7 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 def measure() -> tuple[int, int, list[list[float]]]:
     """Return cycles, output edges, seconds of each run of both sides.
 
-    It raises ProjectError if the edges differ.
+    The call raises ProjectError if the edges differ.
     """
     program = build()
     played = play()

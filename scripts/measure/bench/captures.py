@@ -94,7 +94,8 @@ class _Writer:
 def write_capture(path: Path, edges: int, pulses: int = 20_000) -> int:
     """Write a capture of a PPMC-104 and return the number of its edges.
 
-    It has moves of `pulses` with a poll after every 20 pulses; if `pulses` is 0, commands with 20 polls each.
+    The capture has moves of `pulses` with a poll after every 20 pulses; if `pulses` is 0, it has commands
+    with 20 polls each.
     """
     names = [*(f"d[{bit}]" for bit in range(8)), "a0", "cs_n", "rd_n", "wr_n"]
     out = _Writer(path, names + ["pout_n", "dir", "rst_n"] * bool(pulses))

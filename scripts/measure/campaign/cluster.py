@@ -57,7 +57,7 @@ def workers_of(arguments: argparse.Namespace) -> Workers:
 def client(workers: Workers) -> Iterator[Any]:
     """Provide a Dask client; workers of this machine end with it.
 
-    It raises ProjectError if there is no scheduler.
+    The call raises ProjectError if there is no scheduler.
     """
     try:
         import dask

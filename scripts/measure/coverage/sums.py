@@ -72,7 +72,7 @@ def source(file: str) -> list[str]:
 def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
     """Yield an entry for each line of a function.
 
-    It raises ProjectError if its file has no function of that name.
+    The call raises ProjectError if its file has no function of that name.
     """
     inside = False
     name = entry["function"]
@@ -88,7 +88,7 @@ def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
 def explained() -> list[Mapping[str, str]]:
     """Return the entries of holes.yml, one for each line.
 
-    It raises ProjectError if a line is no longer in its file.
+    The call raises ProjectError if a line is no longer in its file.
     """
     entries: list[Mapping[str, str]] = []
     for entry in yaml.safe_load(HOLES.read_text(encoding="utf-8")) or []:

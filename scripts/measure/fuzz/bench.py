@@ -29,7 +29,7 @@ SHOWN = 24
 def program(name: str) -> Path:
     """Return the program of a line, built if its sources changed.
 
-    It raises ProjectError with the end of the log.
+    The call raises ProjectError with the end of the log.
     """
     line = LINES[name]
     sources = [*files(line.group), FOLDER / f"{line.top}.sv", FOLDER / "main.cpp"]

@@ -118,7 +118,7 @@ def _arrow(axes: Axes, arrow: Arrow, boxes: Mapping[str, Box]) -> None:
 def draw(boxes: Mapping[str, Box], arrows: Sequence[Arrow], inches: tuple[float, float]) -> plt.Figure:
     """Return the drawing with this width and height; the grid fills it.
 
-    It raises KeyError for an unknown box.
+    The call raises KeyError for an unknown box.
     """
     figure = plt.figure(figsize=inches)
     axes = figure.add_axes((0.005, 0.01, 0.99, 0.98))

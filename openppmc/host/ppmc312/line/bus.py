@@ -83,7 +83,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
 
         An address without a station takes twice the time `patience`.
 
-        It reads and clears the error counters of stopped stations.
+        The scan reads and clears the error counters of stopped stations.
 
         Args:
             progress: called with each number before it is polled.

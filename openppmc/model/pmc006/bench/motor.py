@@ -160,7 +160,7 @@ class Winding:
     def above(self, t: float) -> int:
         """Return the level of the comparator.
 
-        It is 1 if the current in the direction of the sign has reached the reference.
+        The level is 1 if the current in the direction of the sign has reached the reference.
         """
         level, current = self.levels[-1], self.arcs[-1].at(t)
         return int((-current if level.sign else current) >= level.at(t))

@@ -35,7 +35,7 @@ WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(Q
 def wave(unit: int) -> int:
     """Return the signed sine of an angle in units, -256..256.
 
-    It is odd and symmetric like the sine itself.
+    The table is odd and symmetric like the sine itself.
     """
     unit %= CYCLE
     if unit >= CYCLE // 2:

@@ -25,7 +25,7 @@ MODULUS = 256
 class Stream:
     """Bit stream of a reference: carry of an accumulator that adds the reference every cycle (P006-EXC-40).
 
-    It is calculated on demand.
+    The level is calculated on demand.
     """
 
     def __init__(self, t: int) -> None:

@@ -121,7 +121,7 @@ class End(Operation):
 class AsHost(Operation):
     """Host instruction of this letter.
 
-    Its data is the operand, or the entry of `data` for the operand.
+    The data of the instruction is the operand, or the entry of `data` for the operand.
     """
 
     letter: str

@@ -276,7 +276,7 @@ class Motion:
     def _plan_steps(self, before: int, ticks: int) -> bool:
         """Schedule the steps in the us after t = `before`, and the next update.
 
-        It returns False if the first us contains the last step.
+        The call returns False if the first us contains the last step.
         """
         engine, us, lag = self.engine, self._shared.us, self._shared.pace.step
         assert engine is not None and self.tick is not None

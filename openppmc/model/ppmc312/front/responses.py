@@ -107,7 +107,7 @@ class Responses:
     def pick(self) -> bytes | None:
         """Return the next block for the host (P312-RSP-11).
 
-        It is that of the waiting class with the lowest number.
+        The block is that of the waiting class with the lowest number.
 
         While a response is about to be stored, reports of classes 3 to 8 wait for it.
         """

@@ -100,7 +100,7 @@ class Parser:
     def silence(self) -> Frame | None:
         """Process 20 ms without a character (P312-SER-12, -17).
 
-        It returns the frame to respond to if a frame of unknown length has begun.
+        The call returns the frame to respond to if a frame of unknown length has begun.
         """
         given, self._open = self._open[1:3], b""
         if any(character not in _DIGITS for character in given):
@@ -112,7 +112,7 @@ class Parser:
     def _size(self) -> int | None:
         """Return the number of characters of the unfinished frame.
 
-        It is 0 while the code is not complete, `None` if the code does not define it.
+        The number is 0 while the code is not complete, `None` if the code does not define it.
         """
         if self._open[0] & 0xF0 == POLL:
             return 2

@@ -183,7 +183,7 @@ class Motion:
     def _look_at_limit(self, t: int, low: bool) -> None:
         """Process the high-speed limit, which is a level (P312-INP-12).
 
-        It counts for boundaries `lead` cycles later.
+        The limit counts for boundaries `lead` cycles later.
         """
         if t > self._limit_at:
             self._limit_before, self._limit_at = self._limit, t
@@ -287,7 +287,7 @@ class Motion:
     def _plan_interval(self, t: int, rate: int, divider: int) -> None:
         """Schedule the fall of pout and the next boundary.
 
-        They follow the prescaler, whose phase pulse 1 cleared.
+        Both follow the prescaler, whose phase pulse 1 cleared.
         """
         timebase = self._context.timebase
         if self.sequence.done == 1:
