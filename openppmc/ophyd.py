@@ -35,7 +35,7 @@ POLL = 0.03
 FREE = 0.01
 """Pause in seconds after each poll, so that other threads can use the port.
 
-A lock has no queue.
+A lock does not serve waiting threads in turn.
 """
 
 _locks: WeakKeyDictionary[Device, threading.RLock] = WeakKeyDictionary()
@@ -127,7 +127,11 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         return super().move(position, wait=wait, timeout=timeout, moved_cb=moved_cb)
 
     def stop(self, *, success: bool = False) -> None:
-        """Decelerate, if a move of this positioner is in progress. success: its Status counts as done."""
+        """Decelerate, if a move of this positioner is in progress.
+
+        Args:
+            success: True if its Status counts as done.
+        """
         self._stopped_well = success
         with self._lock:
             if self._moving:

@@ -67,8 +67,8 @@ class Row:
         docs: pages of its folder in docs/ in addition to README.md and traceability.md.
         manual: drawings and calculations for these pages.
         selftest: actions of its board in `openppmc selftest`.
-        carrier: there is a <part>_carrier, so there are a virtual board and bitstreams.
-        line: the part is a station on a serial line with commands of its own.
+        carrier: True if there is a <part>_carrier, so there are a virtual board and bitstreams.
+        line: True if the part is a station on a serial line with commands of its own.
         decode: decoder of its captures.
         demo: content of `make demo`, or a function that runs it.
         bench: function for `make bench`, for parts without a bench on pins.

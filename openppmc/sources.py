@@ -124,7 +124,7 @@ def build_id(
     Args:
         source: digest of the sources.
         commit: first bytes of the commit.
-        changed: the sources have uncommitted changes.
+        changed: True if the sources have uncommitted changes.
         board: 4 letters.
     """
     numbers = bytes(int(word) for word in version.split(".")[:3])

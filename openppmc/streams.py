@@ -33,7 +33,7 @@ ASCII = {
     "→": "->", "←": "<-", "↔": "<->", "²": "^2", "³": "^3", "µ": "u", "μ": "u", "Ω": "ohm", "°": "deg",
     "×": "x", "±": "+-", "≤": "<=", "≥": ">=", "≠": "!=", "≈": "~", "½": "1/2", "¼": "1/4", "¹": "^1",
     "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
-    "%": "\u066a",  # cp864 has only the Arabic one
+    "%": "\u066a",  # cp864 has only the Arabic percent sign
 }  # fmt: skip
 """Replacement of characters that an encoding does not have. Letters lose their accents."""
 
@@ -101,8 +101,9 @@ def _ascii(character: str) -> str:
 class _Stream(io.TextIOWrapper):
     """Standard stream that replaces `stream`.
 
-    failed: function that is called once if the stream cannot be written; the rest of the text is discarded.
-    Its exceptions must not be OSError, because rich and click catch that.
+    Args:
+        failed: function that is called once if the stream cannot be written; the rest of the text is
+            discarded. Its exceptions must not be OSError, because rich and click catch that.
     """
 
     def __init__(self, stream: io.TextIOWrapper, failed: Callable[[OSError], None]) -> None:
@@ -142,7 +143,11 @@ class _Stream(io.TextIOWrapper):
 
 
 class Ended:
-    """End of a block of `wrapped`. status: exit status, set by the block."""
+    """End of a block of `wrapped`.
+
+    Attributes:
+        status: exit status, set by the block.
+    """
 
     status = 0
 
@@ -203,7 +208,8 @@ def _opened(stream: TextIO | None, flags: int, mode: str = "w") -> TextIO:
 
     Without the replacement the next opened port would get the number of the closed stream.
 
-    flags: with O_RDONLY a write fails, with O_WRONLY its text is discarded.
+    Args:
+        flags: with O_RDONLY a write fails, with O_WRONLY its text is discarded.
     """
     if stream is not None:
         return stream

@@ -94,7 +94,7 @@ def locked() -> Iterator[None]:
 
     The operating system releases the lock of a process that was killed.
     """
-    # Opened for writing, because NFS locks only such files. Nothing is written.
+    # The file is opened for writing, because NFS locks only such files. Nothing is written.
     with LOCK.open("r+") as file:
         for second in range(WAIT_S):
             try:

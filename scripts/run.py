@@ -36,7 +36,10 @@ def nearest(word: str, known: Iterable[str]) -> str:
 class Goal:
     """A goal with its row of the table and the values of its variables; WrongError if there is no such goal.
 
-    given: variables of the command line. Variables of the environment are used, too, if the target has them.
+    Variables of the environment are used, too, if the target has them.
+
+    Args:
+        given: variables of the command line.
     """
 
     def __init__(self, word: str, given: Mapping[str, str]) -> None:

@@ -208,7 +208,11 @@ FORMS = {
 
 @dataclass(frozen=True)
 class Target:
-    """A row of the table. kind: use, work or measure."""
+    """A row of the table.
+
+    Attributes:
+        kind: section in the list of targets: use, work or measure.
+    """
 
     kind: str
     groups: tuple[str, ...]
@@ -290,7 +294,11 @@ def part_names(columns: list[str]) -> list[str]:
 
 
 def fault(name: str, values: Mapping[str, str], target: str) -> str:
-    """Return what is wrong with the value of a variable, or an empty text. values: of all variables."""
+    """Return what is wrong with the value of a variable, or an empty text.
+
+    Args:
+        values: values of all variables.
+    """
     value, allowed = values[name], VARIABLES[name].values
     other, there = OTHER_VALUES.get(target, ("", ""))
     kind, *words = (there if other == name else allowed).split()

@@ -65,7 +65,7 @@ class BankHost(RandomHost):
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
-        """This object, which owns its side."""
+        """This object, which owns its bench."""
         return self
 
     def _pause(self) -> int:

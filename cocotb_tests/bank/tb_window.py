@@ -263,7 +263,7 @@ async def bank_win_08_interrupts(dut):
     numbers = {0, 1, lab.size // 2, lab.size - 1}
     axes = await lab.all_ready(*sorted(numbers))
     for axis in axes:
-        await axis.move(0x52 if axis.n == 1 else 0x42)  # I = 1: no interrupt
+        await axis.move(0x52 if axis.n == 1 else 0x42)  # I = 1: the end causes no interrupt
     pending = sum(1 << n for n in numbers if n != 1)
     for axis in axes:
         lab.check("BANK-WIN-08", "map", await lab.map(), pending)

@@ -22,8 +22,8 @@ ITEMS = cocotb_items(
     part=BANK,
 )
 
-# Parameter, legal values, values just outside. The other parameters keep their defaults: 32 axes, 100
-# MHz.
+# A row has a parameter, its legal values, and values just outside the range. The other parameters keep their
+# defaults: 32 axes, 100 MHz.
 RANGES = {
     "CLK_HZ": (("32_000_000", "200_000_000"), ("28_000_000", "204_000_000", "100_000_001")),
     "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001", "15_000_000")),

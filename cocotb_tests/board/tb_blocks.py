@@ -39,12 +39,12 @@ async def board_reset_release(dut):
         least = clk_hz // 1_000_000 * hold_us
         unit.put(lock_i=1, req_ni=1)
         unit.choose()
-        if i == 0:  # the start values make a reset, without any lock
+        if i == 0:  # the start values alone make a reset, without a lock
             first = await clocks_to_release(unit, 3 * least)
             assert least <= first <= 2 * least + 3, f"power-on: {first} clk of {least}"
         for what in ("lock_i", "req_ni"):
             await unit.clk(lock_i=1, req_ni=1)
-            for _ in range(5):  # bounces
+            for _ in range(5):  # the button bounces
                 for level in (0, 1):
                     for _ in range(random.randrange(3, max(4, least))):
                         await unit.clk(**{what: level})

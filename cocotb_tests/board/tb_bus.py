@@ -12,7 +12,7 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness import same
 
 CLK_HZ = 50_000_000
-READ_PINS = 0x82  # requests S1 … S5, HOLD, DIR from bit 7 down
+READ_PINS = 0x82  # command that requests S1 … S5, HOLD, DIR, from bit 7 down
 
 
 async def power_on(dut) -> int:

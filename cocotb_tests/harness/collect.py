@@ -134,10 +134,15 @@ def inside_of(test: Any) -> tuple[str, ...]:
 class Item:
     """One simulation to run: a cocotb test of a module under one configuration.
 
-    `target` is the make target of the command that repeats it. `inside`: inner signals that it reads.
-    `skipped`: the reason why it does not run. `uncompared`: the reason why a directed test is not compared
-    with the golden model ("" if it is), None for other tests. `shared`: it may share a process with other
-    tests of its module, although it is not a directed test.
+    `target` is the make target of the command that repeats it.
+
+    Attributes:
+        inside: inner signals that the test reads.
+        skipped: reason why the test does not run.
+        uncompared: the reason why a directed test is not compared with the golden model ("" if it is), None
+            for other tests.
+        shared: True if it may share a process with other tests of its module, although it is not a directed
+            test.
     """
 
     module: str
@@ -155,7 +160,7 @@ class Item:
 
     @property
     def together(self) -> bool:
-        """Whether it may share a process with other tests of its build: directed tests begin with a reset."""
+        """Whether the test may share a process with others of its build, as directed tests may."""
         return self.shared or self.uncompared is not None
 
     @property
@@ -177,8 +182,11 @@ class Item:
 def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
     """Return a pytest.param per cocotb test of `package`'s modules and configuration that it names.
 
-    shared: tests of a module run in one process for each build. Each must begin with a reset. Raises
-    ValueError if a module has no cocotb test or two tests share a name.
+    Raises ValueError if a module has no cocotb test or two tests share a name.
+
+    Args:
+        shared: True if the tests of a module run in one process for each build. Each test must then begin
+            with a reset.
     """
     params, seen = [], set()
     for name in modules:
@@ -205,7 +213,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
 
 
 def all_tests(module: ModuleType) -> list[Any]:
-    """Return the cocotb tests that a module defines, in order; ValueError if it has no test."""
+    """Return the cocotb tests that a module defines, in order; raise ValueError if it has no test."""
     found = [
         obj
         for obj in vars(module).values()

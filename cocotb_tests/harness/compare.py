@@ -83,7 +83,9 @@ def leave_digest(recording: Recording, folder: Path) -> None:
 
 
 def check_against_model(bench: Any) -> Comparison:
-    """Compare all changes that a bench has recorded so far; AssertionError with the report at a difference.
+    """Compare all changes that a bench has recorded so far.
+
+    The call raises AssertionError with the report at a difference.
 
     The golden model is the one that has followed the bench (`Side.golden`), if a test has used it. The files
     of the report are written to bench.out.

@@ -78,7 +78,8 @@ class Config:
         return cls(**fields)
 
 
-# The shared set. Each configuration costs a build of about 10 s: add one only if none of these is suitable.
+# Set of configurations that all parts share. Each configuration costs a build of about 10 s: add one only if
+# none of these is suitable.
 F16 = Config("f16")
 F8 = Config("f8m", clk_hz=8_000_000)
 F11 = Config("f11m", clk_hz=11_059_200)

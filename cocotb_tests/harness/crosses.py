@@ -28,7 +28,9 @@ _hooked: set[str] = set()
 class Cross:
     """A table with two axes. `rows` and `columns`: all values of the data sheet, as they are counted.
 
-    never: (row, column) -> why the combination cannot occur; "*" represents every row or every column.
+    Attributes:
+        never: (row, column) -> reason why the combination cannot occur; "*" represents every row or every
+            column.
     """
 
     name: str
@@ -187,7 +189,8 @@ def _clock(motion: Any) -> str:
 def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
     """Count the end of each operation of any axis.
 
-    own: classes of the device that decide an end without calling the method of `Motion`.
+    Args:
+        own: classes of the device that decide an end without calling the method of `Motion`.
     """
     came: dict[int, str] = {}
 

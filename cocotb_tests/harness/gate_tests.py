@@ -22,18 +22,20 @@ GENERATOR = "checks the generator of the random hosts; no simulation"
 class PartTests:
     """Directed and random test modules of one device. Netlists run the ITEMS of the directed module.
 
-    sample: functions that make the item of a random seed, each with its seeds. The hosts of a sample together
-        use every configuration that random hosts choose from.
-    builds: names of the configurations that have netlists, for the reason in `why`; empty: all.
-    simulating: test functions that run simulations.
-    not_applicable: test functions that do not, each with its relation to a netlist.
-    too_long: directed tests, or modules of them, that would take far too long on a netlist, with the reason.
-    quick: tests of the quick sample, which runs in the build `quick_build`.
-    four_state: tests that also run on a simulator with X, which is a hundred times as slow.
-    netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
-    pins: pins of the top, if the `bench.py` of the folder does not list them.
-    params: parameters of the top in addition to those of a configuration.
-    inside: signals of the top that the tests read, in addition to its ports.
+    Attributes:
+        sample: functions that make the item of a random seed, each with its seeds. The hosts of a sample
+            together use every configuration that random hosts choose from.
+        builds: names of the configurations that have netlists, for the reason in `why`; empty: all.
+        simulating: test functions that run simulations.
+        not_applicable: test functions that do not, each with its relation to a netlist.
+        too_long: directed tests, or modules of them, that would take far too long on a netlist, with the
+            reason.
+        quick: tests of the quick sample, which runs in the build `quick_build`.
+        four_state: tests that also run on a simulator with X, which is a hundred times as slow.
+        netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
+        pins: pins of the top, if the `bench.py` of the folder does not list them.
+        params: parameters of the top in addition to those of a configuration.
+        inside: signals of the top that the tests read, in addition to its ports.
     """
 
     directed: ModuleType

@@ -32,7 +32,7 @@ class Parameter:
 
     @property
     def default(self) -> int | str:
-        """The default as a value. ValueError if it is not a plain literal."""
+        """The default as a value. Raises ValueError if it is not a plain literal."""
         if self.is_text:
             return self.value.strip('"')
         literal = _NUMBER.fullmatch(self.value.replace("_", ""))

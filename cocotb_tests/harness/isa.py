@@ -25,8 +25,12 @@ STROBES_ISA = BusStyle(
 class Times:
     """An 8-bit I/O access in ns: the shortest at a bus clock of 8.33 MHz, with the usual wait states.
 
-    `setup`: address before the command; `command`: IOR or IOW low; `late`: write data after the fall of IOW;
-    `hold`: address and write data after its rise; `gap`: to the next access.
+    Attributes:
+        setup: time from the address to the command.
+        command: time for which IOR or IOW is low.
+        late: time from the fall of IOW to valid write data.
+        hold: time for which address and write data are valid after the rise of IOW.
+        gap: time to the next access.
     """
 
     setup: int = 91
@@ -110,7 +114,7 @@ class IsaHost(HostBus):
         return edge0
 
     async def read(self, reg: int, strobe: int | None = None, gap: int | None = None) -> int:
-        """Perform one read access; AssertionError if the module does not drive the bus."""
+        """Perform one read access; raise AssertionError if the module does not drive the bus."""
         driven, byte, edge0 = await self.master.read(self.base + reg)
         self.bench.check("ISA-05", f"sd_oe at the end of a read of {self.base + reg:#x}", driven, 1)
         self.bench.accesses.append(Access(edge0, "read", reg, byte))

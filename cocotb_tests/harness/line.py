@@ -37,7 +37,7 @@ class Wire:
     async def send(self, data: bytes) -> None:
         """Send bytes back to back."""
         for byte in data:
-            # One word with start and stop bit, least significant bit first.
+            # All bits of a character form one word with start and stop bit, least significant bit first.
             word = 1 << BITS + 1 | byte << 1
             for bit in range(BITS + 2):
                 self._out.value = word >> bit & 1
@@ -69,9 +69,12 @@ Changes = list[tuple[int, int]]
 class LineTimes:
     """Times of the level changes of characters.
 
-    t: the next free edge. bit: bit time of the line in cycles. error: relative error of the host's bit time,
-    0.02 = 2 % too long. middle: the middle of the last stop bit for a receiver with the correct bit time,
-    counted from the change of the pin.
+    Attributes:
+        t: next free edge.
+        bit: bit time of the line in cycles.
+        error: relative error of the host's bit time, 0.02 = 2 % too long.
+        middle: the middle of the last stop bit for a receiver with the correct bit time, counted from the
+            change of the pin.
     """
 
     t: int
@@ -134,8 +137,10 @@ class SerialLine(LineTimes):
     ) -> None:
         """Send one character.
 
-        stop: level of its stop bit. spikes: (place in bits, cycles) where the line has the wrong level. bits:
-        number of its bits that are sent before the line becomes idle.
+        Args:
+            stop: level of the stop bit.
+            spikes: (place in bits, cycles) where the line has the wrong level.
+            bits: number of bits that are sent before the line becomes idle.
         """
         await self._drive(self._character(byte, stop, spikes, bits))
 
@@ -146,7 +151,11 @@ class SerialLine(LineTimes):
                 self.side.set(rxd=level)
 
     async def send(self, line: Iterable[int], gap: float = 0) -> None:
-        """Send characters without errors; gap: idle time after each of them in bits."""
+        """Send characters without errors.
+
+        Args:
+            gap: idle time after each character in bits.
+        """
         for byte in line:
             await self.character(byte)
             self._rest(gap)
@@ -166,9 +175,11 @@ def characters(
 ) -> bytes:
     """Return the bytes that a transmitter sends without a gap, the first start bit beginning at `start`.
 
-    edges: changes (t, level) of the line since then; the line is high before. AssertionError if a change
-    occurs more than `within` cycles after its place, or before it (more than `within` cycles, if that is not
-    0), or if a start or stop bit is missing.
+    AssertionError if a change occurs more than `within` cycles after its place, or before it (more than
+    `within` cycles, if that is not 0), or if a start or stop bit is missing.
+
+    Args:
+        edges: changes (t, level) of the line from `start` on; the line is high before.
     """
     for t, _ in edges:
         number = round((t - start) / bit)

@@ -52,7 +52,10 @@ def run_on_model(item: Item, seed: int | None) -> None:
 def model_tests(module: str, package: str, *names: str, builds: Sequence[Config] = ()) -> dict[str, Any]:
     """Return the tests of `package`'s modules on the golden model, by name, for the globals of `module`.
 
-    builds: used in place of the builds that the tests name. Raises ValueError if two tests share a name.
+    Raises ValueError if two tests share a name.
+
+    Args:
+        builds: builds that are used in place of the builds that the tests name.
     """
     made: dict[str, Any] = {}
     for name in names:

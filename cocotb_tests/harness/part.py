@@ -62,19 +62,20 @@ class PinTable(Protocol):
 class Part:
     """One device.
 
-    name: its name in the table of parts; also the name of the top module.
-    inputs: every input pin except clk and rst_n -> its idle level.
-    outputs: every output -> (width, reset level).
-    widths: widths of the inputs wider than one bit.
-    lowest: ports whose lowest bit is not number 0, with that number.
-    parameters: parameters of the top module.
-    styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin, and
-        a device without a bus has no style.
-    clock: the external base clock.
-    unwatched: free-running outputs; only tests that request them record their edges.
-    defaults: parameters of a build that names no parameters.
-    idle: one-bit parameters that select the level of an output in reset.
-    shape: the pins under parameters that determine the widths of ports (see `built`).
+    Attributes:
+        name: its name in the table of parts; also the name of the top module.
+        inputs: every input pin except clk and rst_n -> its idle level.
+        outputs: every output -> (width, reset level).
+        widths: widths of the inputs wider than one bit.
+        lowest: ports whose lowest bit is not number 0, with that number.
+        parameters: parameters of the top module.
+        styles: styles of the host bus by the level of `style_pin`. A device with one style has no such pin,
+            and a device without a bus has no style.
+        clock: the external base clock.
+        unwatched: free-running outputs; only tests that request them record their edges.
+        defaults: parameters of a build that names no parameters.
+        idle: one-bit parameters that select the level of an output in reset.
+        shape: the pins under parameters that determine the widths of ports (see `built`).
 
     If the top of a bench contains more than the device: `fed` are inputs of the device that the top drives,
     which are outputs here; `aside` are inputs of the top only.

@@ -53,7 +53,9 @@ class ExternalClock:
 def random_clock(rng: random.Random, scale: float, near: tuple[int, ...]) -> ExternalClock:
     """Return a clock that is steady, jitters, pauses or changes; every period is at least 16 cycles.
 
-    near: preferred periods in XTAL cycles; scale: clk cycles per XTAL cycle.
+    Args:
+        near: preferred periods in XTAL cycles.
+        scale: number of cycles of `clk` per XTAL cycle.
     """
     segments, total = [], 0
     while total < 250_000:

@@ -46,7 +46,7 @@ def listed() -> dict[str, Group]:
 def files(*groups: str) -> list[Path]:
     """Return the RTL of these groups and their dependencies, in compile order.
 
-    ProjectError if a listed file is missing.
+    Raises ProjectError if a listed file is missing.
     """
     try:
         return rtl_list.files(listed(), *groups)
@@ -55,7 +55,7 @@ def files(*groups: str) -> list[Path]:
 
 
 def sources(of: Row) -> list[Path]:
-    """Return the RTL of a device in compile order; ProjectError if a listed file is missing."""
+    """Return the RTL of a device in compile order; raise ProjectError if a listed file is missing."""
     return files(of.rtl)
 
 
@@ -69,7 +69,7 @@ def board_files(part_name: str) -> list[Path]:
 
 
 def top_file(of: Row) -> Path:
-    """Return the file of a device's top module; ProjectError if it is not in rtl/files.yml."""
+    """Return the file of a device's top module; raise ProjectError if it is not in rtl/files.yml."""
     found = next((path for path in sources(of) if path.stem == of.top), None)
     if found is None:
         raise ProjectError(f"rtl/files.yml: the files of {of.name} lack its top, {of.top}")

@@ -18,8 +18,9 @@ from .side import Handle, PinChange, Side
 class MovingPins:
     """Schedules pin changes on a side; a change in the past is made immediately.
 
-    kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd. clock: the
-    external clock.
+    Args:
+        kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd.
+        clock: name of the pin of the external clock.
     """
 
     def __init__(self, side: Side, kept: Sequence[str] = (), clock: str = "extck") -> None:
@@ -70,8 +71,10 @@ UNCOMPARED = "levels change between two edges of clk, and either edge may sample
 class Noise:
     """Drives random levels; each call of `make` continues where the previous one ended.
 
-    strobes: active-low bus pins, each repeated according to its frequency. codes: bytes that are drawn often.
-    still: pins that keep their level. All other pins are drawn as switches.
+    Args:
+        strobes: active-low bus pins, each repeated according to its frequency.
+        codes: bytes that are drawn often.
+        still: pins that keep their level. All other pins are drawn as switches.
     """
 
     def __init__(
@@ -110,7 +113,8 @@ class Noise:
             bench.set_between_edges(**self._levels())
             gap = rng.choice((0.1, 0.4, 1, 1, 2, 2, 3, 7, 20, 60))
             steps = max(2, int(gap * bench.period * rng.random()))
-            # Never on an edge of `clk` itself: it would be a race whether the edge samples the change.
+            # A change is never on an edge of `clk` itself: it would be a race whether the edge samples the
+            # change.
             offset = (bench.sim_time() + steps - bench.edge_time(0)) % bench.period
             await Timer(steps + (2 if offset < 2 or offset == bench.period - 1 else 0), "ps")
 
@@ -126,15 +130,17 @@ Weights = Sequence[tuple[Config, int]]
 
 
 def weighted(rng: random.Random, table: Iterable[tuple[T, float]]) -> T:
-    """Return a random thing of a table of (thing, weight)."""
+    """Draw a random entry of a table of (entry, weight)."""
     things, weights = zip(*table, strict=True)
     return rng.choices(things, weights)[0]
 
 
 class Builds:
-    """The build on which the host of a seed plays, where the build does not influence what the host does.
+    """Selection of the build for a seed, for hosts whose actions do not depend on the build.
 
-    name: name of the device in the text of its seeds, such as "p312". weights: (build, weight).
+    Args:
+        name: name of the device in the text of its seeds, such as "p312".
+        weights: pairs (build, weight).
     """
 
     def __init__(self, name: str, weights: Weights) -> None:
@@ -179,7 +185,7 @@ class RandomHost:
 
     @property
     def model(self) -> Any:
-        """Golden model of the device: used to decide when to act, not for the responses."""
+        """Golden model of the device. The host uses it to decide when to act, not for the responses."""
         return self.host.side.golden
 
     def pick(self, acts: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
@@ -193,8 +199,11 @@ class HostWriter(RandomHost, ABC):
     Attributes: rng, config, scale (clk cycles per XTAL cycle), externals (clock pins in use), limit_clk,
     actions (so far).
 
-    name: first word of the seed text. weights: FAST builds; datasheet: DATASHEET builds, for one host in ten.
-    external: probability that a clock pin is used, one number per pin.
+    Args:
+        name: first word of the seed text.
+        weights: weights of the FAST builds.
+        datasheet: weights of the DATASHEET builds, which one host in ten uses.
+        external: probability that a clock pin is used, one number per pin.
     """
 
     def __init__(

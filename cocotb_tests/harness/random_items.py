@@ -146,7 +146,7 @@ def played(make: Callable[[int], Item], fixed: Iterable[int]) -> list[int]:
 
 
 Failure = tuple[int, str, str]
-"""Seed, test id, message."""
+"""A failing run: seed, test ID, message."""
 
 
 @dataclass
@@ -205,8 +205,11 @@ def all_of(parts: Iterable[Played]) -> Played:
 class RandomItems:
     """`random_item(seed)` is the simulation of any seed.
 
-    seeds: seeds that `make test` plays, up to `batch` of one build in a simulation. build: build of a seed.
-    design: the simulated design, if it is not the device alone. takes: whether a seed is of this kind.
+    Attributes:
+        seeds: seeds that `make test` plays, up to `batch` of one build in a simulation.
+        build: function that returns the build of a seed.
+        design: the simulated design, if it is not the device alone.
+        takes: function that returns whether a seed is of this kind.
     """
 
     part: str

@@ -41,7 +41,7 @@ REPLAY = "OPENPPMC_REPLAY"
 SECONDS = "OPENPPMC_SHRINK_S"
 WORDS = "short.txt"
 ROWS = 40
-"""Maximum number of lines of acts in the message."""
+"""Maximum number of lines in the message, one line for each group of acts."""
 
 
 async def compared(bench: Bench, recording: Recording) -> Comparison:

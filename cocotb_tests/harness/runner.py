@@ -97,13 +97,13 @@ def write_views(vcd: Path, design: Design) -> list[Path]:
 
 
 MOST = 40
-"""Tests in one process: two workers stay busy, and the imports of cocotb and pytest are negligible."""
+"""Maximum number of tests in one process: two workers stay busy, and the imports take little time."""
 
 T = TypeVar("T")
 
 
 def groups_of(things: Iterable[T], key: Callable[[T], Hashable]) -> list[tuple[T, ...]]:
-    """Group things with the same key, at most MOST per group, in order; each thing with key None is alone."""
+    """Group items with the same key, at most MOST per group, in order; an item with key None is alone."""
     found: dict[Hashable, list[T]] = {}
     for number, thing in enumerate(things):
         found.setdefault((number,) if (name := key(thing)) is None else (None, name), []).append(thing)
@@ -274,8 +274,12 @@ class Summary:
 class SimOptions:
     """Options of the user on the command line; seed None = the fixed default of each test.
 
-    waves: keep a VCD of each test, also of passing ones. inside: every signal is visible. group: the items
-    that share a simulator process, in order. `done` holds the outcomes of the groups that have run.
+    `done` holds the outcomes of the groups that have run.
+
+    Attributes:
+        waves: True if a VCD of each test is kept, also of passing ones.
+        inside: True if every signal is visible.
+        group: the items that share a simulator process, in order.
     """
 
     seed: int | None = None
@@ -397,7 +401,7 @@ def recorded(item: Item, main: str, env: Mapping[str, str], design: Design) -> l
 
 
 def check_mains(item: Item, env: Mapping[str, str] | None = None, design: Design | None = None) -> int:
-    """Return the number of recordings of the test; AssertionError if the main programs differ."""
+    """Return the number of recordings of the test; raise AssertionError if the main programs differ."""
     design = design or part_design(item.part, item.config)
     own, cocotb = (recorded(item, main, env or {}, design) for main in MAINS)
     assert own and own == cocotb, f"{item.id}: {own} with our main program, {cocotb} with cocotb's"

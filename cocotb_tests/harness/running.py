@@ -35,15 +35,19 @@ from .part import Part
 from .side import Side
 
 TAIL = 24
-"""Cycles for which a side continues before the comparison, so that the last action has its effects."""
+"""Cycles for which the bench continues before the comparison, so that the last action has its effects."""
 Judge = Callable[[Any], Any]
-"""Compares the recording of a side with the golden model; raises AssertionError at a difference."""
+"""Compares the recording of a bench with the golden model; raises AssertionError at a difference."""
 
 
 class Running:
-    """One running test: its present side, if any, and the function that compares it (None: no comparison).
+    """One running test: its present bench, if any, and the function that compares it (None: no comparison).
 
-    `differs`: a comparison has failed. `seed`: seed of its sides, if it is not that of the run.
+    Args:
+        seed: seed of the benches of the test, if it is not that of the run.
+
+    Attributes:
+        differs: True if a comparison has failed.
     """
 
     def __init__(self, judge: Judge | None, seed: int | None = None) -> None:
@@ -53,7 +57,7 @@ class Running:
         self.differs = False
 
     async def judge(self) -> None:
-        """Compare the recording of the present side; AssertionError at a difference."""
+        """Compare the recording of the present bench; raise AssertionError at a difference."""
         if self._judge and self.side and self.side.simulated:
             await self.side.align()
             await self.side.clocks(TAIL)
@@ -72,7 +76,7 @@ class Running:
         return "up to here the golden model shows the same edges"
 
     async def put_away(self) -> None:
-        """Compare the present side, if any, and stop its pin changes: another side is about to start."""
+        """Compare the present bench, if any, and stop its pin changes, because another bench starts."""
         if self.side:
             await self.judge()
             self.side.close()
@@ -90,7 +94,7 @@ def present() -> Running | None:
 
 @contextmanager
 def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Running]:
-    """Provide the context of a test whose sides `judge` compares; see `Running`."""
+    """Provide the context of a test whose benches `judge` compares; see `Running`."""
     _now.append(Running(judge, seed))
     try:
         yield _now[-1]
@@ -99,14 +103,14 @@ def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Runni
 
 
 def ended() -> Running | None:
-    """Return the directed or random test that ended last, with its side; None before the first."""
+    """Return the directed or random test that ended last, with its bench; None before the first."""
     return _ended[-1] if _ended else None
 
 
 async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Side:
     """Return a `Bench` on the simulator's `dut`, or a `ModelBench` for `OnModel`; both with `now` = `settle`.
 
-    A directed test may call it again: the recording of the previous side is compared with the golden model,
+    A directed test may call it again: the recording of the previous bench is compared with the golden model,
     its scheduled pin changes stop, and the device starts again from a reset.
     """
     test = present()
@@ -125,8 +129,11 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
 def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
     """Make a cocotb test that verifies `rules` (empty: sessions of a manual) in these builds.
 
-    `uncompared`: the reason why the outputs are not compared with the golden model; the run lists such tests.
     Raises ValueError for an invalid rule ID.
+
+    Args:
+        uncompared: the reason why the outputs are not compared with the golden model; the run lists such
+            tests.
     """
 
     def mark(test: Any) -> Any:
@@ -167,8 +174,9 @@ RandomTest = Callable[[Any, int], Awaitable[None]]
 def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[RandomTest], Any]:
     """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one side.
 
-    least: minimum number of output edges that a seed must make; all are compared. uncompared: the reason why
-    they are not compared.
+    Args:
+        least: minimum number of output edges that a seed must make; all are compared.
+        uncompared: the reason why the output edges are not compared.
     """
 
     def mark(test: RandomTest) -> Any:
@@ -210,7 +218,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
 
 
 def pins_digest(side: Side) -> str:
-    """Return a digest of all pin changes of a side: equal for the same host on RTL and golden model."""
+    """Return a digest of all pin changes of a bench: equal for the same host on RTL and golden model."""
     return sha256(repr(sorted(map(tuple, side.stimulus))).encode()).hexdigest()[:12]
 
 

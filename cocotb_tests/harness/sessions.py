@@ -36,7 +36,11 @@ class Step:
 
 
 class Sessions:
-    """The sessions of one device. `brief`: codes of operations that may end before the status is read."""
+    """The sessions of one device.
+
+    Args:
+        brief: codes of operations that may end before the status is read.
+    """
 
     def __init__(self, part: str, brief: Collection[int]) -> None:
         self.page = ROOT / "docs" / part / "examples.md"

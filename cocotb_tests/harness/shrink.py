@@ -15,7 +15,7 @@ from .part import Part, recorded
 
 LINE = "rxd"
 BUSY = 64
-"""A pin that changes more often is a clock; its periods are acts in groups, about this number of groups."""
+"""Number of changes above which a pin is a clock. Its periods form about this number of acts."""
 
 
 class Step(NamedTuple):
@@ -29,7 +29,12 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Act:
-    """One act. `what` describes it without the time. access: its entry in the host's log, if it has one."""
+    """One act: a whole bus access, a frame, a reset, or the changes of one pin.
+
+    Attributes:
+        what: description of the act without its time.
+        access: entry of the act in the host's log, if it has one.
+    """
 
     what: str
     steps: tuple[Step, ...]
@@ -42,17 +47,17 @@ class Act:
 
     @property
     def reads(self) -> bool:
-        """Whether it is a read access."""
+        """Whether the act is a read access."""
         return self.access is not None and self.access.kind.endswith("read")
 
     @property
     def begin(self) -> int:
-        """Edge of its first pin change."""
+        """Edge of the first pin change of the act."""
         return self.steps[0].t
 
     @property
     def end(self) -> int:
-        """Edge of its last pin change."""
+        """Edge of the last pin change of the act."""
         return self.steps[-1].t
 
     def moved(self, clk: int) -> Act:
@@ -228,14 +233,14 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
 
 
 PAUSE = 20
-"""Cycles between two acts whose pause is closed; this is enough for every bus of the project."""
+"""Cycles that remain between two acts when a pause is removed; every bus of the project needs fewer."""
 
 
 def messages(acts: Iterable[Act]) -> list[list[Act]]:
     """Return runs of writes or of reads, and bursts of other pins.
 
-    A run ends when the direction changes, or when the register it began with occurs again after others: a
-    command and its data, all registers of a block, a response, polls.
+    A run ends when the direction changes, or when its first register occurs again after other registers.
+    Examples of a run are a command with its data, all registers of a block, a response, or polls.
     """
     found: list[list[Act]] = []
     run: list[Act] = []
@@ -307,15 +312,17 @@ CAPS = (PAUSE, 10 * PAUSE, 100 * PAUSE, 1000 * PAUSE)
 
 
 class _EnoughError(Exception):
-    """A limit is reached."""
+    """A limit of the search is reached: number of trials or CPU time."""
 
 
 @dataclass
 class Shrinker:
     """Shrinks a list: `acts` is the shortest list so far, `trials` the number of lists tried.
 
-    trials_at_most, seconds (CPU time of this process): limits. kept: called with each list that is shorter
-    than those before it.
+    Attributes:
+        trials_at_most: maximum number of trials.
+        seconds: limit of the CPU time of this process in s.
+        kept: function that is called after each trial with a shorter list that still fails.
     """
 
     acts: list[Act]
@@ -345,7 +352,7 @@ class Shrinker:
             self.stopped = str(limit)
 
     async def _try(self, acts: Sequence[Act]) -> bool:
-        """Return whether this list fails as well; if so, continue with it, up to the difference."""
+        """Return whether this list fails as well. If it fails, keep its acts up to the difference."""
         if tuple(acts) in self._tried:
             return False
         if self.trials >= self.trials_at_most:
@@ -364,7 +371,7 @@ class Shrinker:
     async def _keep_the_end(self) -> None:
         """Try only the last exchanges, soon after the reset: more and more of them until they are enough.
 
-        An omission further on would shift what is read later; and short lists are quick to try.
+        To omit acts in the middle would change later reads, and short lists are quick to try.
         """
         runs, count = exchanges(self.acts), 1
         head = [act for act in self.acts if act.begin < PAUSE]
@@ -390,7 +397,7 @@ class Shrinker:
             await self._try([act for act in self.acts if act.kind != kind or act in last])
 
     async def _leave_out(self, runs: list[list[Act]]) -> None:
-        """Omit halves, quarters, …, single runs."""
+        """Try to omit each half of the runs, then each quarter, and so on down to single runs."""
         size = max(1, len(runs) // 2)
         while size:
             first = 0

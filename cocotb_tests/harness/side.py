@@ -41,8 +41,9 @@ class Given:
     def add(self, driven: Sequence[Change], made: Mapping[str, Sequence[tuple[int, int]]]) -> list[Change]:
         """Append the new rows of both, which grow from call to call; return the whole list.
 
-        made: name -> (edge, level), first sampled by the next edge. The last level of the last edge may have
-        changed since the previous call.
+        Args:
+            made: name -> (edge, level), first sampled by the next edge. The last level of the last edge may
+                have changed since the previous call.
         """
         new, self._driven = list(driven[self._driven :]), len(driven)
         for name, rows in made.items():

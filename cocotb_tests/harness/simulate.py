@@ -100,7 +100,8 @@ def _parts(text: str) -> Iterator[tuple[str, str]]:
 def _outcome(name: str, part: str, end: str) -> Outcome:
     """Return the outcome of a test from its part of the log.
 
-    `end`: the cause of the end of the process, if it ended within a test.
+    Args:
+        end: the cause of the end of the process, if it ended within a test.
     """
     if "%Error" in part:
         return Outcome(FAILED, failure_text(part))
@@ -125,8 +126,10 @@ def named_in(results: Path) -> list[str] | None:
 def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> dict[Item, Outcome]:
     """Return the outcome of each item of a process that has ended.
 
-    `trouble`: how the process ended, if not normally. A process that ended normally must have run exactly
-    these items.
+    A process that ended normally must have run exactly these items.
+
+    Args:
+        trouble: how the process ended, if it did not end normally.
     """
     text, names = read_log(log), named_in(results)
     wanted = sorted(item.full_name for item in items)

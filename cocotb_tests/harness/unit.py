@@ -115,8 +115,9 @@ class Unit:
     ) -> None:
         """Connect to an instance.
 
-        watch: outputs that `clk` returns, in this order. limit: limit of the test, in cycles of all its
-        units.
+        Args:
+            watch: outputs that `clk` returns, in this order.
+            limit: limit of the test: sum of the cycles of all its units.
         """
         block = blocks[name]
         self.chosen, self.number = dut.chosen, list(blocks).index(name) + 1

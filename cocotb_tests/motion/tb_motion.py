@@ -506,7 +506,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
     p = dict.fromkeys((*OP, *SWITCHES, *PLAIN), 0)
     await u.settle(armed_i=0, op_i=0, decel_i=0)
     same("flagged", u.get("flagged_o"), flagged)
-    # One level changes at a time (Gray code): one write per combination.
+    # One level changes at a time (Gray code), so that one write per combination is sufficient.
     for n in range(1, 2 ** len(names) + 1):
         got, want = await u.settle(), guard(p, flagged, variant)[:3]
         if got[1] != want[1] or (not want[1] and got != want):

@@ -38,7 +38,7 @@ BLOCKS = {
         " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
-    # One bit more than the words of the table, for the longest ramp that they can hold.
+    # The width is one bit more than the words of the table, for the longest ramp that they can hold.
     "wide": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
@@ -47,7 +47,7 @@ BLOCKS = {
     ),
 }
 LONGEST_BUILD = 40_000
-# (slow, fast, steps); 4, 0, 8 is the tie of P104-RMP-03.
+# (slow, fast, steps). The ramp 4, 0, 8 is the tie of P104-RMP-03.
 CORNERS = [
     (255, 0, 1),
     (255, 0, 4),

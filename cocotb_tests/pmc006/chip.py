@@ -19,10 +19,14 @@ from .i2c_bus import I2cBus
 class Chip:
     """A device that was just powered up.
 
-    content: bytes from address 0 on, the rest is FF. write_us: time of a write cycle. stretch_us: time for
-    which SCL is held low after each acknowledge. missing: no device responds. other: its address differs from
-    the one that the part uses. stuck: "scl" or "sda", a line that is held low. busy_us: a write cycle is in
-    progress for this time.
+    Attributes:
+        content: bytes from address 0 on, the rest is FF.
+        write_us: time of a write cycle.
+        stretch_us: time for which SCL is held low after each acknowledge.
+        missing: True if no device responds.
+        other: True if the address of the device differs from the one that the part uses.
+        stuck: "scl" or "sda", a line that is held low.
+        busy_us: time for which a write cycle is in progress.
     """
 
     content: bytes = b""
@@ -68,7 +72,11 @@ class Eeprom(ABC):
 
 
 def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
-    """Connect a device to a part just out of reset, before edge 0; `device`: address that the part uses."""
+    """Connect a device to a part just out of reset, before edge 0.
+
+    Args:
+        device: address that the part uses.
+    """
     wanted = device ^ chip.other
     if isinstance(side, ModelBench):
         return _OnModel(side, chip, clk_hz, wanted)

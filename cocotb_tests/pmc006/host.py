@@ -40,7 +40,10 @@ class Host(View, SerialLine):
 
     `t` is the next free edge; every method advances it. Codes are letters or numbers. Data and answers are
     numbers; an answer is the 32-bit reply data, unsigned. `wire` is the last reply as received from the line,
-    `said` the edge at which the last frame began. `params`: parameters of the part.
+    `said` the edge at which the last frame began.
+
+    Attributes:
+        params: parameters of the part.
     """
 
     def __init__(self, side: Side, address: int = 0xFF, error: float = 0) -> None:
@@ -67,9 +70,12 @@ class Host(View, SerialLine):
     ) -> H:
         """Return a host with a part just out of reset, and booted unless `boot` is false.
 
-        address: address of the part that the host uses. levels: of input pins from edge 0 on. error: of the
-        bit time of the host. chip: the EEPROM, for tests in the bench that has one (test_memory.py). Without
-        a chip, SDA is held low, so that the part boots immediately, unless `levels` contains sda_i=1.
+        Args:
+            address: address of the part that the host uses.
+            levels: levels of input pins from edge 0 on.
+            error: relative error of the bit time of the host.
+            chip: the EEPROM, for tests in the bench that has one (test_memory.py). Without a chip, SDA is
+                held low, so that the part boots immediately, unless `levels` contains sda_i=1.
         """
         idle = {} if chip else {"sda_i": 0}
         side = await start_bench(dut, WITH_EEPROM if chip else PMC006, settle=0, **{**idle, **(levels or {})})

@@ -24,7 +24,11 @@ class Line:
 
     @classmethod
     async def start(cls, dut: Any, first: bool) -> tuple[Node, Node]:
-        """Return two nodes just out of reset; `first`: whether the first one is the part under test."""
+        """Return two nodes just out of reset.
+
+        Args:
+            first: whether the first one is the part under test.
+        """
         part = await start_bench(dut, PMC006, settle=0, sda_i=0)
         other = ModelBench(PMC006, OnModel(part.config), 0, sda_i=0)
         line = cls(*((part, other) if first else (other, part)))

@@ -26,7 +26,7 @@ build = Builds("p006", ((F8B, 80), (ODD, 12), (D8E, 8)))
 async def play(dut: Any, seed: int) -> Counter[str]:
     """Play one seed; return the counts of the host's actions and results.
 
-    AssertionError if the part hangs or sends an invalid reply.
+    Raises AssertionError if the part hangs or sends an invalid reply.
     """
     talker = Talker(seed)
     await talker.begin(dut)

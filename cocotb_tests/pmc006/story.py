@@ -16,7 +16,7 @@ from openppmc.model.pmc006.program import assemble
 BUILD = Config("demo8m", clk_hz=8_000_000, extra=(("BAUD", 115_200), ("T_OFF_NS", 40_000)))
 MOTOR = Motor(ohm=1.0, henry=4e-3, volt=24.0)
 CURRENT = 1500
-"""mA."""
+"""Motor current in mA."""
 WAY = 64
 """Full steps of a move."""
 SPEED, START, LEAD = 300, 75, 20

@@ -187,7 +187,7 @@ async def p006_ac_61(dut: Any, first: bool) -> None:
     ten, twenty = await Line.start(dut, first)
     for host in (ten, twenty):
         await host.boot()
-    # Set one address after the other: both have FF at first, and the second part is held in reset.
+    # The addresses are set one after the other: both are FF at first, and the second part is held in reset.
     await twenty.pins(rst_n=0)
     assert await ten.ask("w", 10) == 10
     await twenty.pins(rst_n=1)

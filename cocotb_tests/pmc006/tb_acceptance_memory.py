@@ -121,7 +121,7 @@ async def p006_ac_66(dut: Any) -> None:
     await host.ok(F=0)
     assert await host.ask("I") == 0
     assert await host.ask("A", 0) == 0 and await host.ask("W", 0) == 0 and await host.ask("B") == 1
-    # The mark, then pages of the program: reset in the middle of the fourth write.
+    # The part writes the mark, then pages of the program. The reset occurs in the middle of the fourth write.
     while len(host.eeprom.writes) < 4:
         await host.wait_us(500)
     await host.pins(rst_n=0)

@@ -131,11 +131,11 @@ async def board006_converter(dut: Any) -> None:
     """On one bus with two strobes, the speed uses only the first, the stall detector only the second."""
     board = await start(dut)
     usb = board.usb
-    # VSET 1198 analog; half of it is the start-up rate, so the move has this rate throughout.
+    # VSET 1198 makes the speed analog. Half of it is the start-up rate, so the move has this rate throughout.
     for code, data in (("A", 0), ("W", 0x0108), ("W", 1198), ("A", 0), ("E", 0)):
         await usb.ask(code, data)
     same("VMAX", await usb.ask("q"), 1198)
-    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 are a stall
+    for code, data in (("T", 2), ("Y", 1), ("Z", 100)):  # two samples below 100 make a stall
         same(code, await usb.ask(code, data), data)
     await board.strobe("adc_stb", 512)
     await board.strobe("bemf_stb", 1000)
@@ -144,7 +144,7 @@ async def board006_converter(dut: Any) -> None:
     for _ in range(4):
         await with_timeout(RisingEdge(dut.mon_step), 10, "ms")
         times.append(get_sim_time("us"))
-        for _ in range(3):  # low levels, but of the other input
+        for _ in range(3):  # the levels are low, but on the other input
             await board.strobe("adc_stb", 30)
     period = (times[-1] - times[0]) / 3
     assert abs(period - 1e6 / 600) <= 1, f"{period} us from step to step"

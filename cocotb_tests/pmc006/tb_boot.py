@@ -108,7 +108,7 @@ async def p006_a_copy_stands_in_for_a_bad_block(dut: Any) -> None:
 async def p006_which_programs_count(dut: Any) -> None:
     """A program is valid if its own sum and its end mark are correct.
 
-    An invalid one leaves 200 words of 0 and is not started.
+    An invalid program leaves 200 words of 0 and is not started.
     """
     good = image(page(a0B=1, a04=4), BLINK)
     host = await booted(dut, good)
@@ -145,7 +145,7 @@ async def p006_last_instruction_and_high_bytes_are_loaded(dut: Any) -> None:
 @cocotb.parametrize(fault=["missing", "other", "scl"])
 @directed("P006-BAD-13", "P006-EEP-01", "P006-BAD-12")
 async def p006_without_a_device(dut: Any, fault: str) -> None:
-    """Without a device the part works after 10 ms of calls, or 1 ms with the clock held low.
+    """Without a device the part works after it has called for 10 ms, or 1 ms with the clock held low.
 
     Save instructions are accepted without effect.
     """

@@ -164,14 +164,14 @@ async def p006_reference_of_0(dut: Any) -> None:
     (first, _), (over, _), (second, _), (fall, _) = host.edges("m21", since)
     assert (over - first, second - over) == (times.fast, times.off)
     assert times.blank <= fall - second <= times.fast
-    # A current again: FAST at the next end of an OFF.
+    # Now there is a current again: FAST follows at the next end of an OFF.
     await host.pins(cmp_b=1)
     await host.pause(times.off + 4)
     await host.pins(cmp_b=0)
     again = host.edges("m21", fall + 1)[0][0]
     assert (again - fall) % times.off == 0
     assert [level for _, level in host.edges("m20", since)] == [0], "on without a reference"
-    # The next step has a new sign, and so an OFF of its own.
+    # The next step has a new sign and therefore a separate OFF.
     await start(host, 1)
     await host.pause(2 * times.off + 64)
     turned = host.edges("phase_b_sign", again)[0][0]

@@ -80,7 +80,7 @@ async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
     edge = await level(host, KEY1)
     await host.wait_us(5 * FILTER)
     assert not await host.busy() and await still(host, 100) and not await host.out("gpo")
-    # Bounces during the release.
+    # The key bounces while it is released.
     for us in (300, FILTER - 1):
         await level(host, HIGH)
         await host.wait_us(us)

@@ -105,7 +105,7 @@ async def p006_breaks(dut: Any, bits: float) -> None:
     await host.send(J[:4])
     await host.low(bits)
     if bits < 9.5:
-        # A valid byte 0: the frame continues.
+        # If byte 0 is valid, the frame continues.
         await host.send(J[5:])
         assert await host.hear() == DECAY
     assert await host.ask("j") == DECAY
@@ -197,7 +197,7 @@ async def p006_silence_within_a_frame(dut: Any) -> None:
     """
     host = await Host.start(dut)
     for after, answered in ((-12, True), (-5, True), (6, False), (40, False)):
-        # From the middle of the stop bit, when half a bit remains.
+        # The silence counts from the middle of the stop bit, when half a bit remains.
         gap = ceil(192 * host.bit) - int(host.bit / 2) + after
         await host.send(command(0xFF, "i", 0x77)[:4])
         await host.pause(gap)

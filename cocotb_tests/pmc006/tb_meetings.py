@@ -59,7 +59,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
             assert not await host.busy() and reply in (0, good) and await host.status() == DECAY | EXT1
             replies.append(bool(reply))
             assert await host.ask("b") == 0
-            # The level of one pin and a change of another are not an edge.
+            # The level of one pin together with a change of another pin is not an edge.
             await host.pins(gpi=KEY1)
             await host.pins(gpi=HIGH)
             assert await host.status() == DECAY
@@ -87,7 +87,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         await host.ok(f=int(code == "J"), J=0)
         seen = []
         for shift in NEAR:
-            # Enabled, or changed to the rising edge, near a falling edge.
+            # The input is enabled, or changed to the rising edge, near a falling edge.
             assert await meet(host, code, data, shift, ext1=0) == data
             seen.append(bool(await host.status() & EXT1))
             assert await host.ask("f", 0) == 0

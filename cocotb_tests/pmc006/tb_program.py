@@ -177,7 +177,7 @@ async def p006_spare_fields_are_ignored(dut: Any) -> None:
     assert await host.ask("z") == 1
     await host.pause(3 * SLOT)
     assert await host.out("gpo") == 1
-    # The option of an instruction that has no option.
+    # These instructions have no option, but the word has one.
     assert await go(host, Op(0x0C, 0xFF), Op(0x0B, 7, 99), Op(CMP, 8, 1), goto(5, JNE), out(2, 1)) == 0b11
 
 

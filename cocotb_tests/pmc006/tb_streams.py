@@ -13,7 +13,11 @@ from .moves import after_steps, brisk, run
 
 
 def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
-    """Return the changes of the carry of the running sum; refs: (edge, reference) in order (P006-EXC-40)."""
+    """Return the changes of the carry of the running sum.
+
+    Args:
+        refs: pairs (edge, reference) in order of time (P006-EXC-40).
+    """
     changes, total, ref, level = [], 0, 0, 0
     coming = iter([*refs, (end + 1, 0)])
     t, following = next(coming)

@@ -12,7 +12,12 @@ from .frames import signed
 
 
 class View(ABC):
-    """Read access of `Host`. `t`: its next free edge; `mark`: steps are counted from here."""
+    """Read access of `Host`.
+
+    Attributes:
+        t: its next free edge.
+        mark: steps are counted from here.
+    """
 
     side: Side
     clk_hz: int
@@ -60,7 +65,10 @@ class View(ABC):
         return ceil(Fraction(micros) * self.clk_hz / 1_000_000)
 
     def in_us(self, clk: int) -> int:
-        """Convert cycles to whole us; AssertionError if they deviate from whole us by more than one cycle."""
+        """Convert cycles to whole us.
+
+        The call raises AssertionError if the cycles deviate from whole us by more than one cycle.
+        """
         micros = round(Fraction(clk * 1_000_000, self.clk_hz))
         assert abs(clk - Fraction(micros * self.clk_hz, 1_000_000)) <= 1, f"{clk} clk are not whole us"
         return micros

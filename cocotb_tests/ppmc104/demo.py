@@ -19,7 +19,7 @@ SLOW, FAST, RAMP = 199, 19, 250  # 2.5 kpps to 25 kpps within 250 pulses
 ACC_DEC, CONTINUOUS = 0x43, 0x45
 RATE = 49  # 10 kpps
 PULSES_TO_LIMIT = 60
-INTERRUPT_LATENCY = 800  # cycles, 50 us: the time that a host of that time needed
+INTERRUPT_LATENCY = 800  # cycles, 50 us: the processing time of an old host
 
 
 async def results(host: HostBus) -> None:

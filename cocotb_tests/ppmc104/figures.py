@@ -40,8 +40,8 @@ __all__ = [
 
 INIT_A = (0x0A, 9, 4, 4)
 INIT_B = (0x0A, 19, 9, 10)
-# External clock, otherwise as A, and with a short ramp of small rates, for tests that control each clock
-# edge.
+# Initialisation with the external clock, otherwise as A, and with a short ramp of small rates, for tests that
+# control each clock edge.
 INIT_EXT = (0x1A, 1, 0, 4)
 
 # Initialisation codes, positive logic, of each step list; bit 3 = 0 selects negative logic.

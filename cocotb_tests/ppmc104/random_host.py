@@ -102,7 +102,7 @@ class _Writer(HostWriter):
             self.add("send", self.init_code(), data)
         else:
             self.blind([(1, self.init_code()), *((0, byte) for byte in data)])
-        if rng.random() < 0.3:  # bytes during the table build
+        if rng.random() < 0.3:  # sends bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))

@@ -149,7 +149,8 @@ async def p104_ac_52_init_time(dut):
     lab = await Lab.start(dut, None)
     await lab.host.run("c 0A d 09 d 04 d 04")
     event = await lab.host.data(0x00, poll=False) + 2
-    # The status directly after the byte: it is accepted immediately, and the mailbox closes after it.
+    # The status is read directly after the byte: the byte is accepted immediately, and the mailbox closes
+    # after it.
     await lab.host.poll(IBF, 0)
     await lab.host.command(0xC1, poll=False)
     await lab.host.command(0xC2, poll=False)

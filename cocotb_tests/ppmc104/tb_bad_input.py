@@ -279,7 +279,7 @@ async def p104_bad_23_always_a_way_back(dut):
         clock = lab.bench.external_clock(iter(lambda: rng.randrange(4, 90), 0), high=2) if turn % 2 else None
         await abuse(lab, rng, 60)
         lab.bench.set(l1_n=1, l2_n=1, l3_n=1, l4_n=1, cnp_n=1, alm_n=1, csel=1, vsel=1)
-        # A byte of the abuse may still wait, so one operation may still start.
+        # A byte of the random abuse may still wait in the mailbox, so one operation may still start.
         for _ in range(3):
             await lab.host.poll(IBF, 0, timeout=3_000_000)
             if lab.cfg.datasheet:

@@ -97,13 +97,13 @@ async def p104_bus_03_shortest_strobes(dut):
     for part in range(8):
         await bench.align()
         await Timer(off_edge(lab, part), "ps")
-        # Two writes back to back: the newer byte may replace the older one, but must be stored.
+        # Of two writes back to back, the newer byte may replace the older one, but must be stored.
         await strobe(lab, short, short, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
         await strobe(lab, short, 14 * clk, a0=1, d_i=0xC1, cs_n=0, wr_n=0)
         lab.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 0)
         await strobe(lab, short, 14 * clk, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
         lab.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 1)
-        # Invalid levels of d_i and a0 until 1 cycle + 10 ns before the end of a longer strobe.
+        # The levels of d_i and a0 are invalid until 1 cycle + 10 ns before the end of a longer strobe.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(3 * clk, "ps")
         await strobe(lab, short, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)

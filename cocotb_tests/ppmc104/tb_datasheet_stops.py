@@ -16,7 +16,7 @@ async def p104_ds_10_decelerating_stop(dut):
     """The flag of 0x41 in I(4) is set 17 us later: I(4) or I(5) is the last interval of the
     acceleration; INT follows the end by 200 us (P104-DS-10).
     """
-    # Slow enough that no interval closes the mailbox (P104-DS-12).
+    # These intervals are so long that none of them closes the mailbox (P104-DS-12).
     ramp = (60, 30, 10)
     lab = await Sheet.start(dut, (0x0A, *ramp))
     fourth = lab.cfg.quanta(8 * (rates(ramp, [3])[0] + 1))
@@ -71,7 +71,8 @@ async def p104_ds_10_flag_too_late(dut):
     """
     lab = await Sheet.start(dut, INIT_B)
     for cause in ("41", "l3_n", "none"):
-        # N = 8: natural deceleration begins at pulse 5, I(4) is 480 cycles. N = 2: I(1) is 640 cycles.
+        # With N = 8, natural deceleration begins at pulse 5, and I(4) is 480 cycles. With N = 2, I(1) is 640
+        # cycles.
         for n, j, length in ((8, 4, 480), (2, 1, 640)):
             await lab.event(0x43, n)
             fall = await lab.pulse(j)
@@ -123,7 +124,8 @@ async def p104_ds_12_speed_limit(dut):
     ones (P104-DS-12).
     """
     lab = await Sheet.start(dut, None)
-    # 144 q and 152 q in phase mode, 96 q and 104 q in POUT mode, 142 q and 150 q with vsel = L.
+    # The intervals are just below and just above the limit: 144 q and 152 q in phase mode, 96 q and 104 q in
+    # POUT mode, 142 q and 150 q with vsel = L.
     for rate, code, vsel, open_ in (
         (17, 0x44, 1, False),
         (18, 0x44, 1, True),

@@ -116,8 +116,8 @@ async def p104_fdc_05_complete_all_the_same(dut):
     """
     lab = await Lab.start(dut, INIT_B)
     for j in (1, 4, 10):
-        # Forced at index j - 1: 2j pulses. Natural deceleration of N = 2j begins later, at the next
-        # pulse.
+        # A deceleration forced at index j - 1 leads to 2j pulses. Natural deceleration of N = 2j begins
+        # later, at the next pulse.
         for stop in ("41", "l3"):
             await lab.go(0x43, 2 * j)
             await lab.pulse(j, 20)

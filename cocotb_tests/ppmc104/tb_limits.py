@@ -13,7 +13,7 @@ from .states import PLATEAU, enter
 
 ALL = 1 << 24
 PINS = ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n")
-# Operation, pulse count, rate.
+# (operation, pulse count, rate)
 OPERATIONS = (
     (0x42, None, None),
     (0x43, 24, None),
@@ -75,7 +75,8 @@ async def p104_lim_02_matrix_in_motion(dut):
                 if kind == "end":
                     await lab.result(what, 6, 0x80 | bit(pin) | low, (n or ALL) - 7)
                 elif kind == "slow":
-                    # Flag in I(6), on the plateau: pulse 7 ends it, 4 more follow.
+                    # The flag is set in I(6), on the plateau: pulse 7 ends this interval, and 4 more pulses
+                    # follow.
                     await lab.result(what, 11, 0x88 | low, (n or ALL) - 12)
                     lab.check_train("P104-FDC-02", rates((9, 4, 4), forced(1000, 4, 6)))
                 elif n:
@@ -113,7 +114,7 @@ async def p104_lim_07_matrix_at_start(dut):
                     await lab.result(what, 0, 0x80 | bit(pin) | low, count - 1)
                     lab.check(what, "s", lab.bench.level("s"), pattern)
                 elif kind == "slow":
-                    # POUT mode: first plateau interval I(5), then 5 + 1 + 4 pulses (P104-LIM-04).
+                    # In POUT mode, the first plateau interval is I(5), then 5 + 1 + 4 pulses (P104-LIM-04).
                     pulses = 1 if base < 0xC0 else 10
                     await lab.result(what, pulses, 0x88 | low, count - pulses - 1)
                 elif count < ALL:

@@ -195,8 +195,8 @@ async def p104_hsk_02_replacement(dut):
     twice (P104-HSK-02).
     """
     lab = await Lab.start(dut, None)
-    # Gap and strobe of the second write; its edge 0 is their sum after that of the first. From 8 cycles
-    # on the first byte was certainly accepted: its C-event is at most 8 cycles after its write event.
+    # Gap and strobe of the second write. Its edge 0 follows that of the first write by gap + strobe. From 8
+    # cycles on, the first byte was certainly accepted: its C-event is at most 8 cycles after its write event.
     spacings = [(1, 1), (1, 2), *((gap, 2) for gap in range(2, 15))]
     sure = next(i for i, pair in enumerate(spacings) if sum(pair) == C_EVENT_LATEST - WRITE_EVENT)
     first_seen = []
@@ -211,7 +211,7 @@ async def p104_hsk_02_replacement(dut):
     lab.check("P104-HSK-01", "first byte taken", set(first_seen[sure:]), {1})
     outcomes = []
     for gap, strobe in spacings:
-        # A command, then data: the command/data flag of the byte is replaced, too.
+        # Data follow a command: the command/data flag of the byte is replaced, too.
         await lab.host.command(0x84)
         await lab.host.write(COMMAND, 0x86, gap=gap)
         await lab.host.write(DATA, 0x0F, strobe=strobe)
@@ -294,7 +294,7 @@ async def p104_hsk_05_output_queue(dut):
                 got.append(await lab.host.read(DATA, strobe=length, gap=gap))
                 soon = await lab.host.read(1)
                 if gap >= 7:
-                    # 2 cycles to the clearing edge, 4 more to the next byte.
+                    # The clearing edge follows after 2 cycles, the next byte 4 cycles later.
                     lab.check("P104-HSK-05", "OBF 8 clk after the read", soon & OBF, int(len(got) < 3))
             lab.check("P104-HSK-05", f"bytes, gap {gap}, strobe {length}", got, [0xFD, 0xFF, 0xFF])
             lab.check("P104-HSK-05", "OBF after the third byte", await lab.host.status() & OBF, 0)

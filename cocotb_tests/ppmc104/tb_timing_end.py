@@ -224,7 +224,8 @@ async def p104_end_04_cause_bits(dut):
         await lab.idle()
         lab.bench.set(**dict.fromkeys(pins, 1))
         await lab.result("P104-END-04", 3, 0x83 | bits, 96)
-    # Decelerating for L3, then the hard limit: bits 3 and 4. Decelerating for 0x41, then ALM: 6 and 5.
+    # The hard limit acts while the motor decelerates for L3: bits 3 and 4. ALM acts while it decelerates for
+    # 0x41: bits 6 and 5.
     await lab.go(0x43, 100)
     await lab.pulse(5, 100)
     lab.bench.set(l3_n=0)

@@ -35,7 +35,7 @@ ITEMS = cocotb_items(
     part=PPMC104,
 )
 
-# Parameter, legal extremes, values just outside.
+# A row has a parameter, the extremes of its legal range, and values just outside the range.
 RANGES = {
     "CLK_HZ": (("8_000_000", "200_000_000"), ("7_999_999", "200_000_001")),
     "XTAL_HZ": (("1_000_000", "16_000_000"), ("999_999", "16_000_001")),

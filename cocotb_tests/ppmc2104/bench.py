@@ -5,7 +5,7 @@ from __future__ import annotations
 from cocotb_tests.harness import BusStyle, Part
 from openppmc.model.ppmc2104 import codes
 
-# The same two pins in both styles of the PPMC-2104AFP: WRS*/RDS*, or DS* with R/W*.
+# Both styles of the PPMC-2104AFP use the same two pins: WRS* and RDS*, or DS* and R/W*.
 STROBES_WRS_RDS = BusStyle(
     write_on={"cs_n": 0, "ds_wrs_n": 0, "rw_rds_n": 1},
     write_off={"cs_n": 1, "ds_wrs_n": 1},
@@ -26,7 +26,7 @@ PPMC2104 = Part.of_model(
     styles=(STROBES_WRS_RDS, STROBES_DS_RW),
     style_pin="busc",
     clock="extck",
-    # Per axis, bit 1 for axis 1 and bit 2 for axis 2.
+    # Ports with one bit per axis: bit 1 for axis 1 and bit 2 for axis 2.
     lowest=dict.fromkeys((*codes.AXIS_INPUTS, *codes.AXIS_OUTPUTS, "s1_n", "s2_n"), 1),
     unwatched=frozenset({"clk_o"}),
 )

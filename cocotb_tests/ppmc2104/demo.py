@@ -11,8 +11,8 @@ from cocotb_tests.harness.sessions import Story
 
 from .bench import PPMC2104
 
-# Axis 1: 4-phase motor, full step; axis 2: half step. Both with the internal clock, switched at
-# standstill.
+# Axis 1 has a 4-phase motor in full step, axis 2 one in half step. Both have the internal clock and switch
+# their phases at standstill.
 SETTINGS = {1: (0x12, 127, 39, 200), 2: (0x36, 255, 79, 100)}  # code, RL, RH, PA
 PULSES = {1: 1000, 2: 500}
 CW, CCW = 0x43, 0x6B  # ramped moves: axis 1 clockwise, axis 2 counterclockwise
@@ -21,8 +21,8 @@ RATE = 49  # 10 kpps
 PULSES_TO_LIMIT, PULSES_TO_SLOW_DOWN = {1: 150}, {2: 130}
 BUSY = {1: 0x04, 2: 0x08}
 CMND = 0x30
-INTERRUPT_LATENCY = 2400  # cycles, 150 us: a busy host; both axes have ended by then
-BETWEEN_AXES = 320  # cycles, 20 us: the host processes the answers of one axis
+INTERRUPT_LATENCY = 2400  # cycles, 150 us: latency of a busy host; both axes have ended by then
+BETWEEN_AXES = 320  # cycles, 20 us: time in which the host processes the answers of one axis
 LONG = 4_000_000
 
 

@@ -70,7 +70,7 @@ class Axis(Drive):
         """Send the initial setting and wait until the ramp table is ready."""
         await self.host.init(code | self.axis_bit, rl, rh, pa)
         if self.cfg.datasheet:
-            # 71 ms (P2104-DS-01): polling all the time would be slow.
+            # The setting takes 71 ms (P2104-DS-01): polling all the time would be slow.
             await self.bench.clocks(self.cfg.us(70_990))
         await self.ready()
 

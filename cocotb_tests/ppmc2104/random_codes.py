@@ -25,7 +25,11 @@ Instruction = tuple[int, list[int]]
 
 
 class Codes:
-    """Generator of instructions. `external`: whether each axis has a running external clock."""
+    """Generator of instructions.
+
+    Args:
+        external: for each axis, whether its external clock is running.
+    """
 
     def __init__(self, rng: random.Random, datasheet: bool, external: tuple[bool, bool]) -> None:
         self.rng = rng
@@ -52,7 +56,7 @@ class Codes:
         if kind < 0.65:
             rl = rng.choice((3, 5, 9, 12, 19, 25))
             return rl, rng.randint(lowest, rl - 2), rng.choice((4, 4, 5, 6, 8, 10, 15))
-        if kind < 0.75:  # a flat start: several indices at RL
+        if kind < 0.75:  # the ramp begins flat: several indices at RL
             rl = rng.randint(4, 16)
             return rl, rl - 2, rng.randint(4, 24)
         if kind < 0.9 or self.datasheet:

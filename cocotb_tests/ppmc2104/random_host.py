@@ -99,7 +99,7 @@ class _Writer(HostWriter):
         self.set_up.add(axis)
         code, data = self.codes.setting(axis, wrong=0.08 if first else 0.3)
         self.told(code, data, 0.8)
-        if rng.random() < 0.3:  # bytes during the table build
+        if rng.random() < 0.3:  # sends bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))

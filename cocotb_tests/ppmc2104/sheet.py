@@ -45,7 +45,7 @@ def after(lab: Lab, rule: str, what: str, got: int, edge0: int, micros: int, ext
 async def opens(lab: Lab, rule: str, edge0: int, micros: int) -> None:
     """Check that a byte written now waits until `micros` us have passed since the C-event."""
     nominal = edge0 + WRITE_EVENT + lab.cfg.us(micros)
-    # An undefined code: it is rejected and has no processing window.
+    # An undefined code is rejected and has no processing window.
     await lab.host.command(0x87, poll=False)
     await lab.bench.until(max(lab.bench.now, nominal - 60))
     while lab.bench.now < nominal - 2:
@@ -72,5 +72,5 @@ async def rest(lab: Lab) -> None:
     for axis in lab.axes:
         await axis.finish()
         await axis.error()
-    # The windows of these reads.
+    # Wait for the windows of these reads.
     await lab.bench.clocks(lab.cfg.us(60))

@@ -282,7 +282,7 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
         await bench.clocks(10)
         lab.check("P2104-BAD-12", "auxo", bench.level("auxo"), 0b10)
         await lab.host.command(0xC1)
-        # The reverse: a read of the data register, then a write of data.
+        # The reverse case: a read of the data register, then a write of data.
         first = bench.set(cs_n=0, ds_wrs_n=0, rw_rds_n=1, a0=DATA)
         await bench.clocks(3)
         bench.set(a0=STATUS)

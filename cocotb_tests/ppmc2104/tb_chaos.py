@@ -12,7 +12,7 @@ from cocotb_tests.ppmc2104.random_noise import noise
 
 from .bench import PPMC2104
 
-# Slow enough for both axes in DATASHEET timing, too.
+# Rates that are slow enough for both axes in DATASHEET timing, too.
 RAMP = (0x33, 0x25, 4)
 
 

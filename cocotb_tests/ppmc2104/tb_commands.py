@@ -351,7 +351,7 @@ async def p2104_err_03_faults_in_motion(dut: Any) -> None:
     first.check_train("P2104-ERR-03", [39] * 59)
     second.check_train("P2104-ERR-03", [29] * 59)
     lab.check("P2104-ERR-03", "80, A0", await lab.run("c 80 r c A0 r"), [0x84, 0x84])
-    # More bytes than the instruction has: it runs, the rest set error 2.
+    # With more bytes than the instruction has, the instruction runs, and the surplus bytes set error 2.
     first.since = lab.bench.now
     await lab.run("c 44 d 09 d 02 d 00 d 00 d 00 d 7F")
     lab.check("P2104-BAD-05", "errors", await lab.errors(), (2, 0))

@@ -152,7 +152,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     lab.window("P2104-DS-02", "hold after the end", hold - end, delay - 4, delay + 16 + 4)
     await axis.result("AC-72", 10, 0xC4, 989)
     await rest(lab)
-    # In FIN: closed for 400 us, but the normal end is not delayed and sets no bit.
+    # In FIN the mailbox is closed for 400 us, but the normal end is not delayed and sets no bit.
     await axis.go(0x42)
     fall = await axis.pulse(1, 4)
     edge0 = await axis.command(0x40, poll=False)
@@ -185,18 +185,18 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await axis.result("P2104-DS-03", len(wanted) + 1, 0xC3, 98 - len(wanted))
         axis.check_train("P2104-DS-03", wanted)
         await rest(lab)
-    # In I(1), at the rate RL: the motion ends with the window.
+    # In I(1), at the rate RL, the motion ends with the window.
     await ask(1, 100)
     end = await axis.ended()
     after(lab, "P2104-DS-03", "end at RL", end, edge0, 32)
     await axis.result("P2104-DS-03", 1, 0xC3, 98)
     await rest(lab)
-    # Requested while accelerating, effective in natural deceleration (from pulse 6 of 10 on): no effect,
-    # no bit.
+    # The stop is requested while accelerating and becomes effective in natural deceleration (from pulse 6 of
+    # 10 on): it has no effect and sets no bit.
     await ask(5, 992 - 300, n=10)
     await axis.result("P2104-DS-03", 10, 0x83, 0)
     axis.check_train("P2104-DS-03", rates(INIT_B[1:], [0, 1, 2, 3, 4, 3, 2, 1, 0]))
-    # Rejected: no window.
+    # A rejected stop has no window.
     await rest(lab)
     await axis.go(0x45, rate=0x63)
     await axis.pulse(1, 200)
@@ -220,7 +220,7 @@ async def p2104_ac_74_reads(dut: Any) -> None:
         lab.check("AC-74", f"status in the window of {code:#x}", await lab.host.status() & 0x31, cmnd)
         nominal = lab.cfg.us(micros)
         if code == 0x81:
-            # Sampled at the end, not at the C-event.
+            # The values are sampled at the end of the window, not at the C-event.
             lab.x1.set(org_n=0)
         await lab.host.poll(OBF, OBF, dense=1000)
         late = lab.bench.now - edge0

@@ -136,7 +136,7 @@ async def p2104_ac_70_switching_counts(dut: Any) -> None:
     await axis.init(0x0A, *INIT_B[1:])
     clock = lab.bench.external_clock(repeat(20), axis.clock, high=10)
     await tried(lab, axis, 0x45, 0, 0x00, ", external clock")
-    # Faster than the old chip: the core does not lock up.
+    # This is faster than the old chip could move; the core does not lock up.
     await axis.go(0x44, 50, 0)
     await axis.result("P2104-DS-36", 50, 0x84, 0)
     clock.cancel()
@@ -218,7 +218,7 @@ async def p2104_ac_76_origin_at_pulses(dut: Any) -> None:
     await axis.blip("org_n", 200)
     await axis.result("AC-76", 9, 0x87)
     lab.check("AC-76", "83", await axis.fetch(0x83, 3), [0xF6, 0xFF, 0xFF])
-    # Pulse 1 included; in RUN wait ORG is not sampled.
+    # This includes pulse 1; in RUN wait ORG is not sampled.
     axis.set(run=0)
     await axis.go(0x47, rate=0x31)
     await lab.bench.clocks(lab.cfg.us(40))

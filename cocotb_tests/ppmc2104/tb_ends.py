@@ -86,7 +86,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
             await axis.fetch(code)
         await lab.bench.clocks(100)
         lab.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
-        # An operation without pulses changes hold like any other.
+        # An operation without pulses changes hold like any other operation.
         axis.set(run=0)
         await axis.go(0x42)
         await axis.command(0x40)
@@ -95,7 +95,7 @@ async def p2104_end_07_hold(dut: Any) -> None:
         hold = await lab.bench.edge(axis.pin("hold"), 1)
         lab.window("P2104-END-07", "zero pulses: hold", hold - end, 4_096 - 60, 4_120)
         axis.set(run=1)
-        # Accepted just before the timer expires: hold stays low.
+        # An operation that is accepted just before the timer expires keeps hold low.
         await axis.move(0x42)
         rise = lab.bench.rises(axis.pout, axis.since)[-1]
         await lab.bench.until(rise + 4_096 - 10)

@@ -11,7 +11,7 @@ from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
 
 from .lab import Lab
 
-# EXTCK, otherwise the ramp of INIT_A.
+# Setting with EXTCK, otherwise with the ramp of INIT_A.
 EXTERNAL = (0x0A, 9, 4, 4)
 
 

@@ -14,7 +14,8 @@ from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 from .bench import PPMC2104
 
 WAVES = ("pout_n[2]", "dir[2]", "hold[2]", "s2_n")
-# Table build of axis 2, longest legal one; an instruction of axis 1 with all its bytes. Both in cycles.
+# Longest legal table build of axis 2, and duration of an instruction of axis 1 with all its bytes, both in
+# cycles.
 READY, INSTRUCTION = 40_000, 80
 
 

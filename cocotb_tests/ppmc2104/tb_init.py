@@ -25,7 +25,7 @@ async def p2104_ini_01_all_codes(dut: Any) -> None:
             continue
         code = chop << 4 | external << 3 | half << 2 | mm
         await axis.init(code, 9, 4, 4)
-        # Long phases, so that the pattern is sampled between their edges.
+        # The phases are long, so that the pattern is sampled between their edges.
         patterns = steps(f"{types[mm]} {'half' if half else 'full'}", positive=False)
         what = f"{code:#x}, axis {axis.n}"
         since = lab.bench.now

@@ -14,7 +14,7 @@ from .lab import Lab
 from .states import MOVING, enter, leave
 
 PINS = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
-# Operation, pulse count, rate.
+# (operation, pulse count, rate)
 OPERATIONS = (
     (0x42, None, None),
     (0x43, 24, None),
@@ -66,7 +66,8 @@ async def matrix_in_motion(lab: Lab, axis_number: int) -> None:
             if kind == "end":
                 await axis.result(what, 6, 0x80 | bit(pin) | low, (n or NO_PULSES_DONE) - 7)
             elif kind == "slow":
-                # Flag in I(6), on the plateau: pulse 7 ends it, 4 more follow.
+                # The flag is set in I(6), on the plateau: pulse 7 ends this interval, and 4 more pulses
+                # follow.
                 await axis.result(what, 11, 0x88 | low, (n or NO_PULSES_DONE) - 12)
                 axis.check_train("P2104-FDC-03", rates(INIT_A[1:], forced(1000, 4, 6)))
             elif n:
@@ -117,7 +118,7 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
     """
     lab = await Lab.start(dut, errint_n=0)
     for axis in await lab.both(INIT_A):
-        # A finished move first: its results must stay after every rejected start.
+        # A move is completed first; its results must stay after every rejected start.
         await axis.go(0x44, 10, 9)
         await axis.pulse(3, 100)
         await axis.halt()
@@ -282,7 +283,7 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
                 lab.check("P2104-LIM-09", f"pulses, {pin} {before} clk before", count, 3)
         lab.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
         lab.check("P2104-LIM-09", "both sides were met", set(outcomes), {3, 4})
-    # At the end of START: the pulse at this transition is suppressed, too.
+    # If the cause occurs at the end of START, the pulse at this transition is suppressed, too.
     counts = []
     for after in range(lab.cfg.w - 6, lab.cfg.w + 10):
         edge0 = await axis.go(0x42, poll=False)

@@ -79,7 +79,8 @@ async def p2104_tim_02_run(dut: Any) -> None:
             lab.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} clk", first - rise, w, w + 6)
             await axis.result("P2104-OPR-02", n or 1, 0x80 | code & 7, 0)
         axis.set(run=1)
-    # run falling in each cycle around the acceptance: either RUN wait or START, without other results.
+    # If run falls in any cycle around the acceptance, the axis is either in RUN wait or in START, without
+    # other results.
     axis = lab.x1
     for lead in range(-2, 12):
         axis.set(run=1)

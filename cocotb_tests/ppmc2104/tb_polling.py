@@ -46,7 +46,7 @@ async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
     await rest_of_window(lab)
     await last_byte(lab.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
     took = await limit(lab, axis, detection(SETTING, 0, 0), SETTING + REGULAR)
-    # No polling tick while the setting is processed, so nearly all of the time passes.
+    # There is no polling tick while the setting is processed, so nearly all of this time passes.
     lab.window(
         "P2104-DS-20", "limit in the window", took, lab.cfg.us(SETTING), lab.cfg.us(SETTING + REGULAR) + 8
     )

@@ -127,8 +127,8 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
     ):
         for j in range(1, n):
             await asked(axis, pin, n, j, 40, code)
-            # Natural deceleration: from the first interval with a lower index than an acceleration would
-            # have.
+            # Natural deceleration begins with the first interval that has a lower index than an acceleration
+            # would have.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
             wanted = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
@@ -171,13 +171,13 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
         pin = "bhl_n" if code & 8 else "fhl_n"
         n = 1000 if code & 7 == 3 else None
         left = (n or 1 << 24) - 2
-        # START by the stop: within the 5 us.
+        # The stop is requested in START, within the 5 us.
         await axis.go(code, n)
         await axis.command(0x41)
         await axis.command(0x41)
         lab.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
         await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
-        # START by the pin, also in RUN wait, released and active again.
+        # The pin requests it in START, also in RUN wait; it is released and active again.
         for waiting in (False, True):
             axis.set(run=0 if waiting else 1)
             await axis.go(code, n, poll=False)

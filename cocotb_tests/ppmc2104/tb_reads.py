@@ -146,12 +146,12 @@ async def p2104_int_03_release_window(dut: Any) -> None:
         await lab.bench.clocks(20)
         since = lab.bench.now
         await lab.x2.command(0x86)
-        # END1 is left: int_n is low again after the window.
+        # END1 is still pending: int_n is low again after the window.
         await lab.bench.clocks(2 * w)
         (up, one), (down, zero) = lab.bench.edges("int_n", since)
         lab.check("P2104-INT-03", "levels", (one, zero), (1, 0))
         lab.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
-        # Released completely, then a new cause `delay` cycles after the release.
+        # All causes are released; a new cause follows `delay` cycles after the release.
         edge0 = await lab.host.command(0x80, poll=False)
         await lab.bench.until(edge0 + delay)
         cause = await lab.host.write(1, 0x87)

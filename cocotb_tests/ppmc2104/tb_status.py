@@ -12,7 +12,7 @@ from .figures import BUILD_LATEST, ERROR, INIT_A, INIT_B
 from .lab import Lab
 from .states import MOVING, RESTING, enter, leave
 
-# The largest table: all rates, all steps.
+# The largest table has all rates and all steps.
 LARGEST = (0x02, 255, 1, 0x2BD4)
 
 
@@ -104,7 +104,7 @@ async def p2104_hsk_02_writes_one_after_the_other(dut: Any) -> None:
         one, two = await lab.errors()
         lab.check("P2104-HSK-02", f"newer code, gap {gap}", two, 1)
         outcomes.append(one)
-        # Data over a code: the command/data flag is replaced with the byte.
+        # Data are written over a code: the command/data flag is replaced with the byte.
         await lab.host.write(COMMAND, 0x40, strobe=1, gap=gap)
         await lab.host.write(DATA, 0x40, strobe=1, gap=16)
         one, two = await lab.errors()
@@ -269,7 +269,7 @@ async def p2104_hsk_07_answers_stay(dut: Any) -> None:
         await axis.go(0x43, 0x30201)
         await axis.pulse(2, 50)
         await axis.halt()
-        # 0x30201 - 2 - 1 = 0x301FE left.
+        # The remaining count is 0x30201 - 2 - 1 = 0x301FE.
         await axis.command(0x83)
         lab.check("P2104-HSK-07", "first byte", await lab.host.read(DATA), 0xFE)
         await lab.run("c 87 d 00 c C1 c 40 c 84 d 00 d 00 c 43 c 42")

@@ -23,6 +23,6 @@ ROUGH = 0.15
 
 
 async def play(dut: Any, seed: int) -> None:
-    """Play one seed; AssertionError if the device hangs or returns an invalid answer."""
+    """Play one seed; raise AssertionError if the device hangs or returns an invalid answer."""
     rough = random.Random(f"p312 manners {seed}").random() < ROUGH
     await (Player if rough else Lively)(await Host.start(dut), seed).play()

@@ -32,7 +32,7 @@ TABLE = "00 00 01F4 00C8 0001BD"
 
 
 async def play(dut: Any, seed: int) -> None:
-    """Play one seed; AssertionError if the station hangs or returns an invalid answer."""
+    """Play one seed; raise AssertionError if the station hangs or returns an invalid answer."""
     await (await Talker.on(dut, seed)).play()
 
 

@@ -211,7 +211,8 @@ class Player(Aware):
     def block(self, code: int, trigger: int | None = None) -> bytes:
         """Return any instruction with mostly legal parameters.
 
-        trigger: OV = 1 with these TRG bits.
+        Args:
+            trigger: TRG bits of an instruction with OV = 1, `None` for OV = 0.
         """
         rng = self.rng
         flags = rng.choice((0, 0, 0x40)) | (0x10 if code in (0x10, 0x11) and rng.random() < 0.4 else 0)

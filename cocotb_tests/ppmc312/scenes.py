@@ -26,7 +26,11 @@ POLL = 60
 
 
 class Scenes(Player):
-    """Host that plays scenes; `follows`: probability that the encoder follows a pulse (0: no encoder)."""
+    """Host that plays scenes.
+
+    Attributes:
+        follows: probability that the encoder follows a pulse (0: no encoder).
+    """
 
     follows = 0.0
 
@@ -120,7 +124,7 @@ class Scenes(Player):
         return max(2, rng.randint(min(self.rates) - 1, max(self.rates) + 8))
 
     def distance(self, rate: int) -> int:
-        """Return an N near the limits between the kinds of operations."""
+        """Return a number of pulses near the limits between the kinds of operations."""
         rng, table = self.rng, self.model.core.table
         if table is None or rng.random() < 0.2:
             return rng.choice((1, 2, 3, 9, 30, 0))
@@ -131,7 +135,11 @@ class Scenes(Player):
         return max(1, near + rng.choice((0, 0, -1, 1, 2, 5)))
 
     def finite_block(self, more: int = 0) -> bytes:
-        """Return an 82 or 83 with a plausible end; more: pulses after it."""
+        """Return a block of instruction 82 or 83 with a plausible number of pulses.
+
+        Args:
+            more: number of pulses that is added.
+        """
         rng = self.rng
         code, rate = rng.choice((0x82, 0x82, 0x82, 0x83)), self.speed()
         rate = 0 if code == 0x82 and rng.random() < 0.3 else rate
@@ -148,7 +156,12 @@ class Scenes(Player):
     def change_block(
         self, trigger: int | None = None, ahead: int = 0, codes: tuple[int, ...] = CHANGES
     ) -> bytes:
-        """Return an 80, 81, 87 or 88; with `trigger`, registered for it or `ahead` pulses away."""
+        """Return a block of instruction 80, 81, 87 or 88.
+
+        Args:
+            trigger: trigger for which the instruction is registered, `None` for a direct instruction.
+            ahead: number of pulses from the current position to the position that triggers it.
+        """
         rng = self.rng
         code = rng.choice(codes)
         flags = 0 if trigger is None else 4 | trigger
@@ -204,7 +217,7 @@ class Scenes(Player):
         await self.attend(6_000)
 
     async def meeting_point(self) -> None:
-        """Send two 87 shortly before the deceleration point, after an 88 to a rate with a long ramp."""
+        """Send 88 to a rate with a long ramp, then 87 twice shortly before the deceleration point."""
         host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:
             return
@@ -227,7 +240,7 @@ class Scenes(Player):
         await self.attend(3_000)
 
     async def walk_change(self) -> None:
-        """Send 88 while an 81 decelerates."""
+        """Send instruction 88 while the motor decelerates for instruction 81."""
         await self.tell(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
         await self.attend(self.rng.choice((1_000, 2_500)))
         await self.tell(message(Code.SLOW_STOP, "00"))
@@ -244,7 +257,7 @@ class Scenes(Player):
         await self.host.pins(**{pin: 1})
 
     async def endless(self) -> None:
-        """Run an 85 or 86 with changes, then stop it."""
+        """Run instruction 85 or 86 with changes of speed, then stop the motion."""
         await self.tell(self.endless_block().hex())
         await self.meanwhile(self.rng.choice((2, 4, 7)))
         if self.model.motion.active:
@@ -345,7 +358,7 @@ class Scenes(Player):
     # ------------------------------------------------------------ inputs
 
     async def origin(self) -> None:
-        """Run 10 or 11 with an origin input that is asserted and deasserted."""
+        """Run instruction 10 or 11 with an origin input that is asserted and deasserted."""
         host, rng = self.host, self.rng
         await self.tell(self.endless_block((0x10, 0x11, 0x11)).hex())
         for _ in range(rng.randint(1, 3)):
@@ -376,7 +389,7 @@ class Scenes(Player):
             await self.attend(rng.choice((300, 900, 2_000)))
 
     async def inputs(self) -> None:
-        """Send 28 and change the general input, with a host that reads slowly."""
+        """Send instruction 28 and change the general input, with a host that reads slowly."""
         host, rng = self.host, self.rng
         await self.tell(
             message(Code.MASK, f"{rng.choice((1, 1, 1, 0)):02X} {rng.choice((0xFF, 0x0F, 0x5A, 1)):02X}")

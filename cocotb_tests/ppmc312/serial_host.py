@@ -47,7 +47,11 @@ class SerialHost(SerialLine, SideHost):
     ) -> SerialHost:
         """Reset a station and wait until it is ready; it acknowledges each instruction of `setting`.
 
-        mod: speed. adr: station. error: of the master's bit time, 0.02 = 2 % too long. mode: level of MODE.
+        Args:
+            mod: levels of the speed pins MOD.
+            adr: number of the station.
+            error: relative error of the master's bit time, 0.02 = 2 % too long.
+            mode: level of MODE.
         """
         host = cls(await start_bench(dut, PPMC312, settle=8), adr, error)
         host.speed(mod)
@@ -107,7 +111,7 @@ class SerialHost(SerialLine, SideHost):
     async def begin(self, within: int = T_EXEC) -> int:
         """Return the edge of the next rise of snd.
 
-        TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
+        Raises TimeoutError if it is more than `within` cycles after the middle of the last stop bit.
         """
         await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK
@@ -119,7 +123,8 @@ class SerialHost(SerialLine, SideHost):
     async def hear(self, within: int = T_EXEC, timed: bool = True) -> str:
         """Return the next reply, which begins at least SND_WAIT + 0.5 bits after the end of the frame.
 
-        timed: the last stop bit was the end of the frame that is answered (P312-SER-18).
+        Args:
+            timed: True if the last stop bit was the end of the frame that is answered (P312-SER-18).
         """
         rise = await self.begin(within)
         self.waited = rise - self.middle - self.bit / 2

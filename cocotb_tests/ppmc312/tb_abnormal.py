@@ -46,7 +46,7 @@ async def p312_alarm_by_its_pin(dut: Any) -> None:
     "P312-RSP-20", "P312-INP-30", "P312-INP-32", "P312-CHK-39", "P312-CHK-40", "P312-BAD-09", "P312-RSP-11"
 )
 async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
-    # 01 by the host during a motion; the instruction is not executed.
+    # The host sends instruction 01 during a motion; the instruction is not executed.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     await host.pulse(2, 20)
@@ -56,7 +56,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
     await host.pause(200)
     assert host.condition == 0x10 and host.out("auxo_n") == 0x3F and len(host.pulses()) == 0
     assert not await host.read(CSR) & MWEF
-    # Another 01 in ABN: the alarm is reported once.
+    # The host sends instruction 01 again in state ABN: the alarm is reported once.
     await host.issue(message(Code.OUTPUT, "3F"))
     await host.pause(200)
     assert [await host.response() for _ in range(3)] == [
@@ -65,7 +65,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
         stopped(0x80, 2),
     ]
     assert await host.quiet() and host.out("auxo_n") == 0x3F
-    # After class 1 has been read, a further 01 in ABN is reported again.
+    # After class 1 has been read, another instruction 01 in state ABN is reported again.
     await host.issue(message(Code.VERSION))
     await host.pause(200)
     await host.issue(message(Code.VERSION))
@@ -74,7 +74,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
         message(Answer.ALARM, "01", source=SPONTANEOUS),
     ]
     assert await host.ask(message(Code.ALARM_CLEAR)) == message(Code.ALARM_CLEAR) and host.condition == 0x02
-    # 01 by an override, by position and by pin: the whole FIFO is emptied.
+    # Overrides, by position and by pin, contain instruction 01: the whole FIFO is emptied.
     for trigger in ("04 00C8 00000003", "05 00C8"):
         host = await Host.start(dut, *TF, message(Code.CHANGE, trigger), message(Code.CHANGE, "07 0190"))
         await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
@@ -91,7 +91,7 @@ async def p312_multiple_occurrence_of_each_kind(dut: Any) -> None:
             stopped(0x80, 3 if trigger[1] == "4" else 2),
         ]
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 10 00")
-    # 01 by an event: its buffer is emptied, the other buffer is not.
+    # An event executes instruction 01: its buffer is emptied, the other buffer is not.
     host = await Host.start(dut, *TF, register(0, message(Code.INPUT)), register(1, message(Code.TERMINALS)))
     await host.issue(message(Code.VERSION))
     await host.pause(200)
@@ -173,7 +173,7 @@ async def p312_interruptions(dut: Any) -> None:
     for block, levels, status in (
         (message(Code.FOREVER_CONSTANT, "00 0063"), {}, "00"),
         (message(Code.CONSTANT, "00 0190 00000000"), {}, "00"),
-        (message(Code.STEP, "05"), {}, None),  # 84 has no OV
+        (message(Code.STEP, "05"), {}, None),  # instruction 84 has no OV bit
         (message(Code.STOP, "05"), {}, "00"),
         (message(Code.INPUT, "00"), {}, "00"),
         (STOP, {}, "01"),
@@ -310,7 +310,7 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
         and await host.read(CSR) == MREF
         and host.condition == 0x01
     )
-    # Table read: MWEF is deasserted with its last block; FF is accepted only then.
+    # During a table read, MWEF is deasserted with the last block of the table; FF is accepted only then.
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.TABLE_READ))
     await host.pause(1000)

@@ -12,7 +12,8 @@ from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Answer, Code
 
-# States INI, NOR, ACC, FIX, ABN, WRN; O: accepted, .: rejected. Blocks with flags 05 have OV = 1.
+# A row has one letter for each of the states INI, NOR, ACC, FIX, ABN and WRN: O = accepted, . = rejected.
+# Blocks with flags 05 have OV = 1.
 ROWS = [
     (T1, "OO...."),
     ("02 03 01 01 03", "OO...."),

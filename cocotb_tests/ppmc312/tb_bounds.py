@@ -86,9 +86,9 @@ async def p312_stops_come_in_time(dut: Any) -> None:
 
 @directed("P312-PRT-04", "P312-OVR-10", "P312-RSP-20", "P312-EVT-02")
 async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
-    """An 88 in progress is finished before a stop by an event, which then takes more than 64 cycles.
+    """An instruction 88 in progress is finished before a stop by an event.
 
-    The motion stops regardless of the reads of the host.
+    The stop then takes more than 64 cycles, and the motion stops regardless of the reads of the host.
     """
     longest = 0
     for after in range(1, 260, 6):
@@ -106,7 +106,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
         position = f"{host.side.golden.position:08X}"
         if answers[0] == message(
             Code.STOP, source=Source.OVERRIDE
-        ):  # it was first; then there is no motion to change
+        ):  # the event was first; then there is no motion to change
             assert (
                 answers[1:]
                 == [
@@ -116,7 +116,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
                 and took <= T_STOP
             )
         else:
-            # The answer of the 88 is unread: the stop becomes an alarm immediately.
+            # The answer of instruction 88 is unread, so the stop becomes an alarm immediately.
             assert sorted(answers) == [
                 message(Code.CHANGE),
                 message(Answer.ALARM, "01", source=SPONTANEOUS),
@@ -172,6 +172,6 @@ async def p312_a_position_acts_on_the_next_interval(dut: Any) -> None:
     for _ in range(2):
         assert await host.response() == message(Code.CHANGE, source=Source.OVERRIDE)
     assert await host.response() == message(Answer.STOPPED, "40 00 00 00 1E", source=SPONTANEOUS)
-    # 12 pulses are left at the first change: the final deceleration starts at 200. The second change
-    # makes the rate constant at 400 for the remaining pulses.
+    # At the first change, 12 pulses are left, and the final deceleration starts at rate 200. The second
+    # change makes the rate constant at 400 for the remaining pulses.
     assert host.gaps() == [400] * 3 + [200] * 4 + [100] * 11 + [200] + [400] * 10

@@ -51,7 +51,7 @@ async def p312_reads_drive_the_bus(dut: Any) -> None:
         assert rise - mark in range(0, 5) and fall - mark - 9 in range(0, 5)
         assert host.out("d_o") == value, reg
         assert len([edge for edge in host.side.edges("d_o", mark) if edge[0] > mark + 4]) == 0
-    # One byte has been read; a rewind returns to it.
+    # After one byte was read, a rewind returns to this byte.
     assert await host.read(RAR) == 0x3D and await host.read(RCR) == 0 and await host.read(RAR) == 0x3C
     assert await host.response() == message(Code.VERSION, "12")
 
@@ -97,7 +97,7 @@ async def p312_control_bits(dut: Any) -> None:
     await host.write(CSR, 0x50)
     assert await host.read(CSR) & 0x70 == 0x50
     assert await host.response() == message(Code.OUTPUT) and host.out("auxo_n") == 0x00
-    # Bits that the data sheet prints as crosses.
+    # The data sheet prints these bits as crosses (undefined).
     assert await host.ask(message(Code.IN_POSITION, "FA 0001")) == message(Code.IN_POSITION)
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
 
@@ -118,7 +118,8 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
     await host.write(WAR, 0x1D)
     await data(0x40, 0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12")
-    # The window is disarmed in the middle and armed again: the bytes in between are discarded.
+    # The window is disarmed in the middle of a block and armed again; the bytes written in between are
+    # discarded.
     await host.write(WAR, 0x1D)
     await data(0x40)
     await host.write(WCR, 0x21)
@@ -132,12 +133,13 @@ async def p312_write_window_in_any_order(dut: Any) -> None:
     await host.write(WAR, 0x1D)
     await data(0x40, 0x01, 0x03)
     assert await host.response() == message(Code.VERSION, "12") and host.out("auxo_n") == 0x3F
-    # Outside the window no byte is stored and the pointer does not move, not even round and back to the top.
+    # Outside the window, no byte is stored and the pointer does not move. It does not wrap around to the top
+    # either.
     for war in (0x20, 0x21, 0x3D, 0x80, 0xBD, 0xFF):
         await host.write(WAR, war)
         await data(*(0x40, 0x01, 0x03) * 13)
         assert await host.quiet(200) and not await host.read(CSR) & MWEF
-    # A whole window, and the first and last valid address.
+    # The whole window is written, then its first and its last valid address.
     await host.put("03 1E" + " 40" * 30)
     assert await host.response() == "03 1E F0 23" + " 40" * 28
     await host.put("03", war=0x1F)
@@ -175,7 +177,7 @@ async def p312_reads_in_any_order(dut: Any) -> None:
         assert await host.read(RAR) == 0x38
         assert [await host.read(DRR) for _ in range(count)] == want[:count]
         assert await host.read(RAR) == 0x38 + count and not await host.read(CSR) & MREF
-    # Writes to the same addresses are writes; the read continues.
+    # Write accesses to the same addresses do not disturb the read, which continues.
     await host.write(RCR, 0x00)
     await host.write(DRR, 0x00)
     await host.write(RAR, 0x00)
@@ -231,6 +233,7 @@ async def p312_wait_request_of_reads_and_writes(dut: Any) -> None:
     await host.issue(message(Code.OUTPUT, "11"))
     mark = host.mark
     await host.pause(40)
-    # Three of the four strobes follow too soon after the previous one; in DATASHEET wrq_n stays low between.
+    # Three of the four strobes follow the previous one too soon. With DATASHEET timing wrq_n stays low
+    # between them.
     assert len(host.side.falls("wrq_n", mark)) == (1 if slow else 3)
     assert await host.response() == message(Code.OUTPUT) and host.out("auxo_n") == 0x2E

@@ -165,7 +165,7 @@ async def p312_an_alarm_does_not_wait_for_the_positioning_end(dut: Any) -> None:
 
 @directed("P312-MOT-35", "P312-INP-30", "P312-MOT-34", "P312-MOT-06")
 async def p312_an_alarm_after_the_last_pulse_does_not_wait_for_end(dut: Any) -> None:
-    """An alarm in the last interval or near its end (begin of the END wait) causes E0 at once, with NOS."""
+    """An alarm in the last interval or near its end (start of END wait) causes E0 with NOS immediately."""
     for after in (20, 79, 80, 81, 2000, *range(6392, 6408)):
         host = await Host.start(dut, *TF, message(Code.END_TERMINAL, "01"))
         await host.ask(message(Code.CONSTANT, "00 0190 00000003"))
@@ -221,7 +221,8 @@ async def p312_high_speed_limit_before_pulse_1_and_at_a_slow_rate(dut: Any) -> N
     await host.ask(message(Code.RAMP, "00 0000 0000001E"))
     await host.pins(fhl_n=0)
     assert await host.response() == stopped(0x02, 11)
-    # Ignored at 400; it takes effect in the first interval at 200: a deceleration from the stage of 200.
+    # The instruction has no effect at rate 400. It takes effect in the first interval at rate 200, as a
+    # deceleration from the stage of 200.
     assert host.gaps() == [400] * 3 + [200] * 5 + [400] * 2
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C8")) == message(Answer.LIMIT)
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")

@@ -60,7 +60,7 @@ async def p312_datasheet_run_is_the_plain_pin(dut: Any) -> None:
         assert await host.pulse(1) - mark in range(80, 80 + 8)
         await host.ask(STOP)
         await host.response()
-    # Low for 20 cycles: the level takes effect only where it is sampled, directly before t0.
+    # RUN is low for 20 cycles. The level takes effect only if it is sampled directly before t0.
     host = await Host.start(dut, *TF)
     await host.issue(message(Code.STEP, "00"))
     delay = await host.pulse(1) - 80 - host.header
@@ -159,9 +159,10 @@ async def p312_datasheet_stop_and_pins(dut: Any) -> None:
 
 @directed("P312-TIM-12", "P312-BLK-01", builds=(D16,))
 async def p312_datasheet_stop_of_what_ends_by_itself(dut: Any) -> None:
-    """80 is validated when it arrives, and a motion that ends before the stop is executed is not an error.
+    """Instruction 80 is validated when it arrives.
 
-    The status is RDY when the 350 us of the stop have passed.
+    A motion that ends before the stop is executed is not an error. The status is RDY when the 350 us of the
+    stop have passed.
     """
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.CONSTANT, "00 0064 00000008"))

@@ -17,8 +17,8 @@ from openppmc.model.ppmc312.codes import Answer, Code, Source
 
 from .serial_frames import T_INIT
 
-# Flags and rates before NA; the least NA; bytes after NA. P312-TBL-04 results in about
-# 2 * 8001 * (Rs + RH) / (126 * RH).
+# A row has flags and rates before NA, the least NA, and the bytes after NA. By P312-TBL-04 the least NA is
+# about 2 * 8001 * (Rs + RH) / (126 * RH).
 LEAST = [
     ("01 03E8 00C8", 762, ""),
     ("09 03E8 00C8", 762, ""),
@@ -114,12 +114,12 @@ async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
         position += sign * number
         assert await host.response() == stopped(0x40, position)
         assert host.gaps(TICK) == (ramp + [4] * constant + ramp[::-1])[:-1]
-    # A triangular profile: half of the pulses in each ramp.
+    # In a triangular profile, each ramp has half of the pulses.
     assert await host.ask(message(Code.RAMP, f"{direction:02X} 0000 0000000B")) == message(Code.RAMP, "10")
     position += sign * 11
     assert await host.response() == stopped(0x40, position)
     assert host.gaps(TICK) == [*ramp[:5], *ramp[:6][::-1]][:-1]
-    # 81 at 2 Mpps.
+    # Instruction 81 stops a motion at 2 Mpps.
     await host.ask(message(Code.FOREVER_CONSTANT, f"{direction:02X} 0004"))
     mark = host.mark
     await host.pulse(20)
@@ -141,7 +141,8 @@ async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -
     assert await host.ask(message(Code.RAMP, f"{direction:02X} 0000 {512:08X}")) == message(Code.RAMP, "00")
     assert await host.response() == stopped(0x40, sign * 512)
     assert host.gaps(TICK) == (climb + [4] * 4 + fall)[:-1]
-    # 81 during the acceleration, registered at a position: the deceleration begins at the stage reached.
+    # Instruction 81 is registered at a position during the acceleration: the deceleration begins at the stage
+    # reached.
     await host.ask(message(Code.POSITION_SET, "00 00000000"))
     at = (sign * 100) & 0xFFFFFFFF
     assert await host.ask(message(Code.SLOW_STOP, f"04 {at:08X}")) == message(Answer.REGISTERED)
@@ -154,7 +155,7 @@ async def p312_a_stage_every_two_pulses_up_to_2_mpps(dut: Any, direction: int) -
     assert gaps[turn:] == doubled(range(top, 131))[:-1] and gaps[:turn] == climb[:turn]
     assert 100 <= turn < 140
     assert await host.response() == stopped(0x08, sign * (len(gaps) + 1))
-    # 87 to a higher and to a lower speed between constant rates.
+    # Instruction 87 changes to a higher and to a lower speed, each between constant rates.
     await host.ask(message(Code.FOREVER_CONSTANT, f"{direction:02X} 0082"))
     mark = host.mark
     await host.pulse(4)

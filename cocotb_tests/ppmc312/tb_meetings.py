@@ -285,7 +285,7 @@ async def p312_second_edge_as_its_buffer_gets_an_entry(dut: Any, gap: int) -> No
 @cocotb.parametrize(shift=range(-3, 5))
 @directed("P312-OVR-12", "P312-MOT-34", "P312-RSP-20")
 async def p312_stop_as_a_position_stops(dut: Any, shift: int) -> None:
-    """80 by an event, near the cycle of the pulse that a position waits for, stops at pulse 9 or 10."""
+    """Instruction 80, by an event near the pulse that a position waits for, stops at pulse 9 or 10."""
     setting = (message(Code.STOP, "04 0000000A"), message(Code.EVENT_SET, "00", message(Code.STOP, "00")))
     host = await Host.start(dut, *TF, *setting)
     pace = host.side.golden.pace

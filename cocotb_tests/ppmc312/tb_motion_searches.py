@@ -33,7 +33,7 @@ async def p312_searches_in_every_form(dut: Any) -> None:
                 await host.pins(index_n=0)
             count = 6 if index else 4
             assert await host.response() == stopped(0x20, count * sign)
-            # 11: the return at R[sa]; there is no standstill between the phases.
+            # Instruction 11 returns at the rate R[sa]; there is no standstill between the two phases.
             await host.pins(org_n=1, index_n=1)
             await host.ask(message(Code.POSITION_SET, "00 00000000"))
             assert host.out("zclmp_n") == 0
@@ -56,7 +56,8 @@ async def p312_searches_in_every_form(dut: Any) -> None:
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-34")
 async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
-    # At the origin before pulse 1, or at a rate too low for a deceleration: phase 2 follows immediately.
+    # The motor is at the origin before pulse 1, or the rate is too low for a deceleration: phase 2 follows
+    # immediately.
     for rate, number in (("0000", 0), ("0190", 3)):
         host = await Host.start(dut, *TF)
         if not number:
@@ -85,7 +86,7 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
         while not (answer := await host.response()).startswith("23 06 E0"):
             assert answer == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert answer[9:11] == f"{cause:02X}" and host.out("dir") == 0
-    # Limits of the other direction in phase 2, 80 and 81 there.
+    # These causes occur in phase 2: limits of the other direction, and instructions 80 and 81.
     for act, cause in (({"bl_n": 0}, 0x01), ({"fl_n": 0, "fhl_n": 0}, 0x20), (STOP, 0x04), (SLOW_STOP, 0x10)):
         host = await Host.start(dut, *TF)
         await host.ask(message(Code.ZERO_RETURN, "00 0190"))
@@ -106,7 +107,7 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
 async def p312_zero_return_whose_origin_meets_a_slow_stop(dut: Any) -> None:
-    # The rate is too low for a deceleration: with both in one interval the stop has priority,
+    # The rate is too low for a deceleration. If stop and origin occur in one interval, the stop has priority,
     # and there is no return.
     for origin_first in (False, True):
         host = await Host.start(dut, *TF)

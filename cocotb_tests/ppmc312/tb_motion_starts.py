@@ -63,7 +63,7 @@ async def p312_rates_that_may_be_asked_for(dut: Any) -> None:
     "P312-GEN-10",
 )
 async def p312_forms_of_the_starts(dut: Any) -> None:
-    # 84 at R[sa]: the motion ends one interval after its pulse.
+    # Instruction 84 at the rate R[sa] ends one interval after its pulse.
     for table, rate in ((TF, 400), (TG, 400), (TH, 200), (ODD, 200)):
         host = await Host.start(dut, *table)
         await host.ask(message(Code.STEP, "40"))
@@ -109,7 +109,8 @@ async def p312_plans_on_an_odd_table(dut: Any) -> None:
         await host.ask(message(Code.POSITION_SET, "00 00000000"))
         answer = await host.ask(message(Code.RAMP, f"00 {rate:04X} {n:08X}"))
         if rate == 200:
-            # t(200) = 125, above the first stage: 200x3 of stage 124, 300x3 of the deceleration.
+            # t(200) = 125 is above the first stage of the ramp. The deceleration has 200x3 of stage 124, then
+            # 300x3.
             kind, pulses = "10", None
         assert answer == message(Code.RAMP, kind)
         if pulses:

@@ -29,7 +29,7 @@ async def p312_causes_that_come_together(dut: Any) -> None:
             assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert await host.response() == stopped(cause, 3)
         assert host.side.falls("pout", low)[0] - host.pulses()[2] == 80
-    # 81 and a high-speed limit for one boundary.
+    # Instruction 81 and a high-speed limit apply to the same boundary.
     host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "FFFF"))
     await host.ask(f"{ALWAYS} 0064")
     await host.pulse(3, 20)
@@ -115,12 +115,12 @@ async def p312_high_speed_limit_and_88(dut: Any) -> None:
     await host.pulse(3, 20)
     await host.pins(fhl_n=0)
     await host.pulse(5, 20)
-    # Slower than HSL: the deceleration is cancelled and does not resume.
+    # The motor is slower than HSL: the deceleration is cancelled and does not resume.
     assert await host.ask(change(0x88, 300)) == message(Code.CHANGE)
     host.mark = mark
     await host.pulse(12, 20)
     assert host.gaps() == rates("100x5 300x6")
-    # Fast enough again: another deceleration, from the stage of the table.
+    # The motor is fast enough again: another deceleration begins, from the stage of the table.
     assert await host.ask(change(0x88, 150)) == message(Code.CHANGE)
     await host.response()
     host.mark = mark
@@ -134,7 +134,7 @@ async def p312_limits_act_from_the_first_clk_of_a_held_motion(dut: Any) -> None:
         await host.pins(run=0)
         assert await host.ask(message(Code.CONSTANT, "00 0064 00000002")) == message(Code.CONSTANT, "01")
         await host.pins(**levels)
-        # No new table can be set in between: a held motion is fixed.
+        # A motion that waits for RUN cannot get a new table: its plan is fixed.
         assert await host.ask(message(Code.SPEED_LIMIT, "FFFF")) == message(Answer.STATUS, "00 20")
         await host.pins(run=1)
         assert await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)

@@ -14,7 +14,7 @@ from cocotb_tests.ppmc312.side_host import TICK
 from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import Code, Source
 
-# Equal neighbours: R[122..126] = 400 400 200 200 100, pa = pd = 2 2 3 4 5.
+# Equal neighbouring rates: R[122..126] = 400 400 200 200 100, pa = pd = 2 2 3 4 5.
 EQUAL = (
     "02 03 01 01 05",
     "00 0A 0064 00C8 00C8 0190 0190",
@@ -43,7 +43,8 @@ UNEVEN = (
 
 
 WALKS = [
-    # Table, start, (pulses, instruction after them), all intervals, cause.
+    # A row has the table, the start, pairs (pulses, instruction after them), all intervals, and the cause of
+    # the end.
     (TG, f"{ALWAYS} 0064", [(4, SLOW_STOP)], "100x4 100x6 200x4", 0x08),
     (TG, f"{ALWAYS} 0096", [(4, SLOW_STOP)], "150x4 200x4", 0x08),
     (TG, f"{ALWAYS} 00C8", [(4, SLOW_STOP)], "200x4", 0x10),  # as slow as the stop speed
@@ -70,7 +71,7 @@ WALKS = [
     ),
     (TF, message(Code.RAMP, "00 0000 0000001E"), [(29, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x2", 0x10),
     (TF, message(Code.RAMP, "00 0000 0000001E"), [(30, SLOW_STOP)], "400x3 200x4 100x16 200x4 400x3", 0x40),
-    # Ramps of 87, and their collision with the deceleration point.
+    # Instruction 87 makes ramps, which may collide with the deceleration point.
     (TF, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 150))], "400x3 200x4 150x13", 0x40),
     (TH, message(Code.CONSTANT, "00 0190 00000014"), [(3, change(0x87, 100))], "400x3 200x4 100x13", 0x40),
     (TG, message(Code.CONSTANT, "00 0064 00000014"), [(3, change(0x87, 400))], "100x3 200x4 400x13", 0x40),
@@ -162,7 +163,7 @@ WALKS = [
         "400x4 200x7 100x7 200x13 400x6 200x3",
         0x40,
     ),
-    # A ramp that ends at the deceleration point without a walk: the next 87 starts from t(R_c), not from
+    # A ramp ends at the deceleration point without a deceleration: the next 87 starts from t(R_c), not from
     # the stage in which the ramp ended.
     (
         SLOW_EQUAL,
@@ -178,7 +179,8 @@ WALKS = [
         "400x9 200x13 400x7 200x11",
         0x40,
     ),
-    # The same with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages to decelerate.
+    # The same case with rates that do not descend: t(400) = t(401) = 125, so that 87 finds stages to
+    # decelerate.
     (
         UNEVEN,
         message(Code.RAMP, "00 0064 00000050"),
@@ -193,7 +195,7 @@ WALKS = [
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
         0x40,
     ),
-    # Two changes are held for one boundary: the newer one is used.
+    # If two changes are held for one boundary, the newer one is used.
     (
         TF,
         message(Code.CONSTANT, "00 0190 0000000A"),
@@ -274,7 +276,7 @@ async def p312_stages_go_on_while_an_88_is_looked_up(dut: Any) -> None:
 
     The look-up takes longer than a stage here, and the motion reads the table during this time.
     """
-    steps = range(10, 34, 2)  # 2 cycles each: stages of 40 .. 130 cycles
+    steps = range(10, 34, 2)  # in ticks of 2 cycles: stages of 40 .. 130 cycles
     curve = ("02 04 01 10 0C 02", f"00 18 {''.join(f'{rate:04X}' for rate in steps)}")
     pulses = ("00 1E " + "000002" * 10, "00 06 000002 000003", "01 06 000009 000009")
     climb = [rate for rate in reversed(steps) for _ in range(3 if rate == 32 else 2)]

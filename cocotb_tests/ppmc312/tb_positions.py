@@ -39,7 +39,7 @@ async def p312_positions(dut: Any) -> None:
         await host.pins(**levels)
         await host.pause(4)
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 01")
-    # Reads while counting: POS follows pout immediately.
+    # POS follows pout immediately, also in reads while pulses are counted.
     await host.ask(message(Code.POSITION_SET, "00 0000FFFE"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     mark = host.mark
@@ -75,8 +75,8 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
             assert await host.ask(message(Code.STATUS)) == message(
                 Code.STATUS, f"{enabled | outside * value:02X} 01 00"
             )
-        # Disabled: no more reports; enabled again the monitor begins inside the window, for one report with
-        # RES = 0.
+        # A disabled monitor sends no reports. When it is enabled again, it begins inside the window, for one
+        # report with RES = 0.
         assert await host.ask(f"03 04 {code} 00 0004") == f"03 01 {code}"
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await host.ask(f"03 04 {code} 01 0004")
@@ -84,7 +84,7 @@ async def p312_windows_at_their_edges(dut: Any) -> None:
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
         await encoder(host, -5)
         assert await host.quiet(20)
-        # Distances of a large range, signed.
+        # Distances are signed and have a large range.
         await host.ask(message(Code.POSITION_SET, "00 80000000"))
         await host.ask(message(Code.POSITION_SET, "01 7FFF0001"))
         await host.ask(f"03 04 {code} 03 FFFF")
@@ -113,7 +113,8 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
     assert await host.response() == message(Code.VERSION, "12")
     assert await host.response() == message(Answer.POSITION_CHANGE, "01", source=SPONTANEOUS)
     assert await host.quiet()
-    # Once a report is loaded and the value returns: the report is read, and the return is a change again.
+    # A report is loaded, and the value returns. After the report has been read, the return counts as another
+    # change.
     await encoder(host, 1)
     await host.pause(20)
     await encoder(host, -1)
@@ -122,7 +123,7 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
         message(Answer.ENCODE_CHANGE, "00", source=SPONTANEOUS),
     ]
     assert await host.quiet()
-    # Disabled while it waits for another report.
+    # The monitor is disabled while it waits for another report.
     await host.ask(message(Code.IN_POSITION, "03 0002"))
     await encoder(host, 1)
     await host.issue(message(Code.ENCODE, "00 0002"))
@@ -139,7 +140,8 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
     await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
     mark = host.mark
     await host.pulse(3, 20)
-    # Outside by now, but not compared; inside again when the output ends.
+    # The distance is outside the window by now, but it is not compared. It is inside again when the output
+    # ends.
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "08 08 00")
     host.mark = mark
     await host.pulse(4, 20)
@@ -163,7 +165,7 @@ async def p312_in_position_keeps_still_during_output(dut: Any) -> None:
 async def p312_interlock_by_its_position(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.INTERLOCK_POSITION, "00000003"))
     for sign, first in ((0x00, 3), (0x40, 3)):
-        # Being at the position at the start does not trigger; arriving from either side does.
+        # A motion that starts at the position does not trigger; a motion that arrives from either side does.
         await host.ask(message(Code.POSITION_SET, f"00 {first if sign else 0:08X}"))
         assert await host.ask(message(Code.INTERLOCK)) == message(Code.INTERLOCK, "01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "40 02 00")
@@ -178,7 +180,7 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
         host.mark = mark
         assert 0 <= edge - host.pulses()[number - 1] <= 4
         assert (await host.response())[:11] == "23 06 E0 40"
-        # The position stays; without 44 it has no effect.
+        # The position stays stored; without instruction 44 it has no effect.
         await host.ask(message(Code.CONSTANT, "40 0190 00000004"))
         await host.response()
         assert await host.quiet()
@@ -187,7 +189,8 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
     assert host.out("intlk_n") == 1 and await host.ask(message(Code.STATUS)) == message(
         Code.STATUS, "00 02 00"
     )
-    # Set while the interlock is active: equality caused by a setting does not trigger, either.
+    # The position is set while the interlock is active. An equality that a setting causes does not trigger
+    # either.
     await host.ask(message(Code.INTERLOCK))
     await host.ask(message(Code.POSITION_SET, "00 00000003"))
     assert await host.quiet() and host.out("intlk_n") == 0
@@ -199,7 +202,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
     await host.pins(auxi=0x0F)
     await host.ask(message(Code.MASK, "FF 3C"))
     base = None
-    # Shorter than a sample period: detected only if the level is valid at the sample.
+    # A level shorter than a sample period is detected only if it is valid at the sample.
     for level in (0x33, 0x0F, 0x03, 0x3F):
         await host.pins(auxi=level)
         await host.wait()
@@ -217,7 +220,8 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         await host.pause(300)
         await host.pins(auxi=second)
         assert await host.quiet(2000)
-    # Mask 0 disables the monitor; a new 28 samples a new former value and discards pending reports.
+    # Mask 0 disables the monitor. A new instruction 28 samples a new reference value and discards pending
+    # reports.
     await host.issue(message(Code.MASK, "01 00"))
     await host.pins(auxi=0xFF)
     assert await host.response() == message(Code.MASK) and await host.quiet(2000)
@@ -240,7 +244,7 @@ async def p312_input_changes_are_sampled(dut: Any) -> None:
         message(Code.MASK),
     ]
     assert await host.quiet(2000)
-    # Single mode.
+    # The monitor sends a single report.
     await host.ask(message(Code.MASK, "00 01"))
     await host.pins(auxi=0x00)
     assert await host.response() == message(Answer.INPUT_CHANGE, "00 01", source=SPONTANEOUS)

@@ -18,7 +18,8 @@ def refused(block: str, number: str) -> str:
 
 
 PARAMETERS = [
-    # Number, block; state NOR with table TF. First all invalid lengths, then values.
+    # A row has the error number and the block. The state is NOR with table TF. Invalid lengths come first,
+    # then invalid values.
     ("23", message(Code.IN_POSITION, "00")),
     ("23", message(Code.ENCODE, "01 00")),
     ("23", message(Code.IN_POSITION, "01 0001 00")),
@@ -77,7 +78,7 @@ PARAMETERS = [
     ("26", message(Code.IN_POSITION, "01 0000")),
     ("26", message(Code.IN_POSITION, "07 0000")),
     ("27", message(Code.ENCODE, "03 0000")),
-    ("23", "03 1E 84" + " 00" * 29),  # an echo of 28 bytes at most
+    ("23", "03 1E 84" + " 00" * 29),  # the echo has at most 28 bytes
 ]
 
 

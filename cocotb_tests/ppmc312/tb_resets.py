@@ -18,7 +18,7 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
 
     The strobes begin up to 40 cycles after the header of FF.
     """
-    for reg, most in ((CSR, 40), (DRR, 34)):  # later, the answer is loaded, and it would be read
+    for reg, most in ((CSR, 40), (DRR, 34)):  # with a later strobe, the answer is loaded and would be read
         seen = []
         for after in range(1, most + 1):
             host = await Host.start(dut)
@@ -38,10 +38,10 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
             # No effect of the strobe remains after the reset.
             assert await host.response() == message(Code.RESET) and await host.read(CSR) == MREF
         if reg == CSR:
-            # Also busy if the strobe begins during the reset, then ready.
+            # If the strobe begins during the reset, the part is busy, too; then it is ready.
             assert seen[:24] == [MWEF | MREF] * 24 and MREF in seen and seen == sorted(seen, reverse=True)
         else:
-            # The byte of the old response as long as there is one, then 0.
+            # A read returns the byte of the old response as long as this response exists, then 0.
             assert seen[:18] == [0x12] * 18 and seen[-1] == 0 and seen == sorted(seen, reverse=True)
 
 
@@ -144,7 +144,7 @@ async def p312_software_reset_clears_all(dut: Any) -> None:
     assert {name: host.out(name) for name in levels} == levels
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 01 00")
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 00 00 00 00")
-    # Interlock position 0 again.
+    # The interlock position is 0 again after the reset.
     for block in (*TF, message(Code.INTERLOCK)):
         await host.ask(block)
     await host.ask(message(Code.STEP, "00"))

@@ -221,7 +221,7 @@ async def p312_serial_the_end_of_the_silence(dut: Any, after: int) -> None:
     """A character whose stop bit is sampled within 20 ms belongs to the frame."""
     host = await SerialHost.start(dut)
     await host.raw("81")
-    # 10 bits from one stop bit to that of a character that follows immediately.
+    # If a character follows immediately, 10 bits pass from one stop bit to the next.
     await host.pause(SILENCE - 1_920 + after)
     await host.raw("7E")
     assert await host.hear() == "90" if after < 0 else abs(after) < 3 or await host.quiet(8_000)
@@ -298,7 +298,7 @@ async def p312_serial_counters_saturate(dut: Any, kind: str) -> None:
             await host.raw("81 00")
             assert await host.hear() == "B0 41"
     else:
-        # Nine control codes while ten characters are sent.
+        # The master sends nine control codes while the station sends ten characters.
         for _ in range(29):
             await host.say("42")
             await host.send(b"\x81" * 9)

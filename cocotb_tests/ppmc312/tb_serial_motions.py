@@ -99,7 +99,7 @@ async def p312_serial_changes(dut: Any) -> None:
 @cocotb.parametrize(case=[(0x20, "evt0_n"), (0x30, "evt1_n")])
 @directed("P312-OVR-01", "P312-OVR-02", "P312-SER-40", "P312-SER-22")
 async def p312_serial_overrides_by_pins(dut: Any, case: Any) -> None:
-    """80, 81, 89 and 8A wait for their pin, one after the other."""
+    """Instructions 80, 81, 89 and 8A wait for their pin, one after the other."""
     bits, pin = case
     host = await SerialHost.start(dut, TS)
     for code, data in ((0x8A, "0190"), (0x89, "01F4"), (0x81, ""), (0x80, "")):
@@ -114,7 +114,7 @@ async def p312_serial_overrides_by_pins(dut: Any, case: Any) -> None:
     assert await host.poll() == "B0 28" and await host.ask("80") == "90"
     await host.at_rest()
     assert await host.poll() == STOPPED
-    # 81 and 80 have no motion to stop: the first one fails and empties the FIFO.
+    # Instructions 81 and 80 have no motion to stop: the first one fails and empties the FIFO.
     await host.blip(pin)
     assert await host.polls(2) == ["B0 4B", "90"] and await host.status() == "00 02 00"
 
@@ -127,7 +127,7 @@ async def p312_serial_overrides_at_positions(dut: Any) -> None:
     assert await host.status() == "00 02 04"
     assert await host.ask("85 01F4") == "90"
     await host.at_rest()
-    # 91 finds the stop speed reached; 90 waits for the next motion.
+    # Instruction 91 finds the stop speed reached; instruction 90 waits for the next motion.
     assert await host.ask("42") == "A0 00 00 00 14"
     assert await host.polls(3) == ["B0 28", "A0 39", "90"]
     assert await host.ask("85 01F4") == "90"

@@ -170,7 +170,7 @@ async def p312_serial_monitors_that_return(dut: Any) -> None:
 
 @directed("P312-SER-46", "P312-SER-30")
 async def p312_serial_end_status(dut: Any) -> None:
-    """40 always returns the last stop, polls report it once."""
+    """Instruction 40 always returns the last stop, polls report it once."""
     host = await SerialHost.start(dut, TS)
     assert await host.ask("40") == "A0 00"
     assert await host.ask("82") == "90"

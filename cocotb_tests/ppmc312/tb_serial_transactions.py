@@ -81,7 +81,7 @@ ROWS = [
     Row(42, "81 7E", ACK),
     Row(42, "81 7E", "81 7E", (TS, "85 0190")),
 ]
-# Instructions between the row and its polls.
+# Instructions that are sent between the row and its polls.
 _THEN = {9: "86 0000", 17: "86 0000"}
 BY_NAME = {f"row{row.number}_{place}": row for place, row in enumerate(ROWS)}
 

@@ -44,7 +44,7 @@ async def p312_tables_with_two_sides_read_back(dut: Any) -> None:
         assert rates[95] == 504 and short[::-1][:6] == [8, 9, 10, 9, 9, 10]
         assert short[5::-1] == [22, 22, 22, 22, 22, 23]
         assert sum(short) == 1500 and sum(long) == 2000 and weighted(long) == 156_518
-    # The largest numbers: sums beyond 2^38.
+    # The largest numbers lead to sums beyond 2^38.
     setting = message(Code.INITIAL, "18 FFFF FF80 FEFF FFFFFF 8ABCDE")
     table = build(0xFFFF, 0xFF80, 0xFEFF, 0xFFFFFF, 0x8ABCDE, 0, True)
     head, (rates, up, down) = await read_table(await Host.start(dut, setting))
@@ -60,7 +60,8 @@ async def p312_sigmoid_tables_keep_stages_that_rounding_makes_equal(dut: Any) ->
     )
     assert head[:3] == [127, 127, 0] and len(up) == 127 and sum(up) == 3000
     assert rates[:-9:-1] == [300, 300, 300, 299, 299, 298, 297, 296]
-    # Both ramps: the slower one has all stages, the other starts at the last stage that is slow enough.
+    # Of both ramps, the slower one has all stages. The other one starts at the last stage that is slow
+    # enough.
     for rs, rp, counts in (
         (300, 300, [127, 127, 127]),
         (300, 299, [127, 127, 123]),
@@ -137,12 +138,12 @@ async def p312_initial_setting_layouts_and_order_of_checks(dut: Any) -> None:
         assert head[2] == (127 if block[9] == "1" else 0) and weighted(rates) == 2_435_805
         assert weighted(up) == 156_518 and (not down or down == up)
     bad = [
-        (0x01, message(Code.INITIAL, "11 0010 0010 0001 0007D0 0007D0")),  # before 03
-        (0x01, message(Code.INITIAL, "11 03E8 0010 00C8 0007D0 0007D0")),  # stop rate
-        (0x03, message(Code.INITIAL, "11 03E8 0100 03E8 0007D0 0007D0")),  # before 02 and 04
-        (0x02, message(Code.INITIAL, "11 03E8 03E7 0380 000001 0007D0")),  # before 04 and 05
-        (0x04, message(Code.INITIAL, "11 00F0 03E8 00C8 000001 0007D0")),  # before 05
-        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0002F9")),  # deceleration ramp alone
+        (0x01, message(Code.INITIAL, "11 0010 0010 0001 0007D0 0007D0")),  # checked before error 03
+        (0x01, message(Code.INITIAL, "11 03E8 0010 00C8 0007D0 0007D0")),  # the stop rate is out of range
+        (0x03, message(Code.INITIAL, "11 03E8 0100 03E8 0007D0 0007D0")),  # checked before errors 02 and 04
+        (0x02, message(Code.INITIAL, "11 03E8 03E7 0380 000001 0007D0")),  # checked before errors 04 and 05
+        (0x04, message(Code.INITIAL, "11 00F0 03E8 00C8 000001 0007D0")),  # checked before error 05
+        (0x05, message(Code.INITIAL, "11 03E8 03E8 00C8 0007D0 0002F9")),  # only the deceleration ramp
         (0x05, message(Code.INITIAL, "01 03E8 00C8 000000")),
         (0x00, message(Code.INITIAL, "01 03E8 00C8 0007D0 00")),
         (0x00, message(Code.INITIAL)),
@@ -177,7 +178,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
         if block == TF[0]:
             assert await host.ask(message(Code.STATUS)) == message(Answer.STATUS, "02 01")
         assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, f"00 {state:02X} 00")
-    # Rejected by the table of states: nothing happens.
+    # The table of states rejects the setting: nothing happens.
     host = await Host.start(dut, *filled)
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0190"))
     for block in (T1, TF[0], message(Code.INITIAL, "01 03E8 00C8 0007")):
@@ -186,7 +187,7 @@ async def p312_a_setting_empties_the_buffers(dut: Any) -> None:
     await host.ask(message(Code.STOP, "00"))
     await host.response()
     await host.pins(fhl_n=0)
-    # HSL: as set, then RH of the new table, whether 00 or 01 sets the table.
+    # HSL is the value that was set. After 00 or 01 sets a new table, HSL is RH of this table.
     await host.ask(message(Code.SPEED_LIMIT, "00C8"))
     assert await host.ask(message(Code.FOREVER_CONSTANT, "00 00C9")) == message(Code.FOREVER_CONSTANT, "00")
     await host.ask(message(Code.STOP, "00"))

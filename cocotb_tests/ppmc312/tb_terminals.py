@@ -66,7 +66,7 @@ async def p312_clear_pulses(dut: Any) -> None:
     await host.pause(CLEAR + 100)
     for name, fall in first.items():
         assert host.side.edges(name) == [(fall, 0), (fall + CLEAR, 1)]
-    # Both pulses are independent; another 24 restarts only the time of its own pulse.
+    # The two pulses are independent; another instruction 24 restarts only the time of its own pulse.
     await host.ask(message(Code.ALARM_CLEAR))
     again = host.side.falls("aclr_n")[-1]
     await host.pause(200_000)
@@ -140,7 +140,8 @@ async def p312_zero_clamp(dut: Any) -> None:
     assert host.side.rises("zclmp_n", host.mark) == turned
     await host.response()
     assert host.out("zclmp_n") == 1
-    # By FO: inside the window or by END, after the output has ended; not without EN.
+    # With FO, the clamp is activated inside the window or by END, after the output has ended. Without EN it
+    # is not activated.
     for flags, distance, end_n, level in (
         (5, 3, 1, 0),
         (5, 2, 1, 1),
@@ -193,7 +194,8 @@ async def p312_end_wait(dut: Any) -> None:
         answer = await host.response()
         assert answer[:11] == f"23 06 E0 {cause:02X}" and count <= 3
         await host.pins(end_n=1)
-    # END is low already: no wait; 06 00 in the END wait, FF in the END wait.
+    # If END is low already, there is no wait. Then instruction 06 00 and instruction FF are sent during an
+    # END wait.
     await host.pins(end_n=0)
     await host.ask(message(Code.STEP, "00"))
     assert (await host.response())[:11] == "23 06 E0 40"
@@ -219,7 +221,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
     await host.ask(message(Code.STEP, "00"))
     await host.pause(16_000)
     assert host.condition == 0x08
-    # Low for less than 200 us: 27 returns the level, no other function detects it.
+    # A level is low for less than 200 us: instruction 27 returns it, no other function detects it.
     await host.pins(end_n=0, fl_n=0)
     assert await host.ask(message(Code.TERMINALS)) == message(Code.TERMINALS, "BD E0")
     await host.pins(end_n=1, fl_n=1)
@@ -244,7 +246,7 @@ async def p312_datasheet_recognition_times(dut: Any) -> None:
 
 @directed("P312-TIM-12", "P312-TIM-20", "P312-OVR-12", "P312-INP-31", builds=(D16,))
 async def p312_datasheet_triggered_stop(dut: Any) -> None:
-    """80 by EVT acts 350 us after the filtered edge; by position it acts immediately."""
+    """Instruction 80 by EVT acts 350 us after the filtered edge; by position it acts immediately."""
     host = await Host.start(dut, *TF, message(Code.STOP, "05"))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     mark = host.mark
@@ -260,7 +262,7 @@ async def p312_datasheet_triggered_stop(dut: Any) -> None:
 
 @directed("P312-CMD-25", "P312-CMD-27", "P312-INP-01", "P312-EVT-01")
 async def p312_25_and_27_show_all_pins_at_one_clk(dut: Any) -> None:
-    """25 and 27 sample all pins in one cycle, for every source of the instruction."""
+    """Instructions 25 and 27 sample all pins in one cycle, for every source of the instruction."""
     names = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n", "evt1_n", "run")
     pins = dict.fromkeys(names, 0)
     for code, levels, shown in (

@@ -39,7 +39,7 @@ async def gets(host: Host) -> str:
 
 
 SINGLE = [
-    # Number, setting, block sent, immediate response, later response.
+    # A row has its number, the setting, the block sent, the immediate response, and the later response.
     (1, (), "15; D0 07 00 C8 00 E8 03 01 00 09 03", "3D; 00 01 03"),
     (2, (), "10; DC 05 00 D0 07 00 C8 00 F4 01 E8 03 11 00 0E 03", "3D; 00 01 03"),
     (3, (), "1A; 0A 00 03 02 04 03", "3D; 02 01 03"),

@@ -8,14 +8,16 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 def message(code: int, *data: str, source: int = Source.HOST) -> str:
     """Return header, length, code and data as a text of hexadecimal bytes in logical order.
 
-    data: hexadecimal texts. source: the header; for an answer, the source of the instruction.
+    Args:
+        data: parameters as hexadecimal texts.
+        source: the header; for an answer, the source of the instruction.
     """
     behind = " ".join(data)
     return f"{source:02X} {len(bytes.fromhex(behind)) + 1:02X} {code:02X} {behind}".rstrip()
 
 
 def register(buffer: int, block: str) -> str:
-    """Return a 49 that registers a block in an event buffer."""
+    """Return a block of instruction 49 that registers another block in an event buffer."""
     return message(Code.EVENT_SET, f"{buffer:02X} {block}")
 
 

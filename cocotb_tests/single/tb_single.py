@@ -12,7 +12,7 @@ KINDS = "undefined init halt decel operation read switching aux_out exc_off aux_
 ACTIONS = "init start halt decel exc_off aux_on aux_off aux_out switching read".split()
 HARMLESS = ("aux_out", "exc_off", "aux_on", "aux_off")
 STOPS = ("halt", "decel")
-# Code byte, its kind, number of bytes that follow.
+# A row has the code byte, its kind, and the number of bytes that follow.
 CODES = [
     (0x1A, "init", 4),
     (0x08, "undefined", 0),
@@ -35,7 +35,7 @@ PACE_PORTS = (
     " act_o:10 code_o:8 params_o:32 base_o:3 initialised_i building_i steps_i:{steps} home_o ready_o ramp_i"
     " single_i stop_i pulse_i last_i final_i go_o linger_o"
 )
-# Name: clock, crystal, bits of PA, its minimum and maximum, whether forced decelerations and triangular
+# Name -> clock, crystal, bits of PA, minimum and maximum of PA, whether forced decelerations and triangular
 # profiles are timed.
 PACES = {
     "sister": (16_000_000, 16_000_000, 14, 4, 11_220, 1),
@@ -278,7 +278,7 @@ async def pace_datasheet(dut, name):
 
     steps = low + 3
     await u.clk(act_i=action("init"), params_i=steps << 16, initialised_i=0)
-    # One cycle later the command unit outputs them a byte lower, followed by the present byte.
+    # One cycle later the command unit outputs the bytes a byte lower, followed by the present byte.
     await u.clk(act_i=0, params_i=0xA5 << 24 | steps << 8)
     await u.settle(params_i=0)
     same("phases", await u.run_until("home_o", 1), cyc(44) - 1)

@@ -15,7 +15,7 @@ from .lab import Lab
 
 BASE = 0x3B0
 
-# Every parameter has another value.
+# Every parameter differs from its default.
 OTHER = Config(
     "other",
     clk_hz=25_000_000,

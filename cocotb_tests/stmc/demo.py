@@ -21,10 +21,10 @@ INIT = 0x3A
 SLOW, FAST, RAMP = 50, 10, 60  # 973.5 to 4867.5 steps/s within 60 steps
 MOVE, TO_LIMIT, TO_REFERENCE = 0x43, 0x46, 0x4F  # the last one counter-clockwise
 STEPS = 300
-STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170  # of TO_LIMIT: L3 becomes active, then L1
+STEPS_TO_SLOW_DOWN, STEPS_TO_LIMIT = 120, 170  # steps of TO_LIMIT after which L3 becomes active, then L1
 DIVISOR = 25  # 1947 steps/s
 STEPS_TO_REFERENCE = 40
-INTERRUPT_LATENCY = 800  # cycles, 50 us: the time that a PC of that time needed
+INTERRUPT_LATENCY = 800  # cycles, 50 us: the time that a PC of the old system needed
 LONG = 4_000_000
 
 

@@ -11,7 +11,8 @@ Ramp = tuple[int, int, int]
 Init = tuple[int, int, int, int]
 
 A: Ramp = (20, 5, 8)
-# Setting of the acceptance table: external clock; INTERNAL is the same with the internal clock.
+# Setting of the acceptance table with the external clock; INTERNAL is the same setting with the internal
+# clock.
 STANDARD: Init = (0x1A, *A)
 INTERNAL: Init = (0x0A, *A)
 # Crystal periods of a tick of the internal clock, and from the start of a motion to step 0.

@@ -8,7 +8,7 @@ from cocotb_tests.harness.gate_tests import GENERATOR, PARAMETERS, PartTests
 
 from . import test_board, test_part, test_random
 
-# Clocks and DATASHEET times are those of the PPMC-104BFP, in the same blocks.
+# Clocks and DATASHEET times are tested with the PPMC-104BFP, which has the same blocks.
 PART = PartTests(
     test_part,
     frozenset({"test_stmc", "test_random", "test_chaos"}),

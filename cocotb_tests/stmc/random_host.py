@@ -86,10 +86,10 @@ class _Writer(HostWriter):
         if kind < 0.6:
             d1 = rng.choice(slow)
             return d1, rng.randint(min(least, d1), d1), rng.choice((1, 2, 3, 4, 4, 5, 6, 8, 10, 15))
-        if kind < 0.7:  # flat for either reason
+        if kind < 0.7:  # a flat ramp: equal divisors, or no ramp steps
             d1 = rng.choice(slow)
             return (d1, d1, rng.choice((0, 1, 50))) if rng.random() < 0.5 else (d1, min(least, d1), 0)
-        if kind < 0.8:  # a flat start: several levels at D1
+        if kind < 0.8:  # the ramp begins flat: several levels at D1
             d1 = rng.choice(slow) + least + 1
             return d1, d1 - 1, rng.randint(3, 24)
         if kind < 0.92 or self.config.datasheet:
@@ -105,7 +105,7 @@ class _Writer(HostWriter):
         code = rng.choice(INIT_CODES)
         code = code | 0x10 if self.external and rng.random() < 0.9 else code & ~0x10
         self.told(code, [d1, d2, pa & 0xFF, pa >> 8], 0.8)
-        if rng.random() < 0.3:  # bytes during the table build
+        if rng.random() < 0.3:  # sends bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
             self.add("wait", self.clk(100, 6_000))

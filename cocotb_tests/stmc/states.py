@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from .lab import Lab
 
-# D1 = 3, D2 = 1: gaps of few ticks; the level is 1 from gap 3 on.
+# D1 = 3 and D2 = 1 make gaps of few ticks. The level is 1 from gap 3 on.
 SMALL = (0x1A, 3, 1, 4)
 RESTING = ("U", "W from U", "I", "W from I")
 RAMP = ("S", "S flagged", "A", "A top", "D", "D natural")

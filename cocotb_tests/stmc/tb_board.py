@@ -176,7 +176,7 @@ async def j105_02_short_cycles(dut: Any) -> None:
     """Accesses of 2 ns to 5 cycles, at any phase, are executed completely or not at all (J105-02)."""
     lab = await BoardLab.start(dut)
     bench, master, rng = lab.bench, lab.master, lab.bench.rng
-    master.times = Times(late=0)  # data with the strobe: only its length decides
+    master.times = Times(late=0)  # data change with the strobe, so that only the length of the strobe decides
     clk_ns = bench.period / 1000
     done = missed = 0
     for _ in range(150):

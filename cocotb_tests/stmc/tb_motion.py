@@ -10,7 +10,7 @@ from cocotb_tests.harness import BUSY, F16, directed
 from .figures import ALL, EXT, F8X20, F12, F200, INTERNAL, MOST, ODD, STANDARD, SWITCHES, T0, divisor, gaps
 from .lab import END_LATEST, Lab
 
-# Commands 2 to 7 with n = 4 or without a count.
+# Commands 2 to 7; those with a count have n = 4.
 MOTIONS = (
     (0x42, None, None),
     (0x43, 4, None),
@@ -20,7 +20,7 @@ MOTIONS = (
     (0x47, None, 5),
 )
 
-# Clocks of the core and of the crystal.
+# Frequencies of the clocks of the core and of the crystal.
 CLOCKS = (F16, F12, F200, F8X20, ODD)
 
 

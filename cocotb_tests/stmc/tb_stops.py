@@ -53,7 +53,7 @@ async def stmc_dec_03_start_speed(dut: Any) -> None:
                 ticks = slowed(60, i, ramp)
                 made = len(ticks) + 1
                 await lab.outcome("STMC-DEC-03", made, 0x83 | bit, 59 - made, ticks)
-    # Without a ramp there is no last part of a ramp, however large PA is.
+    # A move without a ramp has no final part of a ramp, however large PA is.
     for ramp in ((9, 9, 5), (12, 6, 0)):
         await lab.init(0x1A, *ramp)
         for how, bit in REQUESTS:

@@ -26,7 +26,7 @@ def window(comparison: Comparison) -> tuple[int, int]:
     after = [t for t in times if t > m.t][:5]
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
     start, stop = min([m.t - 12, *before]), max([m.t + 12, *after, *ends])
-    # A wide window would make the difference invisible: keep within 4000 cycles of it.
+    # In a wide window the difference would be invisible, so the window ends within 4000 cycles of it.
     start, stop = max(start, m.t - 4000), min(stop, max(m.t + 4000, max(ends) + 12))
     margin = max(2, (stop - start) // 20)
     return start - margin, stop + margin

@@ -29,7 +29,11 @@ class Pinned(Protocol):
 
 @dataclass(frozen=True)
 class ModelPins:
-    """`Pinned` of a golden model. outputs: levels in reset."""
+    """`Pinned` of a golden model.
+
+    Attributes:
+        outputs: levels in reset.
+    """
 
     inputs: Mapping[str, int]
     outputs: Mapping[str, int]

@@ -34,7 +34,8 @@ def new_model(part: str, params: Mapping[str, object]) -> Any:
 class Follower:
     """Model with a stream of inputs.
 
-    model: any object with `pins(t, **levels)` and `run_until(t)`.
+    Args:
+        model: any object with `pins(t, **levels)` and `run_until(t)`.
     """
 
     def __init__(self, model: Any) -> None:

@@ -125,11 +125,11 @@ class Axis(Checked):
             ramp_pulses: pulses from the start speed to the high speed.
             phases: 3, 4 or 5.
             half_step: half steps instead of full steps.
-            positive_logic: a high level switches a coil on (the default, where the part has both).
+            positive_logic: True if a high level switches a coil on (the default, where the part has both).
             chop: chop the coil currents while the motor is stopped.
             base_clock: one of the base clocks of the part in Hz, `None` to choose it by start_pps.
             external_clock: frequency at the clock pin of the part in Hz.
-            long_intervals: vsel low, which makes each interval 7.5 us longer.
+            long_intervals: set vsel low, which makes each interval 7.5 us longer.
 
         Raises:
             OutOfRange: an argument is out of range, or the part does not support it.
@@ -157,7 +157,7 @@ class Axis(Checked):
         raise NotImplementedError
 
     def inputs(self) -> Switches:
-        """Return the switches; allowed at any time."""
+        """Return the switches. The call is allowed at any time."""
         raise NotImplementedError
 
     def apply(self, setup: speeds.Setup) -> speeds.Setup:
@@ -178,7 +178,7 @@ class Axis(Checked):
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:
         """Return base clock and rate byte of a constant speed.
 
-        It may be the other internal base clock than that of the ramp.
+        The base clock may be another internal clock than that of the ramp.
         """
         if pps is None:
             pps = self.search_speed
@@ -189,11 +189,11 @@ class Axis(Checked):
     # ------------------------------------------------------------------ registers
 
     def outputs(self) -> Outputs:
-        """Read the motor outputs; only while no motion is running (NotWhileBusy)."""
+        """Read the motor outputs. Raises NotWhileBusy during a motion."""
         return Outputs.parse(self.link.execute(Script().call(self.codes.outputs | self.bit).get(1)).byte(1))
 
     def remaining(self) -> int:
-        """Read the remaining-pulse register of the last motion; only while no motion is running.
+        """Read the remaining-pulse register of the last motion. The call is not allowed during a motion.
 
         The register holds the remaining pulses - 1, at least 0.
         """
@@ -201,7 +201,7 @@ class Axis(Checked):
 
     @property
     def position(self) -> int:
-        """Pulse counter of the bridge, CW positive; allowed at any time."""
+        """Pulse counter of the bridge, CW positive. The call is allowed at any time."""
         position = self.counted(self._count())
         if position is None:
             raise ProtocolError(f"{self.link.name}: this board has no pulse counter, so no position")
@@ -210,7 +210,7 @@ class Axis(Checked):
     def where(self, script: Script) -> Script:
         """Add a read of the position counter of this axis to a script.
 
-        It returns one value of 4 bytes.
+        The call returns one value of 4 bytes.
         """
         return script.count(self.number)
 
@@ -360,7 +360,7 @@ class Axis(Checked):
     def stop(self, wait: bool = True) -> End | None:
         """Stop with a ramp (constant speeds: immediately); return the End, or `None` if wait is False.
 
-        It is no error if the motor is already decelerating or has just stopped.
+        The call is no error if the motor is already decelerating or has just stopped.
 
         Raises:
             NothingToStop: the motor was stopped.
@@ -434,7 +434,11 @@ class Axis(Checked):
         return self.started(order, answer.number(2, signed=True))
 
     def started(self, order: Order, begin: int) -> Motion:
-        """Store the motion that the part has started. begin: pulse counter before it."""
+        """Store the motion that the part has started.
+
+        Args:
+            begin: pulse counter before the motion.
+        """
         self._motion = Motion(self, order, begin)
         return self._motion
 

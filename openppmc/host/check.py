@@ -116,7 +116,11 @@ def _seconds(value: Any, what: str) -> float:
 
 
 class Kind(NamedTuple):
-    """Type of an argument. optional: `None` is accepted as well."""
+    """Type of an argument.
+
+    Attributes:
+        optional: True if `None` is accepted as well.
+    """
 
     name: str
     check: Callable[[Any, str], Any]
@@ -139,7 +143,8 @@ def _kind(annotation: Any) -> Kind | None:
 class Entry:
     """Method of a class that checks its arguments; an instance returns it as a `Bound`.
 
-    kinds: type of each parameter that is checked.
+    Attributes:
+        kinds: type of each parameter that is checked.
     """
 
     def __init__(self, function: Callable[..., Any]) -> None:

@@ -86,7 +86,11 @@ class EndUnknown(ProtocolError):
 
 
 class Cause(Flag):
-    """Cause of the end of a motion; several may coincide. COMPLETE: all pulses were output."""
+    """Cause of the end of a motion; several may coincide.
+
+    Attributes:
+        COMPLETE: all pulses were output.
+    """
 
     COMPLETE = 0
     STOP = FINISH_STOP
@@ -99,7 +103,11 @@ class Cause(Flag):
         return self.words(ALARM_INPUT[0])
 
     def words(self, alarm: str) -> str:
-        """Return the cause as text. alarm: name of the alarm input of the part."""
+        """Return the cause as text.
+
+        Args:
+            alarm: name of the alarm input of the part.
+        """
         words = [alarm if cause is Cause.ALARM else text for cause, text in _WORDS.items() if cause in self]
         return " and ".join(words) or "complete"
 

@@ -65,8 +65,11 @@ class Disconnected(LinkError):
 class CommandRefused(PpmcError):
     """The part rejected a byte; each reason has a subclass.
 
-    status: status byte of the part. number: error number of PPMC-104 and STMC; the PPMC-2104 has its own
-    table.
+    Args:
+        status: status byte of the part.
+
+    Attributes:
+        number: error number of PPMC-104 and STMC; the PPMC-2104 has its own table.
     """
 
     number: int

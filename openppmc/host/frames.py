@@ -53,7 +53,11 @@ class Frame:
 
 @dataclass(frozen=True)
 class Broken:
-    """Invalid frame, which was dropped; fault: the reason."""
+    """Invalid frame, which was dropped.
+
+    Attributes:
+        fault: reason why the frame is invalid.
+    """
 
     fault: Fault
 
@@ -61,7 +65,7 @@ class Broken:
 def crc16(data: bytes) -> int:
     """Return the CRC of UB-FRM-03.
 
-    It has the polynomial 1021 and the initial value FFFF, and is not reflected and not inverted.
+    The CRC has the polynomial 1021 and the initial value FFFF, and is not reflected and not inverted.
     """
     return binascii.crc_hqx(data, CRC_START)
 
@@ -90,8 +94,10 @@ def encode(payload: bytes, limit: int = ANSWER_LIMIT) -> bytes:
 class Deframer:
     """Receiver that converts line bytes to frames; it keeps an incomplete frame for the next call.
 
-    limit: longest content in bytes, including the CRC; a longer frame is dropped as too long. Bytes before
-    the first flag are ignored (UB-FRM-05).
+    Bytes before the first flag are ignored (UB-FRM-05).
+
+    Args:
+        limit: longest content in bytes, including the CRC; a longer frame is dropped as too long.
     """
 
     def __init__(self, limit: int = ANSWER_LIMIT) -> None:
@@ -170,7 +176,9 @@ _REPEAT_AFTER = frozenset(Nak) - {Nak.SEQ}
 class GaveUp(Exception):  # noqa: N818 - says what happened, the link makes an error of it
     """No answer after all attempts.
 
-    naks: NAKs of the bridge during this time. heard: number of received bytes.
+    Args:
+        naks: NAKs of the bridge during the attempts.
+        heard: number of bytes received during the attempts.
     """
 
     def __init__(self, attempts: int, naks: tuple[int, ...], heard: int) -> None:
@@ -181,9 +189,10 @@ class GaveUp(Exception):  # noqa: N818 - says what happened, the link makes an e
 class Session:
     """Sequence of requests of one host.
 
-    attempts: largest number of times that a request is sent. grace: seconds from a NAK to the repetition. The
-    NAK may concern noise before the request; then the answer arrives within this time, and no repetition is
-    required.
+    Args:
+        attempts: largest number of times that a request is sent.
+        grace: seconds from a NAK to the repetition. The NAK may concern noise before the request; then the
+            answer arrives within this time, and no repetition is required.
     """
 
     def __init__(self, attempts: int = 4, grace: float = 0.05) -> None:

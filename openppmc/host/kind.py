@@ -91,7 +91,7 @@ class Kind:
         has: names of capabilities (see above).
         outputs: highest value of the auxiliary outputs.
         alarm: name of the alarm input, and the advice for it.
-        origin_between: the origin is between the slow-down limits, and a search ends at them.
+        origin_between: True if the origin is between the slow-down limits, and a search ends at them.
         usual_ramp: default length of a ramp in pulses.
     """
 

@@ -84,7 +84,7 @@ class LineMotion(AnyMotion, Protocol):
     def unknown(self) -> EndUnknown | None:
         """Reason why the part does not confirm the end.
 
-        It is None if the part confirms it, or while the motion is running.
+        The value is None if the part confirms it, or while the motion is running.
         """
 
     @property
@@ -109,7 +109,7 @@ def wait_all(
 ) -> list[End]:
     """Poll the stations until their motions are over.
 
-    It returns the ends in the same order, for any cause.
+    The call returns the ends in the same order, for any cause.
 
     Args:
         timeout: longest wait for all motions in s, `None` for no limit.
@@ -182,7 +182,7 @@ class Listener(Protocol[Answer]):
     def take(self, byte: int) -> Answer | Fault | None:
         """Process a byte; return the reply if it is complete.
 
-        It returns a Fault if no reply is possible any more.
+        The call returns a Fault if no reply is possible any more.
         """
 
 
@@ -194,7 +194,7 @@ class Master(Generic[Answer]):
     Attributes:
         port: open port.
         baud: line rate in bit/s.
-        echo: the master receives its own bytes.
+        echo: True if the master receives its own bytes.
         patience: seconds beyond line time until a station counts as silent, at most 60.
         counters: counters of each station, by its number.
     """

@@ -88,8 +88,10 @@ class ModelLine:
 class Fault(Enum):
     """Reason why bytes were no reply.
 
-    FOREIGN: another station replied. BROKEN: a wrong character or checksum. NOISE: bytes that belong to no
-    reply.
+    Attributes:
+        FOREIGN: another station replied.
+        BROKEN: a wrong character or checksum.
+        NOISE: bytes that belong to no reply.
     """
 
     FOREIGN = "another station replied"
@@ -127,7 +129,12 @@ class Counters:
 
 @dataclass(frozen=True)
 class Miss:
-    """Missing reply. fault: the reason, `None` after silence. heard: bytes received."""
+    """Missing reply.
+
+    Attributes:
+        fault: reason why there is no reply, `None` after silence.
+        heard: bytes received instead of the reply.
+    """
 
     fault: Fault | None
     heard: bytes
@@ -141,7 +148,8 @@ _SHORT, _LONGEST = 0.05, 30.0
 class UrlPort(SerialPort):
     """Device or URL opened by pyserial.
 
-    rs485: how RTS switches the line driver, `None`: it does not.
+    Args:
+        rs485: how RTS switches the line driver; `None` if RTS does not switch it.
     """
 
     def __init__(self, spec: str, baud: int, rs485: RS485Settings | None = None) -> None:
@@ -200,7 +208,13 @@ class SimLinePort(SimPort):
 
 
 def open_line(spec: str, baud: int, part: str, rs485: RS485Settings | None = None) -> Port:
-    """Open a port of a line. part: part of the stations, for virtual lines. Raises PortError."""
+    """Open a port of a line.
+
+    Raises PortError.
+
+    Args:
+        part: part of the stations, for virtual lines.
+    """
     if not spec:
         raise PortError(f"no port given: name one with --port or OPENPPMC_PORT; {describe_ports()}")
     name = spec if ":" in spec else spec + ":"

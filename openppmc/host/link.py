@@ -173,7 +173,7 @@ class Link:
     def close(self) -> None:
         """Switch events off, return to 115 200 baud and close the port.
 
-        Never raises; a second call is allowed.
+        The call never raises an exception, and may be called twice.
         """
         if self._closed:
             return
@@ -267,7 +267,7 @@ class Link:
     def wait_event(self, timeout: float) -> int | None:
         """Return the pin byte of the next event (UB-MSG-01).
 
-        It returns None after `timeout` seconds without an event.
+        The call returns None after `timeout` seconds without an event.
         """
         session = self._session
         end = self.clock() + timeout

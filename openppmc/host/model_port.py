@@ -33,7 +33,8 @@ _LAG = 0.25
 class Pacer:
     """Coupling of virtual time to wall time.
 
-    speed: virtual seconds per second, `None` for as fast as possible.
+    Args:
+        speed: virtual seconds per second, `None` for as fast as possible.
     """
 
     def __init__(self, speed: float | None) -> None:
@@ -57,7 +58,7 @@ class Pacer:
     def behind(self, seconds: float) -> float:
         """Return the virtual seconds that passed while the program did something else.
 
-        It returns 0 if there are few.
+        The call returns 0 if there are few.
         """
         if self.speed is None:
             return 0.0
@@ -109,9 +110,11 @@ OPTIONS = ("part", "speed", "clk", "xtal", "timing")
 class ModelPort:
     """Board that needs no hardware.
 
-    text: options of the machine model (`openppmc.sim.common.machine`), and `speed` (1: real time, 10: ten
-    times as fast, max: as fast as possible), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET, `read_map`
-    (stmc) FAMILY or SHEET, `unplug` (the port disappears after this number of seconds of its time).
+    Args:
+        text: options of the machine model (`openppmc.sim.common.machine`), and `speed` (1: real time, 10: ten
+            times as fast, max: as fast as possible), `clk` and `xtal` in Hz, `timing` FAST or DATASHEET,
+            `read_map` (stmc) FAMILY or SHEET, `unplug` (the port disappears after this number of seconds of
+            its time).
 
     Raises:
         PortError: text is invalid.

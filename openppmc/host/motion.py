@@ -109,7 +109,9 @@ class Moving(Protocol):
 class Handle(Checked):
     """Members that all motions have.
 
-    end: End that the part has confirmed. unknown: error of a motion that is over without a confirmed end.
+    Attributes:
+        end: End that the part has confirmed.
+        unknown: error of a motion that is over without a confirmed end.
     """
 
     end: End | None = None
@@ -133,7 +135,7 @@ class Motion(Handle):
     Attributes:
         asked: pulses, `None` for endless motions.
         direction: 0 = CW, 1 = CCW.
-        ramped: the motion has ramps.
+        ramped: True if the motion has ramps.
         begin: pulse counter before the motion.
         ours: False if another program started it.
     """

@@ -207,11 +207,11 @@ class OneAxis(Part, Axis):
         self.forget()
 
     def status(self) -> Status:
-        """Return the status register; allowed at any time."""
+        """Return the status register. The call is allowed at any time."""
         return Status.parse(self.link.execute(Script().read(1)).byte(0))
 
     def pins(self) -> int:
-        """Return the PINS byte of the bridge: interrupt, HOLD and switches; allowed at any time."""
+        """Return the PINS byte of the bridge: interrupt, HOLD, switches. The call is allowed at any time."""
         return self.link.execute(Script().pins()).byte(0)
 
 

@@ -63,5 +63,5 @@ class Ppmc104(OneAxis):
         self.link.execute(Script().call(AUX_OUTPUT, value))
 
     def auxi(self) -> int:
-        """Return the four auxiliary inputs as pin levels; only while no motion is running."""
+        """Return the four auxiliary inputs as pin levels. The call is not allowed during a motion."""
         return self.link.execute(Script().call(READ_AUXI).get(1)).byte(1)

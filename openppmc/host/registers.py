@@ -12,7 +12,9 @@ from ..model.single.codes import BUSY, ERR, IBF, OBF, Error
 class Status:
     """Status register.
 
-    error: error number of the last byte, or `None`. expected: number of parameter bytes still required.
+    Attributes:
+        error: error number of the last byte, or `None`.
+        expected: number of parameter bytes still required.
     """
 
     raw: int
@@ -86,8 +88,8 @@ class Outputs:
 
     Attributes:
         phases: levels of S1 to S5.
-        hold: the motor has been stopped for 34 ms.
-        ccw: level of DIR.
+        hold: True if the motor has been stopped for 34 ms.
+        ccw: level of DIR; True is CCW.
     """
 
     phases: tuple[int, ...]

@@ -174,7 +174,7 @@ class Script:
     def call(self, command: int, *data: int) -> Script:
         """Append a command byte with up to 14 data bytes, each checked.
 
-        It returns 1 byte, the last status.
+        The call returns 1 byte, the last status.
         """
         _within("number of command bytes", 1 + len(data), 1, 15)
         for byte in (command, *data):
@@ -329,7 +329,7 @@ class Build:
 
     Attributes:
         version: for example "0.3.1".
-        changed: the sources differed from the commit.
+        changed: True if the sources differed from the commit.
         source, commit: hexadecimal, "" if unknown.
         board: 4 letters, or "".
     """

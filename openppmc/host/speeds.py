@@ -36,7 +36,7 @@ class BaseClock:
         period: period of the base clock in s.
         extra: addition to every interval in s (vsel low).
         csel, vsel: levels of the strap pins that select it.
-        external: the clock is input at the `clock` pin.
+        external: True if the clock is input at the `clock` pin.
         least_rate: lowest rate byte that the driver uses with it.
         beyond: base clocks of an interval minus its rate byte.
         slowest_rate: highest rate.

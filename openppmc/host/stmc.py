@@ -36,7 +36,11 @@ def refused(status: int) -> CommandRefused:
 
 @dataclass(frozen=True)
 class Inputs(Switches):
-    """Switches of an STMC. motor_off: MON is low."""
+    """Switches of an STMC.
+
+    Attributes:
+        motor_off: True if MON is low.
+    """
 
     motor_off: bool
 
@@ -52,7 +56,7 @@ def divided(hertz: Number, external: bool = True) -> BaseClock:
 
     Args:
         hertz: frequency, 0 < hertz <= 1e6.
-        external: it is the clock of the board, or the `ext_clk` pin.
+        external: True for the clock of the board, or a clock at the `ext_clk` pin.
 
     Raises:
         OutOfRange: the frequency is out of range.

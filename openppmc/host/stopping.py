@@ -36,7 +36,11 @@ They are stored, because an exception of a handler can get lost.
 
 
 class Signalled(SystemExit):
-    """A signal ends the program. number: number of the signal; the exit status is 128 + number."""
+    """A signal ends the program.
+
+    Args:
+        number: number of the signal; the exit status is 128 + number.
+    """
 
     def __init__(self, number: int) -> None:
         super().__init__(128 + number)

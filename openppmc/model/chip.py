@@ -48,7 +48,8 @@ class Phase(IntEnum):
 class Context:
     """Set-up and services of every block.
 
-    levels: synchronised input levels that decisions use; on a part with several axes those of one axis.
+    Attributes:
+        levels: synchronised input levels that decisions use; on a part with several axes those of one axis.
     """
 
     timebase: Timebase
@@ -116,7 +117,7 @@ class Square:
 
     @property
     def next_level(self) -> int:
-        """Level from that edge on."""
+        """Level from the next toggle on."""
         return self._n & 1
 
     def advance(self) -> None:

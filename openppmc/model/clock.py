@@ -323,7 +323,8 @@ class EdgeLog:
 def low_times(changes: list[tuple[int, int]]) -> list[int]:
     """Return the lengths of the complete low phases of an active-low signal, in cycles.
 
-    changes: list of (t, value).
+    Args:
+        changes: list of (t, value).
     """
     pairs = zip(changes, changes[1:], strict=False)
     return [b - a for (a, low), (b, high) in pairs if low == 0 and high == 1]

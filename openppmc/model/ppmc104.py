@@ -69,7 +69,7 @@ DEFAULT_QUANTA = (260, 435)
 
 
 class Switching:
-    """Chopper times: the defaults until the first 0x84, then its two values, longer with vsel = L."""
+    """Chopper times: the defaults until the first 0x84, then its two values; longer with vsel = L."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -122,7 +122,7 @@ class Motion(TimedMotion):
     def slow_stop(self, t: int, reference: int) -> None:
         """Process a deceleration stop (P104-STP-03, P104-DS-10).
 
-        It was accepted in START, ACC or HIGH of 011/110.
+        The stop was accepted in START, ACC or HIGH of 011/110.
         """
         at = t
         if self._context.datasheet:
@@ -230,7 +230,10 @@ class CommandUnit(ByteUnit):
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
         """Execute an action now, or with DATASHEET timing after a time (P104-DS-11).
 
-        The mailbox is closed during this time. cycles: the time in crystal cycles.
+        The mailbox is closed during this time.
+
+        Args:
+            cycles: time before the action in crystal cycles.
         """
         if not self._context.datasheet:
             action(t)
@@ -274,7 +277,7 @@ class CommandUnit(ByteUnit):
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
         """Process the fourth byte of an initialisation (P104-INI-05..08).
 
-        It is checked and stored, and the table build begins.
+        The initialisation is checked and stored, and the table build begins.
         """
         rl, rh = data[0], data[1]
         pa = data[2] | data[3] << 8

@@ -27,8 +27,10 @@ class Queued(Protocol):
 class Receiver:
     """Receiver.
 
-    bit: cycles of a bit. got(t, byte): called with a character whose stop bit edge t samples; `None`: the
-    stop bit was low.
+    Args:
+        bit: bit time in cycles.
+        got: got(t, byte) is called with a character whose stop bit edge t samples; `None` means that the stop
+            bit was low.
     """
 
     def __init__(self, context: Queued, bit: Fraction, got: Callable[[int, int | None], None]) -> None:

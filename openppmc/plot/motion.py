@@ -19,7 +19,8 @@ from matplotlib.figure import Figure
 
 from .signals import Run, Section, Trace, speeds
 
-# In s. Pulses with a longer interval belong to different motions (rate 255 at 125 kHz is 2.048 ms).
+# Longest interval of a motion in s. Pulses with a longer interval belong to different motions (rate 255 at
+# 125 kHz is 2.048 ms).
 SLOWEST = 2.1e-3
 
 INK, GREY, PALE = "#1b2733", "#6b7785", "#dfe4ea"

@@ -34,7 +34,11 @@ def split_link(text: str) -> tuple[str, Path | None]:
 
 
 def line(now: Status, alarm: str) -> str:
-    """Return the status as one line. alarm: name of the alarm switch of the part."""
+    """Return the status as one line.
+
+    Args:
+        alarm: name of the alarm switch of the part.
+    """
     host = f"{now.rate} baud" if now.open else "no host"
     pace = "asleep" if now.asleep else f"{now.factor:.2f} x real time"
     axes = "  ".join(motor(axis, alarm) for axis in (now, now.second) if axis is not None)

@@ -21,9 +21,11 @@ from scripts.demo.scenes import Changes, access_text, falls
 class View:
     """Content of the VCD.
 
-    `split`: names of the single bits of a vector, lowest first. `motors`: scope -> the pin or vector in
-    which `pulses` finds the pulses of that motor. `groups`: (title, signals) of the saved views. `access`:
-    returns the text of a host access.
+    Attributes:
+        split: names of the single bits of a vector, lowest first.
+        motors: scope -> the pin or vector in which `pulses` finds the pulses of that motor.
+        groups: (title, signals) of the saved views.
+        access: function that returns the text of a host access.
     """
 
     split: Mapping[str, Sequence[str]]
@@ -37,8 +39,12 @@ class View:
 class Demo:
     """One demo of PART=`name`, which runs on `part`.
 
-    `picture` returns the content of the standard picture; `own` draws another one. `config`: its build.
-    `marks`: chapters marked in the saved views; `motors`: names of axes in the list of moves.
+    `picture` returns the content of the standard picture; `own` draws another one.
+
+    Attributes:
+        config: build of the part.
+        marks: chapters that are marked in the saved views.
+        motors: names of axes in the list of moves.
     """
 
     name: str

@@ -202,7 +202,7 @@ def draw(comparison: Any, chapters: Sequence[Mapping[str, Any]], path: Path) -> 
     currents(
         middle, motor, first["begin"], first["end"], f"Phase currents: {first['title']}", references=False
     )
-    # Placed in the line of the heading, because the curves fill their axes.
+    # The legend is in the line of the heading, because the curves fill their axes.
     middle.legend(
         loc="lower right",
         bbox_to_anchor=(1, 0.98),

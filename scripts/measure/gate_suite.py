@@ -42,7 +42,9 @@ def families(of: PartTests) -> list[str]:
 class GateTest:
     """One simulation of one netlist. `item` is tagged with the family; `group` is its row in the table.
 
-    params: of the part's top. inside: as in `PartTests`.
+    Attributes:
+        params: parameters of the part's top.
+        inside: as in `PartTests`.
     """
 
     family: str
@@ -74,7 +76,7 @@ class GateTest:
 def left_out() -> dict[str, str]:
     """Return the tests of the parts' test modules that do not run on netlists, with the reason.
 
-    ProjectError for a test function without a reason, so that no test is omitted by mistake.
+    Raises ProjectError for a test function without a reason, so that no test is omitted by mistake.
     """
     every = suites()
     reasons: dict[str, str] = {}

@@ -72,7 +72,11 @@ def build_one(test: GateTest) -> Result:
 
 
 def run_one(what: tuple[GateTest, int | None, bool]) -> Result:
-    """Run one test. what: test, seed of simulations, waves if it fails."""
+    """Run one test.
+
+    Args:
+        what: test, seed of simulations, waves if it fails.
+    """
     test, seed, waves = what
 
     def work() -> str:

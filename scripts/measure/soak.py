@@ -1,9 +1,10 @@
 """`make soak PART= SEED= COUNT=`: compare any number of random-host runs with the golden model.
 
-The column `soak` of the table of parts defines what a seed is; PART=all runs all parts one after the other.
-The seeds are one campaign, in blocks. A later run of the same part on the same sources, with more seeds or
-after an interruption, reuses passed blocks. A failure does not stop the other seeds. At the end, the failing
-seeds are listed with the command that repeats each. The exit code is 1 if a seed failed.
+The column `soak` of the table of parts defines the meaning of a seed; PART=all runs all parts one after
+the other. The seeds form one campaign, which is divided into blocks. A later run of the same part on the
+same sources, with more seeds or after an interruption, reuses passed blocks. A failure does not stop the
+other seeds. At the end, the failing seeds are listed with the command that repeats each. The exit code is
+1 if a seed failed.
 """
 
 from __future__ import annotations
@@ -54,7 +55,11 @@ def names() -> list[str]:
 
 
 def some(what: tuple[str, int, int]) -> Result:
-    """Run a block of seeds. what: part, first seed, number of seeds."""
+    """Run a block of seeds.
+
+    Args:
+        what: part, first seed, number of seeds.
+    """
     part, first, count = what
     played = hosts(part).some(range(first, first + count))
     return Result(not played.failures, {"failures": played.failures, "compared": dict(played.compared)})

@@ -71,7 +71,13 @@ def run(*command: str) -> str:
 
 
 def differences(folder: Path) -> str:
-    """Return the words that differ, one on each line; `folder`: work folder. ProjectError if a tool fails."""
+    """Return the words that differ, one on each line.
+
+    Raises ProjectError if a tool fails.
+
+    Args:
+        folder: folder for temporary files.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     run(sys.executable, "-m", "scripts.measure.tables", relative(folder))
     pairs = "".join(PAIR.format(top=top, memory=memory) for top, memory in MEMORIES.items())

@@ -13,7 +13,13 @@ from scripts.release.state import Release
 
 
 def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
-    """Return name -> board and host. only: names of bitstreams, empty: all. ProjectError: unknown name."""
+    """Return name -> board and host.
+
+    Raises ProjectError for an unknown name.
+
+    Args:
+        only: names of bitstreams, empty: all.
+    """
     every = {
         on.stem(host): (on, host) for boards in BY_PART.values() for on in boards.values() for host in on.top
     }

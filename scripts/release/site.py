@@ -37,7 +37,7 @@ def check() -> None:
 def run(say: Callable[[str], None], scratch: Path) -> None:
     """Build the site and pass each line to `say` when it is printed.
 
-    ProjectError with the last line of its errors if it fails.
+    Raises ProjectError with the last line of its errors if it fails.
     """
     errors = scratch / "errors.txt"
     with errors.open("w", encoding="utf-8") as sink:

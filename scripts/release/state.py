@@ -16,10 +16,15 @@ _HEADING = re.compile(r"^## \[([^\]\n]+)\].*$", re.M)
 
 @dataclass
 class Release:
-    """A release. version: without v; commit: in hex; epoch: its time in s, used for every file.
+    """A release.
 
-    missing: one sentence for each missing part, for the notes. only: names of the built bitstreams; empty:
-    all. trial: must not be published; the version ends in +trial.
+    Attributes:
+        version: version number without the letter v.
+        commit: hexadecimal number of the commit.
+        epoch: time of the commit in s; every file of the release has this time.
+        missing: one sentence for each missing part, for the notes.
+        only: names of the built bitstreams; empty: all.
+        trial: True if the release must not be published; its version ends in +trial.
     """
 
     version: str
@@ -47,7 +52,9 @@ def git(*words: str) -> str:
 
 
 def section(changelog: str, version: str, trial: bool = False) -> str:
-    """Return the text below the newest heading of a changelog; ProjectError unless it is of this version.
+    """Return the text below the newest heading of a changelog.
+
+    The call raises ProjectError unless it is of this version.
 
     [Unreleased] may be above it, without text. In a trial, its text is returned if there is any.
     """
@@ -72,7 +79,11 @@ def section(changelog: str, version: str, trial: bool = False) -> str:
 
 
 def check_tag(version: str, commit: str, tagged: str) -> None:
-    """Raise ProjectError if the tag of this version is on another commit. tagged: that commit, or ""."""
+    """Raise ProjectError if the tag of this version is on another commit.
+
+    Args:
+        tagged: commit that has the tag of this version, or "".
+    """
     if tagged and tagged != commit:
         raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")
 

@@ -37,7 +37,11 @@ _KINDS = {
 
 
 class Module:
-    """One part after power-up. `call`: name -> function (site/core/core.cpp)."""
+    """One part after power-up.
+
+    Attributes:
+        call: name -> function of the module (site/core/core.cpp).
+    """
 
     def __init__(self, part: WebPart, path: Path) -> None:
         pins = part.part
@@ -81,7 +85,10 @@ class Module:
             yield int(t), pin, value
 
     def play(self, recording: Recording) -> list[Edge]:
-        """Apply the pin changes from a reset on; return the output edges; wide ports have complete levels."""
+        """Apply the pin changes from a reset on; return the output edges.
+
+        Edges of a wide port have its complete level.
+        """
         self.call["power_up"]()
         levels = self.part.reset_levels(recording.params)
         changes = self._changes(recording.stimulus)

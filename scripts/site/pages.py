@@ -50,7 +50,7 @@ def packages(folder: Path) -> None:
 
 @cache
 def playground() -> Path:
-    """Build all that has changed; return the folder. Safe for several processes."""
+    """Build all that has changed; return the folder. Several processes may call it at the same time."""
     with locked(wasm.OUT / "playground.lock"):
         return _made()
 

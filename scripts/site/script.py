@@ -38,7 +38,7 @@ def statements(text: str) -> Iterator[tuple[int, list[str]]]:
 
 
 class Pauses:
-    """Growing pauses between polls; ScriptError if PATIENCE is exceeded."""
+    """Growing pauses between polls; raise ScriptError if PATIENCE is exceeded."""
 
     def __init__(self, side: ModelBench) -> None:
         self.side, self.end, self.count, self.pause = side, side.now + PATIENCE, 0, FIRST
@@ -54,7 +54,11 @@ class Pauses:
 
 
 class Player:
-    """Interpreter of a session's text. got: bytes that were read, in order."""
+    """Interpreter of a session's text.
+
+    Attributes:
+        got: bytes that were read, in order.
+    """
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         self.part = part

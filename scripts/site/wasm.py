@@ -161,8 +161,10 @@ def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     """Build the module of a part, or with `native` a shared library of this machine with the same functions.
 
-    bound: further sources, for tests. Existing files are not built again. ProjectError with the name of the
-    log if a tool fails.
+    Existing files are not built again. Raises ProjectError with the name of the log if a tool fails.
+
+    Args:
+        bound: further sources, for tests.
     """
     part = WEB_PARTS[name]
     design = part_design(name, part.config)

@@ -18,10 +18,14 @@ from cocotb_tests.pmc006.builds import F8B
 class Motor:
     """A motor and its machine model.
 
-    step: the pin with the steps: a bit of an output, or with `phases` the lowest of five bits. edge: level
-    after the edge of a step. dir: CCW at level `ccw`. switches: input pins in the order of tb/board/plant.h
-    (CW and CCW limit, CW and CCW slow-down limit, origin, alarm), "" for a missing switch; a closed switch is
-    low. windings: pins of the phases for the picture, S1 first. encoder: a pulse and its direction.
+    Attributes:
+        step: the pin with the steps: a bit of an output, or with `phases` the lowest of five bits.
+        edge: level after the edge of a step.
+        dir: pin of the direction, which is CCW at level `ccw`.
+        switches: input pins in the order of tb/board/plant.h (CW and CCW limit, CW and CCW slow-down limit,
+            origin, alarm), "" for a missing switch; a closed switch is low.
+        windings: pins of the phases for the picture, S1 first.
+        encoder: pins of the encoder pulse and of its direction.
     """
 
     step: str
@@ -38,10 +42,16 @@ class Motor:
 class WebPart:
     """A part in the playground.
 
-    bus: kind of host (site/src/engine). idle: levels of its straps. busy: status bits that a host waits for.
-    bits: names of the status bits, bit 7 first. straps: pins with a button in addition to the switches. hint:
-    example of an input. phase_on: level of an energised winding. settle: cycles from the reset to the first
-    access. first: number of the first axis in statements.
+    Attributes:
+        bus: kind of host (site/src/engine).
+        idle: levels of its straps.
+        busy: status bits that a host waits for.
+        bits: names of the status bits, bit 7 first.
+        straps: pins with a button in addition to the switches.
+        hint: example of an input.
+        phase_on: level of an energised winding.
+        settle: cycles from the reset to the first access.
+        first: number of the first axis in statements.
     """
 
     name: str

@@ -106,7 +106,8 @@ def test_a_part_has_few_bases_and_names() -> None:
 def test_few_files(folder: str, longest: int, bound: int) -> None:
     """A folder has few files, and few of them are short.
 
-    longest: only files with at most this number of lines count; 0 counts all files.
+    Args:
+        longest: only files with at most this number of lines count; 0 counts all files.
     """
     found = sorted((ROOT / folder).rglob("*.py"))
     lines = {

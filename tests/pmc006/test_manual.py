@@ -16,7 +16,7 @@ from tests.common.pages import DOCS, chapters
 
 TEXT = (DOCS / "pmc006/README.md").read_text(encoding="utf-8")
 LONG = 60_000_000
-"""us; no motion of the page lasts longer."""
+"""Time limit in us; no motion of the page lasts longer."""
 
 
 class Session:

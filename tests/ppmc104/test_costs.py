@@ -14,6 +14,6 @@ def test_costs_in_benchmarks_are_those_of_the_rtl() -> None:
     printed = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
     found = costs.measure()
     assert [row for row in printed if row[0] in found] == costs.rows(found)
-    # Five cycles from the strobe to the build, and from its end to the next command.
+    # Five cycles pass from the strobe to the build, and five from the end of the build to the next command.
     longest = next(cycles for what, cycles in found.items() if "longest" in what)
     assert longest == Latency().build(255, 0, 11_220) + 5

@@ -19,7 +19,7 @@ from openppmc.host.frames import Broken, Deframer, encode
 from .settings import baud_of
 from .slave import Toy
 
-SECOND = 10**12  # in ps
+SECOND = 10**12  # one second in ps
 
 
 def now() -> int:
@@ -219,7 +219,8 @@ class Bench:
     async def _reads(self) -> None:
         while True:
             await FallingEdge(self.dut.rd_no)
-            # Wrong data until the fifth cycle: only the byte in the last cycle counts.
+            # The slave outputs wrong data until the fifth cycle, because only the byte in the last cycle
+            # counts.
             self.dut.d_i.value = 0x5A
             await Timer(self.period * 9 // 2, "ps")
             self.dut.d_i.value = self.slave.read(int(self.dut.a_o.value))

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from cocotb_tests.harness import Config
 
-# 8 cycles per bit: scripts need little simulated time. Most tests run here.
+# Most tests run with 8 cycles per bit, so that scripts need little simulated time.
 FAST = Config("fast8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000),))
-# Two pulse counters, as for a part with two axes.
+# This build has two pulse counters, as for a part with two axes.
 TWO = Config("two8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Axes", 2), ("Part", 2104)))
-# No pulse counter, as for a bank.
+# This build has no pulse counter, as for a bank.
 NONE = Config("none8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Counter", 0), ("Part", 32)))
-# A bank with its bridge: the shortest round in cycles that BANK-GEN-02 allows.
+# This build is a bank with its bridge and the shortest round in cycles that BANK-GEN-02 allows.
 BANK = Config("bank8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("AXES", 4)))
-# With a recorder of 32 records, each with 3 bytes: 9 levels and 15 bits of time.
+# This build has a recorder of 32 records. Each record has 3 bytes: 9 levels and 15 bits of time.
 REC = Config("rec8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Watch", 9), ("Record", 5)))
-# A carrier with a recorder of 16 records.
+# This build is a carrier with a recorder of 16 records.
 RECORDING = Config("recording8m", clk_hz=8_000_000, extra=(("Baud", 1_000_000), ("Record", 4)))
-# Every rate code; the highest rate has exactly 5 cycles per bit.
+# This build supports every rate code; the highest rate has exactly 5 cycles per bit.
 ALL_RATES = Config("rates15m", clk_hz=15_000_000, extra=(("Baud", 115_200),))
-# Few cycles per millisecond, for long waits.
+# A millisecond has few cycles in this build, for tests with long waits.
 SLOW = Config("slow2m", clk_hz=2_000_000, extra=(("Baud", 115_200), ("Datasheet", 1)))
 
 RATES = {1: 230_400, 2: 460_800, 3: 921_600, 4: 1_000_000, 5: 2_000_000, 6: 3_000_000}

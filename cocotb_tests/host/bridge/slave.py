@@ -44,7 +44,7 @@ class Toy:
             byte = self._queue.pop(0) if self._queue else 0xE7
         else:
             byte = self.registers[a]
-            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # reaches every value
+            self.registers[a] = (byte * 5 + 2 * a + 1) & 0xFF  # reaches every value in turn
         self.log.append(("R", a, byte))
         return byte
 

@@ -14,7 +14,7 @@ from .settings import FAST
 
 INITIALISE = "55 0A 09 04 04 00"  # RL 9, RH 4, PA 4, four-phase
 MOVE = "54 43 0D 00 00"  # 14 pulses CW
-# The example of docs/uart_bridge.md, byte by byte.
+# This is the example of docs/uart_bridge.md, byte by byte.
 MOVE_LINE = bytes.fromhex("7E 01 54 43 0D 00 00 60 95 7E")
 MOVE_ANSWER = bytes.fromhex("7E 01 00 04 BB 28 7E")
 FINISH = "51 80 61"

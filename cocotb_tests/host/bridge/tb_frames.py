@@ -52,7 +52,7 @@ async def frames_flags_and_escapes(dut):
     same("the flag before is enough", await bench.message(), b"\x04\x00")
     same("writes", bench.accesses(), [("W", 2, 0x34), ("W", 2, 0x35)])
     await bench.silent("nothing more")
-    # The bridge escapes answers, too: data, and by chance a CRC.
+    # The bridge escapes bytes of answers, too: data, and in some cases a byte of the CRC.
     for _ in range(40):
         data = bytes(bench.rng.choice((0x7D, 0x7E, bench.rng.getrandbits(8))) for _ in range(3))
         script = b"".join(bytes([0x12, byte, 0x22]) for byte in data)
@@ -170,7 +170,7 @@ async def frames_while_busy(dut):
     long_script = bytes([0x32, 40])
     line = encode(b"\x01" + long_script)
     other = encode(b"\x02\x13\x01")
-    # While the bridge sends the answer.
+    # The same happens while the bridge sends the answer.
     await bench.send(line)
     await bench.quiet(100)
     await bench.send(other[:-1])

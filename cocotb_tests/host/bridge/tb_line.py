@@ -101,7 +101,8 @@ async def line_middle(dut):
         script = bytes([0x12, byte])
         for char in encode(b"\x00" + script):
             bits = [0, *(char >> n & 1 for n in range(8)), 1]
-            # Ten slices per bit: wrong in the outer three at each end of data bits, right in the middle.
+            # Each bit has ten slices. In data bits, the outer three slices at each end have the wrong level,
+            # those in the middle the right one.
             slices = []
             for n, bit in enumerate(bits):
                 wrong = 1 - bit if 1 <= n <= 8 else bit
@@ -169,7 +170,7 @@ async def line_break(dut):
         await bench.send(line[3:-1])
         await bench.silent("hunt")
         await bench.done("00")
-    # During a script that has requested another rate.
+    # The break occurs during a script that has requested another rate.
     await bench.send(encode(b"\x70\x02\x04\x77\x00\x01"))
     await bench.quiet()
     await bench.send([0x00], stop=0)

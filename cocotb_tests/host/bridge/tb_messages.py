@@ -112,7 +112,7 @@ async def messages_events(dut):
     await pulses()
     same("escaped", await bench.message(), b"\x80\x7e")
     dut.pins_i.value = 0xFF
-    # During an answer: one event for any number of falls, after the answer and before NAK 7.
+    # During an answer, any number of falls causes one event, which is sent after the answer and before NAK 7.
     await bench.send(encode(b"\x11\x32\x20"))
     await bench.quiet(120)
     await pulses(5)
@@ -121,13 +121,13 @@ async def messages_events(dut):
     same("event", await bench.message(), event)
     same("NAK", await bench.message(), b"\x81\x07")
     await bench.silent("one for all")
-    # During a script: not before its answer.
+    # During a script, the event is not sent before the answer.
     await bench.send(encode(b"\x12" + b"\x05" * 60 + b"\x06"))
     await bench.clocks(300)
     await pulses(2)
     same("answer first", await bench.message(), b"\x12\x00\xff")
     same("event", await bench.message(), event)
-    # Falls during an event cause another one.
+    # Falls while an event is being sent cause another event.
     await pulses()
     await bench.quiet(45)
     await pulses(3)

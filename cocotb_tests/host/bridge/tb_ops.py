@@ -133,7 +133,7 @@ async def ops_illegal(dut):
         last = read[-1] if read else 0
         same(f"{prefix} {op.hex()}", answer, bytes([3, len(before), last]) + read)
         same("accesses", len(log), len(before) if prefix == "24" else prefix == "12 21")
-    # The longest script, with its last op one byte too short.
+    # The script has the maximum length, and its last op lacks one byte.
     answer = await bench.ask(b"\x00" * 240 + b"\x83\x0c" + bytes(11))
     same("POS 240", answer, bytes([3, 240, 0]))
     same("accesses", bench.accesses(), [])
@@ -282,7 +282,7 @@ async def ops_count_snapshot(dut):
     async def run() -> None:
         value, step = 0x00FFFFF0, 1
         while True:
-            # Across a carry through three bytes, in both directions.
+            # The counter passes a carry through three bytes, in both directions.
             for _ in range(32):
                 value += step
                 dut.count_i.value = value

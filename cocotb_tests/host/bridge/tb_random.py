@@ -67,7 +67,7 @@ def random_script(rng: random.Random) -> bytes:
         script += op
     if rng.random() < 0.15:
         script = script[: rng.randint(0, len(script))]
-        # Without its TIMEOUT op the limit is 250 ms: too long for a test.
+        # Without an op TIMEOUT the limit is 250 ms, which is too long for a test.
         script = script if len(script) >= 3 else b""
     return script
 
@@ -142,7 +142,7 @@ async def random_noise(dut):
     pair = Pair(bench, Toy())
     bench.slave = Toy()
     for n in range(150):
-        # Only WRITE, READ and NOP: any remainder of the script takes no time.
+        # The script has only WRITE, READ and NOP, so that any remainder of it takes no time.
         script = b"".join(
             rng.choice((b"\x00", b"\x12\x7d", b"\x12\x7e", b"\x24")) for _ in range(rng.randint(0, 9))
         )
@@ -158,7 +158,7 @@ async def random_noise(dut):
             line = line[:place] + b"\x7e"
         elif kind == 4:
             line = bytearray(rng.getrandbits(7) & 0x7C for _ in range(rng.randint(1, 9))) + b"\x7e"
-        # Only one fault per frame, because a second NAK might not be queued.
+        # Each frame has only one fault, because a second NAK might not be queued.
         if line[1:-1].count(0x7E):
             continue
         await pair.exchange(f"line {n}", bytes(line))

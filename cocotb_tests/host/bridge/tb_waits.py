@@ -111,7 +111,7 @@ async def waits_time(dut):
         assert limit - 0.1 <= took <= limit + 1.3, f"{text}: {took} ms"
         same("accesses", ({entry[:2] for entry in log}, len(log) == 1), ({("R", 1)}, limit == 0))
         if limit:
-            # Back to back: one read per 10 cycles, at most 3 more for the decision.
+            # A wait reads back to back: one read per 10 cycles, with at most 3 more cycles for the decision.
             assert len(log) >= limit * bench.config.clk_hz / 1000 / 13, f"only {len(log)} reads in {limit} ms"
     bench.slave.hold_ibf = 0
     answer = await bench.ask("04 01 00 51 07 61", ms=100)
@@ -165,7 +165,7 @@ async def waits_interrupted(dut):
         log = bench.accesses()
         same(text, answer[:4], bytes([1, 5, place + 2, log[-1][2]]))
         begun = bench.line[-len(encode(answer))][0] - 9.5 * bench.bit_ps()
-        # Immediately: within a read access after the middle of the first stop bit.
+        # The wait ends immediately: within a read access after the middle of the first stop bit.
         assert 0 <= bench.clk_of(begun - start - 9.5 * bench.bit_ps()) <= 45
         same("NAK 7", await bench.message(), b"\x81\x07")
         await bench.silent("the bytes are dropped")

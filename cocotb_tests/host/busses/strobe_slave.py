@@ -35,8 +35,8 @@ class StrobeSlave:
     """Slave at the pins `<prefix>_*`; `cycles` lists ("w" or "r", address, value, cycle of its first low
     level).
 
-    A read outputs the value in the last cycle of its strobe only, else noise. Any violation of the
-    timing raises AssertionError in the simulation.
+    A read outputs the value in the last cycle of its strobe only, and noise in all other cycles. Any
+    violation of the timing raises AssertionError in the simulation.
     """
 
     def __init__(self, dut: Any, prefix: str, count: int, rng: random.Random) -> None:

@@ -158,7 +158,7 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         want.append(("w", 3, value))
         assert slave.accesses() == want
-    # B not accepted: the next write may wait in the bridge, reads continue.
+    # While the master does not accept B, the next write may wait in the bridge, and reads continue.
     channel["b"].pause = True
     events = [master.init_write(4 * n, bytes([n])) for n in (1, 2)]
     for _ in range(40):
@@ -174,7 +174,7 @@ async def axil_channel_order(dut):
         await with_timeout(event.wait(), 1, "ms")
         assert event.data.resp == AxiResp.OKAY
     want.append(("w", 2, 2))
-    # R not accepted: it must keep its data while a write and another read wait or run.
+    # While the master does not accept R, R must keep its data; a write and another read wait or run.
     channel["r"].pause = True
     reads = [master.init_read(4 * n, 4) for n in (1, 2)]
     await write_bytes(master, 4 * 5, b"\x77")

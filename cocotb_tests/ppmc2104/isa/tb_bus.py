@@ -76,7 +76,7 @@ async def isa_short_cycles(dut: Any) -> None:
     """Accesses of 2 ns to 1.5 cycles, at any phase, are executed completely or not at all."""
     setting = await Setting.start(dut)
     bench, master, rng = setting.bench, setting.master, setting.bench.rng
-    master.times = Times(late=0)  # data with the strobe: only its length decides
+    master.times = Times(late=0)  # data change with the strobe, so that only its length decides
     clk_ns = bench.period / 1000
     done = missed = 0
     shown = [0b11, 0b11]
@@ -166,7 +166,7 @@ async def isa_resets(dut: Any) -> None:
     for pin, on in (("reset_drv", 1), ("rst_n", 0)):
         for axis in (1, 4):
             await setting.set_up(axis, 0x02, 9, 4, 4)
-            await setting.axes[axis].go(0x4D, rate=9)  # CCW: dir differs from its reset level
+            await setting.axes[axis].go(0x4D, rate=9)  # CCW, so that dir differs from its reset level
         for host in setting.hosts:
             await host.command(0xF1)
         await setting.axes[4].pulse(3, 5)
@@ -208,7 +208,7 @@ async def isa_source_register(dut: Any) -> None:
     await b.run("c 86 r")
     seen.append(await source())
     bench.check("ISA-07", "source: none, A, A and B, B, none", seen, [0, 1, 3, 2, 0])
-    # An interrupt of A during a long read.
+    # An interrupt of A occurs during a long read.
     await setting.set_up(1, 0x02, 9, 4, 4)
     await setting.axes[1].go(0x44, n=100, rate=49)
     last = bench.now + 99 * bench.config.cyc(1600)

@@ -71,8 +71,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
     wanted = []
     for turn in range(6):
         for axis, drive in setting.axes.items():
-            # Equal, slightly different or very different lengths: ends together, during the handler,
-            # between two calls.
+            # The lengths are equal, slightly different or very different, so that ends occur together, during
+            # the handler, or between two calls.
             await drive.go(
                 0x44, n=4 + (0, axis, 5 * axis, 0, -axis, 1)[turn] % 9, rate=(29, 10, 49)[turn % 3]
             )
@@ -83,7 +83,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
             controller.acknowledge()
             nothing_left = await serve(setting, found)
             await bench.align()
-            # Edge-triggered: a handler that returns with irq still high would never be called again.
+            # With an edge-triggered input, a handler that returns with irq still high would never be called
+            # again.
             assert nothing_left, "ISA-08: a cause was left behind"
             assert controller.requests() or not bench.level("irq"), "ISA-08: irq stayed high"
         await bench.clocks(100)
@@ -149,7 +150,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
         for axis in rng.sample(sorted(setting.axes), 4):
             await setting.axes[axis].go(0x42)
         await bench.clocks(bench.config.us(20))
-        # Interrupts were disabled until here; some axes move again, END pending.
+        # Interrupts were disabled until here; some axes move again while their END is pending.
         again = rng.sample(sorted(setting.axes), 1 + turn % 4)
         for axis in again:
             await setting.axes[axis].go(0x44, n=rng.randrange(2, 30), rate=rng.choice((19, 49, 99)))
@@ -163,7 +164,7 @@ async def isa_service_after_the_restart(dut: Any) -> None:
                 services, idle = services + 1, 0
                 assert len(bench.accesses) - accesses < 200, "ISA-08: the handler goes round and round"
             else:
-                await bench.clocks(bench.config.us(400))  # the tick of a clock
+                await bench.clocks(bench.config.us(400))  # the periodic tick of a clock
                 if left:
                     left, ticks = False, ticks + 1
                     await setting.master.write(SOURCE, 0)

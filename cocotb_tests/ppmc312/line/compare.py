@@ -90,7 +90,8 @@ def compare_line(recording: Recording) -> list[Comparison]:
 def check_line(bench: Bench, at_least: int = 0) -> list[Comparison]:
     """Check that every station equals its model; AssertionError with a report at the first that does not.
 
-    `at_least`: least number of edges compared in total.
+    Args:
+        at_least: least number of edges compared in total.
     """
     recording = line_recording(bench)
     comparisons = compare_line(recording)

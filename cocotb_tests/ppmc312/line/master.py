@@ -106,7 +106,7 @@ class NoFrameError(AssertionError):
 
 
 def understood(data: bytes, mode: str = "BINARY") -> Reply:
-    """Decode a reply frame; NoFrameError if it is not one (P312-SER-02, -13)."""
+    """Decode a reply frame; raise NoFrameError if it is not one (P312-SER-02, -13)."""
     text = data[1:-1]
     good = len(data) >= 2 and data[0] & 0xC0 == 0x80 and not len(text) % 2
     if not good or not all(character in b"0123456789abcdef" for character in text):
@@ -118,7 +118,13 @@ def understood(data: bytes, mode: str = "BINARY") -> Reply:
 
 
 class Master:
-    """Master of the line. bit: cycles of one bit. `said` and `heard` record what was on the line."""
+    """Master of the line.
+
+    `said` and `heard` record what was on the line.
+
+    Args:
+        bit: bit time in cycles.
+    """
 
     def __init__(self, port: Port, bit: float = BIT, mode: str = "BINARY") -> None:
         self.port, self.bit, self.mode = port, bit, mode
@@ -172,13 +178,19 @@ class Master:
         return frame(control, data, self.mode)
 
     async def exchange(self, message: bytes, limit: int = T_EXEC) -> Reply | None:
-        """Send characters and return the reply, None if there is none. NoFrameError if it is not a frame."""
+        """Send characters and return the reply, None if there is none.
+
+        The call raises NoFrameError if the reply is not a frame.
+        """
         await self.send(message)
         data = await self.hear(limit + round(1.2 * self.bit))
         return understood(data, self.mode) if data else None
 
     async def ask(self, station: int, text: str) -> Reply:
-        """Send an instruction (hexadecimal text) and return its reply. NoFrameError if there is no reply."""
+        """Send an instruction (hexadecimal text) and return its reply.
+
+        The call raises NoFrameError if there is no reply.
+        """
         data = bytes.fromhex(text)
         reply = await self.exchange(self.frame(INSTRUCTION | station, data), T_EXEC if data[0] else T_INIT)
         if reply is None or reply.station != station:

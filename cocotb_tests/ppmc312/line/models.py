@@ -25,7 +25,8 @@ def straps(levels: Mapping[str, int], station: int) -> dict[str, int]:
 def heard(levels: Mapping[str, int], driven: int, station: int) -> int:
     """Return the level that a station receives.
 
-    driven: one bit for each station, 0 where its driver makes the line low.
+    Args:
+        driven: one bit for each station, 0 where its driver makes the line low.
     """
     low = ALL & ~driven
     pulled = not levels["master"]

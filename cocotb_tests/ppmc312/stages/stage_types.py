@@ -55,7 +55,8 @@ def pack(*fields: tuple[int, int]) -> int:
 class Target(NamedTuple):
     """target_t: a rate and its look-up result.
 
-    ge: t(rate); if there is no such stage, one before the first stage in use.
+    Attributes:
+        ge: t(rate); if there is no such stage, one before the first stage in use.
     """
 
     rate: int

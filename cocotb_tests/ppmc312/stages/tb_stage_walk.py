@@ -190,7 +190,7 @@ async def stage_seq_walks(dut):
 
 
 class Meeting(Walker):
-    """An 87 ramp that collides with the deceleration point; random requests follow."""
+    """A ramp of instruction 87 collides with the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
         """Request 88 some pulses before that point and 87 closer to it."""
@@ -261,7 +261,10 @@ class Forgotten(Walker):
 
 @cocotb.test()
 async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
-    """81 discards an 88 decided within a search if the search has ended; otherwise it waits for the 88."""
+    """Instruction 81 discards an 88 that was decided within a search if the search has ended.
+
+    Otherwise it waits for the 88.
+    """
     rand = rng()
     u = Unit(dut, "seq", BLOCKS, WATCH)
     await u.reset()

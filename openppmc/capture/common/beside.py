@@ -46,8 +46,9 @@ WINDOW = 256
 class Difference:
     """Edge that only the chip or only the model has, or that occurs too late or too early.
 
-    t: ps of the capture. steady: not an edge but a stable level of the chip, which the model does not have
-    there.
+    Attributes:
+        t: ps of the capture.
+        steady: True if this is not an edge, but a stable level of the chip that the model does not have.
     """
 
     pin: str
@@ -135,7 +136,11 @@ class Result:
         return self.total / max(1, self.compared)
 
     def add_pairs(self, pin: str, apart: Column) -> None:
-        """Count pairs. apart: distance of each pair in ps."""
+        """Count pairs.
+
+        Args:
+            apart: distance of each pair in ps.
+        """
         self.compared += len(apart)
         self.total += int(apart.sum())
         if (worst := int(apart.max(initial=0))) > self.worst:
@@ -166,7 +171,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
 def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
     """Return a line that proposes the other TIMING, or an empty text.
 
-    It is proposed if most edges differ and the other TIMING matches.
+    The other TIMING is proposed if most edges differ and the other TIMING matches.
     """
     if len(result.differences) <= result.compared:
         return ""
@@ -180,8 +185,8 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
     """Return the beginning of a comparison.
 
-    It consists of the time from which the model can follow, the times from which the edges of each axis
-    count, and whether the capture contains a reset.
+    The beginning consists of the time from which the model can follow, the times from which the edges of each
+    axis count, and whether the capture contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -213,7 +218,11 @@ class _Played:
 
 
 def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
-    """Drive a new model with the inputs. ratio: time of the model divided by time of the capture."""
+    """Drive a new model with the inputs.
+
+    Args:
+        ratio: time of the model divided by time of the capture.
+    """
     kind, wires = decoded.kind, decoded.wires
     straps = kind.straps(wires)
     clk_hz = _clk_hz(decoded)
@@ -305,7 +314,8 @@ class _Outputs:
 def _clk_hz(decoded: Decoded) -> int:
     """Return the clock frequency of the model.
 
-    It is that of the map, that of a captured clk (then our own captures are exact), or a high default.
+    The frequency is that of the map, that of a captured clk (then our own captures are exact), or a high
+    default.
     """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))
@@ -340,12 +350,12 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    It is measured in long moves that both have in common; without such moves it is 1.
+    The ratio is measured in long moves that both have in common; without such moves it is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.kind.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # A pulse may be a sample off at both ends: a smaller difference has no meaning.
+    # Both ends of a move may be a sample off, so a smaller difference has no meaning.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -358,12 +368,15 @@ def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
 def learned(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
-    It is measured in the lengths of moves of both in ps, and is 1 if they do not define it. slack: possible
-    error of a length in ps.
+    The ratio is measured in the lengths of moves of both in ps, and is 1 if they do not define it.
+
+    Args:
+        slack: possible error of a length in ps.
     """
     if not alike:
         return 1.0
-    # A move that a switch or a stop ended, not its pulses, has another length than the others indicate.
+    # If a switch or a stop ended a move before its pulses were output, its length does not fit those of the
+    # other moves.
     middle = _middle([(other / mine, mine) for mine, other in alike])
     alike = [(mine, other) for mine, other in alike if abs(other - middle * mine) <= 2 * slack]
     chip, model = (sum(times) for times in zip(*alike, strict=True)) if alike else (0, 0)
@@ -455,20 +468,21 @@ def match_edges(
 ) -> None:
     """Add pairs of edges, and edges without a partner.
 
-    known: both sides have the same first level; otherwise edges count from the first time at which they
-    agree.
+    Args:
+        known: True if both sides have the same first level; otherwise edges count from the first time at
+            which they agree.
     """
     np = numpy()
     mine, levels = chip.since(start)
     other, theirs = model.since(start)
     if not known and level_at(chip, start) != level_at(model, start):
-        # The side that changes first agrees with the other one from then on.
+        # From this time on, the side that changes first agrees with the other one.
         if int(mine[0] if len(mine) else end + 1) < int(other[0] if len(other) else end + 1):
             mine, levels = mine[1:], levels[1:]
         else:
             other, theirs = other[1:], theirs[1:]
     while len(mine) or len(other):
-        # Most edges have their partner at the same place of both columns.
+        # Most edges have their partner at the same place of the columns of both sides.
         least = min(len(mine), len(other), BLOCK)
         apart = np.abs(mine[:least] - other[:least])
         same = (apart <= tolerance) & (levels[:least] == theirs[:least])
@@ -493,9 +507,10 @@ def _unlike(
 ) -> tuple[int, int]:
     """Match edges one by one where the sides differ.
 
-    It returns the number of matched edges of each side.
+    The call returns the number of matched edges of each side.
 
-    more: whether a side has further edges.
+    Args:
+        more: whether a side has further edges.
     """
     mine, levels, other, theirs = sides
     pairs: list[int] = []

@@ -12,13 +12,16 @@ if TYPE_CHECKING:
     from .signals import Column
 
 GAP = 2.0
-"""Gap in characters between different frames, at least."""
+"""Shortest gap between two frames, in character times."""
 
 
 class Character(NamedTuple):
-    """Character. begin: ps of the start bit.
+    """Character.
 
-    end: ps of the stop bit. byte: `None` without a stop bit.
+    Attributes:
+        begin: ps of the start bit.
+        end: ps of the stop bit.
+        byte: value of the character, `None` without a stop bit.
     """
 
     begin: int
@@ -61,14 +64,15 @@ def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
         if not found:
             continue
         bit = SECOND / rate
-        # Every change is near a border of a bit; at a wrong rate only few changes are.
+        # At the right rate, every change is near a border of a bit; at a wrong rate only few changes are.
         begin, end = (np.array([one[side] for one in found]) for side in (0, 1))
         place = begin.searchsorted(channel.times, "right") - 1
         inside = (place >= 0) & (channel.times < end[place] - bit / 2)
         bits = (channel.times[inside] - begin[place[inside]]) / bit
         near = (np.abs(bits - np.rint(bits)) < 0.25).mean() if len(bits) else 0.0
         good = sum(one.byte is not None for one in found) / len(found) * near
-        # Slower rates swallow whole characters: among matching rates, the number of characters decides.
+        # At a slower rate whole characters are missed. Therefore, among the matching rates, the number of
+        # characters decides.
         score = good if good > 0.95 else 0.0
         if score and (score > most + 0.02 or (score > most - 0.02 and rate < best)):
             best, most = rate, score

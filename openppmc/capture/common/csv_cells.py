@@ -42,7 +42,7 @@ def text_of(data: bytes) -> str:
 
 
 def cells_of(line: str, separator: str) -> list[str]:
-    """Return the cells of a line; a very long cell makes the line one cell."""
+    """Return the cells of a line; a line with a very long cell is returned as one cell."""
     try:
         return [cell.strip() for cell in next(csv.reader([line.rstrip("\r\n")], delimiter=separator), [])]
     except csv.Error:
@@ -115,7 +115,7 @@ def is_samples(head: str) -> bool:
 def unit_of(head: str) -> Fraction | None:
     """Return ps of the unit in `Time [s]`, `Time (ms)`, `nanoseconds`.
 
-    It is None without a unit, and 0 for an unknown unit.
+    The value is None without a unit, and 0 for an unknown unit.
     """
     match = _TIME.fullmatch(head.strip().strip('"'))
     if match is None:

@@ -59,7 +59,7 @@ class _Lines:
             yield text_of(self._block[self._place : self._next])
 
     def rest(self) -> Iterator[bytes]:
-        """Yield everything from the line that was read last."""
+        """Yield the rest of the file, beginning with the line that was read last."""
         yield self._block[self._place :]
         self._block = b""
         yield from self._blocks
@@ -310,7 +310,9 @@ class _Table:
 class _Scale:
     """Conversion of times of a table to ps from the first row.
 
-    unit: ps of 1. period: ps of a sample if the times are rounded times of samples.
+    Args:
+        unit: length of one unit of the table in ps.
+        period: ps of a sample if the times are rounded times of samples.
     """
 
     def __init__(self, first: int, unit: Fraction, period: Fraction | None = None) -> None:
@@ -332,7 +334,11 @@ class _Scale:
 
 
 def _multiplied(values: Column, factor: Fraction) -> Column:
-    """Return rounded products. values: rising."""
+    """Return rounded products.
+
+    Args:
+        values: numbers in ascending order.
+    """
     up, down = factor.numerator, factor.denominator
     if not len(values) or max(abs(int(values[0])), abs(int(values[-1]))) < LONGEST // up:
         found: Column = (values * up + down // 2) // down

@@ -20,7 +20,7 @@ LONGEST = 1 << 62
 _DIGITS = 18
 """A number with this number of digits fits into an int64."""
 _NONE = 255
-"""Not a level."""
+"""Code of a cell that is not a level."""
 
 
 class Layout(NamedTuple):
@@ -28,7 +28,7 @@ class Layout(NamedTuple):
 
     Attributes:
         first: number of the line of its first row.
-        counted: times are sample numbers.
+        counted: True if times are sample numbers.
         unit: unit of the times in ps, `None` if the header states no unit.
     """
 
@@ -68,7 +68,7 @@ class _Block:
         if b" " in plain:
             for old in (separator + b" ", b" " + separator, b" \n"):
                 plain = plain.replace(old, old.strip(b" "))
-        # The levels with their separators are the last bytes of a line: a few words.
+        # The last bytes of a line are the levels with their separators. They are compared as a few words.
         words = -(-width // 8)
         pad = 8 * words + 32
         self.buf: Column = np.frombuffer(b" " * pad + plain, np.uint8)
@@ -97,11 +97,11 @@ class _Block:
         marks = cells[:, 1 - timed :: 2] == separator[0]
         if not marks.all() or (self.levels == _NONE).any():
             bad = ~marks.all(axis=1) | (self.levels == _NONE).any(axis=1)
-            # A line that equals the previous one is as good or bad as that.
+            # A line that equals the previous one is odd if and only if the previous one is odd.
             self.odd |= bad[np.cumsum(self.changed) - 1]
         self.levels = self.levels[~self.odd[self.changed]]
         self.ends = ends - width
-        """Ends of the times."""
+        """Places at which the times of the lines end."""
         self._lines: list[bytes] = []
 
     def gather(self, ends: Column, size: int) -> Column:
@@ -121,7 +121,11 @@ class _Block:
 
 
 class _Numbers(NamedTuple):
-    """Number value / 10**decimals; valid: the cell is a plain number."""
+    """Number value / 10**decimals.
+
+    Attributes:
+        valid: the cell is a plain number.
+    """
 
     value: Column
     decimals: Column
@@ -136,8 +140,8 @@ class Rows:
             numbers of the rows.
         levels: 0, 1, 2 (unknown).
         count: rows so far.
-        whole: no time has decimals.
-        absolute: the times have a unit or a date.
+        whole: True if no time has decimals.
+        absolute: True if the times have a unit or a date.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -244,7 +248,11 @@ class Rows:
         )
 
     def _row(self, text: str, line: int, cut: bool) -> tuple[list[int], Fraction]:
-        """Read a single line. cut: it has no line feed."""
+        """Read a single line.
+
+        Args:
+            cut: True if it has no line feed.
+        """
         timed, separator = self.layout.timed, self.layout.separator
         cells = cells_of(text, separator) if '"' in text else text.split(separator)
         if len(cells) == self.layout.channels + timed + 1 and not cells[-1].strip():
@@ -277,7 +285,11 @@ class Rows:
             raise self.fail(line, "times with and without a unit: write all of them alike")
 
     def _times(self, block: _Block, kept: Column, exact: dict[int, Fraction]) -> Column:
-        """Return the times of these lines. exact: known times."""
+        """Return the times of these lines.
+
+        Args:
+            exact: times that are already known.
+        """
         np = self.np
         plain = kept[~block.odd[kept]]
         value, decimals, valid = self._numbers(block, block.starts[plain], block.ends[plain])
@@ -343,7 +355,7 @@ class Rows:
         return found
 
     def _scaled(self, value: Fraction) -> int:
-        """Return a time from `base` on. Raises CaptureError."""
+        """Return a time, counted from `base`. Raises CaptureError."""
         found: int = round((value - (self.base or 0)) * 10**self.decimals)
         if abs(found) >= LONGEST:
             raise too_long(self.layout.name)

@@ -79,8 +79,10 @@ def decoder(part: str) -> DecodeKind:
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
     """Return "; it has the pins of …" if the capture lacks a required pin and matches other parts.
 
-    It matches a part if the channels have the names of its pins. without: the requested part. In other cases
-    the text is empty.
+    The capture matches a part if the channels have the names of its pins. In other cases the text is empty.
+
+    Args:
+        without: the requested part, which is not named.
     """
     if chosen.pins is not None or _has_pins(capture, chosen, without):
         return ""
@@ -139,7 +141,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
     crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))
     params = {**told, "XTAL_HZ": crystal, **chosen.parameters}
-    # In our own files each edge has the time of its clk edge, so nothing is sampled.
+    # In our own files each edge has the time of its edge of `clk`, so nothing is sampled.
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:

@@ -14,7 +14,11 @@ if TYPE_CHECKING:
 
 
 class Access(NamedTuple):
-    """Strobe on the bus from begin to end in ps. reg: level of the address pins."""
+    """Strobe on the bus from begin to end in ps.
+
+    Attributes:
+        reg: level of the address pins.
+    """
 
     begin: int
     end: int
@@ -56,8 +60,8 @@ class Line(NamedTuple):
     Attributes:
         t: ps of its beginning.
         data: bytes as they were on the bus or line.
-        strange: the line is invalid for the part.
-        initialises: the state of the part, or of this axis, is known from the end of the line on.
+        strange: True if the line is invalid for the part.
+        initialises: True if the state of the part, or of this axis, is known from the end of the line on.
         end: ps at which the last of its bytes was over.
     """
 
@@ -90,7 +94,9 @@ class Wires:
 class Train(NamedTuple):
     """Pulses of an axis.
 
-    times: in ps. ways: direction of each pulse (1 = CCW), `None` if it is unknown.
+    Attributes:
+        times: in ps.
+        ways: direction of each pulse (1 = CCW), `None` if it is unknown.
     """
 
     axis: int
@@ -125,7 +131,7 @@ class DecodeKind:
         prelude: brings a new model to the beginning of a capture.
         axis_of: returns the axis of a bit of a port, 0: all axes.
         rests: levels of the outputs in a reset.
-        initialised: without a reset or an initialisation nothing can be compared.
+        initialised: True if nothing can be compared without a reset or an initialisation.
         pause: ps at a 16 MHz crystal between two moves; more if the pulses are that slow. The slowest rate of
             a byte makes 2.05 ms.
     """

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .signals import Column
 
 CHOPPED = 20 * 10**9
-"""ps; off-times of choppers are shorter."""
+"""Time in ps that is longer than any off-time of a chopper."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,8 @@ def runs(train: Train, pause: int) -> list[tuple[Column, int | None]]:
 def moves(trains: list[Train], pause: int) -> list[Move]:
     """Return the moves in the order of their beginnings.
 
-    pause: shortest time between two moves in ps.
+    Args:
+        pause: shortest time between two moves in ps.
     """
     found = [_move(train.axis, *run) for train in trains for run in runs(train, pause)]
     return sorted(found, key=lambda move: move.begin)
@@ -100,7 +101,8 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
 
     The result is `None` if that pin was not captured.
 
-    way: pin of the direction, 1 = CCW.
+    Args:
+        way: pin of the direction, 1 = CCW.
     """
     pulses = wires.bits.get(port, {}).get(bit)
     if pulses is None:
@@ -160,7 +162,7 @@ def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[i
 
 
 def _settled(whole: Channel, window: int) -> Iterator[tuple[int, int]]:
-    """Yield changes; those within `window` ps from the first of them are one."""
+    """Yield the changes; changes within `window` ps from the first of them are combined."""
     begin, last = None, 0
     for t, level in whole:
         if begin is not None and t - begin > window:

@@ -16,7 +16,7 @@ UNITS = {
     **{"ps": 1, "picosecond": 1, "picoseconds": 1},
 }
 FINE = {"fs": 3, "femtosecond": 3, "femtoseconds": 3, "as": 6, "attosecond": 6, "attoseconds": 6}
-"""Units below 1 ps: as 10**-n ps."""
+"""Units below 1 ps -> n, where the unit is 10**-n ps."""
 
 
 def unit(name: str) -> Fraction | None:

@@ -23,7 +23,11 @@ class Said(NamedTuple):
 
 
 class Judged(NamedTuple):
-    """Result of the check of a row. strange: invalid for this part."""
+    """Result of the check of a row.
+
+    Attributes:
+        strange: True if the row is invalid for this part.
+    """
 
     strange: bool = False
     initialises: bool = False

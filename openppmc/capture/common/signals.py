@@ -220,7 +220,7 @@ class Capture:
     def finest(self) -> int:
         """Distance of two samples in ps.
 
-        It is the distance that the file states, or a divisor of the times of all changes.
+        The value is the distance that the file states, or a divisor of the times of all changes.
 
         It is 0 without changes.
         """

@@ -71,7 +71,11 @@ class _Variable:
         self.times, self.levels, self.unknown = array("q"), array(code), array(code)
 
     def add(self, times: Any, levels: Any, unknown: Any) -> None:
-        """Add changes. unknown: `None` if all levels are known."""
+        """Add changes.
+
+        Args:
+            unknown: `None` if all levels are known.
+        """
         if unknown is not None:
             missing = len(self.levels) - len(self.unknown)
             self.unknown.frombytes(bytes(missing * self.unknown.itemsize))
@@ -513,7 +517,7 @@ class _Body:
                 continue
             level, doubt = levels[begin:end], unknown[begin:end]
             if variable.width > 1:
-                # A single x for all bits of a vector.
+                # A single x means that all bits of a vector are unknown.
                 full = (1 << variable.width) - 1
                 kind = np.dtype(level_type(variable.width)).type
                 level, doubt = level.astype(kind), doubt.astype(kind) * kind(full)

@@ -108,7 +108,8 @@ class Words:
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
         """Return the bytes after a read command as text.
 
-        stopped: the last end status contained a cause.
+        Args:
+            stopped: True if the last end status contained a cause.
         """
         code = self.read_codes.get(code, code)
         if code == END_STATUS:
@@ -128,7 +129,9 @@ class OneAxisWords(Words):
 
     Its status register has an error number, or a number of expected bytes.
 
-    errors: texts of the errors. clock: name of the external clock.
+    Attributes:
+        errors: texts of the errors.
+        clock: name of the external clock.
     """
 
     errors: Sequence[str] = ()
@@ -155,7 +158,11 @@ class OneAxisWords(Words):
 
 @dataclass
 class Exchange:
-    """Command with its data, its response, and the status bytes read during it. t: in cycles."""
+    """Command with its data, its response, and the status bytes read during it.
+
+    Attributes:
+        t: time of the command in cycles.
+    """
 
     words: Words
     t: int

@@ -158,7 +158,11 @@ def answer_words(block: bytes) -> str:
 
 @dataclass
 class Row:
-    """Instruction with its answer, or a report. t: in cycles; blocks are in logical order."""
+    """Instruction with its answer, or a report.
+
+    Attributes:
+        t: in cycles; blocks are in logical order.
+    """
 
     t: int
     sent: list[int] = field(default_factory=list)

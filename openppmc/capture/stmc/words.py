@@ -22,7 +22,8 @@ ERRORS = (
 class WordsStmc(OneAxisWords):
     """Words of a J105 STMC: one axis with divisors, error numbers in the status register.
 
-    read_map: name of the set of read codes.
+    Args:
+        read_map: name of the set of read codes.
     """
 
     errors = ERRORS

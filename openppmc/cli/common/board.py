@@ -34,8 +34,10 @@ NAMES = frozenset(name.value for name in PartName)
 class Board:
     """The board, from the options before the command.
 
-    baud: line rate in bit/s; None: the default. part: its name in the table; None without --part.
-    line: options of a serial line.
+    Attributes:
+        baud: line rate in bit/s; None: the default.
+        part: its name in the table; None without --part.
+        line: options of a serial line.
     """
 
     port: str = ""

@@ -56,9 +56,11 @@ BRIDGE = ""
 class Command:
     """Row of the table.
 
-    place: "module:function" below `openppmc.cli`; a Typer is a group of commands. help: docstring of the
-    function, only in the first row of a name; `--help` lists it. parts: the parts that have this command.
-    numbers: arguments such as -200 are numbers, not options.
+    Attributes:
+        place: "module:function" below `openppmc.cli`; a Typer is a group of commands.
+        help: docstring of the function, only in the first row of a name; `--help` lists it.
+        parts: the parts that have this command.
+        numbers: True if arguments such as -200 are numbers, not options.
     """
 
     name: str
@@ -88,7 +90,11 @@ class Command:
 
 
 class PartGroup(TyperGroup):
-    """Commands of all parts. rows: a row for BRIDGE precedes the other rows of its name."""
+    """Commands of all parts.
+
+    Attributes:
+        rows: a row for BRIDGE precedes the other rows of its name.
+    """
 
     rows: ClassVar[tuple[Command, ...]] = ()
 

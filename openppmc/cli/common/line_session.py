@@ -20,7 +20,9 @@ Bus = TypeVar("Bus", bound=LineBus[Any, Any])
 def parse_numbers(option: str, text: str, known: Container[int], span: str, example: str) -> list[int]:
     """Return the numbers of a list with ranges, in the order given. Raise BadParameter.
 
-    known: the allowed numbers. span: text about them for messages; its first word names the numbered things.
+    Args:
+        known: the allowed numbers.
+        span: text about them for messages; its first word names the numbered things.
     """
     numbers: list[int] = []
     for piece in text.split(","):
@@ -41,7 +43,10 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 def line_options(text: str, known: str) -> dict[str, Any]:
     """Return the arguments of a bus's `open` from the text of --line. Raise BadParameter.
 
-    `sum_mode` is returned as text. known: words that the line supports.
+    `sum_mode` is returned as text.
+
+    Args:
+        known: words that the line supports.
     """
     from serial.rs485 import RS485Settings
 
@@ -77,7 +82,8 @@ def ending_after(
 ) -> Callable[[Progress], None]:
     """Return a progress callback that shows a bar and decelerates the stations after a time.
 
-    seconds: time on the line's clock; None: no limit.
+    Args:
+        seconds: time on the line's clock; None: no limit.
     """
     clock = bus.line.clock
     end_at = None if seconds is None else clock() + seconds

@@ -48,7 +48,9 @@ def table(rows: dict[str, str]) -> Table:
 def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
     """Print a table whose lines may be longer than those of the terminal.
 
-    rows: the first one has the headings. sides: < or > for each column, aligned left or right.
+    Args:
+        rows: the first one has the headings.
+        sides: < or > for each column, aligned left or right.
     """
     if is_narrow():
         from .narrow import listed

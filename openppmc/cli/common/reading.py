@@ -16,8 +16,9 @@ from .options import MOST_AXES, Logic, SetupValues, Side
 class OwnWord:
     """Word that only some parts support.
 
-    lacks: returns why this kind of part does not support the word with these values; empty if it does. do:
-    executes the word; it is called only if `lacks` returns an empty text.
+    Attributes:
+        lacks: returns why this kind of part does not support the word with these values; empty if it does.
+        do: executes the word; it is called only if `lacks` returns an empty text.
     """
 
     read: Reader

@@ -70,7 +70,12 @@ def carry_out(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step
 
 
 class Player:
-    """Executes a program. values: set-ups of the axes in use. say: prints a line for the user."""
+    """Executes a program.
+
+    Args:
+        values: set-ups of the axes in use.
+        say: prints a line for the user.
+    """
 
     def __init__(
         self, session: Played, values: dict[int, SetupValues], name: str, say: Callable[[str], None]
@@ -196,7 +201,12 @@ class ScriptError(PpmcError):
 
 @dataclass(frozen=True)
 class Step:
-    """One line. body: steps of a repeat. axis: as written; None if the line names no axis."""
+    """One line.
+
+    Attributes:
+        body: steps of a repeat.
+        axis: as written; None if the line names no axis.
+    """
 
     line: int
     word: str
@@ -234,8 +244,10 @@ def read_program(
 ) -> tuple[Step, ...]:
     """Return all steps of a script file. Raise ScriptError for the first invalid line.
 
-    readers: the known words; None: those of parts with the UART bridge. of_axes: words that may end with
-    axis=N. numbered: name and range of this number.
+    Args:
+        readers: the known words; None: those of parts with the UART bridge.
+        of_axes: words that may end with axis=N.
+        numbered: name and range of this number.
     """
     if readers is None:
         readers = READERS | {word: own.read for word, own in own_words().items()}

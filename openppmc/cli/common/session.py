@@ -102,7 +102,8 @@ class Interrupted(Exception):  # noqa: N818 - the user did it
 class Guard:
     """Context manager that counts signals, so that none interrupts an exchange with a board.
 
-    number: number of the first signal.
+    Attributes:
+        number: number of the first signal.
     """
 
     def __init__(self) -> None:
@@ -216,7 +217,10 @@ class Guard:
 def misfit(build: Build | None, number: int) -> str:
     """Return one line if bitstream and package do not match: the difference, and what to do.
 
-    The line is empty if they match or if this cannot be checked. number: number of the part.
+    The line is empty if they match or if this cannot be checked.
+
+    Args:
+        number: number of the part.
     """
     if build is None:
         return ""
@@ -232,7 +236,7 @@ def misfit(build: Build | None, number: int) -> str:
     try:
         own = sources.digest(find_root(), f"{row.rtl}_carrier").hex()
     except (PpmcError, RuntimeError, OSError):
-        return ""  # not in a checkout
+        return ""  # the package is not in a checkout
     if own and build.source != own:
         return (
             f"the bitstream was built from other sources ({build.source}) than those of this checkout "

@@ -96,7 +96,8 @@ def watch(
 ) -> None:
     """Update a table on a terminal; elsewhere print the `lines` of each reading.
 
-    pause: called between two readings.
+    Args:
+        pause: called between two readings.
     """
     turns = count or 10**9
     if not output.console.is_terminal:

@@ -34,7 +34,8 @@ FARTHEST = 1 << 31
 class Override:
     """Action at a position: a speed in pps, reached with a ramp, or a stop.
 
-    now: stop without a ramp.
+    Attributes:
+        now: stop without a ramp.
     """
 
     at: int
@@ -106,7 +107,11 @@ class Course:
 
     @classmethod
     def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Course:
-        """Compute the course, with the ramp of the set-up or at `speed`. pulses: 1 or more."""
+        """Compute the course, with the ramp of the set-up or at `speed`.
+
+        Args:
+            pulses: 1 or more.
+        """
         if speed is None:
             ramp, clock = setup.ramp(), setup.clock
             counts = [ramp.rate(profile_index(pulses, ramp.pa, j)) + 1 for j in range(1, pulses)]
@@ -122,8 +127,11 @@ class Course:
 def plot_move(course: Callable[[int], Course], pulses: int, path: Path) -> None:
     """Write a plot of the speed over time as PNG, SVG or PDF.
 
-    course: computes the course of a number of pulses. Raises OutOfRange for a move that is too long to draw
-    and for a file suffix that the plotter does not support.
+    Raises OutOfRange for a move that is too long to draw and for a file suffix that the plotter does not
+    support.
+
+    Args:
+        course: computes the course of a number of pulses.
     """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
@@ -162,8 +170,10 @@ class View(ABC, Generic[PartT, SetupT]):
     """Output and additional functions of a part.
 
     PartT: driver of the part. SetupT: plan of its kind. Speeds are in pps, times in s. An optional method
-    raises OutOfRange or does nothing if the part does not have the function. wide: several axes are the rows
-    of a table.
+    raises OutOfRange or does nothing if the part does not have the function.
+
+    Attributes:
+        wide: several axes are the rows of a table.
     """
 
     wide = False
@@ -208,11 +218,19 @@ class View(ABC, Generic[PartT, SetupT]):
 
     @abstractmethod
     def figures(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-        """Return the figures of a move in advance, see `key_figures`. speed: constant, or None."""
+        """Return the figures of a move in advance, see `key_figures`.
+
+        Args:
+            speed: constant, or None.
+        """
 
     @abstractmethod
     def course(self, setup: SetupT, pulses: int, speed: speeds.Speed | None) -> Course:
-        """Return the move to draw. pulses: 1 or more."""
+        """Return the move to draw.
+
+        Args:
+            pulses: 1 or more.
+        """
 
     # ------------------------------------------------------------------ what not all parts have
 
@@ -231,7 +249,11 @@ class View(ABC, Generic[PartT, SetupT]):
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[End]:
-        """Move several axes, which start at the same time, and wait. pulses: by axis number."""
+        """Move several axes, which start at the same time, and wait.
+
+        Args:
+            pulses: by axis number.
+        """
         raise OutOfRange(f"two moves at a time: a {part.kind} does not have that")
 
     def halt_all(self, part: PartT) -> list[End] | None:
@@ -252,7 +274,11 @@ class View(ABC, Generic[PartT, SetupT]):
         index: bool,
         progress: OnProgress,
     ) -> None:
-        """Find the origin. index: the origin is the first index of the encoder on the switch."""
+        """Find the origin.
+
+        Args:
+            index: True if the origin is the first index of the encoder on the switch.
+        """
         if index:
             raise OutOfRange(f"index: a {part.kind} does not have that")
         axis.home(direction, pps, fast, to_limit, progress=progress)

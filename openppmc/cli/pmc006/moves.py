@@ -84,7 +84,8 @@ def jog(
 def _finish(session: Session, motions: list[Motion], judge: bool, look: OnProgress | None = None) -> None:
     """Wait for all motions and print their ends.
 
-    judge: raise an error for the first motion that ended early.
+    Args:
+        judge: raise an error for the first motion that ended early.
     """
     ends = session.bus.wait(motions, progress=look or session.guard.progress)
     session.guard.bar_off()

@@ -81,7 +81,11 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
 
 
 def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
-    """Compute the course, with the ramps of the table or at `speed`. pulses: 1 or more."""
+    """Compute the course, with the ramps of the table or at `speed`.
+
+    Args:
+        pulses: 1 or more.
+    """
     rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
     period = float(setup.clock.period)
     seconds = [ticks * period for ticks in accumulate(rates, initial=0)]

@@ -123,14 +123,14 @@ class BankAxis(Axis):
     # ------------------------------------------------------------------ registers
 
     def status(self) -> Status:
-        """Return the status register; allowed at any time."""
+        """Return the status register. The call is allowed at any time."""
         return Status.parse(self.link.execute(Script().read(STATUS)).byte(0))
 
     def inputs(self) -> Inputs:
         return Inputs.of_pins(self.link.execute(Script().pins()).byte(0))
 
     def config(self) -> Config:
-        """Return the CONFIG register; allowed at any time."""
+        """Return the CONFIG register. The call is allowed at any time."""
         return Config.parse(self.link.execute(Script().read(CONFIG)).byte(0))
 
     def configure(self, csel: int = 1, vsel: int = 1) -> None:

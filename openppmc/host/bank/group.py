@@ -71,7 +71,8 @@ class Group(Checked):
     At the end of the block all of them start in the same cycle. If the block is left by an exception, the
     waiting motions are stopped, and nothing moves.
 
-    numbers: numbers of the axes.
+    Args:
+        numbers: numbers of the axes.
 
     Raises:
         NotWhileBusy: at the start of the block, an axis moves.

@@ -82,22 +82,23 @@ class PpmcBank(Part):
     # ------------------------------------------------------------------ reading
 
     def positions(self) -> dict[int, int]:
-        """Return the positions of all axes by number; allowed at any time."""
+        """Return the positions of all axes by number. The call is allowed at any time."""
         seen = self._all(Script().read_number(POSITION, POSITION_BYTES))
         return {axis.number: axis.counted(_signed(one)) for axis, (one,) in zip(self.axes, seen, strict=True)}
 
     def position(self, axis: int) -> int:
-        """Return the position of one axis; allowed at any time."""
+        """Return the position of one axis. The call is allowed at any time."""
         return self.axis[axis].position
 
     def status(self) -> BankStatus:
-        """Return the status registers of all axes; allowed at any time."""
+        """Return the status registers of all axes. The call is allowed at any time."""
         return BankStatus.parse(b"".join(one for (one,) in self._all(Script().read(STATUS))))
 
     def look(self, axes: Iterable[int] | None = None) -> dict[int, Look]:
-        """Return status, position and switches of axes by number; allowed at any time.
+        """Return status, position and switches of axes by number. The call is allowed at any time.
 
-        axes: numbers of the axes, None for all.
+        Args:
+            axes: numbers of the axes, None for all.
         """
         numbers = tuple(self.axis) if axes is None else numbers_of(self.kind, axes)
         script = Script().read(STATUS).read_number(POSITION, POSITION_BYTES).pins()
@@ -112,7 +113,7 @@ class PpmcBank(Part):
     def pending(self) -> tuple[int, ...]:
         """Return the numbers of the axes whose interrupt is pending (BANK-WIN-08).
 
-        This is allowed at any time.
+        The call is allowed at any time.
 
         The motion of such an axis has ended, and no program has read its end.
         """

@@ -20,7 +20,11 @@ Piece = tuple[int, Script]
 
 
 class AxisLink:
-    """Link for the driver of one axis; see `link.Link`. number: number of the axis, from 1."""
+    """Link for the driver of one axis; see `link.Link`.
+
+    Args:
+        number: number of the axis, from 1.
+    """
 
     def __init__(self, link: Link, number: int) -> None:
         self._link = link
@@ -77,9 +81,9 @@ class AxisLink:
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
     """Execute scripts at several axes in as few frames as possible.
 
-    It returns the values of each script.
+    The call returns the values of each script.
 
-    It raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
+    The call raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
     following scripts are not executed.
     """
     values: list[tuple[bytes, ...]] = []

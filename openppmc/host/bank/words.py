@@ -34,7 +34,8 @@ def go_refused(status: int, number: int) -> CommandRefused:
 class GroupRefused(PpmcError):
     """Some axes of a group did not start; the others run.
 
-    refusals: exception of each axis, by number.
+    Args:
+        refusals: exception of each axis, by number.
     """
 
     def __init__(self, refusals: Mapping[int, CommandRefused]) -> None:
@@ -64,7 +65,9 @@ class Info(NamedTuple):
 class Config(NamedTuple):
     """CONFIG of an axis.
 
-    csel: base clock XTAL / 32 (1) or XTAL / 128 (0). vsel: 0 makes each interval 7.5 us longer.
+    Attributes:
+        csel: base clock XTAL / 32 (1) or XTAL / 128 (0).
+        vsel: level of vsel; 0 makes each interval 7.5 us longer.
     """
 
     csel: int
@@ -78,7 +81,11 @@ class Config(NamedTuple):
 
 @dataclass(frozen=True)
 class Look:
-    """State of an axis at one time. position: in the count of the axis, including `Axis.zero`."""
+    """State of an axis at one time.
+
+    Attributes:
+        position: position counter of the axis plus the offset of `Axis.zero`.
+    """
 
     status: Status
     position: int
@@ -89,7 +96,8 @@ class Look:
 class BankStatus:
     """Status registers of all axes, axis 1 first.
 
-    raw: all of them as one number, axis 1 in the low byte.
+    Attributes:
+        raw: all of them as one number, axis 1 in the low byte.
     """
 
     raw: int

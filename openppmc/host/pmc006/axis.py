@@ -36,7 +36,8 @@ class Axis(Settings):
     def start_move(self, steps: int, speed: int | None = None) -> Motion:
         """Start a move of 1 to 2^31 - 1 steps in either direction.
 
-        speed: new maximum speed in steps/s.
+        Args:
+            speed: new maximum speed in steps/s.
         """
         if not 1 <= abs(steps) <= LONGEST:
             raise OutOfRange(f"{steps} steps: a move has 1 to {LONGEST} steps either way")
@@ -136,7 +137,7 @@ class Axis(Settings):
         self.ask(Code.SET_POSITION, position, good=lambda value: value == position)
 
     def zero(self) -> None:
-        """Set the current position to 0; only while the motor is stopped."""
+        """Set the current position to 0. The motor must be stopped."""
         self.set_position(0)
 
     # ------------------------------------------------------------------ inside

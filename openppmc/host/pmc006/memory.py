@@ -15,7 +15,7 @@ OnCount = Callable[[int, int], None]
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
 """Seconds that the EEPROM is busy, with some reserve."""
 _LOOKS = 10
-"""Number of these times to wait at most, for a slow I2C clock."""
+"""Longest wait as a multiple of these times, for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -53,11 +53,15 @@ class Memory(Axis):
                 )
 
     def read_program(self, progress: OnCount | None = None) -> Program:
-        """Return the program in the buffer; allowed at any time."""
+        """Return the program in the buffer. The call is allowed at any time."""
         return Program(tuple(self._read_words(range(WORDS), progress, WORDS).values()))
 
     def _read_words(self, places: Collection[int], progress: OnCount | None, total: int) -> dict[int, int]:
-        """Read words of the buffer. total: number of words of the whole operation, for `progress`."""
+        """Read words of the buffer.
+
+        Args:
+            total: number of words of the whole operation, for `progress`.
+        """
         words: dict[int, int] = {}
         self._here = None
         for place in places:

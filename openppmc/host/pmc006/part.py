@@ -146,8 +146,8 @@ class Pmc006(Memory, Device):
         Args:
             level: a back-EMF below this level counts, 0 to 511.
             length: number of such samples in a row, 0 to 63.
-            stop: a stall stops the motor.
-            output: a stall sets GPO5 high.
+            stop: True if a stall stops the motor.
+            output: True if a stall sets GPO5 high.
         """
         self.stall_level, self.stall_length = level, length
         self.stall_config = 1 | stop << 1 | output << 2
@@ -195,7 +195,11 @@ def find(line: Line, progress: Callable[[int], None] | None = None) -> int:
 def scan(
     line: Line, addresses: Iterable[int] = ADDRESSES, progress: Callable[[int], None] | None = None
 ) -> Iterator[int]:
-    """Yield addresses that reply. progress: called with each address before it is polled."""
+    """Yield addresses that reply.
+
+    Args:
+        progress: called with each address before it is polled.
+    """
     for address in addresses:
         if progress is not None:
             progress(address)
@@ -259,7 +263,8 @@ class Pmc006Bus(LineBus[Line, Pmc006]):
 
         An address without a controller takes the time `patience`.
 
-        progress: called with each address before it is polled.
+        Args:
+            progress: called with each address before it is polled.
         """
         return [self.look(self.axis(address)) for address in scan(self.line, addresses, progress)]
 

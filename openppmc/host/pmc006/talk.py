@@ -209,20 +209,20 @@ class Talk(Checked):
     # ------------------------------------------------------------------ read-outs
 
     def flags(self) -> Flags:
-        """Return status 1; allowed at any time."""
+        """Return status 1. The call is allowed at any time."""
         return Flags.parse(self._bits(Code.STATUS_1, STATUS_1_BITS))
 
     def modes(self) -> Modes:
-        """Return status 2; allowed at any time."""
+        """Return status 2. The call is allowed at any time."""
         return Modes.parse(self._bits(Code.STATUS_2, STATUS_2_BITS))
 
     def ports(self) -> Ports:
-        """Return inputs, outputs and the levels of EXT1 and EXT2; allowed at any time."""
+        """Return inputs, outputs and the levels of EXT1 and EXT2. The call is allowed at any time."""
         return Ports.parse(self._bits(Code.READ_IO, PORT_BITS))
 
     @property
     def position(self) -> int:
-        """Position in steps, forward positive; allowed at any time."""
+        """Position in steps, forward positive. The call is allowed at any time."""
         return self.ask(Code.POSITION)
 
     def version(self) -> str:

@@ -80,7 +80,9 @@ class Code(IntEnum):
 class Flags:
     """Status 1.
 
-    busy: a motion is planned or running. ext1, ext2: this stop has occurred and blocks starts.
+    Attributes:
+        busy: True if a motion is planned or running.
+        ext1, ext2: True if this input has stopped the motor and blocks starts.
     """
 
     busy: bool
@@ -109,10 +111,10 @@ class Modes:
     """Status 2.
 
     Attributes:
-        free: the motor is off-line.
-        running: speed mode.
-        forward: direction of the next motion.
-        offline: the program starts automatically after power-up.
+        free: True if the motor is off-line.
+        running: True in speed mode.
+        forward: True if the next motion is forward.
+        offline: True if the program starts automatically after power-up.
     """
 
     free: bool
@@ -130,7 +132,12 @@ class Modes:
 
 @dataclass(frozen=True)
 class Ports:
-    """Port word. inputs, outputs: GPI1 and GPO1 are bit 0. ext1, ext2: levels of these pins."""
+    """Port word.
+
+    Attributes:
+        inputs, outputs: levels of the pins; GPI1 and GPO1 are bit 0.
+        ext1, ext2: levels of the pins EXT1 and EXT2.
+    """
 
     inputs: int
     outputs: int
@@ -232,7 +239,11 @@ ADDRESSES = (FACTORY, *range(1, LAST + 1))
 
 
 class Reply(NamedTuple):
-    """Reply of a controller. value: its data, signed."""
+    """Reply of a controller.
+
+    Attributes:
+        value: its data, signed.
+    """
 
     address: int
     value: int
@@ -247,7 +258,11 @@ def address_number(address: int) -> int:
 
 
 def command(address: int, code: int, data: int = 0) -> bytes:
-    """Return a frame to a controller. data: 32 bits, signed or unsigned."""
+    """Return a frame to a controller.
+
+    Args:
+        data: 32 bits, signed or unsigned.
+    """
     return _sealed(bytes([HEAD, address, code]) + (data & 0xFFFFFFFF).to_bytes(4, "little"))
 
 
@@ -264,7 +279,10 @@ class Receiver:
     """Receiver for the bytes after a frame to `address`; see `host.line.Listener`.
 
     Replies of other controllers and damaged replies are skipped, because the expected one may follow; `fault`
-    reports them. sent: the frame itself, for masters that receive their own bytes; it is skipped.
+    reports them.
+
+    Args:
+        sent: the frame that was sent, for masters that receive their own bytes; it is skipped.
     """
 
     def __init__(self, address: int, sent: bytes = b"") -> None:

@@ -164,7 +164,7 @@ class Axis2104(Axis):
 
         The range of each is 32 to 127.5 us at 16 MHz.
 
-        Allowed only while no motion is running.
+        The call is not allowed during a motion.
         """
         on = words.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
         off = words.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
@@ -176,7 +176,7 @@ class Axis2104(Axis):
 
         The range is 128 to 32 768 us at 16 MHz.
 
-        Allowed only while no motion is running.
+        The call is not allowed during a motion.
         """
         byte, reached = words.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self.bit, byte))

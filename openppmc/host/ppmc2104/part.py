@@ -165,7 +165,7 @@ class Ppmc2104(Part):
     def _wait(self, motions: tuple[Motion, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until both have ended; return the motion that ended early, if any.
 
-        Its end stops the other one.
+        The end of this motion stops the other motion.
         """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
@@ -233,15 +233,15 @@ class Ppmc2104(Part):
     # ------------------------------------------------------------------ registers, auxiliary, reset
 
     def status(self) -> Status:
-        """Return the status register; allowed at any time."""
+        """Return the status register. The call is allowed at any time."""
         return Status.parse(self.link.execute(Script().read(1)).byte(0))
 
     def auxo(self, value: int) -> None:
-        """Set the two auxiliary outputs, 0 to 3; a 1 sets a pin low. Allowed at any time."""
+        """Set the two auxiliary outputs, 0 to 3; a 1 sets a pin low. The call is allowed at any time."""
         self.link.execute(Script().call(AUX_OUTPUT | within(value, "outputs", 0, 3) << 4))
 
     def auxi(self) -> int:
-        """Return the two auxiliary inputs as pin levels; allowed at any time."""
+        """Return the two auxiliary inputs as pin levels. The call is allowed at any time."""
         return self.link.execute(Script().call(AUX_INPUT).get(1)).byte(1)
 
     def reset(self) -> None:

@@ -107,7 +107,7 @@ class Status:
     Attributes:
         busy, working: of axis 1 and 2.
         working: data are required, or a command is in progress.
-        error: an error register is not 0.
+        error: True if an error register is not 0.
     """
 
     raw: int

@@ -27,9 +27,9 @@ class Status:
     Attributes:
         raw: its condition byte.
         run_monitored: starts wait for RUN.
-        interlock: the interlock control is running.
-        encoder_watched, position_watched: this monitor is on.
-        encoder_outside, position_outside: this monitor reports a deviation.
+        interlock: True if the interlock control is running.
+        encoder_watched, position_watched: True if this monitor is on.
+        encoder_outside, position_outside: True if this monitor reports a deviation.
         overrides: number of registered overrides, 0 to 8.
         override_events: event inputs (1, 2) that some of them wait for.
         events: event buffers that are not empty.
@@ -84,7 +84,11 @@ class Status:
 
 @dataclass(frozen=True)
 class Inputs:
-    """Switches and other inputs; True = active (pin low). run: True = starts are permitted."""
+    """Switches and other inputs; True = active (pin low).
+
+    Attributes:
+        run: True if starts are permitted.
+    """
 
     limit_cw: bool
     limit_ccw: bool
@@ -131,8 +135,9 @@ class Inputs:
 class EventBuffer:
     """Response to 47.
 
-    following: number of the instruction that the next event executes, 0 to 3. codes: codes of the
-    instructions in the buffer.
+    Attributes:
+        following: number of the instruction that the next event executes, 0 to 3.
+        codes: codes of the instructions in the buffer.
     """
 
     following: int
@@ -161,7 +166,11 @@ def signed(position: int) -> int:
 
 @dataclass(frozen=True)
 class Stopped:
-    """E0: the pulses have ended. position: signed pulses."""
+    """E0: the pulses have ended.
+
+    Attributes:
+        position: signed position in pulses.
+    """
 
     cause: Cause
     position: int
@@ -193,7 +202,11 @@ class InPositionChange:
 
 @dataclass(frozen=True)
 class InputChange:
-    """E9: inputs that have changed. lost: an earlier change could not be reported."""
+    """E9: inputs that have changed.
+
+    Attributes:
+        lost: True if an earlier change could not be reported.
+    """
 
     changed: int
     lost: bool
@@ -217,8 +230,9 @@ class Alarm:
 class Executed:
     """An override or an event has executed an instruction.
 
-    code: code of the instruction, `None` in serial mode, where it is not reported. data: data of its
-    response.
+    Attributes:
+        code: code of the instruction, `None` in serial mode, where it is not reported.
+        data: data of its response.
     """
 
     by: Source
@@ -266,7 +280,7 @@ class Response:
 
     @property
     def spontaneous(self) -> bool:
-        """True if it is no response to an instruction."""
+        """True if the block is no response to an instruction."""
         return bool(self.raw[0] & _SPONTANEOUS)
 
     @property

@@ -75,7 +75,7 @@ def number(value: int, width: int, what: str, least: int = 0) -> bytes:
 def position_bytes(position: int) -> bytes:
     """Return the bytes of a position.
 
-    It is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
+    The position is -2^31 to 2^31 - 1, or up to 2^32 - 1 in the count of the part.
 
     >>> position_bytes(-7).hex(" ")
     'ff ff ff f9'
@@ -96,7 +96,7 @@ def _side(direction: int) -> int:
 def initial_setting(
     clk: int, start: int, high: int, up: int, stop: int | None = None, down: int = 0, sigmoid: bool = False
 ) -> bytes:
-    """Return 00: base clock (0 to 7), rates and pulses of the ramps.
+    """Return instruction 00: base clock (0 to 7), rates and pulses of the ramps.
 
     `stop` adds a separate deceleration ramp.
 
@@ -117,7 +117,7 @@ def initial_setting(
 
 
 def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None = None) -> list[bytes]:
-    """Return 01: the blocks of a free curve. Lists begin with the fastest stage.
+    """Return instruction 01: the blocks of a free curve. Lists begin with the fastest stage.
 
     `down` is only required if the deceleration differs from `up`.
 
@@ -139,7 +139,7 @@ def free_curve(clk: int, rates: list[int], up: list[int], down: list[int] | None
 
 
 def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = False) -> bytes:
-    """Return 02: report when encoder and pulses agree within `distance`, and when not.
+    """Return instruction 02: report when encoder and pulses agree within `distance`, and when not.
 
     The distance is 1 to 65 535.
 
@@ -151,7 +151,7 @@ def in_position(enabled: bool, distance: int, auto: bool = True, clamp: bool = F
 
 
 def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
-    """Return 03: the same report as 02, also during motions.
+    """Return instruction 03: the same report as 02, also during motions.
 
     >>> encoder_watch(True, 20).hex(" ")
     '03 04 03 03 00 14'
@@ -161,7 +161,7 @@ def encoder_watch(enabled: bool, distance: int, auto: bool = True) -> bytes:
 
 
 def interlock_position(position: int) -> bytes:
-    """Return 04: set the interlock position.
+    """Return instruction 04: set the interlock position.
 
     >>> interlock_position(5000).hex(" ")
     '03 05 04 00 00 13 88'
@@ -170,7 +170,7 @@ def interlock_position(position: int) -> bytes:
 
 
 def speed_limit(rate: int) -> bytes:
-    """Return 05: at the slow-down limits, the motor must be slower than this rate.
+    """Return instruction 05: at the slow-down limits, the motor must be slower than this rate.
 
     >>> speed_limit(300).hex(" ")
     '03 03 05 01 2c'
@@ -179,12 +179,12 @@ def speed_limit(rate: int) -> bytes:
 
 
 def end_terminal(monitored: bool) -> bytes:
-    """Return 06: set whether the end of a motion needs the input END."""
+    """Return instruction 06: set whether the end of a motion needs the input END."""
     return block(Code.END_TERMINAL, bytes([monitored]))
 
 
 def input_mask(mask: int, auto: bool = True) -> bytes:
-    """Return 28: report changes of the general inputs in the mask.
+    """Return instruction 28: report changes of the general inputs in the mask.
 
     >>> input_mask(0x24).hex(" ")
     '03 03 28 01 24'
@@ -193,17 +193,17 @@ def input_mask(mask: int, auto: bool = True) -> bytes:
 
 
 def outputs(value: int) -> bytes:
-    """Return 26: set six outputs, a 1 sets the pin low."""
+    """Return instruction 26: set six outputs, a 1 sets the pin low."""
     return block(Code.OUTPUT, bytes([within(value, "outputs", 0, 63)]))
 
 
 def read_position(encoder: bool = False) -> bytes:
-    """Return 42: read the position of pulses or encoder."""
+    """Return instruction 42: read the position of pulses or encoder."""
     return block(Code.POSITION_READ, bytes([encoder]))
 
 
 def set_position(position: int, encoder: bool = False) -> bytes:
-    """Return 43: set the position of pulses or encoder.
+    """Return instruction 43: set the position of pulses or encoder.
 
     >>> set_position(-1, encoder=True).hex(" ")
     '03 06 43 01 ff ff ff ff'
@@ -221,13 +221,13 @@ def _flags(direction: int, trigger: Trigger) -> bytes:
 
 
 def acceleration(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
-    """Return 82: move by a number of pulses with ramps up to `rate`, 0 = the high speed."""
+    """Return instruction 82: move by a number of pulses with ramps up to `rate`, 0 = the high speed."""
     data = number(rate, 2, "rate") + number(pulses, 4, "pulses", 1)
     return block(Code.RAMP, _flags(direction, trigger) + data)
 
 
 def constant(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trigger.NOW) -> bytes:
-    """Return 83: move by a number of pulses at constant speed.
+    """Return instruction 83: move by a number of pulses at constant speed.
 
     >>> constant(CCW, 100, 500).hex(" ")
     '03 08 83 40 01 f4 00 00 00 64'
@@ -237,12 +237,12 @@ def constant(direction: int, pulses: int, rate: int = 0, trigger: Trigger = Trig
 
 
 def single_step(direction: int) -> bytes:
-    """Return 84: output one pulse."""
+    """Return instruction 84: output one pulse."""
     return block(Code.STEP, bytes([_side(direction)]))
 
 
 def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = Trigger.NOW) -> bytes:
-    """Return 86, or 85 with a ramp: run until something stops the motor.
+    """Return instruction 86, or 85 with a ramp: run until something stops the motor.
 
     >>> run(CW, ramped=True).hex(" "), run(CCW, 400).hex(" ")
     ('03 04 85 00 00 00', '03 04 86 40 01 90')
@@ -252,7 +252,7 @@ def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = 
 
 
 def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
-    """Return 10: run at constant speed to the origin, or to the first index on it.
+    """Return instruction 10: run at constant speed to the origin, or to the first index on it.
 
     >>> origin_search(CCW, 500, index=True).hex(" ")
     '03 04 10 50 01 f4'
@@ -261,7 +261,7 @@ def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
 
 
 def zero_return(direction: int, rate: int = 0, index: bool = False) -> bytes:
-    """Return 11: run at high speed past the origin, then back to it at the start speed."""
+    """Return instruction 11: run at high speed past the origin, then back to it at the start speed."""
     return block(Code.ZERO_RETURN, bytes([_side(direction) | index * _INDEX]) + number(rate, 2, "rate"))
 
 
@@ -275,12 +275,12 @@ def _place(trigger: Trigger, position: int | None) -> bytes:
 
 
 def immediate_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> bytes:
-    """Return 80: stop immediately."""
+    """Return instruction 80: stop immediately."""
     return block(Code.STOP, bytes([trigger.value]) + _place(trigger, position))
 
 
 def slow_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> bytes:
-    """Return 81: stop with a ramp.
+    """Return instruction 81: stop with a ramp.
 
     >>> slow_stop(Trigger.EVENT1).hex(" ")
     '03 02 81 05'
@@ -291,7 +291,7 @@ def slow_stop(trigger: Trigger = Trigger.NOW, position: int | None = None) -> by
 def change(
     rate: int, ramped: bool = True, trigger: Trigger = Trigger.NOW, position: int | None = None
 ) -> bytes:
-    """Return 87 (with a ramp) or 88 (immediately): change the speed while the motor runs.
+    """Return instruction 87 (with a ramp) or 88 (immediately): change the speed while the motor runs.
 
     >>> change(400).hex(" "), change(300, False, Trigger.POSITION, 0x800).hex(" ")
     ('03 04 87 00 01 90', '03 08 88 04 01 2c 00 00 08 00')
@@ -304,7 +304,7 @@ def change(
 
 
 def event_register(buffer: int, instruction: bytes) -> bytes:
-    """Return 49: register an instruction in event buffer 1 or 2.
+    """Return instruction 49: register an instruction in event buffer 1 or 2.
 
     >>> event_register(2, acceleration(CW, 100)).hex(" ")
     '03 0c 49 01 03 08 82 00 00 00 00 00 00 64'
@@ -313,7 +313,7 @@ def event_register(buffer: int, instruction: bytes) -> bytes:
 
 
 def event_delete(buffer: int) -> bytes:
-    """Return 49: remove the last instruction from the event buffer.
+    """Return instruction 49: remove the last instruction from the event buffer.
 
     >>> event_delete(2).hex(" ")
     '03 02 49 03'
@@ -322,7 +322,7 @@ def event_delete(buffer: int) -> bytes:
 
 
 def event_read(buffer: int) -> bytes:
-    """Return 47: read the event buffer."""
+    """Return instruction 47: read the event buffer."""
     return block(Code.EVENT_READ, bytes([buffer_number(buffer)]))
 
 

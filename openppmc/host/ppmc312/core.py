@@ -102,7 +102,7 @@ class Core(Checked, Generic[MotionT]):
     def instruct(self, block: bytes, gives: int = 3, milliseconds: int = ANSWER_MS) -> bytes:
         """Execute any instruction block in logical order (`blocks`).
 
-        It returns the parameters of the response.
+        The call returns the parameters of the response.
 
         Raises the error of the part.
         """
@@ -115,7 +115,11 @@ class Core(Checked, Generic[MotionT]):
         return response.data
 
     def _plain(self, code: int, gives: int = 0) -> bytes:
-        """Execute an instruction without parameters. gives: number of parameters of its response."""
+        """Execute an instruction without parameters.
+
+        Args:
+            gives: number of parameters of its response.
+        """
         return self.instruct(blocks.block(code), 3 + gives)
 
     # ------------------------------------------------------------------ reports
@@ -162,11 +166,11 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ registers
 
     def status(self) -> Status:
-        """Return state, monitors and registered instructions; allowed at any time."""
+        """Return state, monitors and registered instructions. The call is allowed at any time."""
         return Status.parse(self._plain(Code.STATUS, 3))
 
     def inputs(self) -> Inputs:
-        """Return switches and other inputs; allowed at any time."""
+        """Return switches and other inputs. The call is allowed at any time."""
         return Inputs.parse(self._plain(Code.TERMINALS, 2))
 
     def version(self) -> int:
@@ -175,12 +179,12 @@ class Core(Checked, Generic[MotionT]):
 
     @property
     def position(self) -> int:
-        """Pulse position of the part, CW positive; allowed at any time."""
+        """Pulse position of the part, CW positive. The call is allowed at any time."""
         return self._position(False)
 
     @property
     def encoder(self) -> int:
-        """Encoder position of the part; allowed at any time."""
+        """Encoder position of the part. The call is allowed at any time."""
         return self._position(True)
 
     def _position(self, encoder: bool) -> int:
@@ -207,19 +211,19 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ terminals
 
     def excitation_on(self) -> None:
-        """Activate the output EXON; only while the motor is stopped."""
+        """Activate the output EXON. The motor must be stopped."""
         self._plain(Code.EXCITATION_ON)
 
     def excitation_off(self) -> None:
-        """Deactivate the output EXON; only while the motor is stopped. The table is kept."""
+        """Deactivate the output EXON. The motor must be stopped. The table is kept."""
         self._plain(Code.EXCITATION_OFF)
 
     def counter_clear(self) -> None:
-        """Output a pulse of 24.6 ms (at 16 MHz) on CCLR; only while the motor is stopped."""
+        """Output a pulse of 24.6 ms (at 16 MHz) on CCLR. The motor must be stopped."""
         self._plain(Code.COUNTER_CLEAR)
 
     def zero_clamp(self) -> None:
-        """Activate the output ZCLMP until the next start; only while the motor is stopped."""
+        """Activate the output ZCLMP until the next start. The motor must be stopped."""
         self._plain(Code.ZERO_CLAMP)
 
     def clear_alarm(self) -> None:
@@ -352,7 +356,7 @@ class Settings(Core[MotionT]):
         return setup
 
     def read_table(self) -> TableRead:
-        """Return the table of the part; only while the motor is stopped.
+        """Return the table of the part. The motor must be stopped.
 
         Raises NotInitialised without a table.
         """
@@ -389,14 +393,14 @@ class Settings(Core[MotionT]):
             distance: report when pulses and encoder differ by more than this, 1 to 65 535, and when they
                 agree again; `None`: monitor off.
             auto: send more than one report.
-            clamp: ZCLMP is active while they agree.
+            clamp: True if ZCLMP is active while they agree.
         """
         self.instruct(blocks.in_position(distance is not None, distance or 0, auto, clamp))
 
     def watch_encoder(self, distance: int | None, auto: bool = True) -> None:
         """Set the encoder monitor, which also reports during motions (`EncoderChange`).
 
-        It detects lost steps and a motor that does not move. Arguments as for `watch_position`.
+        The monitor detects lost steps and a motor that does not move. Arguments as for `watch_position`.
         """
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 

@@ -16,7 +16,9 @@ from ..errors import CommandRefused, NothingToStop, NotInitialised, NotWhileBusy
 class ParameterRefused(CommandRefused):
     """F0: the part does not accept a value.
 
-    number: error number of the value. echo: instruction as the part received it.
+    Attributes:
+        number: error number of the value.
+        echo: instruction as the part received it.
     """
 
     echo = b""

@@ -88,7 +88,8 @@ class Motion(Handle):
     def accepted(self, status: int | None) -> None:
         """Process the response to the start.
 
-        status: its status byte, `None` if the response contains none.
+        Args:
+            status: its status byte, `None` if the response contains none.
         """
         if status is not None:
             self.held, self.shape = bool(status & 1), SHAPES.get(status & 0xF0, "")
@@ -96,7 +97,7 @@ class Motion(Handle):
     def stopped(self, report: Stopped) -> None:
         """Process the report that the pulses have ended.
 
-        It is a confirmed end if the pulses are those of the order.
+        The end is confirmed if the pulses are those of the order.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
@@ -190,7 +191,11 @@ class Searching(homing.Searching, Protocol):
 
 
 class Homing(homing.Homing):
-    """Homing run; see `Axis.home`. index: searches end at an index of the encoder."""
+    """Homing run; see `Axis.home`.
+
+    Args:
+        index: True if searches end at an index of the encoder.
+    """
 
     def __init__(
         self,

@@ -54,7 +54,11 @@ class Overrides(Settings[MotionT]):
         self._register(blocks.change(self.rate_of(pps), ramped, _trigger(at, event), at))
 
     def override_move(self, pulses: int, event: int, pps: speeds.Number | None = None) -> None:
-        """Register a move on an event. pps: constant speed, `None` for a move with ramps."""
+        """Register a move on an event.
+
+        Args:
+            pps: constant speed, `None` for a move with ramps.
+        """
         self._register(self.move_block(pulses, pps, _trigger(None, event)))
 
     def override_run(self, direction: int, event: int, pps: speeds.Number | None = None) -> None:
@@ -98,7 +102,7 @@ class Overrides(Settings[MotionT]):
         A buffer holds four instructions.
 
         A falling edge of the event input executes the next one; after the last one the first one follows.
-        Only while the motor is stopped.
+        The motor must be stopped.
         """
         status = self.instruct(blocks.event_register(event, block), 4)[0]
         if status == IN_USE:
@@ -111,7 +115,7 @@ class Overrides(Settings[MotionT]):
         return self.instruct(blocks.event_delete(event), 4)[0] != NOTHING
 
     def event_buffer(self, event: int) -> EventBuffer:
-        """Return the content of event buffer 1 or 2; only while the motor is stopped."""
+        """Return the content of event buffer 1 or 2. The motor must be stopped."""
         return EventBuffer.parse(self.instruct(blocks.event_read(event), 9))
 
 
@@ -223,7 +227,7 @@ class Axis(Overrides[MotionT]):
             fast: first make a zero return at high speed.
             to_limit: first run to the slow-down limit at high speed, and continue to the hard limit.
             back_off: pulses of each move away from the switch if it is active at the start of the search.
-            index: the origin is the first index of the encoder on the switch.
+            index: True if the origin is the first index of the encoder on the switch.
 
         Raises:
             OriginNotFound, LimitReached, AlarmStop, StoppedEarly: homing did not succeed.
@@ -247,7 +251,7 @@ class Axis(Overrides[MotionT]):
     def stop(self, wait: bool = True) -> End | None:
         """Stop with a ramp; return the End, or `None` if wait is False.
 
-        It is no error if the motor has just stopped.
+        The call is no error if the motor has just stopped.
 
         Raises:
             NothingToStop: the motor was stopped.
@@ -262,7 +266,7 @@ class Axis(Overrides[MotionT]):
     def brake(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        It is no error if the motion has ended.
+        The call is no error if the motion has ended.
         """
         try:
             self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())

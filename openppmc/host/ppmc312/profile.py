@@ -276,7 +276,8 @@ def choose_clock(
 class Setup:
     """Table and its instruction blocks.
 
-    start, stop, high: speeds at its ends, as requested and as reached.
+    Attributes:
+        start, stop, high: speeds at its ends, as requested and as reached.
     """
 
     clock: units.BaseClock = field(repr=False)

@@ -121,7 +121,7 @@ class Window:
         """Execute such a script, then read the rest of a response that it has begun.
 
         Args:
-            patient: a missing response is an error.
+            patient: True if a missing response is an error.
 
         Returns:
             The response to the host, if any.
@@ -159,7 +159,11 @@ class Window:
         return "the part does not answer: is it in reset?"
 
     def _feed(self, left: int, data: Iterable[int]) -> Response | None:
-        """Process bytes of a response. left: number of bytes left before the first of them."""
+        """Process bytes of a response.
+
+        Args:
+            left: number of bytes left before the first of them.
+        """
         found = None
         for byte in data:
             self._bytes.append(byte)

@@ -135,7 +135,8 @@ class ByteBus:
     def codes(self, identity: Identity, records: int, others: Sequence[ByteBus] = ()) -> list[Section]:
         """Return sections with every code, once without an initialisation and once with one.
 
-        others: further axes to initialise as well.
+        Args:
+            others: further axes to initialise as well.
         """
         a_code = RECORDS_A_SLOW_CODE if identity.datasheet else RECORDS_A_CODE
         count = max(4, min(64, records // a_code))
@@ -192,7 +193,8 @@ class ByteBus:
     def moves(self, pulse_only: bool = True) -> list[Section]:
         """Return sections with moves of each kind in both directions.
 
-        pulse_only: also play pulses without phases.
+        Args:
+            pulse_only: also play pulses without phases.
         """
         go, slow = self.go, self.rates.slow
         kinds: list[tuple[str, Callable[[Talk], None]]] = [
@@ -230,7 +232,7 @@ class ByteBus:
     def registers(self) -> Section:
         """Return a section that reads the status and every register.
 
-        It reads them before and after the initialisation.
+        The registers are read before and after the initialisation.
         """
 
         def play(talk: Talk) -> None:

@@ -64,7 +64,11 @@ def _section(outcome: Outcome) -> dict[str, Any]:
 
 
 def values(link: Link, found: Findings, notes: list[str]) -> dict[str, Any]:
-    """Return all results for programs. notes: further messages, one per line."""
+    """Return all results for programs.
+
+    Args:
+        notes: further messages, one per line.
+    """
     identity, build, info = link.identity, found.build, found.recorder
     row = by_number(identity.part)
     return {

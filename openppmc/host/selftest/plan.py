@@ -25,7 +25,11 @@ The time is above all processing times, except that of a table.
 
 
 class Talk:
-    """Accesses to a part through a link. slow: DATASHEET timing, one byte per frame."""
+    """Accesses to a part through a link.
+
+    Attributes:
+        slow: True with DATASHEET timing, which needs one byte per frame.
+    """
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -91,7 +95,9 @@ class Section:
 class Wire:
     """Jumper wire for the sections about switches.
 
-    output, input: ports of the carrier, with their bit. what: purpose.
+    Attributes:
+        output, input: ports of the carrier, with their bit.
+        what: purpose of the wire.
     """
 
     output: str
@@ -126,7 +132,11 @@ class Plan(Protocol):
         """
 
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:
-        """Return all sections except those about switches. records: number of records that fit."""
+        """Return all sections except those about switches.
+
+        Args:
+            records: number of records that fit into the recorder.
+        """
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
         """Return the sections that need the wires."""

@@ -53,7 +53,7 @@ class Plan104:
             talk.pause(0.005)
             BUS.command(talk, AUX_ON)
             BUS.ends(talk)
-            BUS.go(RAMP, 9, 0, 0)(talk)  # towards the active limit: no pulse
+            BUS.go(RAMP, 9, 0, 0)(talk)  # towards the active limit, so no pulse is output
             BUS.go(RAMP | CCW, 9, 0, 0)(talk)
 
         def origin(talk: Talk) -> None:

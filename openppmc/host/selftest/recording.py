@@ -22,8 +22,8 @@ class Recorded:
         record_bytes: bytes of one record.
         time_bits: bits of a record that count cycles.
         most: number of records that fit.
-        running: the recording continues.
-        full: a record did not fit.
+        running: True if the recording continues.
+        full: True if a record did not fit.
         count: records so far.
     """
 

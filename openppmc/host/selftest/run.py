@@ -41,7 +41,7 @@ class Outcome:
         wrong: difference in one line, or "".
         report: difference as text.
         skipped: reason why there is no result, or "".
-        full: not all records fitted into the recorder.
+        full: True if not all records fitted into the recorder.
     """
 
     section: Section
@@ -59,7 +59,8 @@ class Outcome:
 class Findings:
     """Results of a self-test.
 
-    rates: number of repeated requests by line rate, `None`: the adapter does not support it.
+    Attributes:
+        rates: number of repeated requests by line rate, `None`: the adapter does not support it.
     """
 
     build: Build | None
@@ -82,7 +83,9 @@ class Findings:
 class SelfTest:
     """Run of a self-test.
 
-    folder: folder of the pictures of differences. tell: called with one line per step.
+    Args:
+        folder: folder of the pictures of differences.
+        tell: called with one line per step.
     """
 
     def __init__(self, link: Link, plan: Plan, folder: Path, tell: Tell = lambda line: None) -> None:
@@ -143,7 +146,8 @@ class SelfTest:
     def sections(self, switches: bool) -> list[Section]:
         """Return the sections of the plan.
 
-        switches: including those that need wires for limits and origin.
+        Args:
+            switches: including those that need wires for limits and origin.
         """
         info = self.recorder()
         identity, width = self.link.identity, info.width
@@ -178,7 +182,10 @@ class SelfTest:
         return self._judged(section, *self.fetch())
 
     def safe(self) -> None:
-        """End the recording, then reset the part: pulses end, phases are off. Never raises."""
+        """End the recording, then reset the part: pulses end, phases are off.
+
+        The call never raises an exception.
+        """
         try:
             self.link.attempt(Script().record(False).reset().straps(0xFF))
         except LinkError:

@@ -59,7 +59,8 @@ class Axis:
         shared: services of the bank.
         touched: set of the axes in which something may have changed.
 
-    config: CONFIG register.
+    Attributes:
+        config: content of the CONFIG register.
     """
 
     def __init__(
@@ -110,9 +111,9 @@ class Axis:
         self.commands.take(t, byte, command, t)
 
     def _waits(self, t: int, command: bool) -> int | None:
-        """Return the earliest edge at which a byte may be accepted that visit t must not accept.
+        """Return the first edge at which the waiting byte of this axis may be tried again.
 
-        None: visit t may accept it (BANK-HSK-02, -05).
+        The call returns None if visit t may accept the byte (BANK-HSK-02, -05).
         """
         if t in (self.motion.ended, self.commands.completed, self._spent) or self.chopper.orders(t):
             return t + 1

@@ -41,7 +41,7 @@ def round_clk(axes: int) -> int:
 
 
 class Visits:
-    """Visits of axis `axis`: edges axis + 8 + n R after `released`, for n = 1, 2 and so on."""
+    """Visits of an axis: edges axis + 8 + n R after `released`, for n = 1, 2 and so on."""
 
     def __init__(self, axis: int, axes: int, released: int) -> None:
         self.round = round_clk(axes)
@@ -52,7 +52,7 @@ class Visits:
         return self._start + max(0, -(-(edge - self._start) // self.round)) * self.round
 
     def last(self, edge: int) -> int:
-        """Return the last visit at or before an edge; it schedules the events of that edge."""
+        """Return the last visit at or before an edge. This visit schedules the events of that edge."""
         return self._start + (edge - self._start) // self.round * self.round
 
 

@@ -70,7 +70,7 @@ class Mailbox:
             self._plan(t + 1)
 
     def _plan(self, edge: int) -> None:
-        """Schedule the first visit from an edge on, because it has a byte to check."""
+        """Schedule the first visit at or after an edge; this visit checks the waiting byte."""
         if self._planned:
             self._planned.cancel()
         self._next = self._visits.first(edge)
@@ -88,7 +88,7 @@ class Mailbox:
                 del self._written[0]
                 self._take(t, byte, command)
             else:
-                # A byte that has replaced it may be accepted earlier.
+                # A byte that replaces the rejected byte may be accepted earlier.
                 later = min([again, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
         if self._written:
             self._plan(later)
@@ -121,7 +121,11 @@ _EXTERNAL = 0x10
 
 
 class Builder:
-    """Builder of ramp tables. free_from: first edge at which it accepts a new table."""
+    """Builder of ramp tables.
+
+    Attributes:
+        free_from: first edge at which it accepts a new table.
+    """
 
     def __init__(self) -> None:
         self.free_from = 0
@@ -130,8 +134,9 @@ class Builder:
 class CommandUnit(ppmc104.CommandUnit):
     """Commands of axis `axis`.
 
-    completed: visit that completed the last initialisation, or -1. initialised: an initialisation is complete
-    and active.
+    Attributes:
+        completed: visit that completed the last initialisation, or -1.
+        initialised: True if an initialisation is complete and active.
     """
 
     while_busy: ClassVar[tuple[Kind, ...]] = (Kind.STOP, Kind.SLOW_STOP)

@@ -41,7 +41,7 @@ def widths(axes: int) -> dict[str, int]:
 
 
 class Member(Protocol):
-    """Members of an axis that GO and STOP use."""
+    """Members of an axis that the registers GO and STOP use."""
 
     visits: Visits
 
@@ -53,7 +53,11 @@ class Member(Protocol):
 
 
 class Group:
-    """Group registers of a bank. mask: MASK as it reads, bit i = axis i."""
+    """Group registers of a bank.
+
+    Attributes:
+        mask: MASK as it reads, bit i = axis i.
+    """
 
     def __init__(self, queue: Scheduler, axes: int, round_clk: int) -> None:
         self._queue = queue
@@ -80,7 +84,7 @@ class Group:
     def go(self, t: int) -> None:
         """Process write event t of GO.
 
-        It acts from `t` on, or after the end of an active GO (BANK-GRP-03).
+        This GO acts from `t` on, or after the end of an active GO (BANK-GRP-03).
         """
         if self._go > t:
             return

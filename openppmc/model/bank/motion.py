@@ -26,7 +26,9 @@ class Motion(ppmc104.Motion):
     Args:
         switches: levels of the switches at this edge; context.levels holds those that a visit sees.
 
-    held: the motion is waiting for GO (BANK-GRP-01). ended: visit that ended the last motion, or -1.
+    Attributes:
+        held: True if the motion is waiting for GO (BANK-GRP-01).
+        ended: visit that ended the last motion, or -1.
     """
 
     def __init__(

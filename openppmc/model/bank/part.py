@@ -65,7 +65,11 @@ class PpmcBank(Chip):
         self._build(0)
 
     def _build(self, released: int) -> None:
-        """Create blocks in their reset state. released: first edge after the reset."""
+        """Create blocks in their reset state.
+
+        Args:
+            released: first edge after the reset.
+        """
         self._levels = {pin: self.INPUTS[pin] for pin in SWITCHES}
         self._touched: set[int] = set()
         self._motors = {name: self._reset_levels[name] for name in ("pout_n", "dir", "hold", "s")}
@@ -141,7 +145,10 @@ class PpmcBank(Chip):
     def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
         """Return the changes (t, level) of the bits of one axis in a port of all axes.
 
-        `s` has five bits per axis, other ports one. since: first edge.
+        `s` has five bits per axis, other ports one.
+
+        Args:
+            since: first edge.
         """
         width = PHASES if signal == "s" else 1
         place, ones, changes = width * axis, (1 << width) - 1, []

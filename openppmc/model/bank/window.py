@@ -23,7 +23,11 @@ _READY = 7
 
 
 class Window:
-    """Accesses of the bus strobes to the registers. released: edge 0 of the bank."""
+    """Accesses of the bus strobes to the registers.
+
+    Args:
+        released: edge 0 of the bank.
+    """
 
     def __init__(
         self, queue: Scheduler, log: EdgeLog, axes: Sequence[Axis], group: Group, released: int

@@ -126,9 +126,11 @@ class Bridge:
         xtal_hz, datasheet, counter: values in IDENT only.
         axes: number of pulse counters, 1 or 2.
         build: answer to VERSION, 16 bytes.
-        recorder: the bus has a recorder.
+        recorder: True if the bus has a recorder.
 
-    rate: code of the current line rate. scripts: number of executed requests.
+    Attributes:
+        rate: code of the current line rate.
+        scripts: number of executed requests.
     """
 
     def __init__(
@@ -160,7 +162,7 @@ class Bridge:
     def receive(self, data: bytes) -> bytes:
         """Process bytes without framing error.
 
-        It returns the line bytes that the bridge sends in response.
+        The call returns the line bytes that the bridge sends in response.
         """
         sent = b""
         place = 0
@@ -206,7 +208,8 @@ class Bridge:
     def _serve(self, request: Request, meanwhile: bool) -> bytes:
         """Execute a request, or repeat its answer.
 
-        meanwhile: bytes arrive before the answer is sent (UB-FRM-07).
+        Args:
+            meanwhile: True if bytes arrive before the answer is sent (UB-FRM-07).
         """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:
@@ -236,7 +239,7 @@ class Bridge:
     def interrupt(self) -> bytes:
         """Process a fall of `int_n`; return the event message.
 
-        It is empty if events are disabled or must wait for an answer.
+        The message is empty if events are disabled or must wait for an answer.
         """
         if not self._engine.events:
             return b""

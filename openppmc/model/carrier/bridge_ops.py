@@ -66,9 +66,11 @@ class Engine:
     Args:
         set_events: called by op EVENTS; the owner of the engine handles pending events.
         build: answer to VERSION.
-        recorder: the bus has a recorder.
+        recorder: True if the bus has a recorder.
 
-    events: state of the EVENTS switch. rate: rate code requested by op RATE, or `None`.
+    Attributes:
+        events: True if events are enabled (op EVENTS).
+        rate: rate code requested by op RATE, or `None`.
     """
 
     def __init__(
@@ -236,14 +238,14 @@ class Engine:
     def _give(self, make: Callable[[], int]) -> None:
         """Append one byte to the answer.
 
-        If the answer is full, the op is rejected before it reads the byte.
+        If the answer is full, the operation is rejected before it reads the byte.
         """
         if len(self._data) >= MOST_DATA:
             raise Stop(4)
         self._data.append(make())
 
     def _give_all(self, values: bytes) -> None:
-        """Append all bytes of an op, or no byte."""
+        """Append all bytes of an operation. If they do not all fit, append no byte."""
         if len(self._data) + len(values) > MOST_DATA:
             raise Stop(4)
         self._data += values

@@ -31,7 +31,7 @@ class Eeprom24C32:
         device: 7-bit address.
         write_us: time of a write cycle, 0 or more.
         stretch_us: time that SCL is held low after each acknowledge.
-        missing: no device is connected.
+        missing: True if no device is connected.
 
     Raises:
         ValueError: the content is too long.
@@ -70,14 +70,14 @@ class Eeprom24C32:
         self._idle()
 
     def _idle(self) -> None:
-        """Wait for a START."""
+        """Set the state in which the device waits for a START."""
         self._phase = ""
         self._bits = self._shift = 0
         self._pull = 0
         self._page: list[int] = []
 
     def occupy(self, until: int) -> None:
-        """End a write cycle that another device has started at this edge."""
+        """Set the edge at which a write cycle that another device has started ends."""
         self._busy_until = until
 
     def busy(self, t: int) -> bool:

@@ -98,8 +98,8 @@ class Seen(NamedTuple):
 
     Attributes:
         bits: end-status bits of limit and alarm.
-        origin: counts for origin searches only.
-        slow: slow-down limit.
+        origin: True if the origin is active; it counts for origin searches only.
+        slow: True if a slow-down limit is active.
     """
 
     bits: int = 0
@@ -115,7 +115,8 @@ class Seen(NamedTuple):
 def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, direction: int) -> Seen:
     """Evaluate the synchronised levels for an operation and its direction.
 
-    operation: lowest three bits of the code.
+    Args:
+        operation: lowest three bits of the code.
     """
     bits = 0
     if not levels[pins.limits[direction]]:

@@ -28,13 +28,14 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
     for first in range(phases):
         steps.append(ring(first, 2))
         if half:
-            # Between two full steps: the phase that they share (1-2 phase), or all three (2-3 phase).
+            # Patterns between two full steps: the phase that both full steps share (1-2 phase), or all three
+            # phases (2-3 phase).
             steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
     return tuple(steps)
 
 
 def step_directions() -> dict[tuple[int, int], int]:
-    """Return the directions of steps by (pin levels before, after): 1 CW, -1 CCW.
+    """Return the directions of steps, by pin levels (before, after): 1 = CW, -1 = CCW.
 
     The table is valid for any motor and logic.
 
@@ -52,7 +53,8 @@ def step_directions() -> dict[tuple[int, int], int]:
 class Excitation:
     """Index and output levels of the phase pins.
 
-    idle: level of all five pins until the first initialisation (P104-PHS-02).
+    Args:
+        idle: level of all five pins until the first initialisation (P104-PHS-02).
     """
 
     def __init__(self, idle: int = 1) -> None:
@@ -65,7 +67,7 @@ class Excitation:
     def configure(self, phases: int, half: bool, positive: bool) -> None:
         """Process the first accepted initialisation (P104-PHS-03).
 
-        It fixes type, method and logic, and sets index 0.
+        This initialisation fixes type, method and logic, and sets index 0.
         """
         self._steps = step_list(phases, half)
         self.positive = positive
@@ -115,7 +117,8 @@ class Chopper:
 
     Phases are counted in ticks of the quantum counter.
 
-    due: edge at which the next phase begins, `None` while the chopper does not run.
+    Attributes:
+        due: edge at which the next phase begins, `None` while the chopper does not run.
     """
 
     def __init__(self, context: Context, times: Switching) -> None:

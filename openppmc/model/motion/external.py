@@ -11,9 +11,10 @@ from ..clock import Timebase
 class ExternalInterval:
     """Counter of effective base edges from pulse to pulse; times are edges of `clk`.
 
-    plain: vsel level of the operation. With 1 the pulse occurs at edge number rate+1 after the last pulse.
-    With 0 the edges are counted from the first one at or after the pulse, and the pulse is delayed by 7.5 us
-    minus the wait for that first edge (P104-INT-03).
+    Args:
+        plain: level of vsel during the operation. If it is 1, the pulse occurs at edge number rate + 1 after
+            the last pulse. If it is 0, the edges are counted from the first one at or after the pulse, and
+            the pulse is delayed by 7.5 us minus the wait for that first edge (P104-INT-03).
     """
 
     def __init__(self, timebase: Timebase, plain: bool) -> None:
@@ -25,7 +26,8 @@ class ExternalInterval:
     def begin(self, t: int, rate: int, on_edge: bool) -> None:
         """Begin an interval with a pulse at edge t.
 
-        on_edge: a base edge is effective at the same edge.
+        Args:
+            on_edge: True if a base edge is effective at edge t.
         """
         self.edges = 0
         self._need = rate + 1

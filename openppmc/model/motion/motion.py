@@ -47,7 +47,9 @@ class Setup(NamedTuple):
 class Interval:
     """Interval `number` (from pulse `number` on).
 
-    index: ramp index, `None` at constant speed. quanta: length, `None` with the external clock.
+    Attributes:
+        index: ramp index, `None` at constant speed.
+        quanta: length of the interval in quanta, `None` with the external clock.
     """
 
     number: int
@@ -63,7 +65,8 @@ class Motion:
         guard: names of the switches in context.levels.
         on_end: on_end(t, masked) is called when BUSY falls; masked is that of the operation.
 
-    hold_cycles: crystal cycles from the fall of BUSY to HOLD.
+    Attributes:
+        hold_cycles: crystal cycles from the fall of BUSY to HOLD.
     """
 
     hold_cycles: int
@@ -99,7 +102,7 @@ class Motion:
         Args:
             data: its bytes, rate before count.
             csel: level of the pin.
-            plain: no extra time in an interval.
+            plain: True if an interval has no extra time.
         """
         self.operation = command.operation
         self._command = command
@@ -144,7 +147,7 @@ class Motion:
 
     @property
     def is_ramp(self) -> bool:
-        """True for types 011 and 110."""
+        """True for operation types 011 and 110."""
         return self.operation in RAMP_OPERATIONS
 
     @property

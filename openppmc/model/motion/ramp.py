@@ -51,7 +51,7 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
     Args:
         kp: index of the interval that has just ended, -1 at pulse 1.
         m: remaining pulses.
-        forced: a deceleration is flagged.
+        forced: True if a deceleration is flagged.
     """
     if m == 0:
         return None
@@ -62,7 +62,7 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
 
 
 def natural_deceleration(kp: int, m: int, pa: int) -> bool:
-    """Return True at the pulse event where the move begins to decelerate by count (P104-PRO-05)."""
+    """Return True at the pulse event where the move begins its natural deceleration (P104-PRO-05)."""
     return 0 < m and m - 1 < min(kp + 1, pa)
 
 
@@ -146,7 +146,9 @@ class BaseClock:
 
     It consists of a period and an addition in quanta.
 
-    tclock: 8 (500 kHz) or 32 (125 kHz). extra: 0, or 30 (7.5 us).
+    Attributes:
+        tclock: period of the base clock in quanta: 8 (500 kHz) or 32 (125 kHz).
+        extra: addition to an interval in quanta: 0, or 30 (7.5 us).
     """
 
     tclock: int = 8

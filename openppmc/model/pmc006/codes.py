@@ -22,21 +22,21 @@ def may_step(desk: Desk, count: int) -> bool:
 
 
 def step(desk: Desk, count: int) -> Effect:
-    """Execute s or ROT."""
+    """Execute instruction s or ROT."""
     if not may_step(desk, count):
         return Effect(0)
     return Effect(count if desk.echo else 3, do=lambda desk, t: desk.start(t, count))
 
 
 def speed_mode(desk: Desk, data: int) -> Effect:
-    """Execute N (P006-STA-16, P006-MOT-40..42); the answer is SPEED_MODE."""
+    """Execute instruction N (P006-STA-16, P006-MOT-40..42); the answer is SPEED_MODE."""
     answer = Effect(lambda desk: int(desk.speed_on))
     if data == 0:
         return answer._replace(do=lambda desk, t: desk.speed(t, False))
     if data != 1 or desk.speed_on:
         return answer
     if desk.motion.busy:
-        # A move rejects it; a motion that is decelerating after N=0 continues.
+        # A move rejects N. A motion that is decelerating after N=0 continues.
         return answer._replace(early=lambda desk, t: desk.speed(t, True)) if desk.running else answer
     if desk.locked or desk.settings.vmax < 1:
         return answer
@@ -44,14 +44,14 @@ def speed_mode(desk: Desk, data: int) -> Effect:
 
 
 def freerun(desk: Desk, data: int) -> Effect:
-    """Execute g."""
+    """Execute instruction g."""
     if data not in LEGAL["free"]:
         return Effect(desk.settings.free)
     return Effect(data, {"free": data}, halt=data == 1)
 
 
 def offline(desk: Desk, data: int) -> Effect:
-    """Execute F; 0 also ends a program and the key functions."""
+    """Execute instruction F; 0 also ends a program and the key functions."""
     if data not in LEGAL["offline"]:
         return Effect(desk.settings.offline)
     return Effect(data, {"offline": data}, do=None if data else lambda desk, t: desk.program.quit(t))
@@ -63,19 +63,19 @@ def clear(latch: str) -> Deed:
 
 
 def write_ports(desk: Desk, data: int) -> Effect:
-    """Execute y."""
+    """Execute instruction y."""
     gpo = data >> 3 & 0x1F
     return Effect(gpo << 3, {"gpo": gpo})
 
 
 def read_word(desk: Desk, data: int) -> Effect:
-    """Execute G."""
+    """Execute instruction G."""
     pp = desk.settings.pp
     return Effect(desk.program.words[pp], {"pp": pp + 1}) if pp < 200 else Effect(0)
 
 
 def write_word(desk: Desk, data: int) -> Effect:
-    """Execute W."""
+    """Execute instruction W."""
     pp = desk.settings.pp
     if not desk.program.halted or desk.eeprom.burning or pp >= 200:
         return Effect(0)
@@ -83,7 +83,7 @@ def write_word(desk: Desk, data: int) -> Effect:
 
 
 def try_program(desk: Desk, data: int) -> Effect:
-    """Execute z."""
+    """Execute instruction z."""
     pp = desk.settings.pp
     if not desk.program.halted or pp >= 200:
         return Effect(0)
@@ -91,9 +91,9 @@ def try_program(desk: Desk, data: int) -> Effect:
 
 
 def single(desk: Desk, data: int) -> Effect:
-    """Execute E: one instruction of the program (P006-PRG-20).
+    """Execute instruction E: one instruction of the program (P006-PRG-20).
 
-    It acts as an instruction of the host.
+    The instruction acts as if the host had sent it.
     """
     pp = desk.settings.pp
     if not desk.program.halted or pp >= 200:

@@ -1,4 +1,4 @@
-"""Protocols of the desk of the PMC006B4, and its instructions.
+"""Protocols for the instructions of the PMC006B4, and the instructions as objects.
 
 The desk is the execution context of instructions: everything that they read and change.
 
@@ -20,7 +20,7 @@ class Motion(Protocol):
 
     @property
     def busy(self) -> bool:
-        """BUSY."""
+        """True while BUSY is set."""
 
     @property
     def steady(self) -> bool:
@@ -37,7 +37,7 @@ class Guard(Protocol):
         """Return the stop flag of "ext1" or "ext2"."""
 
     def clear(self, t: int, latch: str) -> None:
-        """Execute b, l or p."""
+        """Execute instruction b, l or p."""
 
 
 class Program(Protocol):
@@ -52,13 +52,13 @@ class Program(Protocol):
         """True if no program runs."""
 
     def write(self, place: int, word: int) -> None:
-        """Execute W."""
+        """Execute instruction W."""
 
     def start(self, t: int, pc: int) -> None:
-        """Execute z or autostart."""
+        """Start the program by instruction z or by autostart."""
 
     def quit(self, t: int) -> None:
-        """Execute F 0."""
+        """Execute instruction F 0."""
 
     def enable(self, name: str, on: int, target: int) -> None:
         """Execute RESET_EN or PAUSE_EN."""
@@ -69,7 +69,7 @@ class Eeprom(Protocol):
 
     @property
     def state(self) -> int:
-        """Answer to V."""
+        """Answer to instruction V."""
 
     @property
     def busy(self) -> bool:
@@ -86,7 +86,9 @@ class Eeprom(Protocol):
 class Desk(Protocol):
     """Everything that instructions read and change.
 
-    echo: STEP_ACK is "ECHO". version: FW_VERSION.
+    Attributes:
+        echo: True if STEP_ACK is "ECHO".
+        version: value of FW_VERSION.
     """
 
     shared: Shared
@@ -123,22 +125,22 @@ class Desk(Protocol):
 
     @property
     def port_word(self) -> int:
-        """Answer to x."""
+        """Answer to instruction x."""
 
     def stop(self, t: int) -> None:
         """Process a cause that stops a motion at edge t."""
 
     def load_position(self, position: int) -> None:
-        """Execute i."""
+        """Execute instruction i."""
 
     def start(self, t: int, count: int) -> None:
-        """Execute s or ROT."""
+        """Execute instruction s or ROT."""
 
     def run(self, t: int) -> None:
-        """Execute N=1 in IDLE."""
+        """Execute instruction N=1 in IDLE."""
 
     def speed(self, t: int, on: bool) -> None:
-        """Execute N while the speed mode is running or ending."""
+        """Execute instruction N while the speed mode is running or ending."""
 
 
 # Instructions of the PMC006B4 (P006 chapters 3.1, 3.2). An instruction is an object that reads the desk and
@@ -151,10 +153,10 @@ class Effect(NamedTuple):
     Attributes:
         reply: data of the answer; a function is called one cycle later.
         put: registers.
-        halt: stop immediately.
-        do: any other effect, called with the desk and the edge.
+        halt: True if the motor stops immediately.
+        do: function for any other effect, called with the desk and the edge.
         early: the same, before the motion is processed at that edge.
-        still: no step may be counted in that cycle.
+        still: True if no step may be counted in that cycle.
         once: instruction of the program that E executes.
     """
 
@@ -177,9 +179,10 @@ class Instruction:
 
 @dataclass
 class Setting(Instruction):
-    """Instruction that writes a register if the data is legal, and answers with the register.
+    """Instruction that writes a register if the data is legal. Its answer is the value of the register.
 
-    also: registers that are written with it.
+    Attributes:
+        also: other registers that it writes, with their values.
     """
 
     name: str
@@ -210,7 +213,7 @@ class Read(Instruction):
 
 @dataclass
 class Deed(Instruction):
-    """Any other instruction: a function that returns its effect."""
+    """Instruction of any other kind: a function that returns its effect."""
 
     what: Callable[[Desk, int], Effect]
 

@@ -35,7 +35,11 @@ def checked(*parts: int, data: int) -> bytes:
 
 
 def command(address: int, code: int | str, data: int = 0) -> bytes:
-    """Return a frame of a host. code: also as the letter of an instruction."""
+    """Return a frame of a host.
+
+    Args:
+        code: instruction code, as a number or as the letter of the instruction.
+    """
     return checked(address, ord(code) if isinstance(code, str) else code, data=data)
 
 

@@ -47,8 +47,10 @@ class Pmc006(Chip):
     Raises:
         ValueError: a value is out of range.
 
-    replies: (edge at which de rises, frame). sent: (edge in the middle of a stop bit, byte). Both lists may
-    be cleared at any time.
+    Attributes:
+        replies: (edge at which de rises, frame) of all replies.
+        sent: (edge in the middle of a stop bit, byte) of all bytes sent. Both lists may be cleared at any
+            time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, ("rxd",)
@@ -254,12 +256,12 @@ class Pmc006(Chip):
 
     @property
     def position(self) -> int:
-        """POS."""
+        """Position register POS in steps, signed."""
         return self.desk.position
 
     @property
     def angle(self) -> int:
-        """TH."""
+        """Electrical angle TH, 0..511."""
         return self.drive.angle
 
     @property

@@ -148,7 +148,12 @@ class Ticks:
 
 @dataclass
 class Shared:
-    """Services of every block. us: microsecond ticks. settings: registers after the last commit."""
+    """Services of every block.
+
+    Attributes:
+        us: time base of the microsecond ticks.
+        settings: registers after the last change that became effective.
+    """
 
     queue: Scheduler
     log: EdgeLog

@@ -69,7 +69,8 @@ def window_us(command: Command, triangle: bool = False) -> int:
 class Windows:
     """Open window, if any, and the poll ticks that it delays. Only used with DATASHEET timing.
 
-    axis: 0 or 1 while a window of that axis is open, otherwise `None`.
+    Attributes:
+        axis: 0 or 1 while a window of that axis is open, otherwise `None`.
     """
 
     def __init__(self, context: Context, port: HostPort, released: int) -> None:
@@ -83,7 +84,8 @@ class Windows:
     def open(self, t: int, us: int, axis: int | None) -> int:
         """Open a window at edge t; return its last edge.
 
-        axis: `None` if the window appears in CMND of no axis.
+        Args:
+            axis: `None` if the window appears in CMND of no axis.
         """
         context = self._context
         end = t + context.timebase.cyc(16 * us) + context.latency.ds_window
@@ -123,7 +125,11 @@ HOLD_UNIT, HOLD_DEFAULT = 2048, 0x18
 
 
 class Motion(motion.Motion):
-    """Motion of an axis of a PPMC-2104. waiting: state RUNWAIT."""
+    """Motion of an axis of a PPMC-2104.
+
+    Attributes:
+        waiting: True in state RUNWAIT.
+    """
 
     stops_at_start_speed = True
 
@@ -152,7 +158,8 @@ class Motion(motion.Motion):
     def start(self, t: int, command: Command, data: list[int], setup: Setup, look_from: int) -> None:
         """Process the C-event of an operation's last byte.
 
-        look_from: first edge at which RUN counts.
+        Args:
+            look_from: first edge at which RUN is sampled.
         """
         self._load(command, data, setup, self._context.levels["csel"], plain=True)
         self._begin(t)
@@ -245,7 +252,7 @@ class Axis:
     Attributes:
         setup: `None` in state INITIAL.
         table_ready: edge at which the table build ends.
-        building: state INITP.
+        building: True in state INITP.
     """
 
     def __init__(self, number: int, shared: Context, windows: Windows, interrupt: Interrupt) -> None:

@@ -194,12 +194,12 @@ class Interrupt:
         self._set.add((cause, axis))
 
     def release(self, t: int, cause: Cause, axis: int) -> None:
-        """Clear a latch that is read at edge t; if it was set, INT* is H for W (P2104-INT-03, -04)."""
+        """Clear a latch that is read at edge t; if it was set, INT* is high for W (P2104-INT-03, -04)."""
         if (cause, axis) not in self._set:
             return
         self._set.remove((cause, axis))
         self._quiet_until = t + self._context.timebase.w
-        # An event at that edge is required, so that the pins are updated.
+        # An event at the end of W is required, so that the pins are updated.
         self._context.queue.at(self._quiet_until, Phase.END, lambda now: None)
 
     def level(self, t: int) -> int:

@@ -48,10 +48,14 @@ class Ppmc2104(Chip):
         self._build(0, INPUTS)
 
     def _build(self, released: int, pins: Mapping[str, int]) -> None:
-        """Create blocks in their reset state. released: first edge after the reset."""
+        """Create blocks in their reset state.
+
+        Args:
+            released: first edge after the reset.
+        """
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # The synchronisers start with idle inputs, except extck, so that no clock edge occurs that was not on
-        # the pin.
+        # The synchronisers start with idle inputs. The exception is extck, which starts with its pin level,
+        # so that no clock edge occurs that was not on the pin.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context
@@ -102,7 +106,9 @@ class Ppmc2104(Chip):
     def bits(self, signal: str, axis: int, since: int = 0) -> list[tuple[int, int]]:
         """Return the changes (t, level) of one axis's bit of a common port.
 
-        axis: 1 or 2. since: first edge.
+        Args:
+            axis: 1 or 2.
+            since: first edge.
         """
         place, changes = axis - 1, []
         level = self.log.initial[signal] >> place & 1

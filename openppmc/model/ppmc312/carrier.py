@@ -40,7 +40,8 @@ class Carrier(carrier.Carrier[Ppmc312]):
     ) -> None:
         """Create the carrier.
 
-        part: existing part to use instead of a new one with these frequencies and this timing.
+        Args:
+            part: existing part to use instead of a new one with these frequencies and this timing.
         """
         self._moved, self._plant = False, plant
         super().__init__(part or Ppmc312(clk_hz, xtal_hz, timing), [plant], on_interrupt)
@@ -97,7 +98,10 @@ class TableMove(Move):
     """Predicted move.
 
     Rates are in ticks of the base clock, `divider` crystal periods each. Indices are stages of the table,
-    `None` at constant speed. kind: status bits of the response.
+    `None` at constant speed.
+
+    Attributes:
+        kind: status bits of the response to the start.
     """
 
     divider: int
@@ -115,7 +119,7 @@ def predict_table(
 
     Args:
         rate: target speed, 0 for the high speed.
-        flat: without ramps (83).
+        flat: True for a move without ramps (instruction 83).
 
     Raises:
         ValueError: the base clock is external, the rate is outside the table, or n is outside 1..2^32-1.

@@ -99,7 +99,8 @@ SPONTANEOUS = 0x23
 class Cause(IntEnum):
     """Cause of the end of the pulses; the value is the bit of E0 (10.3).
 
-    RETURN: phase 1 of a zero return.
+    Attributes:
+        RETURN: phase 1 of a zero return.
     """
 
     RETURN = 0x00
@@ -196,7 +197,9 @@ def known(code: int) -> bool:
 def accepts(code: int, state: State, override: bool, end_wait: bool, table: bool) -> bool:
     """Return True if the accept table of chapter 4 accepts an instruction.
 
-    end_wait: state FIX, because the positioning end is awaited. table: a valid table exists.
+    Args:
+        end_wait: True in state FIX if the part is waiting for the positioning end.
+        table: True if a valid table exists.
     """
     if code == Code.END_TERMINAL and end_wait:
         return True

@@ -108,7 +108,7 @@ class Core:
     def drop_overrides(self, t: int) -> None:
         """Clear the FIFO after an override has failed.
 
-        Pulses that a position has stopped stay stopped.
+        Pulses that a position has stopped do not resume.
         """
         self.fifo.clear()
 
@@ -129,7 +129,7 @@ class Core:
         self.context.queue.at(t + 1, Phase.LEVELS, lambda now: self.alarm(now, status))
 
     def clear_alarm(self, t: int) -> None:
-        """Execute 24: aclr_n is asserted (low) (P312-INP-33).
+        """Execute instruction 24: aclr_n is asserted (low) (P312-INP-33).
 
         While it is low, the part can leave ABN.
         """
@@ -154,7 +154,7 @@ class Core:
     def _on_pulse(self, t: int, direction: int) -> bool:
         """Count a pulse in the position and compare the position.
 
-        It returns True if the output ends permanently at this position.
+        The call returns True if the output ends permanently at this position.
         """
         position = self.counters.pulse
         released = self.fifo.count(t, position)

@@ -56,8 +56,8 @@ class Pace:
         young: t0 to the first check of the high-speed limit.
         least: shortest interval (P312-MOT-04).
         armed: new head of the command FIFO to its trigger (P312-OVR-02, <= 4).
-        compare_lag: monitors: POS or ENC to inside or outside; one cycle more to the status bit, two to the
-            report.
+        compare_lag: monitors: change of POS or ENC to the result of the comparison. The status bit follows
+            one cycle later, the report two cycles later.
         quiet: standstill to the first evaluation of the in-position monitor.
         heard: serial mode: middle of the stop bit to the character.
         frame: last character to the event that is a header write in parallel mode.
@@ -127,7 +127,7 @@ class Pace:
     def look_up(self) -> int:
         """Return the cycles of one look-up in the table.
 
-        It lies between the effect of 87 or 88 and the change, or t0 without a plan.
+        The look-up lies between the effect of 87 or 88 and the change, or t0 without a plan.
         """
         return self.scan + 4
 
@@ -138,8 +138,8 @@ class Pace:
         begin with a full stage. A triangular profile needs a multiplication and a division.
 
         Args:
-            single: single step, which needs no look-up.
-            ramped: the operation has a plan with ramps.
+            single: True for a single step, which needs no look-up.
+            ramped: True if the operation has a plan with ramps.
         """
         if single:
             return 3
@@ -184,7 +184,7 @@ class Pace:
         return len(block) + 3 * stages
 
 
-# Section 8, in crystal cycles from the write of the header, or from the trigger.
+# Times of section 8 in crystal cycles from the write of the header, or from the trigger.
 READY = 1600 * US
 BUILD = {(False, False): 115_000 * US, (False, True): 200_000 * US}
 BUILD |= {(True, False): 175_000 * US, (True, True): 260_000 * US}

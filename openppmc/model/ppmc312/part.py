@@ -40,8 +40,9 @@ class Ppmc312(Chip):
     Raises:
         ValueError: another value.
 
-    replies: (edge at which snd rises, whole frame) of all frames that the station has sent. sent: (edge in
-    the middle of the stop bit, character). Both lists may be cleared at any time.
+    Attributes:
+        replies: (edge at which snd rises, whole frame) of all frames that the station has sent.
+        sent: (edge in the middle of the stop bit, character). Both lists may be cleared at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -159,15 +160,15 @@ class Ppmc312(Chip):
         self._queue.at(t + self.latency.input_sync, Phase.PINS, lambda now: self._see_run(now, level))
 
     def _see_run(self, t: int, level: int) -> None:
-        """Update RUN, which is a gate.
+        """Update RUN, which is combinational.
 
-        A start uses its level at the same edge, not that of the previous one (P312-INP-20).
+        A start uses the level of RUN at the same edge, not that of the previous edge (P312-INP-20).
         """
         if t >= self._pins_from + self.latency.input_sync:
             self.core.operation.run_level = level
 
     def _software_reset(self, t: int, source: Source) -> None:
-        """Execute FF (P312-CMD-FF) and send its response.
+        """Execute instruction FF (P312-CMD-FF) and send its response.
 
         The state is that after a reset, except the levels of the pins.
 
@@ -231,7 +232,7 @@ class Ppmc312(Chip):
         if not self._out_oe:
             levels = self._held
         else:
-            # At most edges, no pin changes.
+            # Leave early: at most edges, no pin changes.
             core, motion = self.core, self.motion
             seen = core.outputs.values, motion.pout, motion.direction, core.interlock.on, self._host.levels()
             if seen == self._seen:
@@ -293,5 +294,5 @@ class Ppmc312(Chip):
 
     @property
     def position(self) -> int:
-        """POS."""
+        """Pulse position POS, 0 .. 2^32 - 1."""
         return self.core.counters.pulse

@@ -30,7 +30,9 @@ DIVIDERS = {0: 2, 1: 16, 2: 32, 3: 64, 4: 256, 5: 1024}
 class SettingError(ValueError):
     """Rejected setting.
 
-    number: error number of F0 (10.2). table: table that was built, but is invalid.
+    Args:
+        number: error number of F0 (10.2).
+        table: table that was built, but is invalid.
     """
 
     def __init__(self, number: int, table: Table | None = None) -> None:
@@ -45,7 +47,11 @@ class Table:
     It has 127 rates in ticks, the pulses of each stage for both ramps, and the first stage of each ramp.
 
     Index 126 is the fastest stage. Below its first stage a ramp has 0 pulses; below both first stages the
-    rates have no meaning. clk: base clock 0..7. separate: the deceleration has its own ramp (LE = 1).
+    rates have no meaning.
+
+    Attributes:
+        clk: base clock 0..7.
+        separate: True if the deceleration has its own ramp (LE = 1).
     """
 
     rates: tuple[int, ...]
@@ -63,7 +69,7 @@ class Table:
 
     @property
     def high(self) -> int:
-        """RH."""
+        """Rate RH of the high speed in ticks."""
         return self.rates[LAST]
 
     @property
@@ -236,11 +242,18 @@ _MOST_PULSES = 0xFFFFFF
 class FreeCurve:
     """Transfer that the code block opens. Every error raises SettingError and ends the transfer.
 
-    table: finished table, `None` before the last block.
+    Attributes:
+        table: finished table, `None` before the last block.
     """
 
     def __init__(self, header: int, parameters: bytes) -> None:
-        """Process the code block. parameters: bytes after the code. Errors 0x10, 0x11."""
+        """Process the code block.
+
+        Errors 0x10, 0x11.
+
+        Args:
+            parameters: bytes after the code.
+        """
         if header != CODE_HEADER:
             raise SettingError(0x10)
         if len(parameters) not in (2, 3) or (len(parameters) == 2 and parameters[0] & LE):
@@ -329,7 +342,7 @@ class Step(NamedTuple):
     Attributes:
         rate: in ticks.
         stage: stage of the table, `None` at constant speed.
-        planned: it belongs to a planned final deceleration.
+        planned: True if it belongs to a planned final deceleration.
     """
 
     rate: int
@@ -380,7 +393,11 @@ def constant(table: Table, rate: int, n: int | None = None) -> Plan:
 
 
 def ramped(table: Table, rate: int, n: int | None) -> Plan:
-    """Return a plan with ramps: 82 with n pulses, 85 and phase 1 of 11 without. rate: target rate."""
+    """Return a plan with ramps: 82 with n pulses, 85 and phase 1 of 11 without.
+
+    Args:
+        rate: target rate.
+    """
     top, sa, sd = table.stage(rate), table.sa, table.sd
     if top <= sa:
         down = 0 if n is None else min(n, sum(table.pd[sd : top + 1]))

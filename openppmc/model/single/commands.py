@@ -100,7 +100,7 @@ class TimedMotion(Motion):
         since += context.latency.ds_motor
         self._port.close_until(since + context.timebase.cyc(open_cycles))
         self._ending(t)
-        # Before COMMAND: a byte that waited for this edge is checked with BUSY = 0.
+        # Runs before Phase.COMMAND, so that a byte that waited for this edge is checked with BUSY = 0.
         context.queue.at(since + context.timebase.cyc(end_cycles), Phase.BEGIN, self._finish)
 
     def _ending(self, t: int) -> None:
@@ -213,7 +213,8 @@ class ByteUnit(ABC):
     def _set_up(self, t: int, code: int, ramp: Ramp, reference: int, ds_build: int) -> None:
         """Store a checked initialisation and begin the table build (P104-INI-05, STMC-INI-04..07).
 
-        ds_build: crystal cycles of the build with DATASHEET timing, from `reference` on.
+        Args:
+            ds_build: crystal cycles of the build with DATASHEET timing, from `reference` on.
         """
         context = self._context
         if self.setup is None:

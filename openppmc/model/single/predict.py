@@ -1,6 +1,6 @@
 """Prediction of one move from its initialisation bytes, for plots and tables.
 
-It contains pulse times and speeds.
+A prediction contains pulse times and speeds.
 
 `predict_move` calls the `predict` function of the part, which the table of parts names. This module has the
 shared code of parts with four initialisation bytes.
@@ -52,7 +52,8 @@ class Move(ABC):
 class RampMove(Move):
     """Predicted move of a part with rates or divisors of one byte.
 
-    quanta: length of each interval.
+    Attributes:
+        quanta: length of each interval.
     """
 
     quanta: tuple[int, ...]
@@ -135,7 +136,8 @@ def run(
 ) -> RampMove:
     """Return the pulses of a checked move.
 
-    beyond: base clocks of an interval minus its rate; `rates` of the result include them.
+    Args:
+        beyond: base clocks of an interval minus its rate; `rates` of the result include them.
     """
     indices = tuple(profile_index(n, ramp.pa, j) for j in range(1, n)) if rate is None else ()
     rates = tuple(ramp.rate(k) + beyond for k in indices) if rate is None else (rate,) * (n - 1)

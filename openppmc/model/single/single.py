@@ -117,8 +117,8 @@ class SingleAxis(Chip):
     def clock_rise(self, t: int) -> None:
         """Process a rising edge of the external clock at edge t, while its pin does not change.
 
-        It is for boards with their own clock, because processing all its edges at the pin would take too
-        long.
+        This method is for boards with their own clock, because processing all its edges at the pin would take
+        too long.
         """
         self._queue.at(t, Phase.BASE, self._motion.base_rise)
 
@@ -131,7 +131,7 @@ class SingleAxis(Chip):
 
     @property
     def busy(self) -> bool:
-        """BUSY."""
+        """True while BUSY is set."""
         return self._motion.busy
 
     @property
@@ -143,7 +143,7 @@ class SingleAxis(Chip):
     def index(self) -> int | None:
         """Ramp index of the running interval.
 
-        It is None if stopped, before the first pulse, or at constant speed.
+        The value is None if stopped, before the first pulse, or at constant speed.
         """
         return self._motion.index
 

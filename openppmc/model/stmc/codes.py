@@ -10,7 +10,7 @@ from ..motion.codes import Command, Kind, operation_command
 INIT_BYTES = 4
 # Tick of the internal step clock in crystal periods (STMC-CLK-01).
 TICK_XT = 1280
-# "External" step clock of the board (J105-06).
+# "External" step clock of the board in Hz (J105-06).
 BOARD_CLOCK_HZ = 48_675
 FINISH_STATUS, INPUTS, OUTPUTS, REMAINING = "finish status", "inputs", "outputs", "remaining steps"
 

@@ -36,7 +36,11 @@ from .pins import GUARD, INPUT_REGISTER
 
 
 class Motion(TimedMotion):
-    """Motion of the axis of an STMC. hold_xt: crystal periods from the fall of BUSY to `hold`."""
+    """Motion of the axis of an STMC.
+
+    Args:
+        hold_xt: crystal periods from the fall of BUSY to `hold`.
+    """
 
     stops_at_start_speed = True
 
@@ -50,7 +54,11 @@ class Motion(TimedMotion):
     # ------------------------------------------------------------------ start
 
     def _latch_operation(self, command: Command, data: list[int], setup: Setup) -> None:
-        """Latch an operation. data: as written, divisor before count."""
+        """Latch an operation.
+
+        Args:
+            data: bytes as written, the divisor before the count.
+        """
         rated = [data[0] - 1, *data[1:]] if data and command.operation in (4, 5, 7) else data
         self._load(command, rated, setup, csel=1, plain=True)
         self._clock = BaseClock(TICK_XT // self._context.timebase.quantum)
@@ -89,7 +97,11 @@ def profile(d1: int, d2: int, pa: int) -> Ramp:
 
 
 class CommandUnit(ByteUnit):
-    """Commands of the STMC. read_map: "FAMILY" or "SHEET"."""
+    """Commands of the STMC.
+
+    Args:
+        read_map: "FAMILY" or "SHEET".
+    """
 
     def __init__(
         self,
@@ -141,7 +153,7 @@ class CommandUnit(ByteUnit):
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
         """Process the fourth byte of an initialisation (STMC-INI-02..07).
 
-        It is checked and stored, and the table build begins.
+        The initialisation is checked and stored, and the table build begins.
         """
         d1, d2 = data[0], data[1]
         pa = data[2] | data[3] << 8

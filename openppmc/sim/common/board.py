@@ -28,8 +28,14 @@ _KINDS: dict[str, Callable[[str], object]] = {
 class AxisStatus:
     """State of an axis.
 
-    Switches: True = active. hold: True = at standstill for the hold time. pulses: number since the start.
-    phases: levels of S5 to S1. For an stmc, pulses counts steps, and alm is MON low.
+    Switches: True = active.
+
+    For an stmc, pulses counts steps, and alm is MON low.
+
+    Attributes:
+        hold: True = at standstill for the hold time.
+        pulses: number since the start.
+        phases: levels of S5 to S1.
     """
 
     position: int
@@ -49,10 +55,15 @@ class Status(AxisStatus):
     """State of the board.
 
     The fields of an axis belong to axis 1; `second` has those of axis 2, and `axes` those of each axis, axis
-    1 first. seconds, clk: board time. factor: board time / wall time over the last half second. asleep:
-    nothing can change before the host sends, so nothing is computed. open: a host has the port open, at
-    `rate` bit/s. lost: bytes for the host that were discarded because the buffer was full. interrupt: int_n
-    low.
+    1 first.
+
+    Attributes:
+        seconds, clk: board time.
+        factor: board time / wall time over the last half second.
+        asleep: True if nothing can change before the host sends, so nothing is computed.
+        open: True if a host has the port open, at `rate` bit/s.
+        lost: bytes for the host that were discarded because the buffer was full.
+        interrupt: True while int_n is low.
     """
 
     clk: int
@@ -94,8 +105,11 @@ def _typed(kind: type[AxisStatus], values: dict[str, str]) -> dict[str, Any]:
 class Child:
     """Board in a separate process.
 
-    The process ends with `close`, with the end of the `with` block, or with this program. port: path of its
-    pseudo-terminal. process: the child process.
+    The process ends with `close`, with the end of the `with` block, or with this program.
+
+    Attributes:
+        port: path of its pseudo-terminal.
+        process: the child process.
     """
 
     def __init__(self, command: Sequence[str | Path], env: dict[str, str] | None = None) -> None:
@@ -166,7 +180,11 @@ class Child:
 
 
 class SimBoard(Child):
-    """Virtual board; see `Child`. spec: the requested board."""
+    """Virtual board; see `Child`.
+
+    Args:
+        spec: the requested board.
+    """
 
     def __init__(self, spec: Spec, say: Callable[[str], None]) -> None:
         self.spec = spec
@@ -183,9 +201,12 @@ class SimBoard(Child):
 def start(spec: str = "", say: Callable[[str], None] | None = None, **options: object) -> SimBoard:
     """Start a virtual board: `start("cw=20000,speed=max")` or `start(cw=20000, speed="max")`.
 
-    spec: the text after `sim:`. say: prints a line when a step takes long (default: on standard error).
     Raises SpecError (a ValueError) for an invalid text, SimError (a RuntimeError) if the board cannot be
     built or started.
+
+    Args:
+        spec: the text after `sim:`.
+        say: prints a line when a step takes long (default: on standard error).
     """
     return SimBoard(parse_spec(spec, **options), say or to_stderr)
 

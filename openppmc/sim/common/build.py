@@ -91,7 +91,7 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
 # Assertions would cost a third of the speed, and `make test` checks all of them.
-# One C++ file: with split files the precompiled header does not work with every Verilator.
+# There is one C++ file, because with split files the precompiled header does not work with every Verilator.
 VERILATE = (
     "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
 )
@@ -100,7 +100,8 @@ VERILATE = (
 def find_root() -> Path:
     """Return the checkout of the project. Raise SimError if there is none.
 
-    It is OPENPPMC_ROOT if this is set, else the checkout that contains this package or the current folder.
+    The checkout is OPENPPMC_ROOT if this is set, else the checkout that contains this package or the current
+    folder.
     """
     named = os.environ.get("OPENPPMC_ROOT")
     here = Path.cwd()
@@ -120,9 +121,13 @@ def find_root() -> Path:
 class Program:
     """Sources of a virtual board.
 
-    part: the part on the carrier. top: top module. rtl: its sources in compile order. folders: folders of the
-    C++ code below tb/, the one with `main.cpp` first; all their headers belong to the program. cpp: patterns
-    of the C++ sources to compile.
+    Attributes:
+        part: the part on the carrier.
+        top: top module.
+        rtl: its sources in compile order.
+        folders: folders of the C++ code below tb/, the one with `main.cpp` first; all their headers belong to
+            the program.
+        cpp: patterns of the C++ sources to compile.
     """
 
     part: str
@@ -150,8 +155,10 @@ def board_program(root: Path, part: str) -> Program:
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
     """Return the program for stations on a line.
 
-    Its top is tb/<part>/line/line_node.sv, which contains the carrier. more: additional sources, relative to
-    tb/.
+    The top of the program is tb/<part>/line/line_node.sv, which contains the carrier.
+
+    Args:
+        more: additional sources, relative to tb/.
     """
     own = parts.part(part).folder
     rtl = _rtl(root, f"{parts.part(part).rtl}_carrier")
@@ -170,9 +177,12 @@ def build(
 ) -> Path:
     """Return the program that `make` describes for a checkout; build it if necessary.
 
-    params: parameters of the top module, including CLK_HZ. trace: with waveforms, which makes the program
-    slower. say: prints a line when the build takes long. Several processes may call this at the same time.
-    Raises SimError.
+    Several processes may call this at the same time. Raises SimError.
+
+    Args:
+        params: parameters of the top module, including CLK_HZ.
+        trace: with waveforms, which makes the program slower.
+        say: prints a line when the build takes long.
     """
     if not sys.platform.startswith("linux"):
         raise SimError("the virtual board needs Linux (pseudo-terminals); use model: instead")
@@ -197,7 +207,7 @@ def build(
         ),
         *(
             "-CFLAGS",
-            # Relative to the build folder: these paths have no spaces.
+            # Paths relative to the build folder have no spaces.
             " ".join(
                 ["-std=c++17", _defines(params), *(f"-I../../../tb/{folder}" for folder in made.folders)]
             ),
@@ -304,7 +314,7 @@ def _locked(path: Path) -> Iterator[None]:
         handle = open(path, "w", encoding="utf-8")
     except OSError as error:
         raise SimError(f"cannot write to {path.parent}: {error.strerror}") from None
-    import fcntl  # not on every system; only a build needs it
+    import fcntl  # fcntl does not exist on every system; only a build needs it
 
     with handle:
         fcntl.flock(handle, fcntl.LOCK_EX)

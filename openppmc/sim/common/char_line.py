@@ -37,7 +37,11 @@ class LineOptions(Protocol):
 
 
 class Hears(Protocol):
-    """Model that receives characters. sent: (edge in the middle of a stop bit, character)."""
+    """Model that receives characters.
+
+    Attributes:
+        sent: (edge in the middle of a stop bit, character).
+    """
 
     replies: list[tuple[int, bytes]]
     sent: list[tuple[int, int]]
@@ -58,7 +62,11 @@ H = TypeVar("H", bound=Hears)
 
 
 class LineStation(ABC, Generic[H]):
-    """Station on a line. number: its initial address."""
+    """Station on a line.
+
+    Attributes:
+        number: its initial address.
+    """
 
     part: H
     clk_hz: int
@@ -113,9 +121,14 @@ S = TypeVar("S", bound=Runs)
 class CharLine(Generic[S]):
     """Line with its stations.
 
-    t: time of the line in cycles. bit: cycles of a bit, not necessarily a whole number. The time of stations
-    that are not in `hearing` may be less than t until `settle` is called. This has no visible effect, because
-    the stations have no common wires except the line.
+    The time of stations that are not in `hearing` may be less than t until `settle` is called. This has no
+    visible effect, because the stations have no common wires except the line.
+
+    Args:
+        bit: cycles of a bit, not necessarily a whole number.
+
+    Attributes:
+        t: time of the line in cycles.
     """
 
     def __init__(self, spec: LineOptions, stations: Sequence[S], bit: float) -> None:

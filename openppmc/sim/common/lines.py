@@ -20,7 +20,10 @@ from .spec import SpecError
 class Words:
     """Parsed text of a line.
 
-    shared: values for all stations. own: values for one station, by its number. options: all other words.
+    Attributes:
+        shared: values for all stations.
+        own: values for one station, by its number.
+        options: all other words.
     """
 
     shared: dict[str, str] = field(default_factory=dict)
@@ -33,8 +36,10 @@ def split_words(
 ) -> Words:
     """Parse the text of a line. Raise ValueError with the offending word.
 
-    stations: words that may have the number of a station. options: words of the line. number: returns the
-    number of a station from the item and the digits.
+    Args:
+        stations: words that may have the number of a station.
+        options: words of the line.
+        number: returns the number of a station from the item and the digits.
     """
     words = Words()
     numbered = re.compile(rf"({'|'.join(stations)})(\d+)$")
@@ -88,7 +93,8 @@ def pace(text: str) -> float | None:
 class StationStatus:
     """State of a station: number, position of the motor, state.
 
-    inputs, outputs: levels, number 1 last; empty for a station without general inputs and outputs.
+    Attributes:
+        inputs, outputs: levels, number 1 last; empty for a station without general inputs and outputs.
     """
 
     number: int
@@ -112,8 +118,10 @@ class StationStatus:
 class LineStatus:
     """State of the line.
 
-    seconds: time of the line. factor: time of the line / wall time, recent value. lost: characters for the
-    host that were discarded because the buffer was full.
+    Attributes:
+        seconds: time of the line.
+        factor: time of the line / wall time, recent value.
+        lost: characters for the host that were discarded because the buffer was full.
     """
 
     seconds: float
@@ -144,8 +152,13 @@ class LineStatus:
 class SimLine(Child):
     """Virtual line with the RTL of its stations; see `Child`.
 
-    spec: the requested line. part: part of the stations if the text names no part; default: the first part
-    that is connected to a line. say: prints a line when a step takes long (default: on standard error).
+    Args:
+        part: part of the stations if the text names no part; default: the first part that is connected to a
+            line.
+        say: prints a line when a step takes long (default: on standard error).
+
+    Attributes:
+        spec: the requested line.
     """
 
     def __init__(self, text: str, part: str = "", say: Callable[[str], None] | None = None) -> None:
@@ -188,14 +201,21 @@ class SimLine(Child):
 def start_line(text: str = "", part: str = "") -> SimLine:
     """Start a virtual line: `start_line("stations=4,speed=max")`.
 
-    part: part of the stations if the text names no part; default: the first part that is connected to a line.
     Raises SpecError (a ValueError) for an invalid text, SimError (a RuntimeError) if the line does not start.
+
+    Args:
+        part: part of the stations if the text names no part; default: the first part that is connected to a
+            line.
     """
     return SimLine(text, part)
 
 
 class OnLine(Protocol):
-    """Station for a server. number: its initial address."""
+    """Station for a server.
+
+    Attributes:
+        number: its initial address.
+    """
 
     number: int
 
@@ -257,13 +277,16 @@ S = TypeVar("S", bound=LineSpec)
 class LineKind(Generic[S]):
     """Functions and texts for the lines of a part.
 
-    parse: returns the spec of a text; raises ValueError if the text is invalid. at_rate: returns the text for
-    a host with this line rate. known: list of the accepted words, as text. make: returns the modelled line of
-    a spec.
-
     For the RTL: `parameters` returns the parameters of its `line_node`, including CLK_HZ. `arguments` returns
     the arguments of the program in tb/line; it may write files into the folder, and raises ValueError for an
-    unusable file. sources: sources of the node in addition to the carrier, relative to tb/.
+    unusable file.
+
+    Attributes:
+        parse: returns the spec of a text; raises ValueError if the text is invalid.
+        at_rate: returns the text for a host with this line rate.
+        known: list of the accepted words, as text.
+        make: returns the modelled line of a spec.
+        sources: sources of the node in addition to the carrier, relative to tb/.
     """
 
     parse: Callable[[str], S]

@@ -24,8 +24,11 @@ _OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 class Setup:
     """Parameters of a modelled carrier.
 
-    clk_hz, xtal_hz: clock and crystal of the part in Hz. timing: FAST or DATASHEET. own: values of the words
-    that only this part has. on_interrupt: called when the interrupt begins.
+    Attributes:
+        clk_hz, xtal_hz: clock and crystal of the part in Hz.
+        timing: FAST or DATASHEET.
+        own: values of the words that only this part has.
+        on_interrupt: called when the interrupt begins.
     """
 
     plants: Sequence[Plant]
@@ -40,11 +43,18 @@ class Setup:
 class MachineKind:
     """Machine model of a part that is accessed through the UART bridge.
 
-    called: name of the part in messages. carrier: creates its modelled carrier. axes: number of axes, unless
-    the part has a word `axes`. plant: default positions of the switches. encoder: the machine has an encoder.
-    own: words that only this part has, with their values, the default first. xtal_max: highest crystal
-    frequency in Hz. alarm: name of the alarm switch. check: raises ValueError for an impossible set-up.
-    timed: the part has the parameter TIMING. counters: the carrier counts pulses.
+    Attributes:
+        called: name of the part in messages.
+        carrier: creates its modelled carrier.
+        axes: number of axes, unless the part has a word `axes`.
+        plant: default positions of the switches.
+        encoder: True if the machine has an encoder.
+        own: words that only this part has, with their values, the default first.
+        xtal_max: highest crystal frequency in Hz.
+        alarm: name of the alarm switch.
+        check: raises ValueError for an impossible set-up.
+        timed: True if the part has the parameter TIMING.
+        counters: True if the carrier counts pulses.
     """
 
     called: str
@@ -80,8 +90,11 @@ def own_words() -> tuple[str, ...]:
 class Machine:
     """Parsed text of a machine model.
 
-    part: name of the part. plants: one for each axis. own: values of words that only this part has. others:
-    all other words.
+    Attributes:
+        part: name of the part.
+        plants: one for each axis.
+        own: values of words that only this part has.
+        others: all other words.
     """
 
     part: str
@@ -93,7 +106,10 @@ class Machine:
 def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     """Parse `word=value,word=value`; an empty text selects the defaults.
 
-    known: words of the caller, which no part has. Raises ValueError with the offending word.
+    Raises ValueError with the offending word.
+
+    Args:
+        known: words of the caller, which no part has.
     """
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}

@@ -33,12 +33,17 @@ class SpecError(ValueError):
 class Spec:
     """Requested virtual board.
 
-    part: a part with the UART bridge. plants: one for each axis. speed: multiple of real time; None: as fast
-    as the computer can. clk_hz: clock of the board, 8e6 … 200e6 Hz (real time is not possible far above 8e6).
-    xtal_hz: crystal of the emulated chip, 1e6 Hz or more. timing: FAST or DATASHEET. record: the recorder
-    stores 2**record records of the pins; 0: no recorder. own: values of words that only this part has; each
-    one is a parameter of its top module. vcd: waveform file or None; vcd_from and vcd_for are in ms of board
-    time. log: file to which each pulse writes a line, or None.
+    Attributes:
+        part: a part with the UART bridge.
+        plants: one for each axis.
+        speed: multiple of real time; None: as fast as the computer can.
+        clk_hz: clock of the board, 8e6 … 200e6 Hz (real time is not possible far above 8e6).
+        xtal_hz: crystal of the emulated chip, 1e6 Hz or more.
+        timing: FAST or DATASHEET.
+        record: the recorder stores 2**record records of the pins; 0: no recorder.
+        own: values of words that only this part has; each one is a parameter of its top module.
+        vcd: waveform file or None; vcd_from and vcd_for are in ms of board time.
+        log: file to which each pulse writes a line, or None.
     """
 
     part: str = "ppmc104"

@@ -27,8 +27,13 @@ from ..common.lines import LineKind, one_of, pace, positive, split_words, whole
 class Eeprom:
     """Model of an EEPROM.
 
-    content: bytes from address 0; the rest is blank. file: the content is stored here after each write.
-    missing: no EEPROM is connected. writes: number of writes.
+    Args:
+        content: bytes from address 0; the rest is blank.
+        file: the content is stored here after each write.
+        missing: True if no EEPROM is connected.
+
+    Attributes:
+        writes: number of writes.
     """
 
     def __init__(self, content: bytes, file: Path | None = None, missing: bool = False) -> None:
@@ -109,10 +114,16 @@ KNOWN = ", ".join((*(f"{word}[N]" for word in OWN), *OPTIONS))
 class Carriage:
     """Carriage, inputs and EEPROM of a controller.
 
-    Positions are in 1/16 full steps, forward positive. start: initial position. EXT1 is at level 0 at and
-    below `low`, EXT2 at and above `high`. gpi: levels of GPI5 to GPI1. eeprom: file with the content of the
-    EEPROM; None: the EEPROM is new each time and has the address. no_eeprom: no EEPROM is connected. program:
-    text that is assembled into the EEPROM and starts after power-up, or None.
+    Positions are in 1/16 full steps, forward positive.
+
+    EXT1 is at level 0 at and below `low`, EXT2 at and above `high`.
+
+    Attributes:
+        start: initial position.
+        gpi: levels of GPI5 to GPI1.
+        eeprom: file with the content of the EEPROM; None: the EEPROM is new each time and has the address.
+        no_eeprom: True if no EEPROM is connected.
+        program: text that is assembled into the EEPROM and starts after power-up, or None.
     """
 
     start: int = 4000
@@ -132,10 +143,15 @@ class Carriage:
 class LineSpec:
     """Requested virtual line.
 
-    carriages: one for each controller, by its address. twin: address that a second controller also has, or
-    None. baud: line rate in bit/s. step_ack: MANUAL or ECHO. echo: the master receives its own characters.
-    noise: one in this number of characters is corrupted, in both directions; 0: no noise. speed: multiple of
-    real time; None: as fast as possible. unplug: seconds after which the port disappears.
+    Attributes:
+        carriages: one for each controller, by its address.
+        twin: address that a second controller also has, or None.
+        baud: line rate in bit/s.
+        step_ack: MANUAL or ECHO.
+        echo: True if the master receives its own characters.
+        noise: one in this number of characters is corrupted, in both directions; 0: no noise.
+        speed: multiple of real time; None: as fast as possible.
+        unplug: seconds after which the port disappears.
     """
 
     carriages: dict[int, Carriage] = field(default_factory=lambda: {FACTORY: Carriage()})
@@ -295,8 +311,11 @@ class Part(Pmc006):
 class Node(Carrier[Part], LineStation[Part]):
     """Controller with its carriage, after boot.
 
-    number: its initial address. `position` is that of the carriage in 1/16 full steps; the part itself counts
-    steps. The switches are optical: they do not bounce.
+    `position` is that of the carriage in 1/16 full steps; the part itself counts steps. The switches are
+    optical: they do not bounce.
+
+    Args:
+        number: its initial address.
     """
 
     def __init__(self, carriage: Carriage, number: int, spec: LineSpec) -> None:
@@ -372,7 +391,10 @@ def parameters(spec: LineSpec) -> dict[str, int | str]:
 def arguments(spec: LineSpec, files: Path) -> list[str]:
     """Return the arguments of the program in tb/line with tb/pmc006/line/node.h.
 
-    files: folder into which the contents of the EEPROMs are written. Raises ValueError for an unusable file.
+    Raises ValueError for an unusable file.
+
+    Args:
+        files: folder into which the contents of the EEPROMs are written.
     """
     addresses = [*spec.carriages, *([] if spec.twin is None else [spec.twin])]
     words = [f"stations={len(addresses)}"]

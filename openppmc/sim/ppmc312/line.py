@@ -46,11 +46,15 @@ KNOWN = ", ".join((*(f"{word}[N]" for word in PLANT_WORDS), *OPTIONS, *LAST))
 class LineSpec:
     """Requested virtual line.
 
-    plants: one for each station, by its number. twin: (number, plant) of a second station with the number of
-    another station, or None. baud: line rate in bit/s with a 16 MHz crystal. sum_mode: BINARY or CHARS. echo:
-    the master receives its own characters. noise: one in this number of characters is corrupted, in both
-    directions; 0: no noise. speed: multiple of real time; None: as fast as possible. unplug: seconds after
-    which the port disappears.
+    Attributes:
+        plants: one for each station, by its number.
+        twin: (number, plant) of a second station with the number of another station, or None.
+        baud: line rate in bit/s with a 16 MHz crystal.
+        sum_mode: BINARY or CHARS.
+        echo: True if the master receives its own characters.
+        noise: one in this number of characters is corrupted, in both directions; 0: no noise.
+        speed: multiple of real time; None: as fast as possible.
+        unplug: seconds after which the port disappears.
     """
 
     plants: dict[int, Plant]

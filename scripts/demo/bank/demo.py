@@ -46,7 +46,12 @@ TABLE = Part.of_model(NAME, PINS, parameters=("AXES", "CLK_HZ"), clock="")
 
 @dataclass(frozen=True)
 class Played:
-    """Result of the host session. go: write event of GO. ends: finish status and position of each axis."""
+    """Result of the host session.
+
+    Attributes:
+        go: edge of the write event of GO.
+        ends: finish status and position of each axis.
+    """
 
     session: Session
     go: int

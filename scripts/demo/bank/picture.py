@@ -139,7 +139,13 @@ def frame(figure: Figure, comparison: Any) -> None:
 
 
 def draw(comparison: Any, pulses: Sequence[Sequence[int]], first: int, path: Path) -> None:
-    """Draw the picture into a PNG. first: edge of all first pulses. IndexError if an axis has no pulses."""
+    """Draw the picture into a PNG.
+
+    Raises IndexError if an axis has no pulses.
+
+    Args:
+        first: edge of all first pulses.
+    """
     plt.rcParams["font.family"] = "DejaVu Sans"
     figure = plt.figure(figsize=(16, 15), dpi=110, facecolor="white")
     grid = figure.add_gridspec(

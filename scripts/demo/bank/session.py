@@ -15,7 +15,11 @@ READ_FINISH = 0x80
 
 
 class Access(NamedTuple):
-    """One access; `t`: first edge with the strobe."""
+    """One access.
+
+    Attributes:
+        t: first edge with the strobe.
+    """
 
     t: int
     write: bool
@@ -38,7 +42,14 @@ class Recorder(PpmcBank):
 
 
 class Session:
-    """A host session. `t`: next free edge; `accesses`: all, in order. Axes count from 0, as in the window."""
+    """A host session.
+
+    Axes count from 0, as in the window.
+
+    Attributes:
+        t: next free edge.
+        accesses: all accesses, in order of time.
+    """
 
     def __init__(self, axes: int, clk_hz: int) -> None:
         self.model = Recorder(axes, clk_hz)

@@ -17,7 +17,11 @@ IDLE = {"a": 0, "cs_n": 1, "rd_n": 1, "wr_n": 1, "d_i": 0}
 
 
 def write(comparison: Any, pulses: Sequence[Sequence[int]], path: Path) -> None:
-    """Write the VCD file; pulses: edges of each axis."""
+    """Write the VCD file.
+
+    Args:
+        pulses: edges of the pulses of each axis.
+    """
     recording = comparison.recording
     clk_hz = int(recording.params["CLK_HZ"])
     period = round(1e12 / clk_hz)

@@ -25,7 +25,12 @@ BY_PARAMETER = re.compile(r"(?:(?P<times>\d+)\*)?(?P<name>[A-Z]\w*)-1")
 
 @dataclass(frozen=True)
 class Port:
-    """A port. `group`: the comment line above it and its neighbours; `text`: the comment after it."""
+    """A port.
+
+    Attributes:
+        group: comment line above the port and its neighbours.
+        text: comment after the port.
+    """
 
     name: str
     output: bool

@@ -26,7 +26,7 @@ SHOWS = ("link", "moving", "switch", "running")
 LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cyclone5": "qsf"}
 """FPGA family -> suffix of its constraint files."""
 
-# Section -> required keys, optional keys.
+# Section -> (required keys, optional keys).
 KEYS = {
     "board": (
         "title place chip family clock reset lamps uart pads headers parts",
@@ -49,7 +49,11 @@ KEYS = {
 
 @dataclass(frozen=True)
 class Device:
-    """An FPGA with which the board is sold, for the tools of `make setup`. `name`: value of BOARD."""
+    """An FPGA with which the board is sold, for the tools of `make setup`.
+
+    Attributes:
+        name: value of BOARD.
+    """
 
     name: str
     title: str
@@ -60,12 +64,17 @@ class Device:
 
 @dataclass(frozen=True)
 class Carried:
-    """A part on a board. `name`: its folder, the part's name with or without its host; `part`: value of PART.
+    """A part on a board.
 
-    `mhz`: clk frequency; `goal`: the minimum that the project requires. `pll`, `set`: parameters of the
-    clock module and of the carrier; `omit`: parameters of the carrier that have no effect on this board.
-    `low`: inputs without a pin that read as 0 (the others read as 1), each with its reason. `pins`: group
-    title -> signal -> header pins.
+    Attributes:
+        name: name of its folder: the name of the part with or without the host.
+        part: value of PART.
+        mhz: frequency of `clk` in MHz.
+        goal: minimum frequency in MHz that the project requires.
+        pll, set: parameters of the clock module and of the carrier.
+        omit: parameters of the carrier that have no effect on this board.
+        low: inputs without a pin that read as 0 (the others read as 1), each with its reason.
+        pins: group title -> signal -> header pins.
     """
 
     name: str
@@ -95,7 +104,7 @@ class Description:
     name: str
     path: Path
     title: str
-    revisions: str  # of the board, for which the pins were checked
+    revisions: str  # revisions of the board for which the pins were checked
     code: str
     place: int
     chip: str

@@ -14,7 +14,13 @@ HOST_RESET = "host_rst_n"
 
 @dataclass(frozen=True)
 class Pad:
-    """One pin. `bit`: the port, or a bit of it; `way`: in, out or inout; `pull`: up, down or none."""
+    """One pin.
+
+    Attributes:
+        bit: name of the port, or of a bit of the port.
+        way: direction: in, out or inout.
+        pull: pull resistor: up, down or none.
+    """
 
     bit: str
     pin: str

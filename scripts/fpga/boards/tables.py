@@ -94,7 +94,10 @@ def bridge(text: str) -> str:
 
 
 def put(text: str, begin: str, end: str, body: str, where: str) -> str:
-    """Return `text` with `body` between the lines `begin` and `end`; ProjectError if a line is missing."""
+    """Return `text` with `body` between the lines `begin` and `end`.
+
+    The call raises ProjectError if a line is missing.
+    """
     head, found, rest = text.partition(f"{begin}\n")
     _, closed, tail = rest.partition(end)
     if not found or not closed:

@@ -15,9 +15,13 @@ from scripts.fpga.boards.description import HOSTS, Carried, Description, Device,
 class Board:
     """One board: its FPGA, its clock, and for each host (HOSTS) the top module and its constraint file.
 
-    `clk_hz`: frequency of the part's `clk`; `goal_mhz`: the minimum that the project requires on this board.
-    `oscillator`: clock input with its frequency in MHz; `loader`: name of the board in openFPGALoader;
-    `part`: the part on the board; `revisions`: board revisions with these pins.
+    Attributes:
+        clk_hz: frequency of the part's `clk`.
+        goal_mhz: minimum frequency of `clk` in MHz that the project requires on this board.
+        oscillator: clock input with its frequency in MHz.
+        loader: name of the board in openFPGALoader.
+        part: the part on the board.
+        revisions: board revisions with these pins.
     """
 
     name: str

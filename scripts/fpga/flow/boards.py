@@ -105,7 +105,8 @@ def synthesize_board(
 ) -> Path:
     """Return the mapped netlist of a board's top with `params`; raise ProjectError with yosys' errors.
 
-    known: the bitstream returns its build ID (UB-VER-01); sizes must not depend on it.
+    Args:
+        known: True if the bitstream returns its build ID (UB-VER-01); sizes must not depend on it.
     """
     job = board_job(on, host, params)
     job["defines"] = [sources_of.build_define(build_id(on))] if known else []

@@ -93,9 +93,12 @@ def netlist(
 ) -> Path:
     """Return the folder with netlist.v and netlist.vlt of `top` for these parameters; build it if missing.
 
-    inside: signals of the top that are visible in addition to its ports. Booleans and numbers of `params` are
-    passed to yosys as numbers. Safe for several processes: one builds the netlist, the others wait.
-    ProjectError with the errors of the log if yosys fails.
+    Booleans and numbers of `params` are passed to yosys as numbers. Several processes may call it at the same
+    time: one builds the netlist, the others wait. It raises ProjectError with the errors of the log if yosys
+    fails.
+
+    Args:
+        inside: signals of the top that are visible in addition to its ports.
     """
     job = {
         "top": top,

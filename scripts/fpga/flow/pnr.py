@@ -16,7 +16,13 @@ CLOCK = "clk"
 
 @dataclass(frozen=True)
 class Device:
-    """One FPGA. `ask_mhz`: clock constraint of nextpnr; `goal_mhz`: required clock; `pins`: I/O pins."""
+    """One FPGA.
+
+    Attributes:
+        ask_mhz: clock constraint for nextpnr in MHz.
+        goal_mhz: required clock rate in MHz.
+        pins: number of I/O pins.
+    """
 
     name: str
     family: str

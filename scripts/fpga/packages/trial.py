@@ -155,7 +155,10 @@ def try_template(name: str) -> None:
 
 
 def try_other(program: str) -> None:
-    """Use the packages with another Verilator; ProjectError if it is not a Verilator or reports a fault."""
+    """Use the packages with another Verilator.
+
+    The call raises ProjectError if the program is not a Verilator or reports a fault.
+    """
     found = shutil.which(program)
     if found is None:
         raise ProjectError(f"{program}: there is no such program (VERILATOR=/usr/bin/verilator)")

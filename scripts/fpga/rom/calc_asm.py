@@ -147,7 +147,11 @@ class Coder:
         return self.code("op_e", "Op", op) << 13 | aux << 9 | low
 
     def code(self, enum: str, prefix: str, name: str) -> int:
-        """Return the code of a name in an enumeration of the package. prefix: its prefix in the package."""
+        """Return the code of a name in an enumeration of the package.
+
+        Args:
+            prefix: prefix of the name in the package.
+        """
         codes = [known.removeprefix(prefix) for known in self.names[enum]]
         if name not in codes:
             near = get_close_matches(name, codes, 1) or codes[:FEW]

@@ -20,7 +20,10 @@ HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s"]
 
 
 def measure() -> tuple[int, int, list[list[float]]]:
-    """Return cycles, output edges, seconds of each run of both sides; ProjectError if the edges differ."""
+    """Return cycles, output edges, seconds of each run of both sides.
+
+    The call raises ProjectError if the edges differ.
+    """
     program = build()
     played = play()
     times: list[list[float]] = [[], []]

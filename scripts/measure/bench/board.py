@@ -22,9 +22,12 @@ HEADS = ["figure", ""]
 class Figures:
     """Figures of one virtual board.
 
-    accesses: register reads/s in blocks of 255, at BAUD; commands: round trips/s of a command with its
-    response; initialise: ms of wall time of an initialisation with its table; factor: board time / wall time
-    in a move; clk: cycles/s of processor time, at full speed with the motor in motion.
+    Attributes:
+        accesses: register reads/s in blocks of 255, at BAUD.
+        commands: round trips/s of a command with its response.
+        initialise: ms of wall time of an initialisation with its table.
+        factor: board time / wall time in a move.
+        clk: cycles/s of processor time, at full speed with the motor in motion.
     """
 
     accesses: float

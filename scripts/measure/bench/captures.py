@@ -43,7 +43,11 @@ _DECLARED = "$var wire 1 {} {} $end"
 
 
 class _Writer:
-    """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time. edges: number so far."""
+    """Writer of changes as VCD, or as CSV of Saleae Logic with a row for each time.
+
+    Attributes:
+        edges: number of edges written so far.
+    """
 
     def __init__(self, path: Path, names: list[str]) -> None:
         self.file, self.csv, self.edges = path.open("w"), path.suffix == ".csv", 0
@@ -90,7 +94,8 @@ class _Writer:
 def write_capture(path: Path, edges: int, pulses: int = 20_000) -> int:
     """Write a capture of a PPMC-104 and return the number of its edges.
 
-    It has moves of `pulses` with a poll after every 20 pulses; if `pulses` is 0, commands with 20 polls each.
+    The capture has moves of `pulses` with a poll after every 20 pulses; if `pulses` is 0, it has commands
+    with 20 polls each.
     """
     names = [*(f"d[{bit}]" for bit in range(8)), "a0", "cs_n", "rd_n", "wr_n"]
     out = _Writer(path, names + ["pout_n", "dir", "rst_n"] * bool(pulses))
@@ -217,7 +222,10 @@ def _status(name: str) -> int:
 class Figures(NamedTuple):
     """Figures of a file.
 
-    rate: edges/s of processor time. plain: seconds / those of a plain numpy pass. size: peak bytes per edge.
+    Attributes:
+        rate: edges/s of processor time.
+        plain: processor time divided by that of a plain numpy pass over the file.
+        size: peak memory in bytes per edge.
     """
 
     edges: int

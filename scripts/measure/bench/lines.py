@@ -33,7 +33,12 @@ HEADS = [
 
 @dataclass(frozen=True)
 class Case:
-    """A virtual line. stations: number of stations, which all move. text: the rest of its settings."""
+    """A virtual line.
+
+    Attributes:
+        stations: number of stations, which all move.
+        text: all other settings of the line.
+    """
 
     what: str
     stations: int

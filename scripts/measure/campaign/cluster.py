@@ -55,7 +55,10 @@ def workers_of(arguments: argparse.Namespace) -> Workers:
 
 @contextmanager
 def client(workers: Workers) -> Iterator[Any]:
-    """Provide a Dask client; workers of this machine end with it. ProjectError if there is no scheduler."""
+    """Provide a Dask client; workers of this machine end with it.
+
+    The call raises ProjectError if there is no scheduler.
+    """
     try:
         import dask
         from distributed import Client, LocalCluster

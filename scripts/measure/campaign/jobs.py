@@ -11,7 +11,8 @@ from typing import Any
 class Job:
     """One piece of work. `key` is unique in its campaign; `what` is sent to the worker and can be pickled.
 
-    stamp: digest of all that the result depends on, except the key; "" means the digest of the tree.
+    Attributes:
+        stamp: digest of all that the result depends on, except the key; "" means the digest of the tree.
     """
 
     key: str

@@ -45,7 +45,7 @@ def stop_children() -> int:
 
 
 def carry_out(work: Any, what: Any, wanted: str) -> tuple[Result, float]:
-    """Run a job; return its result and its seconds. ProjectError if this worker has other sources."""
+    """Run a job; return its result and its seconds. Raises ProjectError if this worker has other sources."""
     if wanted != _own_tree():
         raise ProjectError(
             f"a worker has other sources than the campaign ({_own_tree()}, not {wanted}); "

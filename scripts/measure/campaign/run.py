@@ -27,7 +27,9 @@ def run(
 ) -> Iterator[Done]:
     """Yield each job's result in order of completion, stored results first. Exceptions of a job are raised.
 
-    fresh: ignore stored results. store: another file than the project's.
+    Args:
+        fresh: True if stored results are ignored.
+        store: file of results, if it is not that of the project.
     """
     with store or Store(RESULTS) as file, Show(campaign.title or campaign.name, campaign.count) as show:
         now = tree()

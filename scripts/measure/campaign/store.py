@@ -21,7 +21,7 @@ TABLE = """create table if not exists results (
 
 
 class Store:
-    """The open file. ProjectError if it cannot be written or is not a file of results."""
+    """The open file. Raises ProjectError if it cannot be written or is not a file of results."""
 
     def __init__(self, path: Path = RESULTS) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -25,7 +25,12 @@ NAMES = ("IdentifierName", "IdentifierSelectName", "ScopedName")
 
 @dataclass(frozen=True)
 class Call:
-    """A call in rtl/. inside: the function that contains it, or ""; constant: see above."""
+    """A call in rtl/.
+
+    Attributes:
+        inside: name of the function that contains the call, or "".
+        constant: True if the call is constant (see the text of the module).
+    """
 
     name: str
     inside: str

@@ -129,7 +129,11 @@ def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
 
 
 def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool = False) -> str:
-    """Return the whole page, from `tests` of all tests; `old`: sources may have been in earlier states."""
+    """Return the whole page, from `tests` of all tests.
+
+    Args:
+        old: True if some results may be from earlier states of the sources.
+    """
     much = f"{tests} tests." if tests == all_tests else f"**A sample: {tests} of {all_tests} tests.**"
     much += " They ran at different times, some possibly with earlier sources." if old else ""
     lines = [HEAD, f"{much}\n", "## The RTL\n", *folders(sums)]

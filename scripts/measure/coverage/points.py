@@ -20,7 +20,12 @@ RTL = "rtl/"
 
 @dataclass
 class Points:
-    """`reached`: point -> whether it was covered. `spans`: point -> its source lines, "108-109,155"."""
+    """Points of a run.
+
+    Attributes:
+        reached: point -> whether it was covered.
+        spans: point -> its source lines, such as "108-109,155".
+    """
 
     reached: dict[str, bool] = field(default_factory=dict)
     spans: dict[str, str] = field(default_factory=dict)

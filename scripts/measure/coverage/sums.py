@@ -45,7 +45,11 @@ class Figure:
 
 @dataclass(frozen=True)
 class Hole:
-    """A point in a file that no test covers. why: "" if there is no explanation."""
+    """A point in a file that no test covers.
+
+    Attributes:
+        why: explanation, "" if there is no explanation.
+    """
 
     file: str
     line: int
@@ -66,7 +70,10 @@ def source(file: str) -> list[str]:
 
 
 def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
-    """Yield an entry for each line of a function; ProjectError if its file has no function of that name."""
+    """Yield an entry for each line of a function.
+
+    The call raises ProjectError if its file has no function of that name.
+    """
     inside = False
     name = entry["function"]
     for line in source(entry["file"]):
@@ -79,7 +86,10 @@ def _of_function(entry: Mapping[str, str]) -> Iterator[Mapping[str, str]]:
 
 
 def explained() -> list[Mapping[str, str]]:
-    """Return the entries of holes.yml, one for each line; ProjectError if a line is no longer in its file."""
+    """Return the entries of holes.yml, one for each line.
+
+    The call raises ProjectError if a line is no longer in its file.
+    """
     entries: list[Mapping[str, str]] = []
     for entry in yaml.safe_load(HOLES.read_text(encoding="utf-8")) or []:
         entries += _of_function(entry) if "function" in entry else [entry]

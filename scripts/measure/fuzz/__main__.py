@@ -29,7 +29,11 @@ BLOCK = 250_000
 
 
 def play(what: tuple[str, int, int]) -> Result:
-    """Run a block. what: line, seed, number of characters."""
+    """Run a block.
+
+    Args:
+        what: line, seed, number of characters.
+    """
     name, seed, size = what
     line = LINES[name]
     words = stream(random.Random(f"{name} {seed}"), size, line.good, line.special)

@@ -27,7 +27,10 @@ SHOWN = 24
 
 @cache
 def program(name: str) -> Path:
-    """Return the program of a line, built if its sources changed; ProjectError with the end of the log."""
+    """Return the program of a line, built if its sources changed.
+
+    The call raises ProjectError with the end of the log.
+    """
     line = LINES[name]
     sources = [*files(line.group), FOLDER / f"{line.top}.sv", FOLDER / "main.cpp"]
     words = [*ARGS.split(), "--prefix", "Vfuzz", "--top-module", line.top, "-o", "fuzz"]

@@ -26,8 +26,12 @@ PMC006_ADDRESS, PPMC312_ADDRESS = 3, 5
 class Line:
     """A line.
 
-    top: of tb/fuzz. group: of rtl/files.yml. good, special: see `words.stream`. params: of top. expected:
-    events of the golden model.
+    Attributes:
+        top: name of the top module in tb/fuzz.
+        group: name of the group in rtl/files.yml.
+        good, special: see `words.stream`.
+        params: parameters of the top module.
+        expected: function that returns the events of the golden model.
     """
 
     top: str
@@ -95,7 +99,11 @@ def pmc006_events(words: array[int]) -> Events:
 
 
 def ppmc312_frame(rng: random.Random, chars: bool) -> bytes:
-    """Return a poll or an instruction of P312-SER-10 … 13. chars: the checksum is that of the characters."""
+    """Return a poll or an instruction of P312-SER-10 … 13.
+
+    Args:
+        chars: True if the checksum is that of the characters.
+    """
     poll = rng.random() < 0.2
     control = (0x80 if poll else 0x90) | (PPMC312_ADDRESS if rng.random() < 0.9 else rng.randrange(16))
     code = rng.choice(list(LENGTHS)) if rng.random() < 0.9 else rng.randrange(256)

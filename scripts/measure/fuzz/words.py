@@ -22,7 +22,8 @@ def digest(data: bytes) -> int:
 def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -> array[int]:
     """Return at least `size` words: valid frames, frames with a fault, and noise.
 
-    special: characters with a meaning on this line; they are more frequent in noise.
+    Args:
+        special: characters with a meaning on this line; they are more frequent in noise.
     """
     words = array("H")
     while len(words) < size:

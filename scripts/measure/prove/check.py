@@ -24,8 +24,10 @@ TRACE = "read_rtlil prove.il; sim -q -zinit -multiclock -r prove.aiw -map prove.
 class Outcome:
     """Result of a proof.
 
-    trouble: empty if it holds. reached: cycle in which each cover was reached. refuted: a property has a
-    counterexample.
+    Attributes:
+        trouble: reason of a failure, empty if the proof holds.
+        reached: cycle in which each cover was reached.
+        refuted: True if a property has a counterexample.
     """
 
     name: str
@@ -37,7 +39,7 @@ class Outcome:
 
     @property
     def good(self) -> bool:
-        """True if it is proved and all of its covers are reached."""
+        """True if the property is proved and all covers are reached."""
         return not self.trouble
 
 

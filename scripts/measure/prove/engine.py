@@ -66,8 +66,10 @@ def induction(folder: Path, length: int, limit: int) -> tuple[str, dict[int, int
 def prove(folder: Path, bound: int, limit: int, induct: int = 0) -> tuple[str, dict[int, int]]:
     """Prove that no output of prove.aig can be true (within `bound` cycles); else return which, and when.
 
-    It takes at most `limit` seconds. A counterexample is written to prove.aiw. induct: use induction of that
-    length.
+    It takes at most `limit` seconds. A counterexample is written to prove.aiw.
+
+    Args:
+        induct: length of the induction; 0 means no induction.
     """
     if induct:
         return induction(folder, induct, limit)

@@ -32,7 +32,11 @@ FORMAL = ROOT / "tb" / "formal"
 
 @dataclass(frozen=True)
 class Change:
-    """An RTL file with another text. name: distinguishes the folder of the run from others of the proof."""
+    """An RTL file with another text.
+
+    Attributes:
+        name: part of the name of the run's folder; it distinguishes this run from others of the proof.
+    """
 
     name: str
     file: str
@@ -66,7 +70,11 @@ class Proof:
         return FORMAL / self.folder / f"{self.wrapper or self.name}_fv.sv"
 
     def sources(self, changed: Mapping[Path, Path] = MappingProxyType({})) -> list[Path]:
-        """Return RTL and wrapper in compile order. changed: RTL file -> its replacement."""
+        """Return RTL and wrapper in compile order.
+
+        Args:
+            changed: RTL file -> its replacement.
+        """
         stubs = {Path(stub).name: FORMAL / stub for stub in self.stubs}
         place = {path: stubs[path.name] for path in files(self.group) if path.name in stubs} | dict(changed)
         return [*(place.get(path, path) for path in files(self.group)), self.file]
@@ -92,7 +100,7 @@ def proofs() -> Iterator[Proof]:
 def chosen(words: Sequence[str], night: bool) -> list[Proof]:
     """Return proofs whose name contains one of these words; without words all (`night`) or all quick ones.
 
-    ProjectError if a word matches no proof.
+    Raises ProjectError if a word matches no proof.
     """
     every = list(proofs())
     if not words:

@@ -62,9 +62,12 @@ _LOCKS: dict[tuple[str, int], threading.Lock] = defaultdict(threading.Lock)
 class Design:
     """A design with a family and a recipe.
 
-    name: as in docs/sizes.json. part: the part it contains, "" for a bridge or a peer. job: the yosys job
-    without family and recipe. wiring: how `scan_wrapper.source` connects the pins. rated: its clock rate is
-    measured.
+    Attributes:
+        name: name in docs/sizes.json.
+        part: part that the design contains, "" for a bridge or a peer.
+        job: the yosys job without family and recipe.
+        wiring: how `scan_wrapper.source` connects the pins.
+        rated: True if its clock rate is measured.
     """
 
     name: str

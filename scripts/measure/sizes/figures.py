@@ -46,7 +46,7 @@ def _is_valid(entry: object) -> bool:
 
 
 def read(path: Path = FILE) -> Figures:
-    """Return the committed figures; ProjectError if the file is missing or has another form."""
+    """Return the committed figures; raise ProjectError if the file is missing or has another form."""
     where = relative(path)
     try:
         data = json.loads(path.read_text(encoding="utf-8"))

@@ -15,7 +15,11 @@ FILLS = {"plain": "#eef2f6", "host": "#dbe8f7", "motion": "#dff0e1", "part": "#f
 
 @dataclass(frozen=True)
 class Box:
-    """A box with its centre at column x, row y (rows count downwards). text: the first line is bold."""
+    """A box with its centre at column x, row y (rows count downwards).
+
+    Attributes:
+        text: lines of text; the first line is bold.
+    """
 
     x: float
     y: float
@@ -27,7 +31,12 @@ class Box:
 
 @dataclass(frozen=True)
 class Arrow:
-    """An arrow between two boxes, given by name. via: corners between them; both: a head at each end."""
+    """An arrow between two boxes, given by name.
+
+    Attributes:
+        via: corners of the arrow between the boxes.
+        both: True if the arrow has a head at each end.
+    """
 
     start: str
     end: str
@@ -107,7 +116,10 @@ def _arrow(axes: Axes, arrow: Arrow, boxes: Mapping[str, Box]) -> None:
 
 
 def draw(boxes: Mapping[str, Box], arrows: Sequence[Arrow], inches: tuple[float, float]) -> plt.Figure:
-    """Return the drawing with this width and height; the grid fills it. KeyError for an unknown box."""
+    """Return the drawing with this width and height; the grid fills it.
+
+    The call raises KeyError for an unknown box.
+    """
     figure = plt.figure(figsize=inches)
     axes = figure.add_axes((0.005, 0.01, 0.99, 0.98))
     for arrow in arrows:

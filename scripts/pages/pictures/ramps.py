@@ -68,9 +68,13 @@ def draw(
 
 
 def forced(of: Ramp, base_hz: int, cases: dict[int, str], top: float, last: int, stops_at_rl: bool) -> bytes:
-    """Draw forced decelerations of a long move; `cases`: interval of the flag -> explanation.
+    """Draw forced decelerations of a long move.
 
-    `top` (kpps) and `last` (pulse) are the ends of the axes. `stops_at_rl`: no pulse follows at rate RL.
+    `top` (kpps) and `last` (pulse) are the ends of the axes.
+
+    Args:
+        cases: interval of the flag -> explanation.
+        stops_at_rl: True if no pulse follows at rate RL.
     """
     figure, axes = plt.subplots(figsize=(9.2, 3.2), layout="constrained")
     draw(axes, index_profile(3 * last, of.pa)[: last - 1], False, GREY, "undisturbed", of, base_hz)

@@ -12,16 +12,19 @@ Samples = Sequence[Levels | None]  # one for each column; None: cycles that are 
 
 LONG = 10_000
 LETTERS = "nmk"
-COLOURS = "345"  # WaveDrom's filled boxes, in turn
+COLOURS = "345"  # codes of WaveDrom's filled boxes, used in turn
 
 
 @dataclass(frozen=True)
 class Row:
     """One line of a diagram: its name, and a pin or flag or a function of all of them (None: don't care).
 
-    `text` returns the text in the box of a vector's value; without it, the line is a single bit. `host`:
-    driven by the host, so it changes half a cycle before the edge that samples it. `nodes`: column -> letter
-    for arrows.
+    `text` returns the text in the box of a vector's value; without it, the line is a single bit.
+
+    Attributes:
+        host: True if the host drives the line, which then changes half a cycle before the edge that samples
+            it.
+        nodes: column -> letter for arrows.
     """
 
     name: str
@@ -60,7 +63,8 @@ def record(
 ) -> Samples:
     """Drive a model with the schedule and sample it at the edges of the columns, which must be ascending.
 
-    `flags`: returns further signals in addition to pins.
+    Args:
+        flags: function that returns further signals in addition to the pins.
     """
     pins, due = dict(inputs), list(schedule)
     found: list[Levels | None] = []

@@ -1,4 +1,4 @@
-"""Timing diagrams and bit fields: from WaveDrom JSON to a small, stand-alone, reproducible SVG."""
+"""Conversion of timing diagrams and bit fields from WaveDrom JSON to a small, reproducible SVG."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scripts.pages.pictures.fit import width as lines
 
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
-# Pixels instead of points (some viewers do not know the dpi), larger labels, darker tick numbers.
+# The styles use pixels, not points (some viewers do not know the dpi), larger labels and darker numbers.
 STYLES = (
     ("font-family:Helvetica", f"font-family:{FONTS}"),
     ('font-family="sans-serif"', f'font-family="{FONTS}"'),

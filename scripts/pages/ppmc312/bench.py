@@ -38,7 +38,7 @@ def flags(chip: Any) -> Levels:
 
 
 def marked(row: Row, samples: Samples, letters: str) -> Row:
-    """Return the row with letters for arrows at its changes; a full stop: no letter at this change."""
+    """Return the row with letters for arrows at its changes. A full stop means no letter."""
     levels = [None if found is None else row.of(found) for found in samples]
     changes, last = [], next(level for level in levels if level is not None)
     for column, found in enumerate(samples):
@@ -91,7 +91,8 @@ def block_cycles(edge: int, block: str) -> tuple[Schedule, int]:
 async def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, int]:
     """Return a host shortly before pulse `number` of a motion, and the edge of that pulse.
 
-    origin: the pulse after which the origin switch closes; it opens again five pulses later.
+    Args:
+        origin: the pulse after which the origin switch closes; it opens again five pulses later.
     """
     edge = 0
     while True:
@@ -143,7 +144,11 @@ def cycle(
     tick: int,
     texts: tuple[str, str, Sequence[str]],
 ) -> Drawing:
-    """Return a bus access with one column for each cycle; `texts`: head, foot, arrows."""
+    """Return a bus access with one column for each cycle.
+
+    Args:
+        texts: texts of head, foot and arrows.
+    """
     samples = look(host, schedule, columns)
     return {
         "signal": [

@@ -9,7 +9,7 @@ from itertools import pairwise
 from openppmc.model.stmc.part import Stmc
 
 CLK_HZ = 16_000_000
-TICK = 1280  # cycles of a tick of the internal 12.5 kHz
+TICK = 1280  # cycles of a tick of the internal clock, 12.5 kHz
 IBF, OBF = 2, 1
 FINISH, REMAINING = 0x80, 0x83
 
@@ -25,7 +25,13 @@ class Outcome:
 
 
 class Bench:
-    """The model at 16 MHz with a polling host; `t`: next free edge. Keywords are passed to the model."""
+    """The model at 16 MHz with a polling host.
+
+    Keywords are passed to the model.
+
+    Attributes:
+        t: next free edge.
+    """
 
     def __init__(self, timing: str = "FAST", **parameters: object) -> None:
         self.chip = Stmc(timing=timing, **parameters)  # type: ignore[arg-type]

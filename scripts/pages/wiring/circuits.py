@@ -14,7 +14,11 @@ STRONG_FPGA = ("artix7", "cyclone5")
 
 @dataclass(frozen=True)
 class Item:
-    """A line of an order list. number: number of pins of a circuit -> quantity."""
+    """A line of an order list.
+
+    Attributes:
+        number: number of pins of a circuit -> quantity.
+    """
 
     what: str
     order: str
@@ -43,9 +47,13 @@ CAPACITOR = "100 nF ceramic, at each chip"
 class Circuit:
     """The circuit of a group of pins.
 
-    ports: of the carrier. chip: as drawn, with `channels` channels. far: connection of a pin on the other
-    side, with the signal level `level`. pull: connection of a pin's resistor at the FPGA's side, "" without a
-    resistor. items: of the order list. note: below the drawing.
+    Attributes:
+        ports: ports of the carrier.
+        chip: name of the chip in the drawing; it has `channels` channels.
+        far: connection of a pin on the other side, with the signal level `level`.
+        pull: connection of a pin's resistor at the FPGA's side, "" without a resistor.
+        items: items of the order list.
+        note: text below the drawing.
     """
 
     key: str
@@ -328,7 +336,7 @@ CIRCUITS = (
     ),
 )
 OWN_GROUPS = 1
-"""Number of first groups that are on the board itself."""
+"""Number of groups at the beginning of the list whose circuits are on the board itself."""
 
 
 @dataclass(frozen=True)

@@ -134,7 +134,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
-    """Write the resistor at the FPGA's side as text on its wire, because there are many."""
+    """Write the resistor at the FPGA's side as text on its wire, because there are many resistors."""
     to = use.circuit.pull(pad)
     if to:
         x = (WIRE + CHIP) / 2

@@ -23,7 +23,9 @@ Seen = tuple[list[tuple[int, int]], list[tuple[int, int]], tuple[int, int]]
 class Move:
     """Configuration and commands of a move.
 
-    `config`: csel and vsel. `cut`: a stop code or a switch, and its time in rounds after the start.
+    Attributes:
+        config: levels of csel and vsel.
+        cut: a stop code or a switch, and its time in rounds after the start.
     """
 
     config: int

@@ -67,7 +67,7 @@ class Bench:
             READ(lambda _, address: self.read(address)),
             WRITE(lambda _, address, byte: self.write(address, byte)),
         )
-        # The structures, with spare space.
+        # Memory for the structures of the driver, with spare space.
         self.bank = ctypes.create_string_buffer(256)
         self.parts = [ctypes.create_string_buffer(256) for _ in range(axes)]
         self.refused = ctypes.c_uint64()

@@ -14,7 +14,7 @@ from openppmc.sim import SimBoard
 
 from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line
 
-# Options of the set-up; each motion command applies them.
+# Options of the set-up. Each motion command applies them.
 SLOW = ("--start", "1000", "--high", "4000", "--ramp", "300")
 
 

@@ -104,5 +104,5 @@ def test_move_duration_is_that_of_the_board(board: SimBoard, until: Wait) -> Non
     yank(axis)
     until(lambda: board.status().hold and board.status().pulses, "end of the move")
     seconds = predict_move(bytes(setup.data), 6000).seconds[-1]
-    # 34 ms from standstill to hold; the rest is the time of the frames and of polling.
+    # From standstill to hold 34 ms pass; the rest is the time of the frames and of polling.
     assert seconds + 0.034 <= board.status().seconds - begin.seconds < seconds + 1.0

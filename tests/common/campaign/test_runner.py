@@ -1,4 +1,4 @@
-"""The runner of campaigns: results, a lost worker, interruption and continuation, mistakes in one line."""
+"""The runner of campaigns: results, a lost worker, interruption and continuation, errors of one line."""
 
 from __future__ import annotations
 

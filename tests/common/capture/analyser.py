@@ -20,7 +20,11 @@ PS = 10**12
 
 @dataclass
 class Seen:
-    """Single wires by name: initial level and changes (ps, level). step: sample period in ps."""
+    """Single wires by name: initial level and changes (ps, level).
+
+    Attributes:
+        step: sample period in ps.
+    """
 
     wires: dict[str, tuple[int, list[tuple[int, int]]]] = field(default_factory=dict)
     end: int = 0
@@ -39,9 +43,12 @@ def probe(
 ) -> Seen:
     """Sample the pins of a session.
 
-    rate: sample rate in Hz. jitter: maximum error of each edge in ps. begin, until: start and end of the
-    capture in s. without: ports that are not connected. ppm: how much too slow the analyser's clock is. d_i
-    and d_o are one bus.
+    Args:
+        rate: sample rate in Hz.
+        jitter: maximum error of each edge in ps.
+        begin, until: start and end of the capture in s.
+        without: ports that are not connected.
+        ppm: how much too slow the analyser's clock is.
     """
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6

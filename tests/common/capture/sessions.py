@@ -23,7 +23,11 @@ MS = 1000 * US
 
 @dataclass
 class Tape:
-    """A model of a device whose pin changes are kept. inputs, outputs: levels before the first change."""
+    """A model of a device whose pin changes are kept.
+
+    Attributes:
+        inputs, outputs: levels before the first change.
+    """
 
     part: str
     model: Any

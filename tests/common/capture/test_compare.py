@@ -43,7 +43,11 @@ def decoded(part: str, seen: Seen, path: Path, **parameters: object) -> Decoded:
 
 
 def compared(part: str, seen: Seen, path: Path, tolerance: float = 1.0) -> Result:
-    """Compare the record with the golden model. tolerance: in µs."""
+    """Compare the record with the golden model.
+
+    Args:
+        tolerance: largest distance of two edges in µs.
+    """
     return compare(decoded(part, seen, path), round(tolerance * US))
 
 
@@ -59,7 +63,7 @@ def test_whole_captures(part: str, tmp_path: Path) -> None:
 def test_jitter_and_other_clocks(part: str, tmp_path: Path) -> None:
     """With 24 MS/s, errors of 40 ns per edge and an analyser that is 60 ppm slow, no edge differs."""
     seen = probe(session(part), rate=24e6, jitter=40_000, ppm=60, without=SHORT)
-    # Frames alone do not reveal the frequency of the crystal.
+    # From frames alone, the frequency of the crystal cannot be determined.
     result = compared(part, seen, tmp_path, 10.0 if part == "pmc006" else 2.0)
     assert not result.differences and result.compared > 100
 

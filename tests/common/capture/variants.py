@@ -100,7 +100,11 @@ def edited(
 
 
 def with_bus(seen: Seen, path: Path, declared: str, turned: bool = False, extra: str = "") -> Path:
-    """Write a VCD whose data bus is one vector, declared with this range. turned: its first bit is d[0]."""
+    """Write a VCD whose data bus is one vector, declared with this range.
+
+    Args:
+        turned: True if its first bit is d[0].
+    """
     wires = {name: wire for name, wire in seen.wires.items() if not name.startswith("d[")}
     text = write_vcd(replace(seen, wires=wires), path).read_text()
     bus = [seen.wires[f"d[{place}]"] for place in range(8)]

@@ -12,7 +12,8 @@ from tests.common.capture.analyser import probe, write_saleae
 
 REJECTED = {"stop": 1, "table": 1, "selftest": 1}
 """Commands that an idle model rejects, and their exit status: they print nothing to stdout."""
-# Arguments by device ("": accessed through the bridge) and command. Words in braces are files of `files`.
+# Device ("" for those accessed through the bridge) -> command -> arguments. Words in braces are files of
+# `files`.
 ARGUMENTS: dict[str, dict[str, str]] = {
     "": {
         "ports": "",

@@ -51,7 +51,11 @@ def no_console() -> Iterator[None]:
 def printed(
     words: list[str], encoding: str, columns: int = 200, run: Callable[[list[str]], int] = main
 ) -> tuple[int, str, str]:
-    """Return exit status, stdout and stderr of a command with this encoding. run: its function."""
+    """Return exit status, stdout and stderr of a command with this encoding.
+
+    Args:
+        run: function that runs the command.
+    """
     both = [io.TextIOWrapper(io.BytesIO(), encoding) for _ in range(2)]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("COLUMNS", str(columns))
@@ -128,7 +132,7 @@ def test_columns_stay_aligned() -> None:
     assert attempted and not failed
 
 
-# Tables, each with one of its headings.
+# Tables, each identified by one of its headings.
 TABLES = {
     "ppmc312-serial scan": "line faults",
     "ppmc312-serial status": "line faults",

@@ -15,7 +15,7 @@ from scripts.fpga.flow.boards import BY_PART, HOSTS
 CONSTRAINTS = project.ROOT / "constraints"
 TOPS = project.RTL / "boards"
 
-# Clock input of each board and its frequency in MHz.
+# Clock input of each board, and the frequency of this clock in MHz.
 OSCILLATORS = {
     "icebreaker": ("clk_12m", 12),
     "ulx3s": ("clk_25m", 25),

@@ -13,7 +13,7 @@ from cocotb_tests.harness.random_items import batches
 from cocotb_tests.harness.runner import check_mains
 from openppmc import parts
 
-# One directed test per device; they include resets between two edges, short strobes and moves.
+# One directed test per device. The tests include resets between two edges, short strobes and moves.
 DIRECTED = {
     "ppmc104": "p104_ac_57_reset_in_motion-f16",
     "ppmc2104": "p2104_ac_30_what_refuses-f16",

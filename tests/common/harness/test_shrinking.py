@@ -1,4 +1,4 @@
-"""Shrinking of failing random runs: the definition of an act, and a mutant found with a few acts."""
+"""Shrinking of failing random runs: how a recording is split into acts, and a mutant found with few acts."""
 
 from __future__ import annotations
 

@@ -36,4 +36,4 @@ def test_a_stalled_block_fails_with_the_line_it_waits_in(test: str, said: str) -
     begin = time.monotonic()
     outcome = tried(job)[items[-1]]
     assert outcome.kind == FAILED and re.search(said, outcome.text), outcome
-    assert time.monotonic() - begin < 120  # 10 s; without the limit, many minutes
+    assert time.monotonic() - begin < 120  # 10 s; without the limit the test would take many minutes

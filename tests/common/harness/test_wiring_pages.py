@@ -78,7 +78,7 @@ def test_lines_active_before_configuration(line: str) -> None:
 
 
 def test_readme_says_what_was_not_done() -> None:
-    """Below the table that says "complete": no board, motor or original chip, and what was done instead."""
+    """Below the table with "complete", the page states what was not tested, and what was done instead."""
     parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
     text = " ".join(parts.split("|")[-1].split())
     for words in ("No board has been driven", "no motor has turned", "no living chip", "What was done:"):

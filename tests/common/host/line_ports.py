@@ -10,7 +10,12 @@ LOSE_FRAME, LOSE_REPLY, BREAK_REPLY, BREAK_FRAME = "lose frame", "lose reply", "
 
 
 class Spoiled(ModelLine):
-    """A modelled line. frames: all frames sent. plan: returns the fault for a frame, or None."""
+    """A modelled line.
+
+    Attributes:
+        frames: all frames that were sent.
+        plan: function that returns the fault for a frame, or None.
+    """
 
     def __init__(self, text: str, baud: int, part: str) -> None:
         super().__init__(text, baud, part)

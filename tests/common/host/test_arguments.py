@@ -278,7 +278,7 @@ def test_names_that_a_class_does_not_declare_are_refused() -> None:
 
 
 def test_a_checked_call_passes_one_frame() -> None:
-    """Only the check is between the caller and the method, with positional or keyword arguments."""
+    """A call with positional or keyword arguments has only the argument check between caller and method."""
     lamp = Lamp(3)
     here = "test_a_checked_call_passes_one_frame"
     for called in (lamp.blink(), lamp.blink(2.0), lamp.blink(times=2, self_test=True), Lamp.blink(lamp, 3)):  # type: ignore[arg-type]

@@ -80,7 +80,7 @@ class Soc(SoCCore):
         )
         self.crg = CRG(platform.request("sys_clk"))
         add_part(self, "stepper", sources, pads=platform.request("stepper"), XTAL_HZ=CLK_HZ)
-        # Plain Verilog has the bridge for only one of the two.
+        # Plain Verilog has the bridge for only one of the two devices.
         if (Path(sources) / "packages").is_dir():
             platform.add_extension(BANK_IO)
             add_part(self, "bank", sources, part="bank", pads=platform.request("bank"), AXES=AXES)

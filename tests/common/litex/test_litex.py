@@ -83,7 +83,7 @@ def lines(request) -> dict[str, list[dict[str, int]]]:
         folder.mkdir(parents=True)
         sources = plain_verilog(folder) if request.param == "plain" else ROOT
         write = (sys.executable, "-m", "tests.common.litex.soc", folder, sources)
-        # Once for the addresses, once with the program in the ROM.
+        # LiteX runs twice: once for the addresses, once with the program in the ROM.
         run(*write)
         run(*write, compiled(folder, folder / "software" / "include"))
         gateware = folder / "gateware"
@@ -115,7 +115,7 @@ def test_moves(lines):
     for name, limit, left in (("cw", 0, 0), ("ccw", 0, 0), ("limited", 1, 150)):
         (line,) = lines[name]
         assert line.items() >= (asked | {"limit": limit, "left": left}).items(), name
-    # 300, and 50 of 200 until the switch closes; 120 in the other direction.
+    # CW: 300 pulses, and 50 of 200 until the switch closes. CCW: 120 pulses.
     assert lines["pulses"] == [{"cw": 300 + 200 - 150, "ccw": 120}]
 
 

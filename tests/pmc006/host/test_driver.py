@@ -175,7 +175,7 @@ def test_moves(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.zero()
     assert part.position == 0
     part.set_position(-(1 << 31))
-    assert part.move(-1).position == (1 << 31) - 1  # it wraps
+    assert part.move(-1).position == (1 << 31) - 1  # the position wraps
     for call in (lambda: part.start_move(1 << 31), lambda: part.set_position(1 << 31), lambda: part.jog(0)):
         with pytest.raises(OutOfRange):
             call()
@@ -260,7 +260,7 @@ def test_motions_of_other_programs(motor: tuple[SpoiledLine, Pmc006]) -> None:
 
 def test_emergency_stops(motor: tuple[SpoiledLine, Pmc006]) -> None:
     port, part = motor
-    assert part.move(410).complete  # not enabled: into the switch
+    assert part.move(410).complete  # the stop is not enabled, so the motor runs into the switch
     assert part.move(-410).complete
     part.enable_stops()
     with pytest.raises(
@@ -293,7 +293,7 @@ def test_refusals_say_why(motor: tuple[SpoiledLine, Pmc006]) -> None:
     part.free = 0
     with pytest.raises(SpeedRefused, match=r"maximum speed of 100 steps/s is below the start speed \(2000\)"):
         part.move(5, speed=100)
-    motion = part.jog(FORWARD, speed=100)  # a free run is not affected by it
+    motion = part.jog(FORWARD, speed=100)  # the setting does not affect a free run
     part.halt()
     assert motion.end is not None
     port.node().part.desk.settings.vmax = 0  # a program can set this

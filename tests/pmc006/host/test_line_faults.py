@@ -119,7 +119,7 @@ def test_a_locked_start_is_no_start() -> None:
 def test_an_implausible_reply_to_a_start_is_looked_into() -> None:
     port, part = quick()
     with part:
-        port.plan = once("s", CHANGED_REPLY)  # its check is wrong
+        port.plan = once("s", CHANGED_REPLY)  # the check byte of this frame is wrong
         assert part.move(5).position == 5
     played = Played(*[reply(255, value).hex() for value in (8, 1, 7)], reply(255, 77).hex())
     played.replies += [reply(255, value) for value in (9, 8, 12)]

@@ -19,7 +19,10 @@ SETUP = {"cur": 1000, "acc": 3, "dec": 3, "vmax": 3200}
 class Bench:
     """Motion and drive at clk_hz; registers have factory values except those given. BOOT ends at edge 0.
 
-    steps: edges of mon_step. ends: edges at which a motion has ended without a stop. position: steps, signed.
+    Attributes:
+        steps: edges of mon_step.
+        ends: edges at which a motion has ended without a stop.
+        position: position in steps, signed.
     """
 
     def __init__(self, clk_hz: int = 16_000_000, t_off_ns: int = 20_000, **registers: int) -> None:
@@ -100,7 +103,9 @@ class Bench:
 class Made:
     """A motion in us: steps as (us, speed, stage), updates as (us, speed), and its end.
 
-    goal: target of the first ramp. braked_at: us of the update that began the final deceleration.
+    Attributes:
+        goal: target of the first ramp.
+        braked_at: us of the update that began the final deceleration.
     """
 
     engine: Engine

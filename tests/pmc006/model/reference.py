@@ -24,7 +24,10 @@ def full(progress: Fraction, up: bool) -> int:
 class Reference:
     """Reference motion; it ends when `done`.
 
-    steps: (us, speed). target(t): live target. off(t): whether the speed mode is switched off.
+    Attributes:
+        steps: pairs (us, speed).
+        target: target(t) returns the live target.
+        off: off(t) returns whether the speed mode is switched off.
     """
 
     def __init__(

@@ -58,7 +58,7 @@ def test_examples() -> None:
 def test_references_are_cosine_and_sine(angle: int, peak: int) -> None:
     a, a_sign, b, b_sign = flat(angle, peak)
     turn = 2 * pi * angle / 512
-    # Half a unit of the table, scaled, and half a unit of the reference.
+    # Tolerance: half a unit of the sine table, scaled, and half a unit of the reference.
     assert abs((-a if a_sign else a) - peak * cos(turn)) <= 0.5 + peak / 512 + 1e-9
     assert abs((-b if b_sign else b) - peak * sin(turn)) <= 0.5 + peak / 512 + 1e-9
     assert a_sign == (cos(turn) < -1e-9) and b_sign == (sin(turn) < -1e-9)

@@ -16,7 +16,11 @@ from tests.pmc006.model.bench import SETUP, Bench
 
 
 class Phases:
-    """One chopper; `changes`: (edge, plus, minus)."""
+    """One chopper.
+
+    Attributes:
+        changes: changes of the outputs as (edge, plus, minus).
+    """
 
     def __init__(self, times: Times | None = None) -> None:
         self.queue = Scheduler()
@@ -81,14 +85,15 @@ def test_comparator_ends_the_pulse_after_blanking() -> None:
     phases = Phases()
     phases.at(0, "enable", True)
     phases.at(0, "reference", 100, 1)
-    # The new sign takes one cycle. Early: the end of blanking is used; late: immediately.
+    # The new sign takes one cycle to act. If it is early, the end of blanking is used; if it is late, it acts
+    # immediately.
     phases.at(325, "compare", 1)
     phases.at(338, "compare", 0)
     assert phases.run(656) == [(321, 0, 1), (337, 0, 0)]
     assert phases.run(657) == [(657, 0, 1)]
     phases.at(700, "compare", 1)
     phases.at(1021, "compare", 0)
-    # At 1020 it is still 1: fast decay, which the comparator ends.
+    # At 1020 the comparator is still 1, so fast decay follows, which the comparator ends.
     assert phases.run(1200) == [(700, 0, 0), (1020, 1, 0), (1036, 0, 0)]
     phases.at(1356, "compare", 1)
     phases.at(1400, "compare", 0)
@@ -101,11 +106,11 @@ def test_changes_of_the_reference() -> None:
     phases.at(0, "enable", True)
     phases.at(10, "reference", 100, 0)
     assert phases.run(400) == [(320, 1, 0)]
-    # Another height has no effect; another sign switches off and restarts the time.
+    # Another size of the reference has no effect. Another sign switches the bridge off and restarts the time.
     phases.at(401, "reference", 101, 0)
     phases.at(500, "reference", 101, 1)
     assert phases.run(900) == [(501, 0, 0), (821, 0, 1)]
-    # In OFF as well: a new sign restarts the time.
+    # A new sign restarts the time in OFF as well.
     phases.at(1000, "compare", 1)
     phases.at(1100, "reference", 5, 0)
     phases.at(1101, "compare", 0)
@@ -124,7 +129,7 @@ def test_a_reference_of_0_lets_the_current_fall() -> None:
     assert phases.run(819) == [(320, 1, 0), (500, 0, 0)]
     phases.at(900, "compare", 0)
     assert phases.run(900) == [(820, 0, 1), (900, 0, 0)]
-    # 1220, 1540, 1860: no change; then a current again.
+    # At 1220, 1540 and 1860 nothing changes; then there is a current again.
     phases.at(2000, "compare", 1)
     assert phases.run(2179) == []
     assert phases.run(2340) == [(2180, 0, 1), (2340, 0, 0)]

@@ -21,7 +21,11 @@ COEFFICIENT = st.integers(0, 5)
 
 
 def compare(order: Order, changes: dict[int, tuple[int, bool]], straight: bool, last_us: int) -> None:
-    """Compare engine and reference; changes: us -> (target, speed mode off) from then on."""
+    """Compare engine and reference.
+
+    Args:
+        changes: us -> (target, speed mode off) from then on.
+    """
 
     def at(t: int) -> tuple[int, bool]:
         return next((what for since, what in reversed(changes.items()) if since <= t), (order.target, False))
@@ -113,7 +117,7 @@ def check_move(made: Made, order: Order) -> None:
         assert 2 <= sum(stage is Stage.CREEP for *_, stage in steps) <= 4
     engine = made.engine
     for first, later in zip(speeds, speeds[10:], strict=False):
-        # Two ramps may be in the ten updates.
+        # The ten updates may contain parts of two ramps.
         n_of = engine.acc if later >= first else engine.dec
         assert abs(later - first) <= 1.5 * acceleration(n_of) * 1.02 / 1000 + 2 or engine.braked
 

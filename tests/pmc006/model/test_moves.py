@@ -1,4 +1,4 @@
-"""Worked moves of the PMC006B4: the 47 of the table and W1..W14, in us (P006 14.2, 5.8)."""
+"""Worked moves of the PMC006B4 in us: the 47 moves of the table (P006 14.2), and W1..W14 (P006 5.8)."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from openppmc.model.pmc006.motion.engine import (
 )
 from tests.pmc006.model.bench import Made, make
 
-# N, VSTART, VSTOP, VMAX, coefficients set and used, goal, highest speed, us and steps left at the final
-# deceleration, steps in creep, end, last speed, first and last intervals.
+# A row has: N, VSTART, VSTOP, VMAX, coefficients set and used, goal, highest speed, us and steps left at the
+# final deceleration, steps in creep, end, last speed, first and last intervals.
 MOVES = """
 M01 1 600 600 3200 3/3 3/3 600 600 - - - 1667 600 1667 1667
 M02 2 600 600 3200 3/3 3/3 600 600 - - - 3334 600 1667,1667 1667,1667
@@ -144,7 +144,7 @@ def test_w6_a_ramp_lasts_as_long_as_a_straight_one() -> None:
     made = make(Order(2000, 600, 600, 3200, 3, 3))
     speeds = dict(made.updates)
     assert speeds[95_600] == 1900
-    # 2600 / 13600 s, and half of it to the middle.
+    # The ramp lasts 2600 / 13600 s, of which half passes up to the middle.
     assert next(t for t, speed in made.updates if speed == 3200) <= 191_200
     assert next(t for t, _, stage in made.steps if stage is Stage.CRUISE) > 191_100
     assert sum(t <= 191_100 for t, *_ in made.steps) == 2000 - 1638

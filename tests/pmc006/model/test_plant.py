@@ -54,7 +54,7 @@ def test_diodes_end_at_zero() -> None:
     arc = Arc(Motor(), 0.0, 1.0, -24.0, Emf(6.0, 1500.0, 1.0))
     assert arc.rests_at == inf
     arc.rest_at_zero(positive=True)
-    # 2 mH * 1 A / 24 V, slightly less because of the resistance, and the back EMF.
+    # The time is 2 mH * 1 A / 24 V, slightly changed by the resistance and the back EMF.
     assert 50e-6 < arc.rests_at < 120e-6
     assert arc.at(arc.rests_at - 1e-6) > 0 == arc.at(arc.rests_at) == arc.at(1.0)
 

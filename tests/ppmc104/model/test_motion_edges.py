@@ -202,7 +202,7 @@ def test_external_clock_without_vsel_puts_the_pulse_off():
     host.pause(6)
     host.run("c 44 d 01 d 03 d 00 d 00")
     start = host.t + 200
-    # e_a .. e_b: 0 is pulse 1; the last gap is too long for the addition.
+    # Edges e_a .. e_b: edge 0 makes pulse 1. The last gap is too long for the addition.
     for rise in (0, 50, 100, 260, 300, 340, 500, 700, 900, 1100, 1300):
         host.model.pins(start + rise, clock=1)
         host.model.pins(start + rise + 8, clock=0)
@@ -281,7 +281,7 @@ def test_limit_on_the_edge_of_the_start_acts_as_one_that_was_there_before():
         host = moving(INIT_A)
         if early:
             host.pins(l1_n=0)
-        host.pause(400)  # the ramp table
+        host.pause(400)  # the ramp table is built during this time
         event = host.write(1, 0x46)
         if not early:
             host.go(event)  # detected 2 cycles later, on the C-event

@@ -238,7 +238,7 @@ def test_ctrl_c_in_a_real_process(tmp_path: Path) -> None:
     told = re.fullmatch(r"interrupted: stopped, axis 1: position (-?\d+), axis 2: position (-?\d+)\n", err)
     assert told is not None, err
     x, y = map(int, told.groups())
-    # One command per axis: the distance between the stops depends on the load of this computer.
+    # Each axis gets its own command, so the distance between the stops depends on the load of this computer.
     assert 0 <= x < 8000 and 0 <= y < 8000
 
 

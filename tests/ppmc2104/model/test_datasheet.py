@@ -9,7 +9,7 @@ from cocotb_tests.ppmc2104.sheet import CONSTANT, SETTING, detection
 from openppmc.model import Latency
 from tests.ppmc2104.model.host import B1, B2, LONG, Host
 
-# A core without own latencies, so that the times are exactly those of the tables.
+# This core has no latencies of its own, so that the times are exactly those of the tables.
 PLAIN = Latency(ds_window=0)
 
 
@@ -203,7 +203,7 @@ def test_no_ticks_while_a_window_is_open():
     event = host.write(1, 0xA6) + 2
     host.pin("fl_n", 0)
     host.idle()
-    # The window of 43 us, then a complete polling period.
+    # The longest time is the window of 43 us, then a complete polling period.
     assert host.model.now == event + 688 + 560 + 1
 
 

@@ -23,7 +23,7 @@ from ...common.board.foreground import foreground
 QUICK = (4000, 8000, 600)
 PART = ("--part", "ppmc312-serial")
 PATIENCE = 5.0
-"""s; RTL of many stations is much slower than real time."""
+"""Time limit in s, because RTL of many stations is much slower than real time."""
 
 
 @pytest.fixture

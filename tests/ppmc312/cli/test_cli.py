@@ -60,12 +60,12 @@ def test_init_and_plan(run: Run, tmp_path: Path, curve: str) -> None:
     assert "sigmoid, 2000 pulses" in out and "stop speed" in out and "ramp down" in out
     plot = tmp_path / "x.svg"
     values = json.loads(run("plan", "5000", "--base-clock", "1e6", "--json", "--plot", str(plot)).out)
-    # Example E13 of the rules: 1 532 294 ticks with the last interval of 1000.
+    # Example E13 of the rules has 1 532 294 ticks, including the last interval of 1000.
     assert values["move"]["seconds"] == pytest.approx((1_532_294 - 1000) / 1e6)
     assert (values["move"]["ramp_pulses"], values["move"]["plateau_intervals"]) == (2000, 1000)
     assert plot.stat().st_size > 1000
     small = json.loads(run("plan", "23", "--curve", curve, "--json").out)["move"]
-    # Example E3: 11 pulses up, 12 down.
+    # Example E3 has 11 pulses up and 12 pulses down.
     assert small["profile"] == "triangle" and (small["ramp_pulses"], small["down_pulses"]) == (11, 12)
     assert small["seconds"] == pytest.approx(0.0045)
     flat = json.loads(run("plan", "5", "--curve", curve, "--speed", "5000", "--json").out)["move"]

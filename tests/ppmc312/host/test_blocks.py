@@ -41,7 +41,7 @@ def test_examples_in_the_docstrings() -> None:
         assert not failed and attempted >= least, module
 
 
-# Number of the row in the table of transactions, block, WAR, bytes in bus order.
+# (number of the row in the table of transactions, block, WAR, bytes in bus order)
 TRANSACTIONS = [
     (1, blocks312.initial_setting(1, 1000, 200, 2000), 0x15, "D0 07 00 C8 00 E8 03 01 00 09 03"),
     (

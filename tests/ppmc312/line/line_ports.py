@@ -11,7 +11,7 @@ BAUD = 38_400
 
 
 def once(code: int, fate: str, times: int = 1) -> Callable[[bytes], str | None]:
-    """Return a plan in which the first `times` frames with this serial code have that fate."""
+    """Return a plan in which the first `times` frames with this serial code have that fault."""
     left = times
 
     def plan(frame: bytes) -> str | None:

@@ -31,7 +31,8 @@ from openppmc.host.ppmc312.line.wire import (
 )
 from openppmc.model.ppmc312.codes import Code
 
-# Station 1; the numbers are those of chapter 12. The first block has the flags of T1 in the data sheet.
+# All rows are for station 1, with the numbers of chapter 12. The first block has the flags of T1 in the data
+# sheet.
 INSTRUCTIONS = {
     "1 initial T1": (
         blocks.initial_setting(1, 1000, 200, 2000),

@@ -11,17 +11,18 @@ from cocotb_tests.harness import project
 from openppmc.model.ppmc312.part import Ppmc312
 
 STROBE, SET_UP = 65, 35
-"""ns; write strobe, and data valid before its end."""
+"""Time in ns for which the write strobe lasts, and for which data is valid before its end."""
 LEAST = math.ceil(Fraction(2 * 10**9, SET_UP))
-"""Hz; from here on two samples fit between the change of the data and the end of the strobe."""
+"""Lowest clock in Hz at which two samples fit between the change of the data and the end of the strobe."""
 CSR, ENABLES = 0, 0x70
 
 
 def written(clk_hz: int, phase: Fraction) -> int:
     """Write ENABLES to CSR with the shortest strobe of the data sheet; return the content of CSR afterwards.
 
-    phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late, as a
-    synchroniser may do.
+    Args:
+        phase: ns from an edge of the clock to the change of the data. This change is sampled one cycle late,
+            as a synchroniser may do.
     """
     period = Fraction(10**9, clk_hz)
     model = Ppmc312(clk_hz)

@@ -21,9 +21,9 @@ LONGEST = 32
 def test_fixed_latencies() -> None:
     begin = PACE.turn + PACE.effect
     assert begin + PACE.copy + PACE.answer + LONGEST <= 4096
-    assert begin <= 64  # 80: no rising edge later than 64 cycles after the header
+    assert begin <= 64  # instruction 80: no rising edge later than 64 cycles after the header
     assert begin + PACE.look_up() + PACE.ramp_lead <= 512
-    assert PACE.answer + 4 <= 64  # answer to a start after t0
+    assert PACE.answer + 4 <= 64  # the answer to a start follows t0
     assert PACE.report + PACE.rest <= 64 and PACE.turn_back <= 64
     assert PACE.count <= 2 and PACE.armed <= 4 and PACE.late <= 4 and PACE.reload >= 8
     assert PACE.compare + 2 <= PACE.least == 4  # a stop at a position precedes the next pulse
@@ -44,5 +44,5 @@ def test_tables_and_plans(table: Table) -> None:
         PACE.starting(constant(table, table.high, 1), True),
     ]
     assert max(starts) + begin + PACE.answer + LONGEST <= 4096
-    # At 50 MHz pulse 1 is within 20 us of the header, 5 us of this is direction set-up.
+    # At 50 MHz pulse 1 occurs within 20 us of the header; 5 us of this time are direction set-up.
     assert 2 + begin + max(starts) + 250 <= 20 * 50

@@ -87,7 +87,7 @@ def test_equal_first_rates_belong_to_the_slower_side() -> None:
     for start, stop, sa, sd in ((300, 299, 0, 4), (299, 300, 4, 0), (300, 300, 0, 0), (300, 298, 0, 5)):
         table = build(start, stop, 100, 3000, 4000, sigmoid=True)
         assert (table.sa, table.sd, table.na, table.nd) == (sa, sd, 3000, 4000), (start, stop)
-    # R[1] = R[0] up to 624, RS (RS - RH) / RH below 65536 / 20.
+    # R[1] = R[0] holds up to 624, where RS (RS - RH) / RH is below 65536 / 20.
     heads = [build(rs, rs, 100, 6000, 0, sigmoid=True, separate=False).rates[:3] for rs in (624, 625, 626)]
     assert heads == [(624, 624, 622), (625, 624, 623), (626, 625, 624)]
 

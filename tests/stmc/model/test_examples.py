@@ -16,7 +16,7 @@ W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]
 A = (20, 5, 8)
 
-# Name, D1/D2/PA, number sent, gaps.
+# (name, D1/D2/PA, number sent, gaps)
 UNDISTURBED = (
     ("W1", A, 19, W1),
     ("W2", A, 11, W2),
@@ -33,7 +33,7 @@ UNDISTURBED = (
     ("W12", (10, 10, 50), 5, [10] * 5),
 )
 
-# Name, ramp, number sent, gap of the request, steps, gaps, FIN, REM.
+# (name, ramp, number sent, gap of the request, steps, gaps, FIN, REM)
 COMMAND_1 = (
     ("W14", A, 99, 3, [20, 12, 9, 8, 9, 12, 20], 0xC3, 91),
     ("W15", A, 99, 10, W1, 0xC3, 79),

@@ -25,7 +25,7 @@ from tests.common.packages.c_programs import (
 pytestmark = pytest.mark.xdist_group("cdriver_stmc")  # one worker builds and runs the programs
 
 INIT = bytes([20, 5, 8, 0])
-TICK = 16  # cycles of the external clock here
+TICK = 16  # period of the external clock here, in cycles
 
 
 def gaps(steps: int, divisor: int | None = None, init: bytes = INIT) -> list[int]:
@@ -37,7 +37,7 @@ def gaps(steps: int, divisor: int | None = None, init: bytes = INIT) -> list[int
 def lines(request) -> Lines:
     """Output of tb/cdriver/stmc_test.c: first word(s) -> its lines, each as name -> value."""
     sources = [DRIVER / "ppmc104.c", DRIVER / "stmc.c", BENCH / "stmc_test.c", BENCH / "isa_bus.cpp"]
-    # A fast "external" clock, because every cycle is simulated.
+    # The "external" clock is fast, because every cycle is simulated.
     design = part_design("j105_stmc", F16)
     params = ("-GEXT_HZ=1000000", timed(request.param))
     return simulate(f"cdriver_stmc_{request.param.lower()}", "j105_stmc", design, sources, params)
@@ -68,7 +68,7 @@ def test_both_bytes_of_the_ramp(lines):
 def test_ports(lines):
     """Through the accessors at 3B0h and 3B1h the part responds, and its registers read as documented."""
     assert result(lines, "probe") == result(lines, "outputs") == result(lines, "inputs") == (0, "ok")
-    # Phases 1 and 2 on, at standstill, cw; no switch active, motor on.
+    # Phases 1 and 2 are on, at standstill, cw. No switch is active, and the motor is on.
     assert (lines["levels"][0]["out"], lines["levels"][0]["in"]) == ("c4", "cf")
 
 
@@ -120,7 +120,7 @@ def test_switch_ends_the_move(lines, name, cause, bit, ccw, inputs):
     other and with the model.
     """
     end, (cw, back, got) = ending(lines, name), pulses(lines, name)
-    # Immediately, or after the running gap and the eight of the ramp (STMC-DEC-04).
+    # The motion stops immediately, or after the running gap and the eight gaps of the ramp (STMC-DEC-04).
     count = 30 + (9 if cause == "slow" else 0)
     assert (cw, back) == ((0, count) if ccw else (count, 0))
     assert end["raw"] == 0x83 | bit and end[cause] == 1 and end["left"] == 100 - count

@@ -144,7 +144,8 @@ def move(
 def _finish(session: Session, motions: list[Any], asked: int | None = None) -> None:
     """Wait for all motions and print their ends.
 
-    asked: unless it is None, raise an error for the first motion that ended early.
+    Args:
+        asked: unless it is None, raise an error for the first motion that ended early.
     """
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()

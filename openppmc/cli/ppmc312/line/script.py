@@ -43,7 +43,11 @@ class LineView:
 
 
 class LineSession:
-    """Line for a script; its stations are the axes. used: stations that the script names."""
+    """Line for a script; its stations are the axes.
+
+    Args:
+        used: stations that the script names.
+    """
 
     kind = KIND
     view = LineView()

@@ -83,8 +83,10 @@ class Ppmc312Bus(LineBus[Line, Station312]):
 
         An address without a station takes twice the time `patience`.
 
-        It reads and clears the error counters of stopped stations. progress: called with each number before
-        it is polled.
+        The scan reads and clears the error counters of stopped stations.
+
+        Args:
+            progress: called with each number before it is polled.
         """
         found = []
         for number in stations:

@@ -158,7 +158,8 @@ class Line(Master[Reply]):
             `sim:…` or `model:…`.
         speed: 19200, 38400 or 83333 bit/s as set by the MOD pins of the stations.
         sum_mode: checksum rule of the stations.
-        echo: the master receives its own bytes (two-wire adapters that never switch their receiver off).
+        echo: True if the master receives its own bytes (two-wire adapters that never switch their receiver
+            off).
         rs485: settings of pyserial for adapters whose driver is switched by RTS.
         patience: seconds beyond line time until a station counts as silent.
         xtal_hz: crystal of the stations; the line rates are proportional to it.

@@ -20,7 +20,7 @@ from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 _MOST_PPS = 4_000_000
 """Speed in pulses/s that no table exceeds: rate 2 at 8 MHz."""
 _ENCODER_SLACK = 64
-"""Difference in counts of two reads that is accepted: half the value of the lowest bit 7."""
+"""Largest difference of two reads that is accepted: half the value of bit 7 of the lowest byte."""
 
 
 class ErrorCounts(NamedTuple):
@@ -83,8 +83,10 @@ class Station312(Axis[SerialMotion]):
 
     Free curves, tables and event buffers cannot be accessed on the line (OutOfRange). Reports are read by
     polling the station. After a lost reply, an instruction is repeated only if that has no side effect
-    (`Doubt`). LostReply is raised where the driver cannot know whether the instruction was executed. number:
-    0 to 15.
+    (`Doubt`). LostReply is raised where the driver cannot know whether the instruction was executed.
+
+    Args:
+        number: 0 to 15.
     """
 
     kind = KIND
@@ -160,19 +162,19 @@ class Station312(Axis[SerialMotion]):
     def error_code(self) -> int:
         """Return the last error code that the station replied (42 to 49), 0 for no error.
 
-        Reading clears it. Only while the motor is stopped (NotWhileBusy).
+        Reading clears it. Raises NotWhileBusy while the motor is moving.
         """
         return self.window.read(ERROR_CODE)[0]
 
     def error_counts(self) -> ErrorCounts:
         """Return the counters of framing errors, overruns and checksum errors of the station.
 
-        Reading clears them. Only while the motor is stopped (NotWhileBusy).
+        Reading clears them. Raises NotWhileBusy while the motor is moving.
         """
         return ErrorCounts(*self.window.read(ERROR_COUNTS))
 
     def end_status(self) -> Cause | None:
-        """Return the cause of the last end of a motion; allowed at any time.
+        """Return the cause of the last end of a motion. The call is allowed at any time.
 
         Before the first end since the reset, it returns None.
         """

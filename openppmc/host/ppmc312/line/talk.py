@@ -58,7 +58,9 @@ _DELETE = 2
 class Asking(Protocol):
     """Members of a `Talk` that `Doubt` needs.
 
-    answers: number of responses of the station so far. busy: True if the last poll reported a motion.
+    Attributes:
+        answers: number of responses of the station so far.
+        busy: True if the last poll reported a motion.
     """
 
     answers: int
@@ -82,7 +84,11 @@ class Reporting(Protocol):
 
 
 class Doubt:
-    """Check of one instruction block whose reply may get lost. repeated: a reply to it was lost."""
+    """Check of one instruction block whose reply may get lost.
+
+    Attributes:
+        repeated: True if a reply to it was lost.
+    """
 
     def __init__(self, station: Reporting, block: bytes) -> None:
         self._station = station
@@ -198,7 +204,9 @@ class Station(Reporting, Protocol):
 class Talk:
     """Transport of instructions to a station; see `ppmc312.core.Instructions`.
 
-    answers: number of responses of the station so far. busy: True if the last poll reported a motion.
+    Attributes:
+        answers: number of responses of the station so far.
+        busy: True if the last poll reported a motion.
     """
 
     def __init__(self, line: Line, station: Station) -> None:

@@ -82,7 +82,11 @@ def frame(control: int, data: bytes = b"", mode: SumMode = SumMode.BINARY) -> by
 
 
 class Reply(NamedTuple):
-    """Frame of a station. kind: BUSY, READY, DATA or SPECIFIC."""
+    """Frame of a station.
+
+    Attributes:
+        kind: BUSY, READY, DATA or SPECIFIC.
+    """
 
     station: int
     kind: int
@@ -97,7 +101,9 @@ class Reply(NamedTuple):
 class Receiver:
     """Receiver for the bytes of one reply of a station.
 
-    gives: data bytes of a data reply. The instruction defines them; a reply does not contain its length.
+    Args:
+        gives: number of data bytes of a data reply. The instruction defines it; a reply does not contain its
+            length.
     """
 
     def __init__(self, station: int, gives: int = 1, mode: SumMode = SumMode.BINARY) -> None:

@@ -98,7 +98,8 @@ class Rig:
     def hold(self, angle_steps: int = 0) -> Plant:
         """Return the plant at standstill with full current, settled.
 
-        angle_steps: steps from the angle after a reset.
+        Args:
+            angle_steps: steps from the angle after a reset.
         """
         if angle_steps:
             self.tell("s", angle_steps)

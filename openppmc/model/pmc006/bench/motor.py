@@ -131,7 +131,11 @@ class Winding:
         self.levels = [Level(begin, 0.0, 0.0, 0, tau)]
 
     def look(self, t: float, outputs: Mapping[str, int], anew: bool = False) -> None:
-        """Process the outputs of the part at t. `anew`: the back EMF has changed."""
+        """Process the outputs of the part at t.
+
+        Args:
+            anew: True if the back EMF has changed at t.
+        """
         seen = tuple(outputs[pin] for pin in self._pins[:-1])
         if seen[:3] != self._seen[:3] or anew:
             self._switch(t, *seen[:3])
@@ -156,7 +160,7 @@ class Winding:
     def above(self, t: float) -> int:
         """Return the level of the comparator.
 
-        It is 1 if the current in the direction of the sign has reached the reference.
+        The level is 1 if the current in the direction of the sign has reached the reference.
         """
         level, current = self.levels[-1], self.arcs[-1].at(t)
         return int((-current if level.sign else current) >= level.at(t))

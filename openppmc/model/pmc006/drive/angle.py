@@ -35,7 +35,7 @@ WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(Q
 def wave(unit: int) -> int:
     """Return the signed sine of an angle in units, -256..256.
 
-    It is odd and symmetric like the sine itself.
+    The table is odd and symmetric like the sine itself.
     """
     unit %= CYCLE
     if unit >= CYCLE // 2:
@@ -64,8 +64,8 @@ def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int
     Args:
         base: base code.
         added: compensation.
-        busy: BUSY.
-        decayed: the current has decayed by 2^att.
+        busy: level of BUSY.
+        decayed: True if the current has decayed by 2^att.
         att: exponent of the decay.
     """
     if busy:

@@ -23,9 +23,9 @@ MODULUS = 256
 
 
 class Stream:
-    """Carry of an accumulator that adds the reference every cycle (P006-EXC-40).
+    """Bit stream of a reference: carry of an accumulator that adds the reference every cycle (P006-EXC-40).
 
-    It is calculated on demand.
+    The level is calculated on demand.
     """
 
     def __init__(self, t: int) -> None:
@@ -37,7 +37,7 @@ class Stream:
         self._since, self._ref = t, ref
 
     def _total(self, t: int) -> int:
-        """Return the sum of everything added up to edge t."""
+        """Return the sum of all references added up to edge t."""
         return self._sum + (t - self._since) * self._ref if t >= self._since else self._before
 
     def level(self, t: int) -> int:
@@ -54,7 +54,9 @@ class Drive:
         t_off_ns, t_blank_ns: times of the chopper.
         origin: first internal edge after the reset.
 
-    angle: TH, 0..511. decayed: the idle timer has expired.
+    Attributes:
+        angle: electrical angle TH, 0..511.
+        decayed: True if the idle timer has expired.
     """
 
     def __init__(

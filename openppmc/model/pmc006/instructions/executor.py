@@ -25,15 +25,15 @@ class Desk:
     """Execution context of instructions. The part sets motion, program and eeprom.
 
     Args:
-        echo: STEP_ACK is "ECHO".
-        version: FW_VERSION.
+        echo: True if STEP_ACK is "ECHO".
+        version: value of FW_VERSION.
         changed: changed(t) is called when registers have new values after edge t.
 
     Attributes:
         judging: edge of the current instruction.
         stepped_at: edge of the last step.
-        speed_on: SPEED_MODE.
-        running: the motion belongs to the speed mode.
+        speed_on: value of SPEED_MODE.
+        running: True if the motion belongs to the speed mode.
     """
 
     motion: Motion
@@ -68,7 +68,7 @@ class Desk:
 
     @property
     def port_word(self) -> int:
-        """Answer to x (P006-IO-01)."""
+        """Answer to instruction x (P006-IO-01)."""
         seen = self.levels
         gpi = seen["gpi"]
         return (
@@ -120,22 +120,22 @@ class Desk:
         self._position = (self._position + (1 if forward else -1)) % (1 << 32)
 
     def load_position(self, position: int) -> None:
-        """Execute i."""
+        """Execute instruction i."""
         self._position = position % (1 << 32)
 
     def start(self, t: int, count: int) -> None:
-        """Execute s or ROT."""
+        """Execute instruction s or ROT."""
         self.guard.started()
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
-        """Execute N=1 in IDLE."""
+        """Execute instruction N=1 in IDLE."""
         self.guard.started()
         self.speed_on = self.running = True
         self.motion.run(t)
 
     def speed(self, t: int, on: bool) -> None:
-        """Execute N while the speed mode is running or ending."""
+        """Execute instruction N while the speed mode is running or ending."""
         if self.running:
             self.speed_on = on
             self.motion.speed_mode(t, on)
@@ -168,7 +168,11 @@ class Executor:
         self._look(t)
 
     def wake(self, t: int, afresh: bool = False) -> None:
-        """Continue the program after edge t. afresh: it has been started."""
+        """Continue the program after edge t.
+
+        Args:
+            afresh: True if the program has just been started.
+        """
         if afresh:
             self._next_slot = 0
         self._run = t + 1
@@ -183,7 +187,7 @@ class Executor:
         self._look(t)
 
     def _look(self, t: int) -> None:
-        """Schedule the next begin."""
+        """Schedule the beginning of the next instruction."""
         if self._begin:
             self._begin.cancel()
             self._begin = None

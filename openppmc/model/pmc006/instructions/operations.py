@@ -24,7 +24,7 @@ class KeyFilter:
         low_ticks, high_ticks: these numbers of ticks. With high_ticks 0, any high level counts immediately.
         pressed: pressed(t) is called when the input was low for this time and the filter was armed.
         released: released(t) is called when the input was high for this time, which also arms the filter.
-        armed: the filter is armed at the beginning.
+        armed: True if the filter is armed at the beginning.
     """
 
     def __init__(
@@ -83,7 +83,11 @@ class Then(Enum):
 
 
 class Outcome(NamedTuple):
-    """Effect on the part, and the next action; target: target of a jump."""
+    """Effect on the part, and the next action.
+
+    Attributes:
+        target: target of a jump.
+    """
 
     effect: Effect = Effect()
     then: Then = Then.NEXT
@@ -94,7 +98,11 @@ NOTHING = Outcome()
 
 
 class Operation:
-    """Instruction of the program. single: E can also execute it."""
+    """Instruction of the program.
+
+    Attributes:
+        single: True if instruction E can also execute it.
+    """
 
     single = True
 
@@ -104,7 +112,7 @@ class Operation:
 
 
 class End(Operation):
-    """END and every undefined opcode."""
+    """Instruction END, and every undefined opcode."""
 
     single = False
 
@@ -113,7 +121,7 @@ class End(Operation):
 class AsHost(Operation):
     """Host instruction of this letter.
 
-    Its data is the operand, or the entry of `data` for the operand.
+    The data of the instruction is the operand, or the entry of `data` for the operand.
     """
 
     letter: str
@@ -129,7 +137,7 @@ class AsHost(Operation):
 
 
 class Speed(Operation):
-    """VSET."""
+    """Instruction VSET."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
         """Return the outcome; unlike in v, 0 is legal."""
@@ -140,7 +148,7 @@ class Speed(Operation):
 
 @dataclass
 class Counter(Operation):
-    """CNTI, CNTC."""
+    """Instructions CNTI and CNTC."""
 
     up: bool
 
@@ -152,7 +160,11 @@ class Counter(Operation):
 
 @dataclass
 class Jump(Operation):
-    """JMP, JNE, JEQ. on: values of FLAG for which it jumps."""
+    """Instructions JMP, JNE and JEQ.
+
+    Attributes:
+        on: values of FLAG for which it jumps.
+    """
 
     on: Container[int]
     single = False
@@ -167,7 +179,7 @@ class Jump(Operation):
 
 
 class Wait(Operation):
-    """WAIT."""
+    """Instruction WAIT."""
 
     single = False
 
@@ -178,7 +190,7 @@ class Wait(Operation):
 
 
 class Out(Operation):
-    """OUT."""
+    """Instruction OUT."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
         """Return the outcome, one bit of GPO."""
@@ -190,7 +202,7 @@ class Out(Operation):
 
 
 class Compare(Operation):
-    """CMP."""
+    """Instruction CMP."""
 
     def __call__(self, desk: Desk, option: int, operand: int) -> Outcome:
         """Return the outcome; an illegal option clears FLAG."""
@@ -200,7 +212,11 @@ class Compare(Operation):
 
 @dataclass
 class Key(Operation):
-    """RESET_EN, PAUSE_EN. name: which of the two."""
+    """Instructions RESET_EN and PAUSE_EN.
+
+    Attributes:
+        name: name of the setting, RESET_EN or PAUSE_EN.
+    """
 
     name: str
     single = False

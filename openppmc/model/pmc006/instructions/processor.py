@@ -34,7 +34,10 @@ class Executes(Protocol):
 class Processor:
     """Processor of the user program.
 
-    The executor calls `next` while `runs` is true. words: the program.
+    The executor calls `next` while `runs` is true.
+
+    Attributes:
+        words: words of the program, two per instruction.
     """
 
     def __init__(self, desk: Desk, executor: Executes) -> None:
@@ -56,17 +59,17 @@ class Processor:
         return self.state is State.RUN and not self.paused
 
     def write(self, place: int, word: int) -> None:
-        """Execute W."""
+        """Execute instruction W."""
         self.words[place] = word & 0xFFFF_FFFF
 
     def start(self, t: int, pc: int) -> None:
-        """Execute z or autostart."""
+        """Start the program by instruction z or by autostart."""
         self.pc, self.state, self.paused = pc, State.RUN, False
         self.counter = self.flag = self.rsten = self.pauen = 0
         self._executor.wake(t, afresh=True)
 
     def quit(self, t: int) -> None:
-        """Execute F 0."""
+        """Execute instruction F 0."""
         self.state, self.paused = State.HALT, False
         self.rsten = self.pauen = 0
 
@@ -82,7 +85,7 @@ class Processor:
         return operation(self._desk, option, operand)
 
     def once(self, place: int) -> Effect:
-        """Return the effect of an instruction that E executes."""
+        """Return the effect of an instruction of the program that instruction E executes."""
         operation, option, operand = self.fetch(place)
         return operation(self._desk, option, operand).effect if operation.single else Effect()
 

@@ -13,7 +13,7 @@ from .eeprom import COMPLETE, COPY, MARK, PROGRAM, SIZE, Bus, Course, Engine
 def program_of(block: bytes) -> list[int] | None:
     """Return the words of a program with its sum and mark from the EEPROM.
 
-    None: the program is invalid.
+    The call returns None if the program is invalid.
     """
     body, total, mark = block[:SIZE], int.from_bytes(block[SIZE : SIZE + 2], "little"), block[SIZE + 2]
     if mark != COMPLETE or sum(body) % 65536 != total:

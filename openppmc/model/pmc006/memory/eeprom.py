@@ -143,7 +143,9 @@ class Bus:
     def write(self, byte: int | Callable[[], int]) -> Course[bool]:
         """Send a byte; return True if it was acknowledged.
 
-        byte: a function is called at the first tick of the byte.
+        Args:
+            byte: byte to send, or a function that returns it; the function is called at the first tick of the
+                byte.
         """
         yield
         value = byte if isinstance(byte, int) else byte()
@@ -192,7 +194,11 @@ POLL_MS = 10
 class Engine:
     """Engine for one job at a time; a FACT during another job waits for its end.
 
-    device: address of the device. failed: the last job except BOOT ended without a response of the device.
+    Args:
+        device: address of the device.
+
+    Attributes:
+        failed: True if the last job except BOOT ended without a response of the device.
     """
 
     def __init__(self, desk: Desk, bus: Bus, device: int) -> None:
@@ -203,7 +209,7 @@ class Engine:
 
     @property
     def state(self) -> int:
-        """Answer to V: 1 = a job is in progress, 2 = the last one has failed, otherwise 0."""
+        """Answer to instruction V: 1 = a job is in progress, 2 = the last one has failed, otherwise 0."""
         return 1 if self.busy else 2 * self.failed
 
     @property
@@ -308,7 +314,11 @@ class Engine:
         raise BusError
 
     def _page(self, address: int, count: int, data: Callable[[], int]) -> Course[None]:
-        """Write within a page, then poll until the device responds again. data: returns the next byte."""
+        """Write within a page, then poll until the device responds again.
+
+        Args:
+            data: function that returns the next byte.
+        """
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
         yield from self._send(*(data for _ in range(count)))

@@ -71,7 +71,8 @@ def reach(v: int, ve: int, n: int) -> int:
 class Ramp(NamedTuple):
     """Ramp from `begin` to `goal` steps/s, `rate` of WHOLE per update.
 
-    smooth: S-curve, otherwise straight.
+    Attributes:
+        smooth: True for an S-curve, False for a straight ramp.
     """
 
     begin: int
@@ -154,8 +155,8 @@ class Live(NamedTuple):
 
     Attributes:
         target: target speed.
-        straight: ramps to it are straight.
-        stop: speed mode was switched off.
+        straight: True if ramps to it are straight.
+        stop: True if speed mode was switched off.
     """
 
     target: int

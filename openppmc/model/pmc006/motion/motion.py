@@ -24,7 +24,11 @@ EXTS = ("ext1", "ext2")
 
 
 class Guard:
-    """Emergency inputs and stall detector. stall, stpos: STALL and the position where it was set."""
+    """Emergency inputs and stall detector.
+
+    Attributes:
+        stall, stpos: the flag STALL, and the position at which it was set.
+    """
 
     def __init__(self, desk: Desk) -> None:
         self._desk, self._queue, self._regs = desk, desk.shared.queue, desk.settings
@@ -113,7 +117,7 @@ class Guard:
     # ------------------------------------------------------------------ executor
 
     def clear(self, t: int, latch: str) -> None:
-        """Execute b, l or p; a latch that is set in the same cycle stays set (P006-STA-14)."""
+        """Execute instruction b, l or p; a latch that is set in the same cycle stays set (P006-STA-14)."""
         if self._set_at.get(latch) == t:
             return
         if latch == "stall":
@@ -171,7 +175,7 @@ class Motion:
     Attributes:
         busy, forward, b, w: levels after the last edge that was run.
         increment: angle units per step.
-        steady: constant speed (P006-STL-01).
+        steady: True at constant speed (P006-STL-01).
         tick: number of the us tick that is t = 0, `None` before the end of planning.
     """
 
@@ -272,7 +276,7 @@ class Motion:
     def _plan_steps(self, before: int, ticks: int) -> bool:
         """Schedule the steps in the us after t = `before`, and the next update.
 
-        It returns False if the first us contains the last step.
+        The call returns False if the first us contains the last step.
         """
         engine, us, lag = self.engine, self._shared.us, self._shared.pace.step
         assert engine is not None and self.tick is not None

@@ -147,7 +147,7 @@ class _Assembler:
         return Instruction.of(first, second)
 
 
-# Program to text, which assembles to the same words.
+# Conversion of a program to text, which assembles to the same words.
 
 _WIDTH = 8
 
@@ -157,7 +157,8 @@ def disassemble(program: Program, numbers: bool = False) -> str:
 
     An instruction with illegal operands, or with bits that the part ignores, is written as its two words.
 
-    numbers: add the number of each instruction as a comment.
+    Args:
+        numbers: add the number of each instruction as a comment.
     """
     used = program.used
     targets = {target for one in used for target in _targets(one) if target < len(used)}

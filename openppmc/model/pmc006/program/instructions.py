@@ -35,7 +35,7 @@ class Operand:
         accepts: valid values.
         span: valid values as text.
         names: words for values; the first word of a value is the one that is printed.
-        target: a label is valid.
+        target: True if a label is valid.
         default: value of an omitted operand; `None`: it must not be omitted.
     """
 
@@ -160,7 +160,11 @@ _DO_NOTHING = frozenset(
 
 @dataclass(frozen=True)
 class Instruction:
-    """One instruction as stored in the part. spare: the two bytes that the part ignores."""
+    """One instruction as stored in the part.
+
+    Attributes:
+        spare: the two bytes that the part ignores.
+    """
 
     opcode: int
     option: int = 0
@@ -188,7 +192,7 @@ class Instruction:
 
     @property
     def plain(self) -> bool:
-        """True if it can be written with its name: all operands legal, unused fields 0."""
+        """True if the instruction can be written by name: all operands are legal, unused fields are 0."""
         if self.kind is None or self.spare:
             return False
         used = {one.place for one in self.kind.operands}

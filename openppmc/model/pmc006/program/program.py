@@ -25,7 +25,11 @@ class BadImage(PpmcError, ValueError):  # noqa: N818 - what it is
 
 @dataclass(frozen=True)
 class Program:
-    """User program. words: 200 of 32 bits, two per instruction; others raise ValueError."""
+    """User program.
+
+    Attributes:
+        words: 200 of 32 bits, two per instruction; others raise ValueError.
+    """
 
     words: tuple[int, ...] = (0,) * WORDS
 

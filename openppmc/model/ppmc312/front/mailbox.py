@@ -37,11 +37,15 @@ class Registers(Protocol):
         """Process the end of a read strobe."""
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """Process the strobe of this register that is seen at edge t; `None`: no strobe."""
+        """Process the strobe that is sampled at edge t: its register, or `None` without a strobe."""
 
 
 class Strobes:
-    """Strobes of the bus. registers: the current ones, in reset up to and including edge `closed`."""
+    """Strobes of the bus.
+
+    Args:
+        registers: the current registers, which are in reset up to and including edge `closed`.
+    """
 
     def __init__(self, queue: Scheduler, log: EdgeLog, registers: Registers) -> None:
         self._queue, self._log, self.registers = queue, log, registers
@@ -161,7 +165,7 @@ class Mailbox:
         return self._busy or not self._is_ready
 
     def _load(self, t: int) -> None:
-        """Choose the response; the host sees it when its bytes are loaded."""
+        """Select the response to load; the host can read it when its bytes are loaded."""
         self._loading = None
         picked = self._responses.pick()
         if picked is not None:

@@ -17,14 +17,22 @@ _REPLACED = (INTERLOCK, HOLD, STOPPED)
 
 
 def block(header: int, *content: int | bytes) -> bytes:
-    """Return a response block in logical order. content: without header and length."""
+    """Return a response block in logical order.
+
+    Args:
+        content: bytes of the block without header and length.
+    """
     body = b"".join(bytes([part]) if isinstance(part, int) else part for part in content)
     return bytes([header, len(body)]) + body
 
 
 @dataclass
 class Report:
-    """Blocks that the host has not read yet, in logical order. source: source of the instruction."""
+    """Blocks that the host has not read yet, in logical order.
+
+    Attributes:
+        source: source of the instruction.
+    """
 
     kind: int
     blocks: list[bytes]
@@ -40,8 +48,10 @@ class Responses:
             longer contains.
         holding: holding() returns True if a response is about to be stored.
 
-    fresh: classes whose content is the state at the time of loading. serial: a newer report of classes 3 to 5
-    replaces the older one, and no report waits for responses (P312-SER-21).
+    Attributes:
+        fresh: classes whose content is the state at the time of loading.
+        serial: True in serial mode: a newer report of classes 3 to 5 replaces the older one, and no report
+            waits for responses (P312-SER-21).
     """
 
     def __init__(
@@ -97,7 +107,7 @@ class Responses:
     def pick(self) -> bytes | None:
         """Return the next block for the host (P312-RSP-11).
 
-        It is that of the waiting class with the lowest number.
+        The block is that of the waiting class with the lowest number.
 
         While a response is about to be stored, reports of classes 3 to 8 wait for it.
         """

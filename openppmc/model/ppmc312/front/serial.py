@@ -40,7 +40,11 @@ class Frame(NamedTuple):
 
 
 def checksum(control: int, data: bytes, mode: str) -> int:
-    """Return the checksum of a frame (P312-SER-13). mode: SUM_MODE."""
+    """Return the checksum of a frame (P312-SER-13).
+
+    Args:
+        mode: SUM_MODE.
+    """
     total = control + sum(data) if mode == "BINARY" else sum(data.hex().encode())
     return ~total & 0x7F
 
@@ -56,7 +60,12 @@ def addressed(character: int, address: int) -> bool:
 
 
 class Parser:
-    """Receiver of frames. lengths: number of data bytes of each instruction code. mode: SUM_MODE."""
+    """Receiver of frames.
+
+    Args:
+        lengths: number of data bytes of each instruction code.
+        mode: SUM_MODE.
+    """
 
     def __init__(self, address: int, lengths: Mapping[int, int], mode: str) -> None:
         self._address, self._lengths, self._mode = address, lengths, mode
@@ -81,7 +90,7 @@ class Parser:
         self._open += bytes([character])
         size = self._size()
         if size is None:
-            # From here on, only the code is needed.
+            # From here on, only the instruction code is needed.
             self._open = self._open[:3]
         if len(self._open) != size:
             return None
@@ -91,7 +100,7 @@ class Parser:
     def silence(self) -> Frame | None:
         """Process 20 ms without a character (P312-SER-12, -17).
 
-        It returns the frame to respond to if a frame of unknown length has begun.
+        The call returns the frame to respond to if a frame of unknown length has begun.
         """
         given, self._open = self._open[1:3], b""
         if any(character not in _DIGITS for character in given):
@@ -103,7 +112,7 @@ class Parser:
     def _size(self) -> int | None:
         """Return the number of characters of the unfinished frame.
 
-        It is 0 while the code is not complete, `None` if the code does not define it.
+        The number is 0 while the code is not complete, `None` if the code does not define it.
         """
         if self._open[0] & 0xF0 == POLL:
             return 2
@@ -265,7 +274,8 @@ def block_of(code: int, data: bytes) -> bytes:
 def reply_of(answer: bytes) -> tuple[int, bytes]:
     """Return kind and data of the reply to an instruction.
 
-    answer: the parallel response in logical order.
+    Args:
+        answer: the parallel response in logical order.
     """
     code, content = answer[2], answer[3:]
     if code in ERRORS:
@@ -282,7 +292,8 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
 def news_of(kind: int, report: bytes) -> tuple[int, bytes]:
     """Return kind and data of the reply to a poll (P312-SER-30).
 
-    report: report of a class in logical order.
+    Args:
+        report: report of a class in logical order.
     """
     content = report[3:]
     if kind == responses.STOPPED:

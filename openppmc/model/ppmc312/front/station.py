@@ -107,7 +107,9 @@ class Log(NamedTuple):
 class Driver(NamedTuple):
     """SND_LEAD and SND_WAIT in bits (P312-SER-18).
 
-    lead: rise of snd to the start bit. wait: delay of snd in addition to half a bit after the last character.
+    Attributes:
+        lead: bits from the rise of snd to the start bit.
+        wait: delay of snd in bits, in addition to half a bit after the last character.
     """
 
     lead: int
@@ -118,7 +120,7 @@ class Station:
     """Station on a line.
 
     Args:
-        bit: cycles of a bit, `None` for a silent station.
+        bit: bit time in cycles, `None` for a silent station.
         address: 0..15.
         mode: SUM_MODE.
         log: log of all frames and characters sent.

@@ -67,7 +67,7 @@ class Core(Protocol):
         """Process a multiple occurrence."""
 
     def clear_alarm(self, t: int) -> None:
-        """Execute 24."""
+        """Execute instruction 24."""
 
 
 FIFO_DEPTH, BUFFER_DEPTH = 8, 4
@@ -90,9 +90,9 @@ class Triggered:
 
     @property
     def stops_at_position(self) -> bool:
-        """True for an 80 that a position triggers (P312-OVR-12).
+        """True for an instruction 80 that a position triggers (P312-OVR-12).
 
-        It stops the pulses before it is processed.
+        The position stops the pulses before the instruction is processed.
         """
         return self.entry.trigger is Trigger.POSITION and self.entry.block[2] == Code.STOP
 
@@ -157,8 +157,9 @@ class Fifo:
 class EventBuffer:
     """Event buffer.
 
-    next: number of the entry that the next edge executes. edge: time of a stored edge that is not processed
-    yet.
+    Attributes:
+        next: number of the entry that the next edge executes.
+        edge: edge of `clk` of a stored event that is not processed yet.
     """
 
     entries: list[bytes] = field(default_factory=list)

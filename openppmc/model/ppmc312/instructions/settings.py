@@ -17,7 +17,7 @@ def _number(data: bytes) -> int:
 
 
 def initial(core: Core, data: bytes) -> Work:
-    """Return the work of 00: flags and parameters; the length is one of the two valid ones."""
+    """Return the work of instruction 00: flags and parameters; the length is one of the two valid ones."""
     flags = data[0]
     separate, sigmoid = bool(flags & LE), bool(flags & FO)
     try:
@@ -46,7 +46,7 @@ def initial(core: Core, data: bytes) -> Work:
 
 
 def open_curve(core: Core, header: int, data: bytes) -> Work:
-    """Return the work of 01, the code block."""
+    """Return the work of instruction 01, the code block."""
     core.forget_table()
     try:
         transfer = FreeCurve(header, data)
@@ -81,7 +81,7 @@ def add_to_curve(core: Core, header: int, data: bytes) -> Work:
 
 
 def monitor(core: Core, code: int, data: bytes) -> Work:
-    """Return the work of 02 or 03."""
+    """Return the work of instruction 02 or 03."""
     distance = _number(data[1:3])
     if data[0] & 1 and not distance:
         raise Refusal(Answer.PARAMETER, BAD_RANGE[code])
@@ -95,7 +95,7 @@ def monitor(core: Core, code: int, data: bytes) -> Work:
 
 
 def interlock_position(core: Core, data: bytes) -> Work:
-    """Return the work of 04."""
+    """Return the work of instruction 04."""
 
     def finish(t: int) -> bytes:
         core.interlock.position = _number(data)
@@ -105,7 +105,7 @@ def interlock_position(core: Core, data: bytes) -> Work:
 
 
 def speed_limit(core: Core, data: bytes) -> Work:
-    """Return the work of 05."""
+    """Return the work of instruction 05."""
     rate = _number(data)
     if rate < 2:
         raise Refusal(Answer.PARAMETER, BAD_RATE)
@@ -118,7 +118,7 @@ def speed_limit(core: Core, data: bytes) -> Work:
 
 
 def end_terminal(core: Core, data: bytes) -> Work:
-    """Return the work of 06."""
+    """Return the work of instruction 06."""
     if data[0] > 1:
         raise Refusal(Answer.PARAMETER, BAD_VALUE)
 

@@ -41,14 +41,15 @@ FIFO_FULL, EVT_IN_USE = 0x00, 0x01
 
 
 def is_reset(block: bytes) -> bool:
-    """Return True for a valid 03 01 FF."""
+    """Return True for a valid block 03 01 FF, the software reset."""
     return block == bytes([CODE_LAST, 1, Code.RESET])
 
 
 def check(core: Core, block: bytes, source: Source, at_position: bool = False) -> Work:
     """Check a block in logical order; return its work.
 
-    at_position: released by a position, which affects the DATASHEET time of 80.
+    Args:
+        at_position: True if a position has released it, which affects the DATASHEET time of instruction 80.
 
     Raises:
         Refusal: the block is rejected. State that a rejection clears is already cleared.
@@ -152,7 +153,11 @@ BAD_RATE, BAD_VALUE = 0x20, 0x23
 
 
 def _rate(table: Table, data: bytes, zero: bool = True) -> int:
-    """Return a rate parameter. zero: 0 means RH."""
+    """Return a rate parameter.
+
+    Args:
+        zero: True if the value 0 means RH.
+    """
     rate = int.from_bytes(data, "big")
     if not rate and zero:
         return table.high
@@ -194,7 +199,11 @@ def _plan(code: int, table: Table, data: bytes) -> tuple[Plan, int]:
 
 
 def start(core: Core, block: bytes) -> Work:
-    """Return the work of 10, 11, 82..86. block: in logical order."""
+    """Return the work of instruction 10, 11 or 82..86.
+
+    Args:
+        block: instruction block in logical order.
+    """
     code, data = block[2], block[3:]
     table = core.table
     assert table is not None
@@ -220,7 +229,11 @@ def start(core: Core, block: bytes) -> Work:
 
 
 def stop(core: Core, code: int, at_position: bool) -> Work:
-    """Return the work of 80 or 81. at_position: triggered by a position."""
+    """Return the work of instruction 80 or 81.
+
+    Args:
+        at_position: True if a position has triggered it.
+    """
 
     def halt(t: int) -> None:
         if not core.operation.waits_for_end:
@@ -238,7 +251,7 @@ def stop(core: Core, code: int, at_position: bool) -> Work:
 
 
 def change(core: Core, code: int, data: bytes) -> Work:
-    """Return the work of 87 or 88."""
+    """Return the work of instruction 87 or 88."""
     assert core.table is not None
     rate = _rate(core.table, data[1:3], zero=False)
 

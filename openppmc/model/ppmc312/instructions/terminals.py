@@ -27,13 +27,13 @@ def _bits(values: Sequence[int | bool]) -> int:
 
 
 def terminals(core: Core) -> bytes:
-    """Return the parameters of 27: unfiltered pin levels (P312-CMD-27)."""
+    """Return the parameters of the response to 27: unfiltered pin levels (P312-CMD-27)."""
     levels = core.context.levels
     return bytes(_bits([pin is not None and levels[pin] for pin in pins]) for pins in _TERMINALS)
 
 
 def status(core: Core) -> bytes:
-    """Return the parameters of 4D (P312-CMD-4D)."""
+    """Return the parameters of the response to 4D (P312-CMD-4D)."""
     operation, watch, fifo = core.operation, core.watch, core.fifo
     first = [operation.run_ignored, core.interlock.on, 0, watch.encode.enabled, watch.in_position.enabled]
     first += [operation.end_monitored, watch.encode.outside, watch.in_position.outside]
@@ -84,7 +84,7 @@ def _event_read(core: Core, data: bytes) -> bytes:
 
 
 def _event_set(core: Core, data: bytes) -> Work:
-    """Return the work of 49 with legal parameters."""
+    """Return the work of instruction 49 with legal parameters."""
     number, deletes = data[0] & 1, data[0] & 2
     buffer = core.events[number]
     said, act = REGISTERED, None
@@ -166,7 +166,11 @@ def _check_event(data: bytes) -> None:
 
 
 def act(core: Core, code: int, data: bytes) -> Work:
-    """Return the work of one of these instructions with a legal length. data: its parameters."""
+    """Return the work of one of these instructions with a legal length.
+
+    Args:
+        data: parameters of the instruction.
+    """
     if code == Code.TABLE_READ:
         return Work(lambda t: _table(core))
     if code in (Code.POSITION_READ, Code.POSITION_SET) and data[0] > 1:

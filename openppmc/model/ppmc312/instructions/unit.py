@@ -26,7 +26,7 @@ class Job(NamedTuple):
         source: source of the instruction.
         since: edge that the DATASHEET times count from.
         buffer: number of the event buffer.
-        at_position: released by a position.
+        at_position: True if a position has released it.
     """
 
     block: bytes
@@ -39,8 +39,11 @@ class Job(NamedTuple):
 class Unit:
     """Instruction unit.
 
-    core: everything that instructions act on. holding: a response is about to be stored; reports of classes 3
-    to 8 follow it.
+    Args:
+        core: all blocks and state that instructions act on.
+
+    Attributes:
+        holding: True if a response is about to be stored; reports of classes 3 to 8 follow it.
     """
 
     def __init__(self, core: Core) -> None:
@@ -244,7 +247,7 @@ class Unit:
         self.holding = False
         self._core.host.offer(t)
         if work.check:
-            # The levels of that edge are used.
+            # The check uses the levels of that edge.
             look = t + self._core.pace.limits
             self._core.context.queue.at(look, Phase.COMMAND, lambda now: self._check(now, job, work, due))
         else:
@@ -292,7 +295,7 @@ class Unit:
     def _over(self, t: int) -> None:
         """Enable the next instruction."""
         self._idle(t)
-        # A response that has to wait lets other reports pass.
+        # While a response has to wait, other reports may be sent before it.
         self.holding = self._core.responses.answer is None
         self._core.operation.motion.look_at_rest_soon(t)
         self.kick(t)
@@ -317,7 +320,7 @@ class Unit:
             )
             return
         if not self._core.responses.post(t, ANSWER, [block], source):
-            # It follows a response to an event or an override; the mailbox stays closed (P312-RSP-20).
+            # The response follows one to an event or an override, and the mailbox stays closed (P312-RSP-20).
             self._late = block
             return
         self._late, self._storing, self.holding = None, False, bool(self._rest)

@@ -12,8 +12,9 @@ from ..front.responses import block
 class Refusal(Exception):  # noqa: N818 - an answer, not a fault of the program
     """Rejection with an abnormality response.
 
-    number: error number, status or length byte, as the response requires. clk: cycles from the effect of a
-    short instruction to the rejection.
+    Args:
+        number: error number, status or length byte, as the response requires.
+        clk: cycles from the effect of a short instruction to the rejection.
     """
 
     def __init__(self, answer: Answer, number: int = 0, clk: int = 0) -> None:
@@ -30,7 +31,7 @@ class Work(NamedTuple):
         clk: cycles from the effect of a short instruction to finish.
         cycles: DATASHEET time in crystal cycles from the write of the header, or from the trigger; `None` for
             the time of FAST.
-        starts: this time is that of pulse 1, which is TW after t0.
+        starts: True if this time is that of pulse 1, which is TW after t0.
         begin: begin(t) executes the immediate part, at the edge of the effect of a short instruction.
         check: check(t) checks the limits of a start before it is planned; it may raise Refusal.
     """
@@ -48,7 +49,11 @@ _ECHO = 28
 
 
 def refusal_block(refusal: Refusal, source: Source, state: State, given: bytes) -> bytes:
-    """Return the response (10.1). given: code and parameters as received."""
+    """Return the response (10.1).
+
+    Args:
+        given: code and parameters as received.
+    """
     if source is not Source.HOST:
         failed = Answer.EVENT_FAILED if source is Source.EVENT else Answer.OVERRIDE_FAILED
         return block(source, failed, _FAILURES.get(refusal.answer, 0x00))

@@ -16,8 +16,9 @@ EVENT_PINS = ("evt0_n", "evt1_n")
 class Filters:
     """Filters of the guarded pins. changed(t, pin): called when the level of a pin has changed.
 
-    levels: filtered levels. With DATASHEET timing a low level counts only when it has lasted for the filter
-    time; a high level counts immediately.
+    Attributes:
+        levels: filtered levels. With DATASHEET timing a low level counts only when it has lasted for the
+            filter time; a high level counts immediately.
     """
 
     def __init__(self, context: Context, changed: Callable[[int, str], None]) -> None:
@@ -62,7 +63,7 @@ class InputChange:
         self._next: Event | None = None
 
     def set_up(self, t: int, mask: int, auto: bool) -> None:
-        """Execute 28."""
+        """Execute instruction 28."""
         self._mask, self._auto, self._since = mask, auto, t
         self._former = self._context.levels["auxi"]
         if self._next:
@@ -114,7 +115,7 @@ class Outputs:
             event.cancel()
 
     def counter_clear(self, t: int) -> None:
-        """Execute 22: the pulse begins, or starts again if it is active."""
+        """Execute instruction 22: the pulse begins, or starts again if it is active."""
         self.cclr_n = 0
         self._after("cclr", t, CLEAR_PULSE, self._counter_cleared)
 
@@ -122,7 +123,7 @@ class Outputs:
         self.cclr_n = 1
 
     def alarm_clear(self, t: int) -> None:
-        """Execute 24."""
+        """Execute instruction 24."""
         self.aclr_n = 0
         self._after("aclr", t, CLEAR_PULSE, self._alarm_cleared)
 

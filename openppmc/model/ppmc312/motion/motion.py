@@ -24,9 +24,9 @@ class Order:
 
     Attributes:
         target: rate that the start check compares with the high-speed limit.
-        origin: it ends at the origin.
-        turns: zero return, phase 1.
-        index: the origin needs index_n as well.
+        origin: True if the operation ends at the origin.
+        turns: True in phase 1 of a zero return.
+        index: True if the origin also requires an index (index_n).
     """
 
     plan: Plan
@@ -131,7 +131,7 @@ class Motion:
             self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
 
     def slow_stop(self, t: int) -> None:
-        """Process 81 (P312-MOT-30)."""
+        """Process instruction 81 (P312-MOT-30)."""
         if self.active:
             sequence = self.sequence
             self._slow_from = t + 1
@@ -146,10 +146,10 @@ class Motion:
         self._rest_at(t + 1)
 
     def change(self, t: int, change: Change) -> None:
-        """Process 87 or 88."""
+        """Process instruction 87 or 88."""
         if self.active:
             sequence, lead = self.sequence, self._pace.ramp_lead if change.ramp else self._pace.change_lead
-            # The change that it replaces is removed before it counts itself.
+            # A change that is still pending is removed before the new change takes effect.
             self._flag(t + self._pace.drop_lead, lambda at: sequence.drop_change())
             self._changes.append((t, self._flag(t + lead, lambda at: sequence.change(change))))
             if change.ramp:
@@ -183,7 +183,7 @@ class Motion:
     def _look_at_limit(self, t: int, low: bool) -> None:
         """Process the high-speed limit, which is a level (P312-INP-12).
 
-        It counts for boundaries `lead` cycles later.
+        The limit counts for boundaries `lead` cycles later.
         """
         if t > self._limit_at:
             self._limit_before, self._limit_at = self._limit, t
@@ -210,7 +210,7 @@ class Motion:
         self._context.queue.at(t, Phase.BEGIN, self.look_at_rest)
 
     def look_at_rest_soon(self, t: int) -> None:
-        """Schedule a check at edge t, because a condition of a stop at a position may be fulfilled."""
+        """Schedule a check at edge t, because a condition of a stop at a position may have become true."""
         if self._at_position and self._ended is not None:
             self._context.queue.at(t + 1, Phase.BEGIN, self.look_at_rest)
 
@@ -287,7 +287,7 @@ class Motion:
     def _plan_interval(self, t: int, rate: int, divider: int) -> None:
         """Schedule the fall of pout and the next boundary.
 
-        They follow the prescaler, whose phase pulse 1 cleared.
+        Both follow the prescaler, whose phase pulse 1 cleared.
         """
         timebase = self._context.timebase
         if self.sequence.done == 1:

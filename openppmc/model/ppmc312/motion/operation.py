@@ -32,8 +32,12 @@ class Operation:
             motor.
         abnormal: abnormal() returns True in state ABN.
 
-    run_level: RUN for decisions at this edge. end_monitored, run_ignored (CWS), speed_limit (HSL): settings.
-    last_cause: cause of the last stop report.
+    Attributes:
+        run_level: level of RUN for decisions at this edge.
+        end_monitored: True if a motion waits for END.
+        run_ignored: True if RUN is ignored (setting CWS).
+        speed_limit: rate HSL, which applies at the high-speed limits.
+        last_cause: cause of the last stop report.
     """
 
     def __init__(
@@ -132,7 +136,7 @@ class Operation:
     # ------------------------------------------------------------------ stops
 
     def stop(self, t: int, cause: Cause = Cause.STOP) -> None:
-        """Process 80, or the alarm of a multiple occurrence or of alm_n."""
+        """Process instruction 80, or the alarm of a multiple occurrence or of alm_n."""
         if cause is Cause.ALARM:
             self._alarm_at = t
         if self._held:
@@ -144,11 +148,11 @@ class Operation:
             self.motion.stop(t, cause)
 
     def slow_stop(self, t: int) -> None:
-        """Process 81."""
+        """Process instruction 81."""
         self.motion.slow_stop(t)
 
     def change(self, t: int, change: Change) -> None:
-        """Process 87 or 88."""
+        """Process instruction 87 or 88."""
         self.motion.change(t, change)
 
     # ------------------------------------------------------------------ end

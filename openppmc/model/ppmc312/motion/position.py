@@ -35,14 +35,18 @@ class Counters:
 
     @property
     def distance(self) -> int:
-        """|POS - ENC| of the difference as signed 32 bits."""
+        """Absolute value of POS - ENC, where the difference is a signed 32-bit number."""
         difference = self.pulse - self.encoder & _WRAP
         return min(difference, _WRAP + 1 - difference)
 
 
 @dataclass
 class Interlock:
-    """Interlock. on: the control is running, intlk_n is low."""
+    """Interlock.
+
+    Attributes:
+        on: True if the interlock control is running, so that intlk_n is low.
+    """
 
     position: int = 0
     on: bool = False
@@ -59,7 +63,9 @@ class Monitor:
 
     It sends reports of one class when the distance enters or leaves a range.
 
-    enabled: EN as in the status. far: the distance is out of range.
+    Attributes:
+        enabled: bit EN of the status.
+        far: True if the distance is out of range.
     """
 
     def __init__(self, kind: int, code: Answer, responses: Responses) -> None:
@@ -87,7 +93,7 @@ class Monitor:
         return block(SPONTANEOUS, self._code, self._shown)
 
     def set_up(self, t: int, flags: int, distance: int) -> None:
-        """Execute 02 or 03 with legal parameters."""
+        """Execute instruction 02 or 03 with legal parameters."""
         self._responses.withdraw(self.kind)
         self.enabled, self.auto, self.clamps = bool(flags & 1), bool(flags & 2), bool(flags & 4)
         self.range, self.far, self._told, self._kept = distance, False, False, False
@@ -147,7 +153,7 @@ class Watch:
         self._awake = False
 
     def set_up(self, t: int, monitor: Monitor, flags: int, distance: int) -> None:
-        """Execute 02 or 03."""
+        """Execute instruction 02 or 03."""
         monitor.set_up(t, flags, distance)
         if monitor is self.in_position:
             self._quiet = -1

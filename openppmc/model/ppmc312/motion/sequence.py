@@ -36,9 +36,10 @@ class Sequence:
     Attributes:
         done: pulses output.
         running: current pulse and interval, `None` before pulse 1.
-        walk_begins: the last boundary began the deceleration to the end.
-        drops: the last boundary discarded a waiting 87.
-        sought: the constant rate of the last boundary was that of a stage, so t(x) had to be searched for it.
+        walk_begins: True if the last boundary began the deceleration to the end.
+        drops: True if the last boundary discarded a waiting instruction 87.
+        sought: True if the constant rate of the last boundary was that of a stage, so t(x) had to be searched
+            for it.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -93,7 +94,7 @@ class Sequence:
         self._held = True
 
     def change(self, change: Change) -> None:
-        """Process 87 or 88 for the next boundary; it replaces a waiting one."""
+        """Process instruction 87 or 88 for the next boundary; it replaces a waiting one."""
         self._change = change
         self._held = change.ramp
 
@@ -110,8 +111,8 @@ class Sequence:
         Cause.RETURN means that phase 1 of a zero return is over.
 
         Args:
-            ramps: 87 may take effect at this boundary.
-            found: t(x) is known, if it had to be searched.
+            ramps: True if instruction 87 may take effect at this boundary.
+            found: True if the search for t(x) has ended; without effect if no search was required.
         """
         self.walk_begins = self.drops = False
         if self.complete:
@@ -122,7 +123,7 @@ class Sequence:
             wanted = self._requests
             self._requests = {Cause.LIMIT_SLOW} if self._limit else set()
         else:
-            wanted = set()  # the deceleration waits until its first stage is known
+            wanted = set()  # the first stage of the deceleration is not known yet, so the deceleration waits
         if wanted and self._mode is not _Mode.WALK:
             end = self._decelerate(next(cause for cause in _ORDER if cause in wanted))
             if end is not None:
@@ -132,7 +133,7 @@ class Sequence:
         plan = self.plan
         if plan.n is not None and plan.n - self.done == plan.down and self._mode is not _Mode.WALK:
             if self._held:
-                # It could only accelerate the rest.
+                # The change could only accelerate the remaining pulses, so it is discarded.
                 self.drop_change()
                 self.drops = self._changed = True
             if self._changed:

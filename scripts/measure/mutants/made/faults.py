@@ -43,9 +43,12 @@ SKIPPED = (
 
 @dataclass(frozen=True)
 class Fault:
-    """A mutant. `text` replaces file[start:end]; dropped: the statement there is removed.
+    """A mutant. `text` replaces file[start:end].
 
-    number: from 1, in its file. what: description, for tables.
+    Attributes:
+        dropped: True if the statement at this place is removed.
+        number: number of the mutant in its file, from 1.
+        what: description of the fault, for tables.
     """
 
     number: int

@@ -32,7 +32,11 @@ SO_FAR = "The mutants ran at different times; for some survivors only the first 
 
 @dataclass(frozen=True)
 class Tried:
-    """A mutant and its verdict; `test`: the test that killed it."""
+    """A mutant and its verdict.
+
+    Attributes:
+        test: the test that killed the mutant.
+    """
 
     file: str
     fault: Fault
@@ -58,7 +62,7 @@ def lines(file: str) -> list[str]:
 
 @cache
 def judged() -> Mapping[tuple[str, str, str], str]:
-    """Return the entries of judged.yml; ProjectError if a text is no longer in its file."""
+    """Return the entries of judged.yml; raise ProjectError if a text is no longer in its file."""
     entries = yaml.safe_load(JUDGED.read_text(encoding="utf-8")) or []
     for entry in entries:
         if not any(entry["line"] == line.strip() for line in lines(entry["file"])):
@@ -86,7 +90,11 @@ class Score:
 
 
 def score(tried: Sequence[Tried], made: int) -> Score:
-    """Return the score of these mutants; made: number of all mutants."""
+    """Return the score of these mutants.
+
+    Args:
+        made: number of all mutants of the file or folder.
+    """
     alive = [one for one in tried if one.verdict == ALIVE]
     equivalent = sum(bool(one.why) for one in alive)
     count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in (KILLED, ENDLESS, BROKEN)}
@@ -138,7 +146,11 @@ def survivors(tried: Sequence[Tried]) -> Iterator[str]:
 
 
 def page(tried: Sequence[Tried], files: Sequence[str], note: str = "") -> str:
-    """Return the whole page. note: restriction of the tests (QUICK, SO_FAR)."""
+    """Return the whole page.
+
+    Args:
+        note: restriction of the tests (QUICK, SO_FAR).
+    """
     modules = [
         row(file, mine, len(of_file(file)))
         for file in files

@@ -32,7 +32,11 @@ KILLED, ALIVE, ENDLESS, BROKEN = "killed", "alive", "no end", "no build"
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mutant and its tests; `briefly`: only the proofs of its own block."""
+    """A mutant and its tests.
+
+    Attributes:
+        briefly: True if only the proofs of its own block are run.
+    """
 
     file: str
     fault: Fault
