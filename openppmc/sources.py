@@ -28,7 +28,10 @@ _USED = re.compile(r"\b(\w+)(?=\s*::|\s*#\s*\(|\s+\w+\s*\()")
 
 
 class SourcesError(PpmcError):
-    """The list is missing or wrong, or has a name that does not exist. One line."""
+    """Error in rtl/files.yml: it is missing or malformed, or names a group or file that does not exist.
+
+    The message is one line.
+    """
 
 
 @dataclass(frozen=True)

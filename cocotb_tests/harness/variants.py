@@ -1,9 +1,10 @@
 """Replacements of the RTL in a simulation: a mutant (`make mutate`), or copies that count coverage.
 
-MUTANT in the environment holds "FILE NUMBER COPY": the file relative to the project's root, the number of the
-mutant in its copy, and the copy. A failure is then not repeated, shrunk or recorded for traceability.
+The environment variable OPENPPMC_MUTANT holds "FILE NUMBER COPY": the path of the original file, relative to
+the root; the number of the active mutant; the path of the copy that contains all mutants. A failure is then
+not repeated, shrunk or recorded for traceability.
 
-COVERAGE names a folder: each simulation writes a file with Verilator's counts to it (`make coverage`).
+OPENPPMC_COVERAGE names a folder: each simulation writes a file with Verilator's counts to it.
 """
 
 from __future__ import annotations

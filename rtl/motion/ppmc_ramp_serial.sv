@@ -3,8 +3,8 @@
 //         bit of each number in a word.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
 // Timing: a pass begins in the cycle after start_i and lasts 2 cycles more than it has words. last_o marks
-//         its last cycle, in which the next pass may be started. PassTell outputs one bit in each cycle, up
-//         to its last cycle.
+//         its last cycle, in which the next pass may be started. PassTell outputs one bit per cycle from
+//         its third to its last cycle (use_o = 1).
 // How:    n = numerator, u = subtrahend between the divisions, v = product, quotient or difference. Bit i is
 //         stored in word i. A quotient follows its dividend by two cycles and is written two words lower: its
 //         lowest bits are stored in the last two words of the RAM. No pass ever writes a 1 into u there.

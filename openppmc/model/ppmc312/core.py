@@ -1,6 +1,6 @@
 """All blocks of the PPMC-312 and its state; the instructions act on them.
 
-Rules: chapter 4, P312-GEN-12, P312-INP-30..33. `make_host` creates the host side of the parallel bus;
+Rules: P312-STA, P312-GEN-12, P312-INP-30..33. `make_host` creates the host side of the parallel bus;
 `connect` replaces it.
 """
 
@@ -84,7 +84,7 @@ class Core:
 
     @property
     def state(self) -> State:
-        """Operation state of chapter 4."""
+        """Operation state (docs/ppmc312/README.md, chapter 7)."""
         if self._abnormal:
             return State.ABN
         return self.operation.state or (State.NOR if self.table else State.INI)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_setup: converts the blocks of an initial setting or a free curve to the active table.
 // Rules:  P312-CMD-00, P312-CMD-01, P312-CMD-FC-1..10, P312-INP-31.
-// Timing: state_o.done follows order_i.build and order_i.data; its results are valid from done on.
+// Timing: state_o.done is high for one cycle when the work requested by order_i.build or order_i.data has
+//         ended. state_o.bad, error and progress are valid in this cycle.
 `default_nettype none
 
 module ppmc312_setup

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no pulse
 // follows the end. Times are short: width 6 cycles, quanta at least 4 cycles apart, base clocks of 2 and 3
-// quanta. Ramp table, sequence of stops, gates and edges of the clock pin are unconstrained.
+// quanta. Assumes: rising edges of the clock pin at least 8 cycles apart; table entries of at most PA, and PA at
+// the high-speed rate; rates and PA stable during a motion. Stops, switches and gates are unconstrained.
 `include "ppmc_fv.svh"
 `default_nettype none
 

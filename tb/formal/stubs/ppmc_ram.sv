@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ram, stub for proofs in which the RAM holds external data: any word at any time. ppmc_ram_fv proves
-// that the real one returns the word written.
+// ppmc_ram, stub for proofs that hold for any content of the RAM: rdata_o is an unconstrained word in every
+// cycle. ppmc_ram_fv proves that the real RAM returns the word written.
 `default_nettype none
 
 module ppmc_ram #(

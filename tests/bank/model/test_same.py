@@ -127,9 +127,7 @@ def test_same_edges(clk_hz, move, axis):
 
 @pytest.mark.parametrize("config", range(4))
 def test_same_ramp(config):
-    """The worked example of the ramp is equal for all four values of csel and vsel (BANK-GEN-04,
-    BANK-MOT-01).
-    """
+    """For each csel and vsel, a bank has the worked ramp of a PPMC-104 (BANK-GEN-04, BANK-MOT-01)."""
     move = Move(config, (0x0A, 0x13, 0x09, 0x0A, 0), (0x43, 0x40, 0, 0), None)
     pout_n, _, end = in_bank(move, 100_000_000, 7)
     assert (pout_n, end) == alone(move, 100_000_000)[::2] and len(pout_n) == 2 * 65
@@ -137,7 +135,7 @@ def test_same_ramp(config):
 
 @pytest.mark.parametrize("code", [0x01, 0x05, 0x0A, 0x0E, 0x23, 0x0F])
 def test_same_patterns(code):
-    """For every motor, the patterns of one turn and back are equal (BANK-MOT-01)."""
+    """For each motor, the patterns of one turn and back are those of a PPMC-104 (BANK-MOT-01)."""
     for way in (0, 8):
         move = Move(3, (code, 5, 5, 4, 0), (0x44 | way, 3, 11, 0, 0), None)
         assert in_bank(move, 32_000_000, 31)[0:3:2] == alone(move, 32_000_000)[0:3:2]

@@ -35,7 +35,7 @@ def alive(pid: int) -> bool:
         ("colour=red", "unknown word 'colour'"),
         ("start", "word=value"),
         ("start=1.5", "whole number"),
-        ("alarm=20..10", "behind"),
+        ("alarm=20..10", "must not exceed"),
         ("cw=-500", "CW limit"),
         ("speed=0", "speed=0"),
         ("speed=fast", "speed=fast"),

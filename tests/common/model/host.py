@@ -9,7 +9,8 @@ from openppmc.model.single.codes import IBF, OBF
 
 
 class ModelHost:
-    """A host on the byte bus of a model. `t` is the next free edge; every method advances it.
+    """A host on the byte bus of a model. `t` is the edge of the next access; accesses, pin
+    changes and pauses advance it.
 
     Keyword arguments are passed to the device's MODEL.
     """

@@ -131,7 +131,7 @@ class Parser:
 
 
 def _bytes(characters: bytes) -> bytes | None:
-    """Return the data of an even number of characters, `None` if one is no lower-case hex digit."""
+    """Return the bytes of hex digits; `None` if their number is odd or one is not a lower-case digit."""
     if len(characters) % 2 or any(character not in _DIGITS for character in characters):
         return None
     return bytes.fromhex(characters.decode())

@@ -94,7 +94,7 @@ class Core(Protocol):
 
     @property
     def state(self) -> State:
-        """Operation state of chapter 4."""
+        """Operation state (docs/ppmc312/README.md, chapter 7)."""
 
 
 class Log(NamedTuple):
