@@ -69,10 +69,7 @@ class Group(Checked):
     Motions of these axes that are started inside the block wait at their first pulse.
 
     At the end of the block all of them start in the same cycle. If the block is left by an exception, the
-    waiting motions are stopped, and nothing moves.
-
-    Args:
-        numbers: numbers of the axes.
+    waiting motions are stopped, and nothing moves. It is made with the numbers of the axes.
 
     Raises:
         NotWhileBusy: at the start of the block, an axis moves.

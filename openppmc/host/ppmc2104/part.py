@@ -83,8 +83,10 @@ class Ppmc2104(Part):
         If one axis ends early, the other is stopped with a ramp.
 
         Args:
-            x, y: pulses as in `Axis.move`.
-            x_pps, y_pps: constant speed of this axis, `None` for a move with ramps.
+            x: pulses of axis 1, as in `Axis.move`.
+            y: pulses of axis 2.
+            x_pps: constant speed of axis 1, `None` for a move with ramps.
+            y_pps: constant speed of axis 2, `None` for a move with ramps.
 
         Raises:
             LimitReached, AlarmStop, StoppedEarly: end of the axis that ended first.

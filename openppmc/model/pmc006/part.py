@@ -40,7 +40,8 @@ class Pmc006(Chip):
         baud: 1200..115200.
         i2c_hz: 10e3..400e3.
         ee_dev: 0..127.
-        t_off_ns, t_blank_ns: times of the chopper.
+        t_off_ns: off-time of the chopper in ns.
+        t_blank_ns: blanking time of the chopper in ns.
         fw_version: firmware version.
         straps: pin levels from the beginning on.
 

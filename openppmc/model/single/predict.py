@@ -88,7 +88,8 @@ def predict_move(
             initial setting, see `ppmc312.carrier`, which also has free curves.
         n: number of pulses, 1..2^24.
         rate: `None` for a move with ramps, otherwise the rate of a constant-speed move.
-        csel, vsel: levels of these pins.
+        csel: level of this pin.
+        vsel: level of this pin.
         part: "ppmc104", "ppmc2104" (has no vsel, leave it 1), "stmc" (has neither csel nor vsel; rates are
             divisors) or "ppmc312".
 

@@ -46,7 +46,9 @@ class Stmc(SingleAxis):
         timing: "FAST" or "DATASHEET".
         read_map: "FAMILY" or "SHEET".
         phase_idle: 0 or 1.
-        hold_xt, chop_on_xt, chop_off_xt: in crystal periods, at least 1.
+        hold_xt: time until HOLD in crystal periods, at least 1.
+        chop_on_xt: on-time of the chopper in crystal periods, at least 1.
+        chop_off_xt: off-time of the chopper in crystal periods, at least 1.
 
     Raises:
         ValueError: another value.
