@@ -146,7 +146,7 @@ def test_other_clock_than_the_plain_verilog(tmp_path):
     (tmp_path / "ppmc104.v").write_text(head)
     (tmp_path / "ppmc_wishbone.v").write_text("//   AddrBits = 1\n\n`default_nettype none\n")
     PpmcPart(Bench(), 16e6, tmp_path)
-    wanted = r"^ppmc104.v was made with CLK_HZ = 16000000, .*: make verilog TOP=ppmc104 PARAMS=CLK_HZ=25"
+    wanted = r"^ppmc104.v was made with CLK_HZ = 16000000, .*; run make verilog TOP=ppmc104 PARAMS=CLK_HZ=25"
     with pytest.raises(SourcesError, match=wanted):
         PpmcPart(Bench(), 25e6, tmp_path)
     with pytest.raises(SourcesError, match="PHASE_IDLE = 1'b1, this SoC needs 0"):
