@@ -33,10 +33,10 @@ IGNORED = {"__pycache__", "img", "wavedrom", "include"}
 
 
 def modules(folder: str) -> list[str]:
-    """Return the modules next to the folders of model and host: of parts, and shared ones."""
-    if folder not in ("openppmc/model", "openppmc/host"):
+    """Return the modules next to the folders of the package: of parts, and shared ones."""
+    if not folder.startswith("openppmc/"):
         return []
-    return [path.stem for path in sorted((ROOT / folder).glob("*.py")) if path.stem != "__init__"]
+    return [path.stem for path in sorted((ROOT / folder).glob("*.py")) if not path.stem.startswith("__")]
 
 
 def rooms(folder: str) -> list[str]:
@@ -55,7 +55,7 @@ def _lines(names: Sequence[str], width: int) -> str:
 
 
 def house() -> bytes:
-    """Draw layers downwards and parts to the right; cells have folders, for model and host also modules."""
+    """Draw layers downwards and parts to the right; cells have folders, for the package also modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
     lefts = [sum(widths[:n]) for n in range(len(widths))]
