@@ -1,4 +1,4 @@
-"""Contracts of ppmc_board_reset and ppmc_board_lamp, as their headers state them."""
+"""Contracts of ppmc_board_reset and ppmc_board_led_stretch, as their headers state them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BLOCKS = {
         )
         for i, (clk, hold) in enumerate(RESETS)
     },
-    "lamp": Block("ppmc_board_lamp", "on_i lamp_o", {"ClkHz": LAMP_CLK_HZ}),
+    "lamp": Block("ppmc_board_led_stretch", "on_i lamp_o", {"ClkHz": LAMP_CLK_HZ}),
 }
 
 

@@ -48,7 +48,7 @@ BLOCKS = {
     },
     **{
         f"lag{lag}": Block(
-            "ppmc_ext_lag", "en_i restart_i edge_i long_i hit_i count_o fire_o", {"LagClk": lag}
+            "ppmc_ext_extra_time", "en_i restart_i edge_i long_i hit_i count_o fire_o", {"LagClk": lag}
         )
         for lag in LAGS
     },
@@ -97,7 +97,7 @@ BLOCKS = {
     },
     **{
         f"guard{variant}": Block(
-            "ppmc_stop_guard",
+            "ppmc_stop_monitor",
             "clear_i complete_i armed_i op_i:5 switches_i:6 top_i crawl_i dec_i halt_i decel_i slow_i"
             " slow_seen_o stop_o forced_o flagged_o cause_o:4",
             {"StopAtSlow": min(variant, 1), "SlowAlways": min(variant, 1), "SlowOrigin": variant // 2},

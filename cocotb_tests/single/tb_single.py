@@ -1,4 +1,4 @@
-"""Contracts of the blocks of the parts with one axis: ppmc_command, ppmc_setup, ppmc_finish, ppmc_pace."""
+"""Contracts of the blocks of the parts with one axis: ppmc_command, ppmc_setup, ppmc_finish_status, ppmc_proc_time."""
 
 from __future__ import annotations
 
@@ -60,17 +60,17 @@ BLOCKS = {
     },
     **{
         f"finish{fresh}": Block(
-            "ppmc_finish",
+            "ppmc_finish_status",
             "start_i op_code_i:8:ppmc_code_pkg::op_code_t done_i cause_i:4 read_i select_i:3 remaining_i:24"
             " inputs_i:8 outputs_i:8 auxi_i:4 answer_o:24 int_no",
             {"Fresh": fresh},
         )
         for fresh in (0, 1)
     },
-    "fast": Block("ppmc_pace", PACE_PORTS.format(steps=14)),
+    "fast": Block("ppmc_proc_time", PACE_PORTS.format(steps=14)),
     **{
         f"pace_{name}": Block(
-            "ppmc_pace",
+            "ppmc_proc_time",
             PACE_PORTS.format(steps=bits),
             {
                 "Datasheet": 1,

@@ -93,7 +93,7 @@ module ppmc_bank_plan
     end
   end
 
-  ppmc_judge #(
+  ppmc_command_check #(
       .Aux(1'b0)
   ) u_judge (
       .take_i        (take_o),

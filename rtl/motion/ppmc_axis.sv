@@ -133,7 +133,7 @@ module ppmc_axis
     end
   end
 
-  ppmc_stop_guard #(
+  ppmc_stop_monitor #(
       .StopAtSlow(StopAtSlow),
       .SlowAlways(SlowAlways),
       .SlowOrigin(SlowOrigin)
@@ -267,7 +267,7 @@ module ppmc_axis
   );
 
   if (ExtraQuanta != 0) begin : g_extra
-    ppmc_ext_lag #(
+    ppmc_ext_extra_time #(
         .LagClk(ppmc_pkg::cyc_round(LagXtal, ClkHz, XtalHz))
     ) u_lag (
         .clk_i,

@@ -67,7 +67,7 @@ module pmc006_carrier #(
   assign rxd = uart_rxd && rs485_rxd;
   assign uart_txd = rs485_txd;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(CLK_HZ)
   ) u_panel (
       .clk_i   (clk),

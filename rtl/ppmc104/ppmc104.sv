@@ -176,7 +176,7 @@ module ppmc104
       .aux_no  (aux_n)
   );
 
-  ppmc104_pace #(
+  ppmc104_proc_time #(
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ)

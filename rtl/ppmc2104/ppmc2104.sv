@@ -191,7 +191,7 @@ module ppmc2104
   logic [AXES:1] run_open, linger, ends, read_end, read_error;
   logic poll;
 
-  ppmc2104_pace #(
+  ppmc2104_proc_time #(
       .Datasheet(Datasheet),
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ)

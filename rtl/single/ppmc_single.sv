@@ -225,7 +225,7 @@ module ppmc_single
       .left_o     (remaining)
   );
 
-  ppmc_pace #(
+  ppmc_proc_time #(
       .Datasheet(Datasheet),
       .ClkHz    (ClkHz),
       .XtalHz   (XtalHz),
@@ -264,7 +264,7 @@ module ppmc_single
 
   // ---- end of a motion, read data, pins ------------------------------------------------------------
 
-  ppmc_finish #(
+  ppmc_finish_status #(
       .Fresh(!Traits.stmc_ends)
   ) u_finish (
       .clk_i,

@@ -25,7 +25,7 @@ module ppmc312_board_bench (
 
   logic rst_n, led_link, led_moving, led_switch;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(8_000_000)
   ) u_panel (
       .clk_i   (clk),

@@ -58,7 +58,7 @@ module board_de10nano_ppmc104 #(
   logic [3:0] lamps;
   logic [7:0] part_d;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
   ) u_panel (
       .clk_i   (clk),

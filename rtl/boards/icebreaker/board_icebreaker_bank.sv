@@ -40,7 +40,7 @@ module board_icebreaker_bank #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
   ) u_panel (
       .clk_i   (clk),

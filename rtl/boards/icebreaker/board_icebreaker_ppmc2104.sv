@@ -51,7 +51,7 @@ module board_icebreaker_ppmc2104 #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
   ) u_panel (
       .clk_i   (clk),

@@ -45,7 +45,7 @@ module board_icebreaker_stmc #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
   ) u_panel (
       .clk_i   (clk),

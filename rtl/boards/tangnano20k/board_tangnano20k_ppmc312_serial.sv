@@ -66,7 +66,7 @@ module board_tangnano20k_ppmc312_serial #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
   ) u_panel (
       .clk_i   (clk),

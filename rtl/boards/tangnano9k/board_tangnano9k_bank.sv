@@ -43,7 +43,7 @@ module board_tangnano9k_bank #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
   ) u_panel (
       .clk_i   (clk),

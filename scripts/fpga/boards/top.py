@@ -11,7 +11,7 @@ from scripts.fpga.boards.verilog import declaration, instance, literal, part_sel
 from scripts.fpga.boards.words import clk, head, title, wrapped
 
 OWN_PANEL = ("lock", "req_n", "lamps")
-"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_panel."""
+"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_leds."""
 
 
 class Top:
@@ -113,7 +113,7 @@ class Top:
         self.wires += ["rst_n", *list(lamps.values())[:3]]
         lock = "lock" if self.pll else "1'b1"
         start = {"clk_i": self.clk, "lock_i": lock, "req_ni": self.reset_wanted(), "rst_no": "rst_n"}
-        return instance("ppmc_board_panel", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
+        return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
 
     def around(self, port: Port) -> tuple[bool, str | None]:
         """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""

@@ -26,7 +26,7 @@ module ppmc_setup_fv
   logic open_q;  // an initialisation is in progress
   always_ff @(posedge clk_i) open_q <= rst_ni && (init_i || (open_q && !ready_i));
 
-  // ppmc_pace asserts home_i only in the first initialisation. An initialisation ends after it has begun.
+  // ppmc_proc_time asserts home_i only in the first initialisation. An initialisation ends after it has begun.
   `FV_ASSUME(home_in_the_first, !home_i || !initialised_o)
   `FV_ASSUME(ready_behind_init, !ready_i || open_q)
   `FV_ASSUME(one_at_a_time, !(off_i && (init_i || open_q)) && !(init_i && open_q))

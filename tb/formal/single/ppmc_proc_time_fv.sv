@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_fv: with DATASHEET times, proves that each action takes effect once and in order, and that the
+// ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that the
 // mailbox opens again. The ratio of the clocks shortens the times to 1/64.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_pace_fv
+module ppmc_proc_time_fv
   import ppmc_code_pkg::*;
 (
     input wire logic       clk_i,
@@ -22,7 +22,7 @@ module ppmc_pace_fv
 
   `FV_RESET
 
-  ppmc_pace #(
+  ppmc_proc_time #(
       .Datasheet(1'b1),
       .ClkHz    (1_000_000),
       .XtalHz   (3_000_000)

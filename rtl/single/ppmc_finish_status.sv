@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish: finish status and interrupt of a motion, and the data of the read commands, in a
+// ppmc_finish_status: finish status and interrupt of a motion, and the data of the read commands, in a
 //         single-axis device.
 // Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
 //         STMC-OUT-01, STMC-REM-01.
@@ -7,7 +7,7 @@
 //         combinational.
 `default_nettype none
 
-module ppmc_finish
+module ppmc_finish_status
   import ppmc_code_pkg::*;
 #(
     parameter bit Fresh = 1'b1  // finish status bit 7: 1 = not read yet, 0 = always 1

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_guard_fv: proves that every immediate cause ends the motion in the same cycle, that only such
+// ppmc_stop_monitor_fv: proves that every immediate cause ends the motion in the same cycle, that only such
 // causes end it, and that the causes are recorded.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_stop_guard_fv
+module ppmc_stop_monitor_fv
   import ppmc_motion_pkg::*;
 (
     input wire logic      clk_i,
@@ -27,9 +27,9 @@ module ppmc_stop_guard_fv
 
   `FV_RESET
 
-  ppmc_stop_guard dut (.*);
+  ppmc_stop_monitor dut (.*);
 
-  ppmc_stop_guard #(
+  ppmc_stop_monitor #(
       .StopAtSlow(1'b1),
       .SlowOrigin(1'b1)
   ) u_stmc (

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_panel: reset and LEDs of a board.
+// ppmc_board_leds: reset and LEDs of a board.
 // Rules:  docs/boards.md, LEDs.
-// Timing: see ppmc_board_reset and ppmc_board_lamp.
+// Timing: see ppmc_board_reset and ppmc_board_led_stretch.
 `default_nettype none
 
-module ppmc_board_panel #(
+module ppmc_board_leds #(
     parameter int unsigned ClkHz = 24_000_000
 ) (
     input  wire logic       clk_i,
@@ -28,7 +28,7 @@ module ppmc_board_panel #(
       .rst_no
   );
 
-  ppmc_board_lamp #(
+  ppmc_board_led_stretch #(
       .ClkHz(ClkHz)
   ) u_lamp (
       .clk_i,

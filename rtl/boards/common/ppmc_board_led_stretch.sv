@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_lamp: stretches a short event so that it is visible on an LED.
+// ppmc_board_led_stretch: stretches a short event so that it is visible on an LED.
 // Rules:  docs/boards.md, LEDs.
 // Timing: lamp_o rises one cycle after on_i. It falls 2^n cycles (1/32 .. 1/16 s) after the last cycle with
 //         on_i = 1.
 `default_nettype none
 
-module ppmc_board_lamp #(
+module ppmc_board_led_stretch #(
     parameter int unsigned ClkHz = 24_000_000
 ) (
     input  wire logic clk_i,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag_fv: proves to the cycle that two times add up to the extra time: the time before the first
+// ppmc_ext_extra_time_fv: proves to the cycle that two times add up to the extra time: the time before the first
 // base edge of an interval, and the time after the last one. If the first time alone is at least as long as
 // the extra time, the interval ends without more extra time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_ext_lag_fv (
+module ppmc_ext_extra_time_fv (
     input wire logic clk_i,
     input wire logic restart_i,
     input wire logic edge_i,
@@ -19,7 +19,7 @@ module ppmc_ext_lag_fv (
 
   `FV_RESET
 
-  ppmc_ext_lag #(
+  ppmc_ext_extra_time #(
       .LagClk(Lag)
   ) dut (
       .en_i(1'b1),

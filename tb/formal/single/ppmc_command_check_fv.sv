@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_judge_fv: proves that a faulty byte causes no action, that a byte causes at most one action, and that
+// ppmc_command_check_fv: proves that a faulty byte causes no action, that a byte causes at most one action, and that
 // no operation starts during a motion or before the initialisation.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_judge_fv
+module ppmc_command_check_fv
   import ppmc_code_pkg::*;
 (
     input wire logic           clk_i,
@@ -27,7 +27,7 @@ module ppmc_judge_fv
 
   `FV_RESET
 
-  ppmc_judge dut (.*);
+  ppmc_command_check dut (.*);
 
   // The register of the parser state, and a motion that the byte starts.
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_motion: long processing times of the old chip (DATASHEET): of an initialisation, before pulse 1,
+// ppmc_proc_time_motion: long processing times of the old chip (DATASHEET): of an initialisation, before pulse 1,
 //         and at the end of a motion. Only one of them runs at a time, so they share a counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: times start at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i with
@@ -11,7 +11,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc_pace_motion #(
+module ppmc_proc_time_motion #(
     parameter int unsigned ClkHz = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000,
     parameter int unsigned StepsMin = 4,  // smallest PA

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_guard: detects the causes that end or decelerate a motion and records them in the finish status.
+// ppmc_stop_monitor: detects the causes that end or decelerate a motion and records them in the finish status.
 // Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09;
 //         STMC-IN-03/04, STMC-DEC-03..06, STMC-FIN-02/03.
 // Timing: stop_o and forced_o are combinational, so that a cause present in a cycle also acts on a pulse at
@@ -7,7 +7,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc_stop_guard
+module ppmc_stop_monitor
   import ppmc_motion_pkg::*;
 #(
     parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace: determines when an accepted byte takes effect in a single-axis device: immediately (FAST) or
+// ppmc_proc_time: determines when an accepted byte takes effect in a single-axis device: immediately (FAST) or
 //         after the processing times of the old chip (DATASHEET).
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
 // Timing: DATASHEET times start at the C-event (2 cycles after the write event) or at the pulse or decision
@@ -7,7 +7,7 @@
 // How:    two timers: one for the current command (mailbox closed), one for the motion (pulse 1, end).
 `default_nettype none
 
-module ppmc_pace
+module ppmc_proc_time
   import ppmc_code_pkg::*;
   import ppmc_op_pkg::*;
 #(
@@ -189,7 +189,7 @@ module ppmc_pace
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );
 
-    ppmc_pace_motion #(
+    ppmc_proc_time_motion #(
         .ClkHz    (ClkHz),
         .XtalHz   (XtalHz),
         .StepsMin (StepsMin),

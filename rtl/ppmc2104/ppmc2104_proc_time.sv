@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_pace: with Datasheet = 1, delays accepted instructions by the processing times of the old chip and
+// ppmc2104_proc_time: with Datasheet = 1, delays accepted instructions by the processing times of the old chip and
 //         schedules its polling of limits. Otherwise actions are immediate and limits are always sampled.
 // Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (c).
 // Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its end
@@ -7,7 +7,7 @@
 //         ceil(35 us) cycles, counted from the first rising edge without reset or the end of the last window.
 `default_nettype none
 
-module ppmc2104_pace
+module ppmc2104_proc_time
   import ppmc2104_pkg::*;
   import ppmc_op_pkg::*;
 #(

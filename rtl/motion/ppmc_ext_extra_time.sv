@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag: fixed extra time of an interval with an external base clock.
+// ppmc_ext_extra_time: fixed extra time of an interval with an external base clock.
 // Rules:  P104-INT-03, P104-INT-04. The extra time has two parts. The first part runs from a pulse to the
 //         first base edge at or after it. The rest runs after the edge that ends the count. So an interval
 //         lasts (rate + 1) periods plus the extra time, and no frequency has to be measured.
@@ -7,7 +7,7 @@
 //         passed.
 `default_nettype none
 
-module ppmc_ext_lag #(
+module ppmc_ext_extra_time #(
     parameter int unsigned LagClk = 120  // extra time of an interval in cycles; at least 2
 ) (
     input  wire logic clk_i,

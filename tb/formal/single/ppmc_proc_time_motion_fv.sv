@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_motion_fv: proves that no byte is accepted during the end delay of a motion, and that an
+// ppmc_proc_time_motion_fv: proves that no byte is accepted during the end delay of a motion, and that an
 // initialisation is completed once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_pace_motion_fv (
+module ppmc_proc_time_motion_fv (
     input wire logic        clk_i,
     input wire logic        init_i,
     input wire logic        start_i,
@@ -22,7 +22,7 @@ module ppmc_pace_motion_fv (
 
   `FV_RESET
 
-  ppmc_pace_motion dut (.*);
+  ppmc_proc_time_motion dut (.*);
 
   `FV_ASSUME(one_at_a_time, $countones({init_i, start_i, stop_i, pulse_i && last_i}) <= 1)
   `FV_ASSUME(closed, !(init_i || start_i) || !closed_o)
