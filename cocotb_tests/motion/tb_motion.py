@@ -55,7 +55,7 @@ BLOCKS = {
     **{
         f"shape{i}": Block(
             "ppmc_pulse_shaper",
-            "arm_i pulse_i full_i halve_i rate_i:8 cut_i low_o up_o",
+            "arm_i pulse_i full_i halve_i rate_i:8 cut_i low_o past_o",
             {"ClkHz": clk, "XtalHz": xtal, "WidthXtal": width, "HalfXtal": half, "HalfRates": rates},
         )
         for i, (clk, xtal, width, half, rates) in enumerate(SHAPES)
@@ -260,7 +260,7 @@ async def pulse_shaper_width(dut):
     """For pulses of all kinds the low time is exact: the full time, half an interval, or cut."""
     rand = rng()
     for i, (clk, xtal, width, half, rates) in enumerate(SHAPES):
-        u = Unit(dut, f"shape{i}", BLOCKS, "low_o up_o")
+        u = Unit(dut, f"shape{i}", BLOCKS, "low_o past_o")
         whole = ceil(Fraction(width * clk, xtal))
         await u.reset()
         for n in range(60):

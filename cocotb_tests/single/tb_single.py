@@ -46,7 +46,7 @@ BLOCKS = {
     "command": Block(
         "ppmc_command",
         "ready_i command_i byte_i:8 open_i stops_only_i take_o decoded_i:7:ppmc_code_pkg::decoded_t data_i:8"
-        " value_i:3:ppmc_code_pkg::error_e judged_i busy_i ramp_i decelerating_i initialised_i status_o:4"
+        " param_error_i:3:ppmc_code_pkg::cmd_error_e is_checked_i busy_i ramp_i decelerating_i initialised_i status_o:4"
         " act_o:10 code_o:8 params_o:32 code_held_o:8 params_held_o:32",
     ),
     **{
@@ -131,8 +131,8 @@ async def command_random(dut):
             state["busy_i"] = 0  # no other command collects parameters during a motion
         decoded = KINDS.index(new_kind) << 3 | params
         gate = {"open_i": rand.random() < 0.8, "stops_only_i": rand.random() < 0.2}
-        state["judged_i"] = rand.random() < 0.8
-        u.put(command_i=is_command, byte_i=byte, data_i=kept, value_i=value, decoded_i=decoded, **state)
+        state["is_checked_i"] = rand.random() < 0.8
+        u.put(command_i=is_command, byte_i=byte, data_i=kept, param_error_i=value, decoded_i=decoded, **state)
         got = await u.clk(ready_i=0, **gate)
         same(f"byte {n}: nothing without ready_i", got, (0, 0))
         takes = gate["open_i"] and (not gate["stops_only_i"] or (is_command and new_kind in STOPS))
@@ -145,7 +145,7 @@ async def command_random(dut):
             error, number = 1, 6 if state["busy_i"] else 3
         elif takes:
             data.append(kept)
-            if number == 1 and value and state["judged_i"]:
+            if number == 1 and value and state["is_checked_i"]:
                 error, number = 1, value
             else:
                 number -= 1

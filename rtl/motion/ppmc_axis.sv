@@ -39,7 +39,7 @@ module ppmc_axis
     input wire op_t op_i,  // operation to start
     input wire logic [CountBits-1:0] count_i,  // number of pulses - 1
     input wire logic [RateBits-1:0] rate_i,  // rate at constant speed
-    input wire base_t base_i,  // base clock of the operation
+    input wire base_clock_t base_i,  // base clock of the operation
     // active ramp, stable while busy
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
@@ -62,8 +62,8 @@ module ppmc_axis
     output motion_t motion_o,  // state of the motion
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
     output logic low_o,  // a pulse is active
-    output event_t event_o,  // events at the next edge
-    output cause_t cause_o,  // valid with event_o.done
+    output motion_event_t event_o,  // events at the next edge
+    output stop_cause_t cause_o,  // valid with event_o.done
     output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
 
@@ -82,8 +82,8 @@ module ppmc_axis
   logic brisk_q;
   switches_t guarded;
   logic busy, running, gated_q, armed, fire, last, complete, stop, done, top;
-  op_t   op_q;
-  base_t base_q;
+  op_t op_q;
+  base_clock_t base_q;
   logic due, up, seek, rising, forced, flagged, dec, crawl, last_pulse;
   logic low, base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
 
@@ -205,7 +205,7 @@ module ppmc_axis
       .rate_i (rate_o),
       .cut_i  (cut),
       .low_o  (low),
-      .up_o   (up)
+      .past_o (up)
   );
 
   // Interval: counts base clocks, which are internal or edges of the clock pin, and adds the extra time.

@@ -30,7 +30,7 @@ module ppmc_excitation
       pattern_o <= {3'b000, {2{home_i}}};
       pair_q    <= 1'b1;
     end else if (step_i) begin
-      pattern_o <= stepped(pattern_o, pair_q, half_i, motor_i, ccw_i);
+      pattern_o <= next_phases(pattern_o, pair_q, half_i, motor_i, ccw_i);
       pair_q    <= pair_q ^ half_i;
     end
   end

@@ -2,7 +2,7 @@
 // ppmc_pulse_shaper: low time of a pulse; the same time is the direction set-up before the first pulse.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
-// Timing: low_o is high for exactly WidthClk cycles from the edge of pulse_i, unless it is cut. up_o rises
+// Timing: low_o is high for exactly WidthClk cycles from the edge of pulse_i, unless it is cut. past_o rises
 //         WidthClk cycles after arm_i.
 `default_nettype none
 
@@ -23,7 +23,7 @@ module ppmc_pulse_shaper #(
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
     input  wire logic                cut_i,    // end the low time now, unless the pulse is a full one
     output logic                     low_o,    // 1 = pulse active
-    output logic                     up_o      // WidthClk cycles have passed since arm_i or pulse_i
+    output logic                     past_o    // WidthClk cycles have passed since arm_i or pulse_i
 );
 
   localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
@@ -31,7 +31,7 @@ module ppmc_pulse_shaper #(
 
   localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthClk - 2, Width));
 
-  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after up_o
+  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after past_o
   logic full_q;
   logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the top bit is always 0
 
@@ -48,13 +48,13 @@ module ppmc_pulse_shaper #(
     if (!rst_ni) begin
       full_q <= 1'b0;
       low_o  <= 1'b0;
-      up_o   <= 1'b0;
+      past_o <= 1'b0;
     end else begin
-      up_o <= !(arm_i || pulse_i) && (up_o || age_q == Last);
+      past_o <= !(arm_i || pulse_i) && (past_o || age_q == Last);
       if (pulse_i) begin
         low_o  <= 1'b1;
         full_q <= full_i;
-      end else if (up_o || (!full_q && (halves != '0 || cut_i))) begin
+      end else if (past_o || (!full_q && (halves != '0 || cut_i))) begin
         low_o <= 1'b0;
       end
     end

@@ -45,7 +45,7 @@ module ppmc_ramp_builder
   logic [RateBits:0] first, second;
 
   assign done    = rate_q == slow_i;
-  assign next    = begin_q ? !done : last && !(pass_q == PassTell && done);
+  assign next    = begin_q ? !done : last && !(pass_q == PassOutput && done);
   assign mul_bit = slower_q ? slow_i[mul_q] : fast_i[mul_q];
   assign product = pass_q == PassMulEnd && slower_q && again_q;  // the last product
   assign we_o    = begin_q || found_q;
@@ -56,7 +56,7 @@ module ppmc_ramp_builder
   always_comb begin
     first  = {rate_q, 1'b0};
     second = {rate_q, 1'b0};
-    if (pass_q == PassShare) begin
+    if (pass_q == PassDivide) begin
       first  = {1'b0, slow_i + ~fast_i};
       second = {1'b0, slow_i} + {1'b0, fast_i} + 1'b1;
     end
@@ -96,9 +96,9 @@ module ppmc_ramp_builder
       end
       PassMulOne: pass = PassMulEnd;
       PassSquare: pass = PassLess;
-      PassLess:   pass = PassShare;
-      PassShare:  pass = PassTell;
-      PassTell:   pass = PassSquare;
+      PassLess:   pass = PassDivide;
+      PassDivide:  pass = PassOutput;
+      PassOutput:   pass = PassSquare;
       default:    pass = product ? PassSquare : PassMulBit;  // PassMulEnd
     endcase
     if (begin_q) pass = PassInit;
@@ -117,7 +117,7 @@ module ppmc_ramp_builder
     end else begin
       first_q <= start_i && !busy_o;
       begin_q <= first_q;
-      found_q <= last && pass_q == PassTell;
+      found_q <= last && pass_q == PassOutput;
       if (!busy_o) busy_o <= start_i;
       else if (done && we_o) busy_o <= 1'b0;
 

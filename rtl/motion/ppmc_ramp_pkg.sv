@@ -14,8 +14,8 @@ package ppmc_ramp_pkg;
     PassMulEnd,  // n = n + v, v = 0: multiplied by the multiplier + 1
     PassSquare,  // v = n / s / s, s = 2r + 1
     PassLess,    // v = v - u
-    PassShare,   // v = v / (a - b) / (a + b)
-    PassTell     // output v + 1; v is overwritten
+    PassDivide,  // v = v / (a - b) / (a + b)
+    PassOutput   // output v + 1; v is overwritten
   } pass_e;
 
   // verilator lint_on UNUSEDPARAM

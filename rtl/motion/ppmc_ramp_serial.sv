@@ -3,7 +3,7 @@
 //         bit of each number in a word.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
 // Timing: a pass begins in the cycle after start_i and lasts 2 cycles more than it has words. last_o marks
-//         its last cycle, in which the next pass may be started. PassTell outputs one bit per cycle from
+//         its last cycle, in which the next pass may be started. PassOutput outputs one bit per cycle from
 //         its third to its last cycle (use_o = 1).
 // How:    n = numerator, u = subtrahend between the divisions, v = product, quotient or difference. Bit i is
 //         stored in word i. A quotient follows its dividend by two cycles and is written two words lower: its
@@ -27,13 +27,13 @@ module ppmc_ramp_serial
     input  wire logic              init_i,    // bit of PassInit, in the order and at the time of bit_o
     input  wire logic  [Width-1:0] first_i,   // first divisor of a division, minus 1
     input  wire logic  [Width-1:0] second_i,  // divisor of the first quotient, minus 1
-    output logic                   bit_o,     // bit of PassTell, the lowest first
+    output logic                   bit_o,     // bit of PassOutput, the lowest first
     output logic                   use_o,     // bit_o is valid, init_i is used
     output logic                   last_o     // the pass ends with this cycle
 );
 
-  localparam int unsigned ShareBits = StepBits + 2 * RateBits;  // bits of v when u is subtracted
-  localparam int unsigned Bits = ShareBits + 2 * Width;  // bits of n
+  localparam int unsigned DivideBits = StepBits + 2 * RateBits;  // bits of v when u is subtracted
+  localparam int unsigned Bits = DivideBits + 2 * Width;  // bits of n
   localparam int unsigned AddrBits = ppmc_pkg::cnt_width(Bits + 10);
 
   typedef logic [AddrBits-1:0] addr_t;
@@ -43,19 +43,19 @@ module ppmc_ramp_serial
   function automatic addr_t first_word(pass_e pass);
     unique case (pass)
       PassSquare: return addr_t'(Bits - 1);
-      PassShare:  return addr_t'(ShareBits - 1);
+      PassDivide:  return addr_t'(DivideBits - 1);
       PassLess:   return -addr_t'(2);
-      PassTell:   return -addr_t'(2);
+      PassOutput:   return -addr_t'(2);
       default:    return '0;
     endcase
   endfunction
 
   function automatic addr_t last_word(pass_e pass);
     unique case (pass)
-      PassSquare, PassShare: return -addr_t'(2);
-      PassLess:              return addr_t'(ShareBits - 1);
-      PassTell:              return addr_t'(StepBits - 3);
-      default:               return addr_t'(Bits - 1);
+      PassSquare, PassDivide: return -addr_t'(2);
+      PassLess:               return addr_t'(DivideBits - 1);
+      PassOutput:             return addr_t'(StepBits - 3);
+      default:                return addr_t'(Bits - 1);
     endcase
   endfunction
 
@@ -65,7 +65,7 @@ module ppmc_ramp_serial
   logic down;
   logic run_q, read_q, use_q, second_q;  // stages of a word: address, RAM, use, second division
 
-  assign down   = pass_i inside {PassSquare, PassShare};
+  assign down   = pass_i inside {PassSquare, PassDivide};
   assign use_o  = use_q;
   assign last_o = use_q && !read_q;
   // at is read_at_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from gates.
@@ -111,13 +111,13 @@ module ppmc_ramp_serial
     unique case (pass_i)
       PassMulBit: operand = rd.n && mul_i;
       PassLess:   operand = !rd.u;
-      PassInit, PassTell: operand = 1'b0;
+      PassInit, PassOutput: operand = 1'b0;
       default:    operand = rd.n;
     endcase
     sum = addend ^ operand ^ carry_q;
   end
 
-  // carry_q is cleared between passes; before PassLess and PassTell it is set.
+  // carry_q is cleared between passes; before PassLess and PassOutput it is set.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       v_q     <= '0;
@@ -125,7 +125,7 @@ module ppmc_ramp_serial
     end else begin
       v_q <= {v_q[0], rd.v && use_q};
       if (use_q) carry_q <= (addend && operand) || (addend && carry_q) || (operand && carry_q);
-      else carry_q <= pass_i inside {PassLess, PassTell};
+      else carry_q <= pass_i inside {PassLess, PassOutput};
     end
   end
 
@@ -167,7 +167,7 @@ module ppmc_ramp_serial
         wr.v = 1'b0;
         if (keep_i) wr.u = sum;
       end
-      PassSquare, PassShare: wr.v = quotient;
+      PassSquare, PassDivide: wr.v = quotient;
       default: ;
     endcase
   end

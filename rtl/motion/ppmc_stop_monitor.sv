@@ -31,7 +31,7 @@ module ppmc_stop_monitor
     output logic           stop_o,       // end the motion now, no further pulse
     output logic           forced_o,     // forced deceleration is requested; not valid with stop_o
     output logic           flagged_o,    // forced deceleration was requested (registered)
-    output cause_t         cause_o       // causes of the end of the motion, until clear_i
+    output stop_cause_t    cause_o       // causes of the end of the motion, until clear_i
 );
 
   logic limit, slow, halt, block, hard, slow_now, decel_now, free;

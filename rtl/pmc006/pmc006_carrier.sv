@@ -77,7 +77,7 @@ module pmc006_carrier #(
       .link_i  (rs485_de),
       .moving_i(mon_busy),
       .switch_i(!(ext1 && ext2)),
-      .lamps_o (lamps)
+      .leds_o (lamps)
   );
 
   ppmc_sync #(

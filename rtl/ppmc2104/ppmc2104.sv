@@ -120,8 +120,8 @@ module ppmc2104
   logic [AXES:1][23:0] answers;
   action_t act_taken, act;  // act_taken: requested at the C-event; act: takes effect in this cycle
   charge_t charge;
-  error_e speed;
-  error_e [AXES:1] errors;
+  cmd_error_e speed;
+  cmd_error_e [AXES:1] errors;
   state_t [AXES:1] state;
 
   assign cmnd = collecting | building | window;

@@ -26,7 +26,7 @@ module ppmc2104_axis
     input  wire logic                         ready_i,        // 1: no table build runs and no window is open
     output state_t                            state_o,        // state for the other blocks
     output logic                              end_o,          // an operation with I = 0 ends
-    input  wire error_e                       error_i,        // error register
+    input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
     output logic              [RATE_BITS-1:0] lut_addr_o,     // r; lut_data_i is expected two cycles later
@@ -46,9 +46,9 @@ module ppmc2104_axis
 
   op_code_t op_code;
   motion_t motion;
-  event_t event_now;
+  motion_event_t event_now;
   switches_t switches;
-  cause_t cause;
+  stop_cause_t cause;
   setup_t setup;
   logic home, chop, low, quantum, restart, slow_seen;
   logic [23:0] count, remaining;
@@ -123,7 +123,7 @@ module ppmc2104_axis
       .clk_i,
       .rst_ni,
       .start_i    (act_i.start),
-      .op_i       (op_of(op_code.pout_only, op_code.ccw, op_code.op)),
+      .op_i       (motion_op(op_code.pout_only, op_code.ccw, op_code.op)),
       .count_i    (count),
       .rate_i     ((op_code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24]),
       .base_i     ('{external: setup.external, slow: !levels_i.csel, extra: 1'b0}),

@@ -12,28 +12,28 @@ module ppmc2104_command
   import ppmc2104_pkg::*;
   import ppmc_op_pkg::*;
 (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
     // mailbox
-    input  wire logic             ready_i,       // byte_i is available
-    input  wire logic             command_i,     // 1: byte_i was written as a code, 0: as data
-    input  wire logic    [   7:0] byte_i,        // byte from the host
-    input  wire logic             open_i,        // bytes may be accepted
-    output logic                  take_o,        // accept strobe, effective at the next rising edge
+    input  wire logic                ready_i,       // byte_i is available
+    input  wire logic                command_i,     // 1: byte_i was written as a code, 0: as data
+    input  wire logic       [   7:0] byte_i,        // byte from the host
+    input  wire logic                open_i,        // bytes may be accepted
+    output logic                     take_o,        // accept strobe, effective at the next rising edge
     // state of the axes
-    input  wire state_t  [AXES:1] state_i,       // states of both axes
-    input  wire levels_t [AXES:1] levels_i,      // inputs of both axes, synchronised
-    input  wire logic    [AXES:1] building_i,    // ramp table build; codes that need the table wait
+    input  wire state_t     [AXES:1] state_i,       // states of both axes
+    input  wire levels_t    [AXES:1] levels_i,      // inputs of both axes, synchronised
+    input  wire logic       [AXES:1] building_i,    // ramp table build; codes that need the table wait
     // rate limits (ppmc2104_speed)
-    input  wire error_e           speed_i,       // rate-limit error of code_o with params_o
+    input  wire cmd_error_e          speed_i,       // rate-limit error of code_o with params_o
     // result
-    output logic         [AXES:1] collecting_o,  // data bytes are outstanding
-    output action_t               act_o,         // actions of the accepted byte
-    output charge_t               charge_o,      // errors of the accepted byte
-    output logic         [   7:0] code_o,        // code of the action
-    output logic         [  31:0] params_o,      // data bytes of code_o, the last one in the high bits
-    output logic         [   7:0] code_held_o,   // code_o after the C-event, valid until the next one
-    output logic         [  31:0] params_held_o  // data bytes of code_held_o
+    output logic            [AXES:1] collecting_o,  // data bytes are outstanding
+    output action_t                  act_o,         // actions of the accepted byte
+    output charge_t                  charge_o,      // errors of the accepted byte
+    output logic            [   7:0] code_o,        // code of the action
+    output logic            [  31:0] params_o,      // data bytes of code_o, the last one in the high bits
+    output logic            [   7:0] code_held_o,   // code_o after the C-event, valid until the next one
+    output logic            [  31:0] params_held_o  // data bytes of code_held_o
 );
 
   logic [2:0] awaited_q;  // data bytes outstanding
@@ -50,7 +50,7 @@ module ppmc2104_command
 
   // ---- values of a last data byte -----------------------------------------------------------------
 
-  error_e value;
+  cmd_error_e value;
   logic external, operation;
   setup_t setup;  // settings of the axis whose data bytes are collected
   init_code_t init_code;
@@ -86,7 +86,7 @@ module ppmc2104_command
     axis_action_t act;        // actions if the state of the axis allows them
     logic         aux_out;
     logic         aux_in;
-    error_e       error;      // error of the byte, regardless of the axis state
+    cmd_error_e   error;      // error of the byte, regardless of the axis state
     logic         stop;       // stop instruction
     logic         abandons;   // stop that cancels outstanding data bytes
     logic         rest;       // the byte is an error while the axis is busy
@@ -112,23 +112,23 @@ module ppmc2104_command
     wish.ccw    = op_now.ccw;
     wish.origin = op_now.op == OP_ORIGIN;
     if (command_i) begin
-      wish.stop      = dec.kind inside {KindHalt, KindDecel};
+      wish.stop      = dec.kind inside {CmdHalt, CmdDecel};
       wish.abandons  = awaited && wish.stop;
-      wish.rest      = !wish.stop && !(dec.kind inside {KindAuxOut, KindAuxIn, KindErrorRead});
-      wish.operation = dec.kind == KindOperation;
-      wish.table_use = !awaited && dec.kind inside {KindInit, KindOperation, KindExcOff};
-      wish.anyone    = dec.kind inside {KindAuxOut, KindAuxIn};
+      wish.rest      = !wish.stop && !(dec.kind inside {CmdAuxOut, CmdAuxIn, CmdErrorRead});
+      wish.operation = dec.kind == CmdOperation;
+      wish.table_use = !awaited && dec.kind inside {CmdInit, CmdOperation, CmdExcOff};
+      wish.anyone    = dec.kind inside {CmdAuxOut, CmdAuxIn};
       wish.params    = dec.params;
       if (awaited && !wish.stop) wish.error = ErrAbandoned;
-      else if (dec.kind == KindUndefined) wish.error = ErrUndefined;
+      else if (dec.kind == CmdUndefined) wish.error = ErrUndefined;
       else if (dec.params == '0) begin
-        wish.act.start   = dec.kind == KindOperation;
-        wish.act.halt    = dec.kind == KindHalt;
-        wish.act.decel   = dec.kind == KindDecel;
-        wish.act.exc_off = dec.kind == KindExcOff;
-        wish.act.read    = dec.kind inside {KindRead, KindErrorRead};
-        wish.aux_out     = dec.kind == KindAuxOut;
-        wish.aux_in      = dec.kind == KindAuxIn;
+        wish.act.start   = dec.kind == CmdOperation;
+        wish.act.halt    = dec.kind == CmdHalt;
+        wish.act.decel   = dec.kind == CmdDecel;
+        wish.act.exc_off = dec.kind == CmdExcOff;
+        wish.act.read    = dec.kind inside {CmdRead, CmdErrorRead};
+        wish.aux_out     = dec.kind == CmdAuxOut;
+        wish.aux_in      = dec.kind == CmdAuxIn;
       end
     end else if (!awaited) begin
       wish.error  = ErrData;
@@ -186,7 +186,7 @@ module ppmc2104_command
   // ---- errors: order of the checks as in P2104-ERR-04/05 ------------------------------------------
 
   logic busy, decel_ok, initialised, error;  // states of the addressed axis
-  error_e number;
+  cmd_error_e number;
 
   assign busy = wish_q.second ? state_i[2].busy : state_i[1].busy;
   assign decel_ok = wish_q.second ? state_i[2].decel_ok : state_i[1].decel_ok;

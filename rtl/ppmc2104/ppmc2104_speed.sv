@@ -18,7 +18,7 @@ module ppmc2104_speed
     input  wire logic    [  31:0] params_i,  // data bytes of code_i
     input  wire state_t  [AXES:1] state_i,   // states of both axes
     input  wire levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
-    output error_e                error_o    // ErrRateOne, ErrRateTwo or ErrNone
+    output cmd_error_e            error_o    // ErrRateOne, ErrRateTwo or ErrNone
 );
 
   if (!Datasheet) begin : g_fast

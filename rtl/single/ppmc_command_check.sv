@@ -3,7 +3,7 @@
 //         of the command unit.
 // Rules:  P104-STA-04..06, P104-ERR-00..03, P104-HSK-07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08,
 //         P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
-// Timing: combinational; the user of the block stores asking_o.
+// Timing: combinational; the user of the block stores parser_o.
 `default_nettype none
 
 module ppmc_command_check
@@ -11,58 +11,58 @@ module ppmc_command_check
 #(
     parameter bit Aux = 1'b1  // 1: Excitation OFF during a motion is AUX ON; 0: it is rejected
 ) (
-    input  wire logic           take_i,          // a byte is accepted
-    input  wire logic           command_i,       // byte_i was written as a command
-    input  wire logic     [7:0] byte_i,          // byte from the host
-    input  wire logic     [7:0] data_i,          // byte_i in the form in which parameters are stored
-    input  wire decoded_t       decoded_i,       // byte_i as a code
-    input  wire error_e         value_i,         // error in the complete parameters; ErrUndefined: no error
-    input  wire logic           judged_i,        // value_i applies to the current code
-    input  wire logic           busy_i,          // a motion is in progress
-    input  wire logic           ramp_i,          // running operation has a ramp
-    input  wire logic           decelerating_i,  // DEC, or no pulse left to output
-    input  wire logic           initialised_i,   // operations may start
-    input  wire asking_t        asking_i,        // state before this byte
-    output asking_t             asking_o,        // state after this byte
-    output action_t             act_o,           // actions of this byte
-    output logic                stop_o           // byte_i is a stop command, regardless of take_i
+    input wire logic take_i,  // a byte is accepted
+    input wire logic command_i,  // byte_i was written as a command
+    input wire logic [7:0] byte_i,  // byte from the host
+    input wire logic [7:0] data_i,  // byte_i in the form in which parameters are stored
+    input wire decoded_t decoded_i,  // byte_i as a code
+    input wire cmd_error_e param_error_i,  // error in the complete parameters; ErrUndefined: no error
+    input wire logic is_checked_i,  // param_error_i applies to the current code
+    input wire logic busy_i,  // a motion is in progress
+    input wire logic ramp_i,  // running operation has a ramp
+    input wire logic decelerating_i,  // DEC, or no pulse left to output
+    input wire logic initialised_i,  // operations may start
+    input wire parser_state_t parser_i,  // state before this byte
+    output parser_state_t parser_o,  // state after this byte
+    output action_t act_o,  // actions of this byte
+    output logic stop_o  // byte_i is a stop command, regardless of take_i
 );
 
   logic harmless, last, error;
-  error_e number;
-  logic   unused_param;
+  cmd_error_e number;
+  logic unused_param;
 
-  assign unused_param = ^asking_i.params[7:0];
+  assign unused_param = ^parser_i.params[7:0];
 
   // Order of the checks: P104-ERR-01, P104-ERR-02.
   always_comb begin
-    stop_o   = decoded_i.kind inside {KindHalt, KindDecel};
-    harmless = decoded_i.kind inside {KindAuxOut, KindAuxOn, KindAuxOff};
-    if (Aux && decoded_i.kind == KindExcOff) harmless = 1'b1;
-    last   = !asking_i.error && asking_i.number == 3'd1;
+    stop_o   = decoded_i.kind inside {CmdHalt, CmdDecel};
+    harmless = decoded_i.kind inside {CmdAuxOut, CmdAuxOn, CmdAuxOff};
+    if (Aux && decoded_i.kind == CmdExcOff) harmless = 1'b1;
+    last   = !parser_i.error && parser_i.number == 3'd1;
     error  = 1'b1;
     number = ErrUndefined;
     if (command_i) begin
-      if (decoded_i.kind == KindUndefined || (stop_o && !busy_i)) number = ErrUndefined;
+      if (decoded_i.kind == CmdUndefined || (stop_o && !busy_i)) number = ErrUndefined;
       else if (busy_i && !stop_o && !harmless) number = ErrBusy;
-      else if (decoded_i.kind == KindOperation && !initialised_i) number = ErrNotReady;
-      else if (decoded_i.kind == KindDecel && ramp_i && decelerating_i) number = ErrDecelAgain;
+      else if (decoded_i.kind == CmdOperation && !initialised_i) number = ErrNotReady;
+      else if (decoded_i.kind == CmdDecel && ramp_i && decelerating_i) number = ErrDecelAgain;
       else error = 1'b0;
     end else begin
-      if (asking_i.error || asking_i.number == '0) number = busy_i ? ErrDataBusy : ErrData;
-      else if (last && judged_i && value_i != ErrUndefined) number = value_i;
+      if (parser_i.error || parser_i.number == '0) number = busy_i ? ErrDataBusy : ErrData;
+      else if (last && is_checked_i && param_error_i != ErrUndefined) number = param_error_i;
       else error = 1'b0;
     end
   end
 
   always_comb begin
-    asking_o = asking_i;
+    parser_o = parser_i;
     if (take_i) begin
-      asking_o.error = error;
-      if (error) asking_o.number = number;
-      else asking_o.number = command_i ? decoded_i.params : asking_i.number - 1'b1;
-      if (command_i) asking_o.code = byte_i;
-      else asking_o.params = {data_i, asking_i.params[31:8]};
+      parser_o.error = error;
+      if (error) parser_o.number = number;
+      else parser_o.number = command_i ? decoded_i.params : parser_i.number - 1'b1;
+      if (command_i) parser_o.code = byte_i;
+      else parser_o.params = {data_i, parser_i.params[31:8]};
     end
   end
 
@@ -71,18 +71,18 @@ module ppmc_command_check
     act_o = '0;
     if (take_i && !error) begin
       if (command_i) begin
-        act_o.start   = decoded_i.kind == KindOperation && decoded_i.params == '0;
-        act_o.halt    = decoded_i.kind == KindHalt;
-        act_o.decel   = decoded_i.kind == KindDecel;
-        act_o.exc_off = decoded_i.kind == KindExcOff && !busy_i;
-        act_o.aux_on  = decoded_i.kind == KindAuxOn || (decoded_i.kind == KindExcOff && busy_i);
-        act_o.aux_off = decoded_i.kind == KindAuxOff;
-        act_o.read    = decoded_i.kind == KindRead;
+        act_o.start   = decoded_i.kind == CmdOperation && decoded_i.params == '0;
+        act_o.halt    = decoded_i.kind == CmdHalt;
+        act_o.decel   = decoded_i.kind == CmdDecel;
+        act_o.exc_off = decoded_i.kind == CmdExcOff && !busy_i;
+        act_o.aux_on  = decoded_i.kind == CmdAuxOn || (decoded_i.kind == CmdExcOff && busy_i);
+        act_o.aux_off = decoded_i.kind == CmdAuxOff;
+        act_o.read    = decoded_i.kind == CmdRead;
       end else if (last) begin
-        act_o.init      = asking_i.code[7:6] == 2'b00;
-        act_o.start     = asking_i.code[6];
-        act_o.switching = asking_i.code[7:6] == 2'b10 && !asking_i.code[1];
-        act_o.aux_out   = asking_i.code[7:6] == 2'b10 && asking_i.code[1];
+        act_o.init      = parser_i.code[7:6] == 2'b00;
+        act_o.start     = parser_i.code[6];
+        act_o.switching = parser_i.code[7:6] == 2'b10 && !parser_i.code[1];
+        act_o.aux_out   = parser_i.code[7:6] == 2'b10 && parser_i.code[1];
       end
     end
   end

@@ -59,11 +59,11 @@ module ppmc_proc_time
   localparam int unsigned AUX = 14 * 16;
   localparam int unsigned EXC_OFF = 18 * 16;
 
-  localparam int unsigned CmdBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BUSY_RAMP, ClkHz, XtalHz) - 1);
+  localparam int unsigned CommandBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BUSY_RAMP, ClkHz, XtalHz) - 1);
 
   // State of the counter before the tick that ends a time of xtal_cycles.
-  function automatic logic [CmdBits-1:0] last(int unsigned xtal_cycles);
-    return CmdBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CmdBits));
+  function automatic logic [CommandBits-1:0] last(int unsigned xtal_cycles);
+    return CommandBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CommandBits));
   endfunction
 
   if (!Datasheet) begin : g_fast
@@ -111,7 +111,7 @@ module ppmc_proc_time
     action_t now, late, held_q;
     logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start, past;
     logic init_past, closed;
-    logic [CmdBits-1:0] cmd_last;
+    logic [CommandBits-1:0] cmd_last;
 
     // A deceleration stop that acts as an immediate stop has no separate processing time (P104-DS-14).
     always_comb begin
@@ -128,12 +128,12 @@ module ppmc_proc_time
       cmd_start = late != '0;
     end
 
-    localparam logic [CmdBits-1:0] LastAux = last(AUX);
-    localparam logic [CmdBits-1:0] LastExcOff = last(EXC_OFF);
-    localparam logic [CmdBits-1:0] LastDecel = last(FLAG_COMMAND);
-    localparam logic [CmdBits-1:0] LastRamp = last(BUSY_RAMP);
-    localparam logic [CmdBits-1:0] LastConstant = last(BUSY_CONSTANT);
-    localparam logic [CmdBits-1:0] LastPhases = last(INIT_PHASES);
+    localparam logic [CommandBits-1:0] LastAux = last(AUX);
+    localparam logic [CommandBits-1:0] LastExcOff = last(EXC_OFF);
+    localparam logic [CommandBits-1:0] LastDecel = last(FLAG_COMMAND);
+    localparam logic [CommandBits-1:0] LastRamp = last(BUSY_RAMP);
+    localparam logic [CommandBits-1:0] LastConstant = last(BUSY_CONSTANT);
+    localparam logic [CommandBits-1:0] LastPhases = last(INIT_PHASES);
 
     // The mailbox is closed during this time, so the code does not change.
     always_comb begin
@@ -160,7 +160,7 @@ module ppmc_proc_time
     end
 
     ppmc_timer #(
-        .Width(CmdBits)
+        .Width(CommandBits)
     ) u_command (
         .clk_i,
         .restart_i(cmd_start),

@@ -5,7 +5,7 @@
 // Rules:  those of its blocks.
 // Timing: a command acts 4 cycles after the rising edge of clk_i that first samples the end of its write;
 //         motor pins follow one cycle later.
-// Assumes: meaning_i and verdict_i are combinational functions of sent_o and asked_o.
+// Assumes: decoded_byte_i and check_result_i are combinational functions of rx_byte_o and command_req_o.
 `default_nettype none
 
 module ppmc_single
@@ -18,54 +18,54 @@ module ppmc_single
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0,        // 1: with the processing times of the old chip
     parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
-    parameter traits_t     Traits                   // configuration of the device
+    parameter part_cfg_t   Traits                   // configuration of the device
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
+    input wire logic clk_i,
+    input wire logic rst_ni,
     // host bus: pins of the device
-    input  wire logic             cs_ni,          // chip select
-    input  wire logic             rd_ni,          // read strobe
-    input  wire logic             wr_ni,          // write strobe
-    input  wire logic             a0_i,           // 0 data, 1 status or command
-    input  wire logic      [ 7:0] d_i,            // data written by the host
-    output logic           [ 7:0] d_o,            // data read by the host
-    output logic                  d_oe_o,         // the host is reading: drive d_o
-    output logic                  int_no,         // L: a motion has ended
+    input wire logic cs_ni,  // chip select
+    input wire logic rd_ni,  // read strobe
+    input wire logic wr_ni,  // write strobe
+    input wire logic a0_i,  // 0 data, 1 status or command
+    input wire logic [7:0] d_i,  // data written by the host
+    output logic [7:0] d_o,  // data read by the host
+    output logic d_oe_o,  // the host is reading: drive d_o
+    output logic int_no,  // L: a motion has ended
     // meaning of the bytes, decoded by the device
-    output sent_t                 sent_o,         // current byte of the host
-    input  wire meaning_t         meaning_i,      // meaning of the current byte
-    output asked_t                asked_o,        // command requested with the current byte
-    input  wire verdict_t         verdict_i,      // result of the check of asked_o
-    input  wire logic             stops_only_i,   // only stop commands may be accepted
+    output rx_byte_t rx_byte_o,  // current byte of the host
+    input wire decoded_byte_t decoded_byte_i,  // meaning of the current byte
+    output command_req_t command_req_o,  // command requested with the current byte
+    input wire check_result_t check_result_i,  // result of the check of command_req_o
+    input wire logic stops_only_i,  // only stop commands may be accepted
     // actions
-    output action_t               act_o,          // actions that take effect at the next edge
-    output logic           [31:0] params_late_o,  // parameters of act_o
-    input  wire base_t            base_i,         // base clock of the next operation
-    output setup_t                setup_o,        // settings of the initialisation
+    output action_t act_o,  // actions that take effect at the next edge
+    output logic [31:0] params_late_o,  // parameters of act_o
+    input wire base_clock_t base_i,  // base clock of the next operation
+    output setup_t setup_o,  // settings of the initialisation
     // motion
-    input  wire logic             clock_pin_i,    // external base clock, asynchronous
-    input  wire switches_t        switches_i,     // synchronous levels
-    input  wire logic             slow_i,         // act on the slow-down limit; slow_seen_o, delayed or not
-    output logic                  slow_seen_o,    // an effective slow-down limit is active
-    output motion_t               motion_o,       // state of the motion
-    output logic           [ 7:0] rate_o,         // rate of the running interval
+    input wire logic clock_pin_i,  // external base clock, asynchronous
+    input wire switches_t switches_i,  // synchronous levels
+    input wire logic slow_i,  // act on the slow-down limit; slow_seen_o, delayed or not
+    output logic slow_seen_o,  // an effective slow-down limit is active
+    output motion_t motion_o,  // state of the motion
+    output logic [7:0] rate_o,  // rate of the running interval
     // read data
-    input  wire logic      [ 7:0] inputs_i,       // levels of the inputs as the host reads them
-    input  wire logic      [ 3:0] auxi_i,         // auxiliary inputs
+    input wire logic [7:0] inputs_i,  // levels of the inputs as the host reads them
+    input wire logic [3:0] auxi_i,  // auxiliary inputs
     // motor
-    input  wire chop_t            chop_i,         // times of the chopper at standstill
-    output motor_t                motor_o         // motor pins
+    input wire chop_time_t chop_i,  // times of the chopper at standstill
+    output motor_t motor_o  // motor pins
 );
 
   // ---- host ----------------------------------------------------------------------------------------
 
   logic ready, is_command, take, open, initialised, building;
   logic [7:0] code_late;
-  logic [3:0] judgement;
+  logic [3:0] status;
   logic [23:0] answer, remaining;
   action_t act_taken;  // act_taken: actions requested at the C-event; act_o: the same when they take effect
 
-  assign sent_o.left = judgement[2:0];
+  assign rx_byte_o.params_left = status[2:0];
 
   ppmc_host_port u_host (
       .clk_i,
@@ -78,13 +78,13 @@ module ppmc_single
       .d_i,
       .d_o,
       .d_oe_o,
-      .state_i  ({judgement, 1'b0, motion_o.busy}),
+      .state_i  ({status, 1'b0, motion_o.busy}),
       .ready_o  (ready),
       .command_o(is_command),
-      .byte_o   (sent_o.data),
+      .byte_o   (rx_byte_o.data),
       .take_i   (take),
       .load_i   (act_taken.read),
-      .long_i   (verdict_i.select == SEL_REMAINING),
+      .long_i   (check_result_i.select == SEL_REMAINING),
       .answer_i (answer)
   );
 
@@ -93,24 +93,24 @@ module ppmc_single
       .rst_ni,
       .ready_i       (ready),
       .command_i     (is_command),
-      .byte_i        (sent_o.data),
+      .byte_i        (rx_byte_o.data),
       .open_i        (open),
       .stops_only_i,
       .take_o        (take),
-      .decoded_i     (meaning_i.decoded),
-      .data_i        (meaning_i.data),
-      .value_i       (verdict_i.value),
-      .judged_i      (verdict_i.judged),
+      .decoded_i     (decoded_byte_i.decoded),
+      .data_i        (decoded_byte_i.data),
+      .param_error_i (check_result_i.error),
+      .is_checked_i  (check_result_i.is_checked),
       .busy_i        (motion_o.busy),
       .ramp_i        (motion_o.op.ramp),
       .decelerating_i(motion_o.dec || !motion_o.moving),
       .initialised_i (initialised),
-      .status_o      (judgement),
+      .status_o      (status),
       .act_o         (act_taken),
-      .code_o        (asked_o.code),
-      .params_o      (asked_o.params),
-      .code_held_o   (sent_o.held),
-      .params_held_o (sent_o.params)
+      .code_o        (command_req_o.code),
+      .params_o      (command_req_o.params),
+      .code_held_o   (rx_byte_o.code_held),
+      .params_held_o (rx_byte_o.params)
   );
 
   // ---- set-up, ramp table, motion ------------------------------------------------------------------
@@ -123,7 +123,7 @@ module ppmc_single
 
   assign op_code     = op_code_t'(code_late);  // code_late as the code of an operation
   assign init_late   = init_code_t'(code_late);  // code_late as the code of an initialisation
-  assign unused_bits = &{1'b0, op_code, init_late, chop_i, verdict_i};
+  assign unused_bits = &{1'b0, op_code, init_late, chop_i, check_result_i};
 
   ppmc_setup #(
       .PhaseIdle(PhaseIdle)
@@ -131,7 +131,7 @@ module ppmc_single
       .clk_i,
       .rst_ni,
       .init_i       (act_o.init),
-      .code_i       (init_code_t'(asked_o.code)),
+      .code_i       (init_code_t'(command_req_o.code)),
       .home_i       (home),
       .positive_i   (init_late.positive),
       .ready_i      (ready_init),
@@ -146,9 +146,9 @@ module ppmc_single
       .clk_i,
       .rst_ni,
       .start_i(act_o.init),
-      .slow_i (verdict_i.setup[7:0]),
-      .fast_i (verdict_i.setup[15:8]),
-      .steps_i(verdict_i.setup[16+:Traits.step_bits]),
+      .slow_i (check_result_i.setup[7:0]),
+      .fast_i (check_result_i.setup[15:8]),
+      .steps_i(check_result_i.setup[16+:Traits.step_bits]),
       .busy_o (building),
       .slow_o (slow),
       .fast_o (fast),
@@ -167,9 +167,9 @@ module ppmc_single
   end
 
   logic quantum, restart, low, go, linger;
-  event_t event_now;
-  base_t base_late;
-  cause_t cause;
+  motion_event_t event_now;
+  base_clock_t base_late;
+  stop_cause_t cause;
   logic [5:1] levels;
 
   ppmc_tick_gen #(
@@ -198,7 +198,7 @@ module ppmc_single
       .clk_i,
       .rst_ni,
       .start_i    (act_o.start),
-      .op_i       (op_of(op_code.pout_only, op_code.ccw, op_code.op)),
+      .op_i       (motion_op(op_code.pout_only, op_code.ccw, op_code.op)),
       .count_i    (count),
       .rate_i     ((op_code.op == OP_CONSTANT) ? params_late_o[7:0] : params_late_o[31:24]),
       .base_i     (base_late),
@@ -237,10 +237,10 @@ module ppmc_single
       .clk_i,
       .rst_ni,
       .act_i        (act_taken),
-      .code_i       (asked_o.code),
-      .params_i     (asked_o.params),
-      .code_held_i  (sent_o.held),
-      .params_held_i(sent_o.params),
+      .code_i       (command_req_o.code),
+      .params_i     (command_req_o.params),
+      .code_held_i  (rx_byte_o.code_held),
+      .params_held_i(rx_byte_o.params),
       .base_i,
       .open_o       (open),
       .act_o,
@@ -274,7 +274,7 @@ module ppmc_single
       .done_i     (event_now.done),
       .cause_i    (cause),
       .read_i     (act_taken.read),
-      .select_i   (verdict_i.select),
+      .select_i   (check_result_i.select),
       .remaining_i(remaining),
       .inputs_i,
       .outputs_i  ({levels[1], levels[2], levels[3], levels[4], levels[5], motor_o.hold, motor_o.dir, 1'b0}),

@@ -14,7 +14,7 @@ module ppmc_board_leds #(
     input  wire logic       link_i,
     input  wire logic       moving_i,
     input  wire logic       switch_i,  // 1: at least one switch is active
-    output logic      [3:0] lamps_o    // 1 = on; bits 3..0: out of reset, switch, motor moves, link
+    output logic      [3:0] leds_o     // 1 = on; bits 3..0: out of reset, switch, motor moves, link
 );
 
   logic lamp_link;
@@ -34,10 +34,10 @@ module ppmc_board_leds #(
       .clk_i,
       .rst_ni(rst_no),
       .on_i  (link_i),
-      .lamp_o(lamp_link)
+      .led_o (lamp_link)
   );
 
-  assign lamps_o = {rst_no, switch_i, moving_i, lamp_link};
+  assign leds_o = {rst_no, switch_i, moving_i, lamp_link};
 
 endmodule
 

@@ -9,25 +9,25 @@
 module ppmc_axis_fv
   import ppmc_motion_pkg::*;
 (
-    input wire logic            clk_i,
-    input wire logic            start_i,
-    input wire op_t             op_i,
-    input wire logic      [3:0] count_i,
-    input wire logic      [1:0] rate_i,
-    input wire base_t           base_i,
-    input wire logic      [1:0] rate_slow_i,
-    input wire logic      [1:0] rate_fast_i,
-    input wire logic      [1:0] ramp_steps_i,
-    input wire logic      [2:0] lut_data_i,
-    input wire logic            halt_i,
-    input wire logic            decel_i,
-    input wire switches_t       switches_i,
-    input wire logic            slow_i,
-    input wire logic            run_i,
-    input wire logic            go_i,
-    input wire logic            linger_i,
-    input wire logic            quantum_i,
-    input wire logic            clock_pin_i
+    input wire logic              clk_i,
+    input wire logic              start_i,
+    input wire op_t               op_i,
+    input wire logic        [3:0] count_i,
+    input wire logic        [1:0] rate_i,
+    input wire base_clock_t       base_i,
+    input wire logic        [1:0] rate_slow_i,
+    input wire logic        [1:0] rate_fast_i,
+    input wire logic        [1:0] ramp_steps_i,
+    input wire logic        [2:0] lut_data_i,
+    input wire logic              halt_i,
+    input wire logic              decel_i,
+    input wire switches_t         switches_i,
+    input wire logic              slow_i,
+    input wire logic              run_i,
+    input wire logic              go_i,
+    input wire logic              linger_i,
+    input wire logic              quantum_i,
+    input wire logic              clock_pin_i
 );
 
   localparam int unsigned Width = 6;
@@ -35,8 +35,8 @@ module ppmc_axis_fv
   logic [1:0] lut_addr_o, rate_o;
   logic slow_seen_o, restart_o, low_o;
   motion_t motion_o;
-  event_t event_o;
-  cause_t cause_o;
+  motion_event_t event_o;
+  stop_cause_t cause_o;
   logic [3:0] left_o;
 
   `FV_RESET
@@ -80,9 +80,9 @@ module ppmc_axis_fv
 
   // ---- the motion as requested by the host ---------------------------------------------------------
 
-  op_t   op_q;
-  base_t base_q;
-  logic  ended_q;  // an immediate cause has occurred
+  op_t op_q;
+  base_clock_t base_q;
+  logic ended_q;  // an immediate cause has occurred
   logic [4:0] total_q, pulses_q;  // total_q: requested pulses; pulses_q: pulses made
   logic [1:0] rate_q;
   logic immediate, limit;

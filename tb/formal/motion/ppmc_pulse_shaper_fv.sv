@@ -33,8 +33,8 @@ module ppmc_pulse_shaper_fv (
       .halve_i,
       .rate_i,
       .cut_i,
-      .low_o(low),
-      .up_o (up)
+      .low_o (low),
+      .past_o(up)
   );
 
   logic [3:0] since_q;  // cycles since the pulse or the arming, at most 15

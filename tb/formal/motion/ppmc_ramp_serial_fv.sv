@@ -40,9 +40,9 @@ module ppmc_ramp_serial_fv
   always_comb begin
     unique case (pass_i)
       PassSquare: words = 5'(Bits + 2);
-      PassShare:  words = 5'(Share + 2);
+      PassDivide:  words = 5'(Share + 2);
       PassLess:   words = 5'(Share + 2);
-      PassTell:   words = 5'd3;
+      PassOutput:   words = 5'd3;
       default:    words = 5'(Bits);
     endcase
   end

@@ -23,7 +23,7 @@ module ppmc_stop_monitor_fv
 
   logic slow_seen_o, stop_o, forced_o, flagged_o;
   logic stmc_seen, stmc_stop, stmc_forced, stmc_flagged;
-  cause_t cause_o, stmc_cause;
+  stop_cause_t cause_o, stmc_cause;
 
   `FV_RESET
 
