@@ -8,31 +8,31 @@
 `default_nettype none
 
 module ppmc_ext_extra_time #(
-    parameter int unsigned LagClk = 120  // extra time of an interval in cycles; at least 2
+    parameter int unsigned ExtraCycles = 120  // extra time of an interval in cycles; at least 2
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic en_i,       // 0: no extra time, hit_i passes to fire_o
-    input  wire logic restart_i,  // a pulse
-    input  wire logic edge_i,     // a base edge
-    input  wire logic long_i,     // edge_i ends a period that is too long for the extra time
-    input  wire logic hit_i,      // this base edge ends the count
-    output logic      count_o,    // base edges are counted
-    output logic      fire_o      // the interval ends
+    input  wire logic en_i,           // 0: no extra time, hit_i passes to fire_o
+    input  wire logic restart_i,      // a pulse
+    input  wire logic edge_i,         // a base edge
+    input  wire logic long_period_i,  // edge_i ends a period that is too long for the extra time
+    input  wire logic hit_i,          // this base edge ends the count
+    output logic      count_o,        // base edges are counted
+    output logic      fire_o          // the interval ends
 );
 
-  localparam int unsigned Width = ppmc_lfsr_pkg::width(LagClk - 1);
-  localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(LagClk - 2, Width));
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(ExtraCycles - 1);
+  localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(ExtraCycles - 2, Width));
 
-  logic [Width-1:0] spent_q;  // elapsed part of the extra time
+  logic [Width-1:0] elapsed_q;  // elapsed part of the extra time
   logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: no cycle is left
   logic before_q;  // no base edge since the pulse
   logic after_q;  // the count has ended, the rest of the extra time runs
-  logic spend;
+  logic counts;
 
   assign count_o = !(en_i && before_q);
-  assign spend   = (before_q || after_q) && !over_q;
-  assign fire_o  = (after_q && last_q) || (hit_i && (!en_i || long_i || over_q));
+  assign counts  = (before_q || after_q) && !over_q;
+  assign fire_o  = (after_q && last_q) || (hit_i && (!en_i || long_period_i || over_q));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -46,16 +46,16 @@ module ppmc_ext_extra_time #(
       before_q <= !edge_i;
       after_q  <= 1'b0;
     end else begin
-      if (spend) {last_q, over_q} <= {spent_q == Before, last_q};
+      if (counts) {last_q, over_q} <= {elapsed_q == Before, last_q};
       if (edge_i) before_q <= 1'b0;
       if (hit_i && !fire_o) after_q <= 1'b1;
     end
   end
 
-  // No reset, because the first pulse restarts spent_q.
+  // No reset, because the first pulse restarts elapsed_q.
   always_ff @(posedge clk_i) begin
-    if (restart_i) spent_q <= Width'(1);
-    else if (spend) spent_q <= Width'(ppmc_lfsr_pkg::step(31'(spent_q), Width));
+    if (restart_i) elapsed_q <= Width'(1);
+    else if (counts) elapsed_q <= Width'(ppmc_lfsr_pkg::step(31'(elapsed_q), Width));
   end
 
 endmodule

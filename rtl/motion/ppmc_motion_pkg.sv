@@ -80,7 +80,8 @@ package ppmc_motion_pkg;
 
   // Phases of a motor, 1 = energised. No table is needed: a full step rotates the pattern by one phase. Half
   // steps use in turn AND and OR of the pattern and the rotated pattern. A 5-phase motor starts with OR,
-  // other motors with AND. pair: two adjacent phases are on, which is an even index of the half-step table.
+  // other motors with AND. two_phases: two adjacent phases are on, which is an even index of the half-step
+  // table.
   function automatic logic [5:1] rotate_phases(logic [5:1] pattern, motor_e motor, logic ccw);
     logic [5:1] t;
     if (ccw) begin
@@ -107,11 +108,11 @@ package ppmc_motion_pkg;
     return t;
   endfunction
 
-  function automatic logic [5:1] next_phases(logic [5:1] pattern, logic pair, logic half, motor_e motor,
+  function automatic logic [5:1] next_phases(logic [5:1] pattern, logic two_phases, logic half, motor_e motor,
                                              logic ccw);
     logic [5:1] t;
     t = rotate_phases(pattern, motor, ccw);
-    if (half) t = (pair == (motor == Motor5)) ? pattern | t : pattern & t;
+    if (half) t = (two_phases == (motor == Motor5)) ? pattern | t : pattern & t;
     return t;
   endfunction
 

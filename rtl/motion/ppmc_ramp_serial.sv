@@ -37,14 +37,14 @@ module ppmc_ramp_serial
   localparam int unsigned AddrBits = ppmc_pkg::cnt_width(Bits + 10);
 
   typedef logic [AddrBits-1:0] addr_t;
-  typedef struct packed {logic n, v, u;} word_t;
+  typedef struct packed {logic n, v, u;} serial_word_t;
 
   // First and last word of each pass. Divisions run towards lower words.
   function automatic addr_t first_word(pass_e pass);
     unique case (pass)
-      PassSquare: return addr_t'(Bits - 1);
+      PassDivideSquare: return addr_t'(Bits - 1);
       PassDivide:  return addr_t'(DivideBits - 1);
-      PassLess:   return -addr_t'(2);
+      PassSubtract:   return -addr_t'(2);
       PassOutput:   return -addr_t'(2);
       default:    return '0;
     endcase
@@ -52,47 +52,48 @@ module ppmc_ramp_serial
 
   function automatic addr_t last_word(pass_e pass);
     unique case (pass)
-      PassSquare, PassDivide: return -addr_t'(2);
-      PassLess:               return addr_t'(DivideBits - 1);
-      PassOutput:             return addr_t'(StepBits - 3);
-      default:                return addr_t'(Bits - 1);
+      PassDivideSquare, PassDivide: return -addr_t'(2);
+      PassSubtract:                 return addr_t'(DivideBits - 1);
+      PassOutput:                   return addr_t'(StepBits - 3);
+      default:                      return addr_t'(Bits - 1);
     endcase
   endfunction
 
-  word_t rd, wr;
-  addr_t read_at_q, at;  // read_at_q: word to read; at: word in use, read two cycles before
-  addr_t turn, turned;
+  serial_word_t rd, wr;
+  addr_t read_addr_q, use_addr;  // read_addr_q: word to read; use_addr: word in use
+  addr_t flip, flipped;
   logic down;
   logic run_q, read_q, use_q, second_q;  // stages of a word: address, RAM, use, second division
 
-  assign down   = pass_i inside {PassSquare, PassDivide};
-  assign use_o  = use_q;
-  assign last_o = use_q && !read_q;
-  // at is read_at_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from gates.
-  assign turn   = {{(AddrBits - 1) {!down}}, 1'b0};
-  assign turned = read_at_q ^ turn;
-  assign at     = {(AddrBits - 1)'(ppmc_pkg::inc(32'(turned[AddrBits-1:1]))), turned[0]} ^ turn;
+  assign down     = pass_i inside {PassDivideSquare, PassDivide};
+  assign use_o    = use_q;
+  assign last_o   = use_q && !read_q;
+  // use_addr is read_addr_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from
+  // gates.
+  assign flip     = {{(AddrBits - 1) {!down}}, 1'b0};
+  assign flipped  = read_addr_q ^ flip;
+  assign use_addr = {(AddrBits - 1)'(ppmc_pkg::inc(32'(flipped[AddrBits-1:1]))), flipped[0]} ^ flip;
 
   ppmc_ram #(
-      .Width   ($bits(word_t)),
+      .Width   ($bits(serial_word_t)),
       .AddrBits(AddrBits)
   ) u_scratch (
       .clk_i,
       .we_i   (use_q),
-      .waddr_i(at),
+      .waddr_i(use_addr),
       .wdata_i(wr),
-      .raddr_i(read_at_q),
+      .raddr_i(read_addr_q),
       .rdata_o(rd)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {second_q, use_q, read_q, run_q} <= '0;
-      read_at_q <= '0;
+      read_addr_q <= '0;
     end else begin
       {second_q, use_q, read_q} <= {use_q, read_q, run_q};
-      run_q <= start_i || (run_q && read_at_q != last_word(pass_i));
-      read_at_q <= start_i ? first_word(next_i) : read_at_q + {{(AddrBits - 1) {down}}, 1'b1};
+      run_q <= start_i || (run_q && read_addr_q != last_word(pass_i));
+      read_addr_q <= start_i ? first_word(next_i) : read_addr_q + {{(AddrBits - 1) {down}}, 1'b1};
     end
   end
 
@@ -105,19 +106,19 @@ module ppmc_ramp_serial
     unique case (pass_i)
       PassInit:               addend = 1'b0;
       PassMulBit, PassMulOne: addend = v_q[0];  // times 2
-      PassLess:               addend = v_q[1];  // the difference is stored two words lower
+      PassSubtract:           addend = v_q[1];  // the difference is stored two words lower
       default:                addend = rd.v;
     endcase
     unique case (pass_i)
       PassMulBit: operand = rd.n && mul_i;
-      PassLess:   operand = !rd.u;
+      PassSubtract:   operand = !rd.u;
       PassInit, PassOutput: operand = 1'b0;
       default:    operand = rd.n;
     endcase
     sum = addend ^ operand ^ carry_q;
   end
 
-  // carry_q is cleared between passes; before PassLess and PassOutput it is set.
+  // carry_q is cleared between passes; before PassSubtract and PassOutput it is set.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       v_q     <= '0;
@@ -125,7 +126,7 @@ module ppmc_ramp_serial
     end else begin
       v_q <= {v_q[0], rd.v && use_q};
       if (use_q) carry_q <= (addend && operand) || (addend && carry_q) || (operand && carry_q);
-      else carry_q <= pass_i inside {PassLess, PassOutput};
+      else carry_q <= pass_i inside {PassSubtract, PassOutput};
     end
   end
 
@@ -139,20 +140,20 @@ module ppmc_ramp_serial
       .Width(Width)
   ) u_first (
       .clk_i,
-      .run_i (use_q),
-      .bit_i ((pass_i == PassSquare) ? rd.n : rd.v),
-      .less_i(first_i),
-      .bit_o (between)
+      .run_i(use_q),
+      .bit_i((pass_i == PassDivideSquare) ? rd.n : rd.v),
+      .divisor_m1_i(first_i),
+      .bit_o(between)
   );
 
   ppmc_ramp_divide #(
       .Width(Width)
   ) u_second (
       .clk_i,
-      .run_i (second_q),
-      .bit_i (between),
-      .less_i(second_i),
-      .bit_o (quotient)
+      .run_i(second_q),
+      .bit_i(between),
+      .divisor_m1_i(second_i),
+      .bit_o(quotient)
   );
 
   // ---- write-back of each pass ---------------------------------------------------------------------
@@ -167,7 +168,7 @@ module ppmc_ramp_serial
         wr.v = 1'b0;
         if (keep_i) wr.u = sum;
       end
-      PassSquare, PassDivide: wr.v = quotient;
+      PassDivideSquare, PassDivide: wr.v = quotient;
       default: ;
     endcase
   end

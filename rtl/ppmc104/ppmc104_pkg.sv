@@ -41,7 +41,7 @@ package ppmc104_pkg;
       slow_quanta: SLOW_QUANTA,
       extra_quanta: EXTRA_QUANTA,
       hold_quanta: HOLD_QUANTA,
-      hold_rest: 0,
+      hold_rest_cycles: 0,
       chop_unit: CHOP_UNIT,
       chop_bits: 9,
       stmc_ends: 1'b0

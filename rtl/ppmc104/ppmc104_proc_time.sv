@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_proc_time: processing times that only PPMC-104 has (Datasheet = 1): delays slow-down limits and allows
-//         only stop commands during a fast motion. ppmc_proc_time implements the other processing times.
+// ppmc104_proc_time: processing times that only PPMC-104 has (Datasheet = 1): delays slow-down limits and
+//         allows only stop commands during a fast motion. ppmc_proc_time implements the other processing
+//         times.
 // Rules:  P104-DS-10/12, P104-LIM-01 (the limits are monitored without gaps).
 // Timing: slow_o is asserted one cycle after the nominal time. With Datasheet = 0 slow_o = slow_seen_i.
 `default_nettype none

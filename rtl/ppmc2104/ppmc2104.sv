@@ -188,7 +188,7 @@ module ppmc2104
       .error_o (speed)
   );
 
-  logic [AXES:1] run_open, linger, ends, read_end, read_error;
+  logic [AXES:1] run_open, end_delay, ends, read_end, read_error;
   logic poll;
 
   ppmc2104_proc_time #(
@@ -210,12 +210,12 @@ module ppmc2104
       .code_o       (code_late),
       .params_o     (params_late),
       .run_open_o   (run_open),
-      .linger_o     (linger),
+      .end_delay_o  (end_delay),
       .poll_o       (poll)
   );
 
   ppmc2104_report #(
-      .WidthClk(ppmc_pkg::cyc(WIDTH_XTAL, CLK_HZ, XTAL_HZ))
+      .WidthCycles(ppmc_pkg::cyc(WIDTH_XTAL, CLK_HZ, XTAL_HZ))
   ) u_report (
       .clk_i       (clk),
       .rst_ni      (rst),
@@ -292,7 +292,7 @@ module ppmc2104
         .lut_data_i   (lut_data[n]),
         .run_open_i   (run_open[n]),
         .poll_i       (poll),
-        .linger_i     (linger[n]),
+        .end_delay_i  (end_delay[n]),
         .levels_i     (levels[n]),
         .extck_i      (extck[n]),
         .s_no         (s_n[n]),

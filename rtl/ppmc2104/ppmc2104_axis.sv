@@ -34,7 +34,7 @@ module ppmc2104_axis
     // processing times
     input  wire logic                         run_open_i,     // 1: RUN is sampled
     input  wire logic                         poll_i,         // 1: limits and alarm are sampled
-    input  wire logic                         linger_i,       // 1: a stopped operation does not end yet
+    input  wire logic                         end_delay_i,    // 1: a stopped operation does not end yet
     // pins
     input  wire levels_t                      levels_i,       // inputs of this axis, synchronised
     input  wire logic                         extck_i,        // external base clock, asynchronous
@@ -50,7 +50,7 @@ module ppmc2104_axis
   switches_t switches;
   stop_cause_t cause;
   setup_t setup;
-  logic home, chop, low, quantum, restart, slow_seen;
+  logic phase_init, chop, low, quantum, restart, slow_seen;
   logic [23:0] count, remaining;
   logic [5:1] levels;
 
@@ -82,13 +82,13 @@ module ppmc2104_axis
       .clk_i,
       .rst_ni,
       .act_i,
-      .code_i (init_code_t'(code_i)),
+      .code_i(init_code_t'(code_i)),
       .params_i,
       .params_late_i,
       .ready_i,
       .setup_o(setup),
-      .home_o (home),
-      .chop_o (chop)
+      .phase_init_o(phase_init),
+      .chop_o(chop)
   );
 
   ppmc_tick_gen #(
@@ -138,7 +138,7 @@ module ppmc2104_axis
       .slow_seen_o(slow_seen),
       .run_i      (levels_i.run && run_open_i),
       .go_i       (1'b1),
-      .linger_i,
+      .end_delay_i,
       .quantum_i  (quantum),
       .clock_pin_i(extck_i),
       .restart_o  (restart),
@@ -165,7 +165,7 @@ module ppmc2104_axis
       .motor_i       (motor_e'(setup.motor)),
       .half_i        (setup.half),
       .positive_i    (1'b0),
-      .home_i        (home),
+      .phase_init_i  (phase_init),
       .off_i         (act_i.exc_off),
       .chop_i        (chop),
       .chop_restart_i(1'b0),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc2104_proc_time: with Datasheet = 1, delays accepted instructions by the processing times of the old chip and
-//         schedules its polling of limits. Otherwise actions are immediate and limits are always sampled.
+// ppmc2104_proc_time: with Datasheet = 1, delays accepted instructions by the processing times of the old
+//         chip and schedules its polling of limits. Otherwise actions are immediate and limits are always
+//         sampled.
 // Rules:  P2104-DS-01..15, P2104-DS-20, P2104-STA-05 (c).
 // Timing: a window opens at the C-event and closes ceil(time) + 1 cycles later. Actions that wait for its end
 //         take effect at that edge; the next byte may be accepted one cycle later. Poll ticks occur every
@@ -31,7 +32,7 @@ module ppmc2104_proc_time
     output logic         [   7:0] code_o,         // code of the actions at the end of a window
     output logic         [  31:0] params_o,       // data bytes of code_o
     output logic         [AXES:1] run_open_o,     // 1: RUN is sampled
-    output logic         [AXES:1] linger_o,       // 1: a stopped operation does not end yet
+    output logic         [AXES:1] end_delay_o,    // 1: a stopped operation does not end yet
     output logic                  poll_o          // 1: limits and alarms are sampled in this cycle
 );
 
@@ -66,7 +67,7 @@ module ppmc2104_proc_time
     assign code_o      = code_i;
     assign params_o    = params_i;
     assign run_open_o  = '1;
-    assign linger_o    = '0;
+    assign end_delay_o = '0;
     assign poll_o      = 1'b1;
   end else begin : g_datasheet
 
@@ -175,9 +176,9 @@ module ppmc2104_proc_time
         .past_o   (past)
     );
 
-    assign open_o   = !window_q;
+    assign open_o = !window_q;
     assign window_o = axis_q;
-    assign linger_o = past ? '0 : halted_q;
+    assign end_delay_o = past ? '0 : halted_q;
 
     always_comb begin
       for (int n = 1; n <= AXES; n++) run_open_o[n] = !act_i.axis[n].start && (past || !starting_q[n]);

@@ -3,14 +3,14 @@
 // Rules:  P2104-ERR-06, P2104-RD-03/07, P2104-STA-06, P2104-INT-01..05.
 // Timing: registers and causes change at the edge that ends the cycle of their event; int_no follows one
 //         cycle later. A cause that is cleared at edge e keeps int_no = 1 from edge e + 1 to at least edge
-//         e + 1 + WidthClk.
+//         e + 1 + WidthCycles.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc2104_report
   import ppmc2104_pkg::*;
 #(
-    parameter int unsigned WidthClk = 80  // minimum release time of int_no in cycles
+    parameter int unsigned WidthCycles = 80  // minimum release time of int_no in cycles
 ) (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
@@ -24,7 +24,7 @@ module ppmc2104_report
     output logic                  int_no         // interrupt, low while there is a cause
 );
 
-  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
+  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthCycles - 1);
 
   logic [AXES:1] end_q, error_q;
   logic [Width-1:0] age_q;  // cycles since the start of the release window
@@ -47,7 +47,7 @@ module ppmc2104_report
       end
       error_q  <= (error_q & ~read_error_i) | (errint_ni ? '0 : charge_i.axis);
       end_q    <= (end_q & ~read_end_i) | end_i;
-      window_q <= release_d || (window_q && age_q != Width'(WidthClk - 1));
+      window_q <= release_d || (window_q && age_q != Width'(WidthCycles - 1));
       int_no   <= window_q || (end_q == '0 && error_q == '0);
     end
   end

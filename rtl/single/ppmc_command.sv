@@ -4,8 +4,8 @@
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
 // Timing: take_o marks the C-event: act_o and all state changes of this block belong to the edge that ends
-//         this cycle. decoded_i and param_error_i are combinational from the byte and are registered here, so that
-//         they are used one cycle later. data_i and is_checked_i are used in the same cycle.
+//         this cycle. decoded_i and param_error_i are combinational from the byte and are registered here, so
+//         that they are used one cycle later. data_i and is_checked_i are used in the same cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 

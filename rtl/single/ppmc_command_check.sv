@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_command_check: checks a byte of the host for a single-axis device: error number, actions, and the next state
-//         of the command unit.
+// ppmc_command_check: checks a byte of the host for a single-axis device: error number, actions, and the next
+//         state of the command unit.
 // Rules:  P104-STA-04..06, P104-ERR-00..03, P104-HSK-07, P104-CMD-01..04, P104-INI-02..06, P104-STP-02..08,
 //         P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
 // Timing: combinational; the user of the block stores parser_o.

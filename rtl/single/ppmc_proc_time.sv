@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time: determines when an accepted byte takes effect in a single-axis device: immediately (FAST) or
-//         after the processing times of the old chip (DATASHEET).
+// ppmc_proc_time: determines when an accepted byte takes effect in a single-axis device: immediately (FAST)
+//         or after the processing times of the old chip (DATASHEET).
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
 // Timing: DATASHEET times start at the C-event (2 cycles after the write event) or at the pulse or decision
 //         that they belong to. The event that a time releases occurs one cycle after the nominal time.
@@ -38,7 +38,7 @@ module ppmc_proc_time
     input  wire logic                   initialised_i,  // an initialisation has been completed
     input  wire logic                   building_i,     // the ramp table is being built
     input  wire logic    [StepBits-1:0] steps_i,        // active PA
-    output logic                        home_o,         // set the phases to index 0: first initialisation
+    output logic                        phase_init_o,   // set the phases to index 0: first initialisation
     output logic                        ready_o,        // the initialisation is complete
     // motion
     input  wire logic                   ramp_i,         // the running operation has a ramp
@@ -48,7 +48,7 @@ module ppmc_proc_time
     input  wire logic                   last_i,         // with pulse_i: last pulse
     input  wire logic                   final_i,        // with pulse_i: the count is complete
     output logic                        go_o,           // pulse 1 may occur
-    output logic                        linger_o        // the motion must not end yet
+    output logic                        end_delay_o     // the motion must not end yet
 );
 
   // Times in crystal cycles: microseconds times 16.
@@ -80,10 +80,10 @@ module ppmc_proc_time
     assign params_o = params_i;
     assign base_o = base_i;
     assign open_o = !building_i && !built_q;
-    assign home_o = act_i.init && !initialised_i;
+    assign phase_init_o = act_i.init && !initialised_i;
     assign ready_o = built_q && !building_i;
     assign go_o = 1'b1;
-    assign linger_o = 1'b0;
+    assign end_delay_o = 1'b0;
     assign unused_bits = &{1'b0, code_held_i, params_held_i, steps_i, ramp_i, single_i, stop_i, pulse_i,
                            last_i, final_i};
   end else begin : g_datasheet
@@ -109,7 +109,7 @@ module ppmc_proc_time
     // ---- current command -----------------------------------------------------------------------------
 
     action_t now, late, held_q;
-    logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start, past;
+    logic cmd_busy_q, cmd_past, phase_init_past, phase_init_done_q, cmd_start, past;
     logic init_past, closed;
     logic [CommandBits-1:0] cmd_last;
 
@@ -146,16 +146,16 @@ module ppmc_proc_time
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        held_q     <= '0;
-        cmd_busy_q <= 1'b0;
-        homed_q    <= 1'b1;
+        held_q            <= '0;
+        cmd_busy_q        <= 1'b0;
+        phase_init_done_q <= 1'b1;
       end else if (cmd_start) begin
-        held_q     <= late;
-        cmd_busy_q <= 1'b1;
-        homed_q    <= !act_i.init;
+        held_q            <= late;
+        cmd_busy_q        <= 1'b1;
+        phase_init_done_q <= !act_i.init;
       end else begin
         if (cmd_past) cmd_busy_q <= 1'b0;
-        if (home_past) homed_q <= 1'b1;
+        if (phase_init_past) phase_init_done_q <= 1'b1;
       end
     end
 
@@ -169,9 +169,9 @@ module ppmc_proc_time
         .past_o   (past)
     );
 
-    assign home_past = past && !homed_q;
+    assign phase_init_past = past && !phase_init_done_q;
     assign cmd_past  = cmd_busy_q && (held_q.init ? init_past : past);
-    assign home_o    = home_past && !initialised_i;
+    assign phase_init_o    = phase_init_past && !initialised_i;
     assign ready_o   = init_past;
 
     always_comb begin
@@ -210,7 +210,7 @@ module ppmc_proc_time
         .final_i,
         .ready_o   (init_past),
         .go_o,
-        .linger_o,
+        .end_delay_o,
         .closed_o  (closed)
     );
 

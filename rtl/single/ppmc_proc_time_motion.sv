@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time_motion: long processing times of the old chip (DATASHEET): of an initialisation, before pulse 1,
-//         and at the end of a motion. Only one of them runs at a time, so they share a counter.
+// ppmc_proc_time_motion: long processing times of the old chip (DATASHEET): of an initialisation, before
+//         pulse 1, and at the end of a motion. Only one of them runs at a time, so they share a counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: times start at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i with
 //         last_i. The event that a time releases occurs one cycle after the nominal time.
@@ -20,20 +20,20 @@ module ppmc_proc_time_motion #(
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        init_i,      // an initialisation is accepted
-    input  wire logic        start_i,     // an operation is accepted
-    input  wire logic        triangle_i,  // with start_i: the profile is triangular (no plateau)
-    input  wire logic [15:0] number_i,    // with start_i: pulses minus 1; one cycle after init_i: PA
-    input  wire logic        ramp_i,      // the running operation has a ramp
-    input  wire logic        single_i,    // the running operation is a single step
-    input  wire logic        stop_i,      // immediate end decided at the next edge
-    input  wire logic        pulse_i,     // pulse event at the next edge
-    input  wire logic        last_i,      // with pulse_i: last pulse
-    input  wire logic        final_i,     // with pulse_i: the count is complete
-    output logic             ready_o,     // initialisation complete
-    output logic             go_o,        // pulse 1 may occur; only valid while the operation runs
-    output logic             linger_o,    // the motion must not end yet
-    output logic             closed_o     // no byte may be accepted, because the motion ends
+    input  wire logic        init_i,       // an initialisation is accepted
+    input  wire logic        start_i,      // an operation is accepted
+    input  wire logic        triangle_i,   // with start_i: the profile is triangular (no plateau)
+    input  wire logic [15:0] number_i,     // with start_i: pulses minus 1; one cycle after init_i: PA
+    input  wire logic        ramp_i,       // the running operation has a ramp
+    input  wire logic        single_i,     // the running operation is a single step
+    input  wire logic        stop_i,       // immediate end decided at the next edge
+    input  wire logic        pulse_i,      // pulse event at the next edge
+    input  wire logic        last_i,       // with pulse_i: last pulse
+    input  wire logic        final_i,      // with pulse_i: the count is complete
+    output logic             ready_o,      // initialisation complete
+    output logic             go_o,         // pulse 1 may occur; only valid while the operation runs
+    output logic             end_delay_o,  // the motion must not end yet
+    output logic             closed_o      // no byte may be accepted, because the motion ends
 );
 
   // Times in crystal cycles.
@@ -79,7 +79,7 @@ module ppmc_proc_time_motion #(
 
   assign ready_o     = state_q == StInit && past;
   assign go_o        = past;
-  assign linger_o    = (state_q == StEnding && !past) || last_q;
+  assign end_delay_o = (state_q == StEnding && !past) || last_q;
   assign closed_o    = state_q inside {StEnding, StClosed};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

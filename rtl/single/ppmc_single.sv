@@ -117,7 +117,7 @@ module ppmc_single
 
   op_code_t   op_code;
   init_code_t init_late;
-  logic home, ready_init, unused_bits;
+  logic phase_init, ready_init, unused_bits;
   logic [Traits.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
@@ -132,7 +132,7 @@ module ppmc_single
       .rst_ni,
       .init_i       (act_o.init),
       .code_i       (init_code_t'(command_req_o.code)),
-      .home_i       (home),
+      .phase_init_i (phase_init),
       .positive_i   (init_late.positive),
       .ready_i      (ready_init),
       .off_i        (act_o.exc_off),
@@ -166,7 +166,7 @@ module ppmc_single
     endcase
   end
 
-  logic quantum, restart, low, go, linger;
+  logic quantum, restart, low, go, end_delay;
   motion_event_t event_now;
   base_clock_t base_late;
   stop_cause_t cause;
@@ -187,7 +187,7 @@ module ppmc_single
       .ClkHz      (ClkHz),
       .XtalHz     (XtalHz),
       .StepBits   (Traits.step_bits),
-      .ClimbBits  (ppmc_pkg::cnt_width(Traits.steps_max + 1)),
+      .LevelBits  (ppmc_pkg::cnt_width(Traits.steps_max + 1)),
       .FastQuanta (Traits.fast_quanta),
       .SlowQuanta (Traits.slow_quanta),
       .ExtraQuanta(Traits.extra_quanta),
@@ -213,7 +213,7 @@ module ppmc_single
       .slow_seen_o,
       .run_i      (1'b1),
       .go_i       (go),
-      .linger_i   (linger),
+      .end_delay_i(end_delay),
       .quantum_i  (quantum),
       .clock_pin_i,
       .restart_o  (restart),
@@ -233,7 +233,7 @@ module ppmc_single
       .StepsMin (Traits.steps_min),
       .StepsMax (Traits.steps_max),
       .RampTimes(!Traits.stmc_ends)
-  ) u_pace (
+  ) u_proc_time (
       .clk_i,
       .rst_ni,
       .act_i        (act_taken),
@@ -250,7 +250,7 @@ module ppmc_single
       .initialised_i(initialised),
       .building_i   (building),
       .steps_i      (steps),
-      .home_o       (home),
+      .phase_init_o (phase_init),
       .ready_o      (ready_init),
       .ramp_i       (motion_o.op.ramp),
       .single_i     (motion_o.op.single),
@@ -259,7 +259,7 @@ module ppmc_single
       .last_i       (event_now.last),
       .final_i      (event_now.complete),
       .go_o         (go),
-      .linger_o     (linger)
+      .end_delay_o  (end_delay)
   );
 
   // ---- end of a motion, read data, pins ------------------------------------------------------------
@@ -285,10 +285,10 @@ module ppmc_single
 
   ppmc_motor_port #(
       .HoldQuanta(Traits.hold_quanta),
-      .HoldRest  (Traits.hold_rest),
+      .HoldRestCycles(Traits.hold_rest_cycles),
       .UnitQuanta(Traits.chop_unit),
-      .BaseBits  (Traits.chop_bits),
-      .PhaseIdle (PhaseIdle)
+      .BaseBits(Traits.chop_bits),
+      .PhaseIdle(PhaseIdle)
   ) u_motor (
       .clk_i,
       .rst_ni,
@@ -300,7 +300,7 @@ module ppmc_single
       .motor_i       (motor_e'(setup_o.motor)),
       .half_i        (setup_o.half),
       .positive_i    (setup_o.positive),
-      .home_i        (home),
+      .phase_init_i  (phase_init),
       .off_i         (act_o.exc_off),
       .chop_i        (setup_o.chop),
       .chop_restart_i(ready_init),

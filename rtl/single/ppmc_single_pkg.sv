@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_single_pkg: types that connect ppmc_single with the device around it, and the device configuration.
 // Rules:  those of ppmc_single.
-// How:    ppmc_single outputs the current byte (rx_byte_t), and the device returns its meaning (decoded_byte_t). With
-//         this meaning the parameters are complete: ppmc_single outputs the command (command_req_t), and the device
-//         returns the result of its check (check_result_t). There are four bundles instead of two, so that no
-//         bundle depends on itself.
+// How:    ppmc_single outputs the current byte (rx_byte_t), and the device returns its meaning
+//         (decoded_byte_t). With this meaning the parameters are complete: ppmc_single outputs the command
+//         (command_req_t), and the device returns the result of its check (check_result_t). There are four
+//         bundles instead of two, so that no bundle depends on itself.
 `default_nettype none
 
 package ppmc_single_pkg;
@@ -17,17 +17,17 @@ package ppmc_single_pkg;
 
   // Differences between the single-axis devices, in addition to the meaning of their bytes.
   typedef struct packed {
-    int unsigned step_bits;     // bits of PA, at most 16
-    int unsigned steps_min;     // smallest PA
-    int unsigned steps_max;     // largest PA
-    int unsigned quantum_xtal;  // crystal cycles in a quantum
-    int unsigned fast_quanta;   // period of the fast internal base clock, quanta
-    int unsigned slow_quanta;   // period of the slow internal base clock, quanta
-    int unsigned extra_quanta;  // extra time of an interval, quanta; 0: no extra time
-    int unsigned hold_quanta;   // time at standstill until HOLD, quanta
-    int unsigned hold_rest;     // cycles added to hold_quanta
-    int unsigned chop_unit;     // quanta in a unit of the chopper times; 0: no units
-    int unsigned chop_bits;     // used bits of the chopper base times
+    int unsigned step_bits;         // bits of PA, at most 16
+    int unsigned steps_min;         // smallest PA
+    int unsigned steps_max;         // largest PA
+    int unsigned quantum_xtal;      // crystal cycles in a quantum
+    int unsigned fast_quanta;       // period of the fast internal base clock, quanta
+    int unsigned slow_quanta;       // period of the slow internal base clock, quanta
+    int unsigned extra_quanta;      // extra time of an interval, quanta; 0: no extra time
+    int unsigned hold_quanta;       // time at standstill until HOLD, quanta
+    int unsigned hold_rest_cycles;  // cycles added to hold_quanta
+    int unsigned chop_unit;         // quanta in a unit of the chopper times; 0: no units
+    int unsigned chop_bits;         // used bits of the chopper base times
     // 1: stop and end rules of the J105 STMC. There is no pulse output, so that the last pulse ends the
     // motion. A stop at the start-up rate, and a slow-down limit in an origin search, end the motion
     // immediately. Bit 7 of the finish status is always 1. Ramps have no separate processing times.

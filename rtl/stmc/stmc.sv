@@ -64,7 +64,7 @@ module stmc
   // A quantum lasts at least two cycles. Chopper times that are not a multiple of a quantum are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
-  localparam int unsigned HoldRest = ppmc_pkg::cyc(
+  localparam int unsigned HoldRestCycles = ppmc_pkg::cyc(
       HOLD_XT, CLK_HZ, XTAL_HZ
   ) - ppmc_pkg::cyc(
       HoldQuanta * QuantumXtal, CLK_HZ, XTAL_HZ
@@ -118,7 +118,7 @@ module stmc
       slow_quanta: STEP_XTAL / QuantumXtal,
       extra_quanta: 0,
       hold_quanta: HoldQuanta,
-      hold_rest: HoldRest,
+      hold_rest_cycles: HoldRestCycles,
       chop_unit: 0,
       chop_bits: ChopBits,
       stmc_ends: 1'b1

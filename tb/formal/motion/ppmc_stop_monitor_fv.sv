@@ -14,7 +14,7 @@ module ppmc_stop_monitor_fv
     input wire op_t       op_i,
     input wire switches_t switches_i,
     input wire logic      top_i,
-    input wire logic      crawl_i,
+    input wire logic      at_start_rate_i,
     input wire logic      dec_i,
     input wire logic      halt_i,
     input wire logic      decel_i,
@@ -51,7 +51,7 @@ module ppmc_stop_monitor_fv
   `FV_ASSERT(p104_end_05_only_causes, !stop_o || (armed_i && immediate))
   `FV_ASSERT(
       stmc_in_03_only_causes,
-      !stmc_stop || (armed_i && (immediate || (op_i.origin && slow) || (crawl_i && (slow_i || decel_i)))))
+      !stmc_stop || (armed_i && (immediate || (op_i.origin && slow) || (at_start_rate_i && (slow_i || decel_i)))))
   `FV_ASSERT(p104_fdc_01_asked_for,
              !(armed_i && op_i.ramp && !immediate && !dec_i && (decel_i || slow_i)) || forced_o)
   `FV_ASSERT(p104_fdc_04_not_withdrawn, !$past(rst_ni && forced_o && !stop_o && !clear_i && !complete_i)

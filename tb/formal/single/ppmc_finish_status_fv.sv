@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_status_fv: proves that each motion which is not silent sets the interrupt until the finish status is
+// ppmc_finish_status_fv: proves that each motion which is not silent sets the interrupt until the finish
+//         status is
 // read, and that no other event changes the interrupt.
 `include "ppmc_fv.svh"
 `default_nettype none

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that the
+// ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that
+//         the
 // mailbox opens again. The ratio of the clocks shortens the times to 1/64.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -18,7 +19,7 @@ module ppmc_proc_time_fv
   logic [ 7:0] code_o;
   logic [31:0] params_o;
   logic [ 2:0] base_o;
-  logic open_o, home_o, ready_o, go_o, linger_o;
+  logic open_o, phase_init_o, ready_o, go_o, end_delay_o;
 
   `FV_RESET
 

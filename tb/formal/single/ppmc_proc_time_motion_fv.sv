@@ -18,7 +18,7 @@ module ppmc_proc_time_motion_fv (
     input wire logic        final_i
 );
 
-  logic ready_o, go_o, linger_o, closed_o;
+  logic ready_o, go_o, end_delay_o, closed_o;
 
   `FV_RESET
 
@@ -26,9 +26,9 @@ module ppmc_proc_time_motion_fv (
 
   `FV_ASSUME(one_at_a_time, $countones({init_i, start_i, stop_i, pulse_i && last_i}) <= 1)
   `FV_ASSUME(closed, !(init_i || start_i) || !closed_o)
-  `FV_ASSERT(p104_ds_07_closed, !linger_o || closed_o)
+  `FV_ASSERT(p104_ds_07_closed, !end_delay_o || closed_o)
   `FV_ASSERT(p104_ds_02_once, !(ready_o && $past(ready_o)) || $past(init_i))
-  `FV_COVER(seen_linger, linger_o && closed_o)
+  `FV_COVER(seen_linger, end_delay_o && closed_o)
 
 endmodule
 

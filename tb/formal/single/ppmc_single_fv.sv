@@ -61,7 +61,7 @@ module ppmc_single_fv
   `FV_ASSERT(table_once, !on || !(act.init && building))
   `FV_ASSERT(ramp_stands, !$past(on) || !busy || rates == $past(rates))
   `FV_ASSERT(ramp_stands_while_built, !($past(on && building) && building) || ramp_data == $past(ramp_data))
-  `FV_ASSERT(home_in_the_first, !on || !dut.u_single.home || !dut.u_single.initialised)
+  `FV_ASSERT(home_in_the_first, !on || !dut.u_single.phase_init || !dut.u_single.initialised)
   `FV_ASSERT(ready_behind_init, !on || !dut.u_single.ready_init || init_open_q)
   `FV_ASSERT(init_alone, !on || !(act.exc_off && (act.init || init_open_q)) && !(act.init && init_open_q))
   `FV_ASSERT(take_when_ready, !on || !dut.u_single.take || dut.u_single.ready)
