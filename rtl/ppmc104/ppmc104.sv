@@ -59,12 +59,12 @@ module ppmc104
     $fatal(1, "ppmc104: XTAL_HZ must be 1e6 .. 16e6");
   end
 
-  logic rst;
+  logic rst_core_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   // ---- inputs --------------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ module ppmc104
       .Width(12)
   ) u_sync (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({l1_n, l2_n, l3_n, l4_n, cnp_n, alm_n, csel, vsel, auxi}),
       .q1_o  (unused_meta),
       .q2_o  ({l1, l2, l3, l4, cnp, alm, csel_s, vsel_s, auxi_s})
@@ -127,7 +127,7 @@ module ppmc104
       .Traits   (TRAITS)
   ) u_single (
       .clk_i         (clk),
-      .rst_ni        (rst),
+      .rst_ni        (rst_core_n),
       .cs_ni         (cs_n),
       .rd_ni         (rd_n),
       .wr_ni         (wr_n),
@@ -166,7 +166,7 @@ module ppmc104
 
   ppmc104_setup u_switching (
       .clk_i   (clk),
-      .rst_ni  (rst),
+      .rst_ni  (rst_core_n),
       .act_i   (act),
       .params_i(command_req.params),
       .aux_i   (params_late[27:24]),
@@ -180,9 +180,9 @@ module ppmc104
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ)
-  ) u_own_pace (
+  ) u_own_proc_time (
       .clk_i       (clk),
-      .rst_ni      (rst),
+      .rst_ni      (rst_core_n),
       .motion_i    (motion),
       .rate_i      (rate),
       .slow_seen_i (slow_seen),

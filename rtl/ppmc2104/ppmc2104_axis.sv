@@ -24,7 +24,7 @@ module ppmc2104_axis
     input  wire logic         [          7:0] code_late_i,    // code of the other actions
     input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
     input  wire logic                         ready_i,        // 1: no table build runs and no window is open
-    output state_t                            state_o,        // state for the other blocks
+    output axis_state_t                       state_o,        // state for the other blocks
     output logic                              end_o,          // an operation with I = 0 ends
     input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
@@ -36,7 +36,7 @@ module ppmc2104_axis
     input  wire logic                         poll_i,         // 1: limits and alarm are sampled
     input  wire logic                         end_delay_i,    // 1: a stopped operation does not end yet
     // pins
-    input  wire levels_t                      levels_i,       // inputs of this axis, synchronised
+    input  wire pin_levels_t                  levels_i,       // inputs of this axis, synchronised
     input  wire logic                         extck_i,        // external base clock, asynchronous
     output logic              [          5:1] s_no,           // phases
     output logic                              hold_o,         // standstill for the hold delay
@@ -183,14 +183,14 @@ module ppmc2104_axis
 
   // ---- end status, answers ------------------------------------------------------------------------
 
-  logic fresh_q, silent_q;  // fresh_q: end status not read yet; silent_q: no interrupt requested
+  logic unread_q, silent_q;  // unread_q: end status not read yet; silent_q: no interrupt requested
   logic [2:0] op_q;
 
   assign end_o = event_now.done && !silent_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      fresh_q  <= 1'b0;
+      unread_q <= 1'b0;
       silent_q <= 1'b0;
       op_q     <= '0;
     end else begin
@@ -198,8 +198,8 @@ module ppmc2104_axis
         silent_q <= op_code.silent;
         op_q     <= op_code.op;
       end
-      if (event_now.done) fresh_q <= 1'b1;
-      else if (act_i.read && code_late_i[2:0] == SEL_END) fresh_q <= 1'b0;
+      if (event_now.done) unread_q <= 1'b1;
+      else if (act_i.read && code_late_i[2:0] == SEL_END) unread_q <= 1'b0;
     end
   end
 
@@ -208,7 +208,7 @@ module ppmc2104_axis
   always_comb begin
     answer_o = remaining;  // only this answer uses the second and third byte
     unique case (code_late_i[2:0])
-      SEL_END:   answer_o[7:0] = {fresh_q, cause, op_q};
+      SEL_END:   answer_o[7:0] = {unread_q, cause, op_q};
       SEL_INPUTS: begin
         answer_o[7:0] = {
           levels_i.org, levels_i.alm, 2'b00, levels_i.fl, levels_i.fhl, levels_i.bl, levels_i.bhl

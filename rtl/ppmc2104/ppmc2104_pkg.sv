@@ -147,11 +147,11 @@ package ppmc2104_pkg;
     logic                  aux_in;
   } action_t;
 
-  // Error that is charged to an axis.
+  // Error of an instruction and its axis.
   typedef struct packed {
     logic [AXES:1] axis;    // axis in error; 0: no error
     cmd_error_e    number;
-  } charge_t;
+  } error_report_t;
 
   // Pin levels of an axis after the synchroniser.
   typedef struct packed {
@@ -163,7 +163,7 @@ package ppmc2104_pkg;
     logic fhl;
     logic bl;
     logic bhl;
-  } levels_t;
+  } pin_levels_t;
 
   // Settings of an axis by the host (ppmc2104_setup).
   typedef struct packed {
@@ -186,7 +186,7 @@ package ppmc2104_pkg;
     logic   moving;    // before pulse 1 or between pulses
     logic   decel_ok;  // a deceleration stop would be accepted
     setup_t setup;
-  } state_t;
+  } axis_state_t;
 
   // verilator lint_on UNUSEDPARAM
 

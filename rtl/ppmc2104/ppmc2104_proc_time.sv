@@ -16,46 +16,46 @@ module ppmc2104_proc_time
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
     // command unit, at the C-event
-    input  wire action_t          act_i,          // actions requested by the byte
-    input  wire logic    [   7:0] code_i,         // code of act_i
-    input  wire logic    [  31:0] params_i,       // data bytes of code_i
-    input  wire logic    [   7:0] code_held_i,    // code_i after the C-event
-    input  wire logic    [  31:0] params_held_i,  // data bytes of code_held_i
-    input  wire state_t  [AXES:1] state_i,        // states of both axes
-    output logic                  open_o,         // bytes may be accepted
-    output logic         [AXES:1] window_o,       // a window of this axis is open
+    input  wire action_t              act_i,          // actions requested by the byte
+    input  wire logic        [   7:0] code_i,         // code of act_i
+    input  wire logic        [  31:0] params_i,       // data bytes of code_i
+    input  wire logic        [   7:0] code_held_i,    // code_i after the C-event
+    input  wire logic        [  31:0] params_held_i,  // data bytes of code_held_i
+    input  wire axis_state_t [AXES:1] state_i,        // states of both axes
+    output logic                      open_o,         // bytes may be accepted
+    output logic             [AXES:1] window_o,       // a window of this axis is open
     // actions that take effect
-    output action_t               act_o,          // actions, effective at the next rising edge
-    output logic         [   7:0] code_o,         // code of the actions at the end of a window
-    output logic         [  31:0] params_o,       // data bytes of code_o
-    output logic         [AXES:1] run_open_o,     // 1: RUN is sampled
-    output logic         [AXES:1] end_delay_o,    // 1: a stopped operation does not end yet
-    output logic                  poll_o          // 1: limits and alarms are sampled in this cycle
+    output action_t                   act_o,          // actions, effective at the next rising edge
+    output logic             [   7:0] code_o,         // code of the actions at the end of a window
+    output logic             [  31:0] params_o,       // data bytes of code_o
+    output logic             [AXES:1] run_open_o,     // 1: RUN is sampled
+    output logic             [AXES:1] end_delay_o,    // 1: a stopped operation does not end yet
+    output logic                      poll_o          // 1: limits and alarms are sampled in this cycle
 );
 
   // Crystal periods: microseconds times 16.
-  localparam int unsigned SETTING = 71_000 * 16;
-  localparam int unsigned HALT = 400 * 16;
-  localparam int unsigned DECEL = 32 * 16;
-  localparam int unsigned START_SINGLE = 103 * 16;
-  localparam int unsigned START_TRIANGLE = 340 * 16;
-  localparam int unsigned START_TRAPEZOID = 110 * 16;
-  localparam int unsigned START_CONSTANT = 29 * 16;
-  localparam int unsigned START_ENDLESS = 32 * 16;  // continuous constant speed, origin search
-  localparam int unsigned START_HIGH = 118 * 16;
-  localparam int unsigned READ_END = 40 * 16;
-  localparam int unsigned READ_INPUTS = 36 * 16;
-  localparam int unsigned READ_OUTPUTS = 32 * 16;
-  localparam int unsigned READ_REMAINING = 37 * 16;
-  localparam int unsigned READ_ERROR = 43 * 16;
-  localparam int unsigned EXC_OFF = 32 * 16;
-  localparam int unsigned AUX = 40 * 16;
-  localparam int unsigned SWITCHING = 36 * 16;
-  localparam int unsigned HOLD_DELAY = 32 * 16;
-  localparam int unsigned POLL = 35 * 16;
+  localparam int unsigned SettingXtal = 71_000 * 16;
+  localparam int unsigned HaltXtal = 400 * 16;
+  localparam int unsigned DecelXtal = 32 * 16;
+  localparam int unsigned StartSingleXtal = 103 * 16;
+  localparam int unsigned StartTriangularXtal = 340 * 16;
+  localparam int unsigned StartTrapezoidalXtal = 110 * 16;
+  localparam int unsigned StartConstantXtal = 29 * 16;
+  localparam int unsigned StartContinuousXtal = 32 * 16;  // continuous constant speed, origin search
+  localparam int unsigned StartHighXtal = 118 * 16;
+  localparam int unsigned ReadEndXtal = 40 * 16;
+  localparam int unsigned ReadInputsXtal = 36 * 16;
+  localparam int unsigned ReadOutputsXtal = 32 * 16;
+  localparam int unsigned ReadRemainingXtal = 37 * 16;
+  localparam int unsigned ReadErrorXtal = 43 * 16;
+  localparam int unsigned ExcOffXtal = 32 * 16;
+  localparam int unsigned AuxXtal = 40 * 16;
+  localparam int unsigned SwitchingXtal = 36 * 16;
+  localparam int unsigned HoldDelayXtal = 32 * 16;
+  localparam int unsigned PollXtal = 35 * 16;
 
   if (!Datasheet) begin : g_fast
     logic unused_bits;
@@ -71,9 +71,9 @@ module ppmc2104_proc_time
     assign poll_o      = 1'b1;
   end else begin : g_datasheet
 
-    localparam int unsigned Bits = ppmc_pkg::cnt_width(SETTING + 1);
-    localparam int unsigned PollClk = ppmc_pkg::cyc(POLL, ClkHz, XtalHz);
-    localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollClk - 1);
+    localparam int unsigned Bits = ppmc_pkg::cnt_width(SettingXtal + 1);
+    localparam int unsigned PollCycles = ppmc_pkg::cyc(PollXtal, ClkHz, XtalHz);
+    localparam int unsigned PollBits = ppmc_pkg::cnt_width(PollCycles - 1);
 
     // The byte leaves the mailbox at the C-event. Actions at the end of a window use the held code and data.
     assign code_o   = code_held_i;
@@ -81,47 +81,47 @@ module ppmc2104_proc_time
 
     // ---- window -----------------------------------------------------------------------------------
 
-    axis_action_t any;
-    action_t now, late_q;
+    axis_action_t any_act;
+    action_t immediate, delayed_q;
     op_code_t op_code;
-    state_t   mine;
-    logic window_q, begins, past, ends, triangle, unused_bits;
+    axis_state_t addressed;
+    logic window_q, begins, past, ends, triangular, unused_bits;
     logic [AXES:1] axis_q, starting_q, halted_q;
     logic [Bits-1:0] limit, limit_q;
 
     assign op_code     = op_code_t'(code_i);
-    assign mine        = op_code.second ? state_i[2] : state_i[1];
-    assign triangle    = params_i[31:8] < 24'({mine.setup.steps, 1'b0});
-    assign any         = act_i.axis[1] | act_i.axis[2];
+    assign addressed   = op_code.second ? state_i[2] : state_i[1];
+    assign triangular  = params_i[31:8] < 24'({addressed.setup.steps, 1'b0});
+    assign any_act     = act_i.axis[1] | act_i.axis[2];
     assign begins      = act_i != '0;
     assign ends        = window_q && past;
-    assign unused_bits = &{1'b0, op_code, params_i, mine, state_i};
+    assign unused_bits = &{1'b0, op_code, params_i, addressed, state_i};
 
     always_comb begin
-      limit = Bits'(AUX);
+      limit = Bits'(AuxXtal);
       // Not a unique case: before the first reset, flip-flops may request several actions at a time.
       case (1'b1)
-        any.init: limit = Bits'(SETTING);
-        any.halt: limit = Bits'(HALT);
-        any.decel: limit = Bits'(DECEL);
-        any.exc_off: limit = Bits'(EXC_OFF);
-        any.switching: limit = Bits'(SWITCHING);
-        any.hold_delay: limit = Bits'(HOLD_DELAY);
-        any.start:
+        any_act.init: limit = Bits'(SettingXtal);
+        any_act.halt: limit = Bits'(HaltXtal);
+        any_act.decel: limit = Bits'(DecelXtal);
+        any_act.exc_off: limit = Bits'(ExcOffXtal);
+        any_act.switching: limit = Bits'(SwitchingXtal);
+        any_act.hold_delay: limit = Bits'(HoldDelayXtal);
+        any_act.start:
         unique case (op_code.op)
-          OP_SINGLE:    limit = Bits'(START_SINGLE);
-          OP_ACC_DEC:   limit = triangle ? Bits'(START_TRIANGLE) : Bits'(START_TRAPEZOID);
-          OP_CONSTANT:  limit = Bits'(START_CONSTANT);
-          OP_CONT_HIGH: limit = Bits'(START_HIGH);
-          default:      limit = Bits'(START_ENDLESS);
+          OP_SINGLE:    limit = Bits'(StartSingleXtal);
+          OP_ACC_DEC:   limit = triangular ? Bits'(StartTriangularXtal) : Bits'(StartTrapezoidalXtal);
+          OP_CONSTANT:  limit = Bits'(StartConstantXtal);
+          OP_CONT_HIGH: limit = Bits'(StartHighXtal);
+          default:      limit = Bits'(StartContinuousXtal);
         endcase
-        any.read:
+        any_act.read:
         unique case (code_i[2:0])
-          SEL_END:     limit = Bits'(READ_END);
-          SEL_INPUTS:  limit = Bits'(READ_INPUTS);
-          SEL_OUTPUTS: limit = Bits'(READ_OUTPUTS);
-          SEL_ERROR:   limit = Bits'(READ_ERROR);
-          default:     limit = Bits'(READ_REMAINING);
+          SEL_END:     limit = Bits'(ReadEndXtal);
+          SEL_INPUTS:  limit = Bits'(ReadInputsXtal);
+          SEL_OUTPUTS: limit = Bits'(ReadOutputsXtal);
+          SEL_ERROR:   limit = Bits'(ReadErrorXtal);
+          default:     limit = Bits'(ReadRemainingXtal);
         endcase
         default: ;
       endcase
@@ -129,28 +129,28 @@ module ppmc2104_proc_time
 
     // Actions that take effect at the C-event.
     always_comb begin
-      now = '0;
+      immediate = '0;
       for (int n = 1; n <= AXES; n++) begin
-        now.axis[n].init  = act_i.axis[n].init;
-        now.axis[n].start = act_i.axis[n].start;
-        now.axis[n].halt  = act_i.axis[n].halt;
+        immediate.axis[n].init  = act_i.axis[n].init;
+        immediate.axis[n].start = act_i.axis[n].start;
+        immediate.axis[n].halt  = act_i.axis[n].halt;
       end
-      act_o = now;
-      if (ends) act_o = act_o | late_q;
+      act_o = immediate;
+      if (ends) act_o = act_o | delayed_q;
     end
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         window_q   <= 1'b0;
         axis_q     <= '0;
-        late_q     <= '0;
+        delayed_q  <= '0;
         limit_q    <= '0;
         starting_q <= '0;
         halted_q   <= '0;
       end else if (begins) begin
-        window_q <= 1'b1;
-        late_q   <= act_i & ~now;
-        limit_q  <= limit;
+        window_q  <= 1'b1;
+        delayed_q <= act_i & ~immediate;
+        limit_q   <= limit;
         for (int n = 1; n <= AXES; n++) begin
           axis_q[n]     <= act_i.axis[n] != '0;
           starting_q[n] <= act_i.axis[n].start;
@@ -188,7 +188,7 @@ module ppmc2104_proc_time
 
     logic [PollBits-1:0] poll_q;
 
-    assign poll_o = poll_q == PollBits'(PollClk - 1);
+    assign poll_o = poll_q == PollBits'(PollCycles - 1);
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) poll_q <= PollBits'(1);  // starts at 1, because reset ends one cycle late

@@ -28,7 +28,7 @@ module ppmc_command_check
     output logic stop_o  // byte_i is a stop command, regardless of take_i
 );
 
-  logic harmless, last, error;
+  logic allowed_busy, last_param, error;
   cmd_error_e number;
   logic unused_param;
 
@@ -36,21 +36,21 @@ module ppmc_command_check
 
   // Order of the checks: P104-ERR-01, P104-ERR-02.
   always_comb begin
-    stop_o   = decoded_i.kind inside {CmdHalt, CmdDecel};
-    harmless = decoded_i.kind inside {CmdAuxOut, CmdAuxOn, CmdAuxOff};
-    if (Aux && decoded_i.kind == CmdExcOff) harmless = 1'b1;
-    last   = !parser_i.error && parser_i.number == 3'd1;
-    error  = 1'b1;
+    stop_o = decoded_i.kind inside {CmdHalt, CmdDecel};
+    allowed_busy = decoded_i.kind inside {CmdAuxOut, CmdAuxOn, CmdAuxOff};
+    if (Aux && decoded_i.kind == CmdExcOff) allowed_busy = 1'b1;
+    last_param = !parser_i.error && parser_i.number == 3'd1;
+    error = 1'b1;
     number = ErrUndefined;
     if (command_i) begin
       if (decoded_i.kind == CmdUndefined || (stop_o && !busy_i)) number = ErrUndefined;
-      else if (busy_i && !stop_o && !harmless) number = ErrBusy;
+      else if (busy_i && !stop_o && !allowed_busy) number = ErrBusy;
       else if (decoded_i.kind == CmdOperation && !initialised_i) number = ErrNotReady;
       else if (decoded_i.kind == CmdDecel && ramp_i && decelerating_i) number = ErrDecelAgain;
       else error = 1'b0;
     end else begin
       if (parser_i.error || parser_i.number == '0) number = busy_i ? ErrDataBusy : ErrData;
-      else if (last && is_checked_i && param_error_i != ErrUndefined) number = param_error_i;
+      else if (last_param && is_checked_i && param_error_i != ErrUndefined) number = param_error_i;
       else error = 1'b0;
     end
   end
@@ -78,7 +78,7 @@ module ppmc_command_check
         act_o.aux_on  = decoded_i.kind == CmdAuxOn || (decoded_i.kind == CmdExcOff && busy_i);
         act_o.aux_off = decoded_i.kind == CmdAuxOff;
         act_o.read    = decoded_i.kind == CmdRead;
-      end else if (last) begin
+      end else if (last_param) begin
         act_o.init      = parser_i.code[7:6] == 2'b00;
         act_o.start     = parser_i.code[6];
         act_o.switching = parser_i.code[7:6] == 2'b10 && !parser_i.code[1];

@@ -52,17 +52,17 @@ module ppmc_proc_time
 );
 
   // Times in crystal cycles: microseconds times 16.
-  localparam int unsigned INIT_PHASES = 44 * 16;
-  localparam int unsigned BUSY_CONSTANT = 27 * 16;
-  localparam int unsigned BUSY_RAMP = 112 * 16;
-  localparam int unsigned FLAG_COMMAND = 17 * 16;
-  localparam int unsigned AUX = 14 * 16;
-  localparam int unsigned EXC_OFF = 18 * 16;
+  localparam int unsigned InitPhasesXtal = 44 * 16;
+  localparam int unsigned BusyConstantXtal = 27 * 16;
+  localparam int unsigned BusyRampXtal = 112 * 16;
+  localparam int unsigned FlagCommandXtal = 17 * 16;
+  localparam int unsigned AuxXtal = 14 * 16;
+  localparam int unsigned ExcOffXtal = 18 * 16;
 
-  localparam int unsigned CommandBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BUSY_RAMP, ClkHz, XtalHz) - 1);
+  localparam int unsigned CommandBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BusyRampXtal, ClkHz, XtalHz) - 1);
 
   // State of the counter before the tick that ends a time of xtal_cycles.
-  function automatic logic [CommandBits-1:0] last(int unsigned xtal_cycles);
+  function automatic logic [CommandBits-1:0] last_state(int unsigned xtal_cycles);
     return CommandBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CommandBits));
   endfunction
 
@@ -108,14 +108,14 @@ module ppmc_proc_time
 
     // ---- current command -----------------------------------------------------------------------------
 
-    action_t now, late, held_q;
+    action_t immediate, delayed, delayed_q;
     logic cmd_busy_q, cmd_past, phase_init_past, phase_init_done_q, cmd_start, past;
     logic init_past, closed;
     logic [CommandBits-1:0] cmd_last;
 
     // A deceleration stop that acts as an immediate stop has no separate processing time (P104-DS-14).
     always_comb begin
-      now = '{
+      immediate = '{
           init: act_i.init,
           halt: act_i.halt,
           switching: act_i.switching,
@@ -123,34 +123,34 @@ module ppmc_proc_time
           decel: act_i.decel && !(RampTimes && ramp_i),
           default: 1'b0
       };
-      late = act_i & ~now;
-      late.init = act_i.init;
-      cmd_start = late != '0;
+      delayed = act_i & ~immediate;
+      delayed.init = act_i.init;
+      cmd_start = delayed != '0;
     end
 
-    localparam logic [CommandBits-1:0] LastAux = last(AUX);
-    localparam logic [CommandBits-1:0] LastExcOff = last(EXC_OFF);
-    localparam logic [CommandBits-1:0] LastDecel = last(FLAG_COMMAND);
-    localparam logic [CommandBits-1:0] LastRamp = last(BUSY_RAMP);
-    localparam logic [CommandBits-1:0] LastConstant = last(BUSY_CONSTANT);
-    localparam logic [CommandBits-1:0] LastPhases = last(INIT_PHASES);
+    localparam logic [CommandBits-1:0] LastAux = last_state(AuxXtal);
+    localparam logic [CommandBits-1:0] LastExcOff = last_state(ExcOffXtal);
+    localparam logic [CommandBits-1:0] LastDecel = last_state(FlagCommandXtal);
+    localparam logic [CommandBits-1:0] LastRamp = last_state(BusyRampXtal);
+    localparam logic [CommandBits-1:0] LastConstant = last_state(BusyConstantXtal);
+    localparam logic [CommandBits-1:0] LastPhases = last_state(InitPhasesXtal);
 
     // The mailbox is closed during this time, so the code does not change.
     always_comb begin
       cmd_last = LastAux;
-      if (held_q.exc_off) cmd_last = LastExcOff;
-      if (held_q.decel) cmd_last = LastDecel;
-      if (held_q.start) cmd_last = (op_held.pout_only || ramp) ? LastRamp : LastConstant;
-      if (held_q.init) cmd_last = LastPhases;
+      if (delayed_q.exc_off) cmd_last = LastExcOff;
+      if (delayed_q.decel) cmd_last = LastDecel;
+      if (delayed_q.start) cmd_last = (op_held.pout_only || ramp) ? LastRamp : LastConstant;
+      if (delayed_q.init) cmd_last = LastPhases;
     end
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        held_q            <= '0;
+        delayed_q         <= '0;
         cmd_busy_q        <= 1'b0;
         phase_init_done_q <= 1'b1;
       end else if (cmd_start) begin
-        held_q            <= late;
+        delayed_q         <= delayed;
         cmd_busy_q        <= 1'b1;
         phase_init_done_q <= !act_i.init;
       end else begin
@@ -170,22 +170,22 @@ module ppmc_proc_time
     );
 
     assign phase_init_past = past && !phase_init_done_q;
-    assign cmd_past  = cmd_busy_q && (held_q.init ? init_past : past);
+    assign cmd_past  = cmd_busy_q && (delayed_q.init ? init_past : past);
     assign phase_init_o    = phase_init_past && !initialised_i;
     assign ready_o   = init_past;
 
     always_comb begin
-      act_o = now;
-      if (cmd_past) act_o = act_o | held_q;
-      act_o.init = now.init;
+      act_o = immediate;
+      if (cmd_past) act_o = act_o | delayed_q;
+      act_o.init = immediate.init;
     end
 
     // ---- initialisation, motion ----------------------------------------------------------------------
 
-    logic triangle;
+    logic triangular;
 
     // triangle: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
-    assign triangle = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
+    assign triangular = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );
 
@@ -198,20 +198,20 @@ module ppmc_proc_time
     ) u_motion (
         .clk_i,
         .rst_ni,
-        .init_i    (act_i.init),
-        .start_i   (act_i.start),
-        .triangle_i(triangle),
-        .number_i  (params_i[23:8]),
+        .init_i      (act_i.init),
+        .start_i     (act_i.start),
+        .triangular_i(triangular),
+        .number_i    (params_i[23:8]),
         .ramp_i,
         .single_i,
         .stop_i,
         .pulse_i,
         .last_i,
         .final_i,
-        .ready_o   (init_past),
+        .ready_o     (init_past),
         .go_o,
         .end_delay_o,
-        .closed_o  (closed)
+        .closed_o    (closed)
     );
 
     assign open_o = !cmd_busy_q && !closed && !building_i;

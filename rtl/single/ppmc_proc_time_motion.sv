@@ -20,37 +20,37 @@ module ppmc_proc_time_motion #(
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        init_i,       // an initialisation is accepted
-    input  wire logic        start_i,      // an operation is accepted
-    input  wire logic        triangle_i,   // with start_i: the profile is triangular (no plateau)
-    input  wire logic [15:0] number_i,     // with start_i: pulses minus 1; one cycle after init_i: PA
-    input  wire logic        ramp_i,       // the running operation has a ramp
-    input  wire logic        single_i,     // the running operation is a single step
-    input  wire logic        stop_i,       // immediate end decided at the next edge
-    input  wire logic        pulse_i,      // pulse event at the next edge
-    input  wire logic        last_i,       // with pulse_i: last pulse
-    input  wire logic        final_i,      // with pulse_i: the count is complete
-    output logic             ready_o,      // initialisation complete
-    output logic             go_o,         // pulse 1 may occur; only valid while the operation runs
-    output logic             end_delay_o,  // the motion must not end yet
-    output logic             closed_o      // no byte may be accepted, because the motion ends
+    input  wire logic        init_i,        // an initialisation is accepted
+    input  wire logic        start_i,       // an operation is accepted
+    input  wire logic        triangular_i,  // with start_i: the profile is triangular (no plateau)
+    input  wire logic [15:0] number_i,      // with start_i: pulses minus 1; one cycle after init_i: PA
+    input  wire logic        ramp_i,        // the running operation has a ramp
+    input  wire logic        single_i,      // the running operation is a single step
+    input  wire logic        stop_i,        // immediate end decided at the next edge
+    input  wire logic        pulse_i,       // pulse event at the next edge
+    input  wire logic        last_i,        // with pulse_i: last pulse
+    input  wire logic        final_i,       // with pulse_i: the count is complete
+    output logic             ready_o,       // initialisation complete
+    output logic             go_o,          // pulse 1 may occur; only valid while the operation runs
+    output logic             end_delay_o,   // the motion must not end yet
+    output logic             closed_o       // no byte may be accepted, because the motion ends
 );
 
   // Times in crystal cycles.
-  localparam int unsigned INIT_BASE = 264_000;
-  localparam int unsigned INIT_STEP = 209;
-  localparam int unsigned PULSE = 7;  // for each pulse of a triangular profile: whole crystal cycles
-  localparam int unsigned PULSE_PART = 11;  // for each pulse of a triangular profile: sixteenths
+  localparam int unsigned InitBaseXtal = 264_000;
+  localparam int unsigned InitStepXtal = 209;
+  localparam int unsigned PulseXtal = 7;  // for each pulse of a triangular profile: whole crystal cycles
+  localparam int unsigned PulseSixteenths = 11;  // for each pulse of a triangular profile: sixteenths
   // Times in units of 16 crystal cycles, which are microseconds at 16 MHz.
-  localparam logic [7:0] FIRST_CONSTANT = 8'd194;
-  localparam logic [7:0] FIRST_RAMP = 8'd200;
-  localparam logic [7:0] FIRST_SINGLE = 8'd86;
-  localparam logic [7:0] END_BUSY = 8'd26;
-  localparam logic [7:0] END_OPEN = 8'd156;
-  localparam logic [7:0] END_RAMP = 8'd200;
+  localparam logic [7:0] FirstConstantUnits = 8'd194;
+  localparam logic [7:0] FirstRampUnits = 8'd200;
+  localparam logic [7:0] FirstSingleUnits = 8'd86;
+  localparam logic [7:0] EndBusyUnits = 8'd26;
+  localparam logic [7:0] EndOpenUnits = 8'd156;
+  localparam logic [7:0] EndRampUnits = 8'd200;
 
   localparam int unsigned CountBits = 19;
-  localparam int unsigned StoreBits = ppmc_pkg::cnt_width(
+  localparam int unsigned PortionBits = ppmc_pkg::cnt_width(
       (RampTimes && StepsMax < 32_767) ? 32_767 : StepsMax
   );
 
@@ -64,16 +64,17 @@ module ppmc_proc_time_motion #(
 
   (* fsm_encoding = "none" *)
   state_e state_q;
-  logic slow_q, brief_q;  // slow_q: the end uses END_RAMP; brief_q: the end has no StClosed
+  logic
+      ramp_end_q, no_closed_q;  // ramp_end_q: the end uses EndRampUnits; no_closed_q: the end has no StClosed
   logic last_q;  // the count of the end starts in this cycle, in which the pins change
   logic init_q;  // init_i, one cycle later
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
-  logic [CountBits-1:0] count_q, amount;
+  logic [CountBits-1:0] count_q, increment;
   logic [7:0] limit;
   logic unused_bits;
-  logic [StoreBits:0] store_q;  // portions left to subtract, minus 1; negative: no portion
-  logic [3:0] part_q;  // sixteenths of a crystal cycle
+  logic [PortionBits:0] portions_q;  // portions left to subtract, minus 1; negative: no portion
+  logic [3:0] sixteenths_q;  // sixteenths of a crystal cycle
 
   assign unused_bits = &{1'b0, number_i};
 
@@ -85,10 +86,10 @@ module ppmc_proc_time_motion #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= StRest;
-      slow_q  <= 1'b0;
-      brief_q <= 1'b0;
-      last_q  <= 1'b0;
-      init_q  <= 1'b0;
+      ramp_end_q <= 1'b0;
+      no_closed_q <= 1'b0;
+      last_q <= 1'b0;
+      init_q <= 1'b0;
     end else begin
       last_q <= pulse_i && last_i;
       init_q <= init_i;
@@ -96,12 +97,12 @@ module ppmc_proc_time_motion #(
       else if (start_i) state_q <= StFirst;
       else if (stop_i || (pulse_i && last_i)) begin
         state_q <= StEnding;
-        slow_q  <= stop_i ? ramp_i : !final_i;
-        brief_q <= stop_i ? ramp_i : !final_i || single_i;
+        ramp_end_q <= stop_i ? ramp_i : !final_i;
+        no_closed_q <= stop_i ? ramp_i : !final_i || single_i;
       end else if (pulse_i) state_q <= StRest;
       else if (past && !last_q) begin
         unique case (state_q)
-          StEnding: state_q <= brief_q ? StRest : StClosed;
+          StEnding: state_q <= no_closed_q ? StRest : StClosed;
           StFirst:  ;
           default:  state_q <= StRest;
         endcase
@@ -125,16 +126,16 @@ module ppmc_proc_time_motion #(
 
   always_comb begin
     unique case (state_q)
-      StEnding: limit = slow_q ? END_RAMP : END_BUSY;
-      StClosed: limit = END_OPEN;
+      StEnding: limit = ramp_end_q ? EndRampUnits : EndBusyUnits;
+      StClosed: limit = EndOpenUnits;
       default: begin
-        limit = FIRST_CONSTANT;
-        if (ramp_i) limit = FIRST_RAMP;
-        if (single_i) limit = FIRST_SINGLE;
+        limit = FirstConstantUnits;
+        if (ramp_i) limit = FirstRampUnits;
+        if (single_i) limit = FirstSingleUnits;
       end
     endcase
     past = count_q[12] || !ppmc_pkg::less(32'(count_q[11:4]), 32'(limit));
-    if (state_q == StInit) past = count_q >= CountBits'(INIT_BASE - (StepsMin + 1) * INIT_STEP);
+    if (state_q == StInit) past = count_q >= CountBits'(InitBaseXtal - (StepsMin + 1) * InitStepXtal);
     if (more) past = 1'b0;
   end
 
@@ -142,35 +143,36 @@ module ppmc_proc_time_motion #(
   // have to wait for a clock indefinitely.
   assign full = count_q[12] && state_q != StInit;
 
-  assign more    = !store_q[StoreBits];
+  assign more    = !portions_q[PortionBits];
   assign portion = more && count_q[8];  // the count stays below 512 as long as portions are left
 
-  logic [4:0] part;
+  logic [4:0] sixteenths;
 
-  assign part = {1'b0, part_q} + 5'(PULSE_PART);
+  assign sixteenths = {1'b0, sixteenths_q} + 5'(PulseSixteenths);
 
   always_comb begin
-    amount = CountBits'(cycles);
+    increment = CountBits'(cycles);
     if (portion) begin
-      amount = CountBits'(cycles) - CountBits'(INIT_STEP);
-      if (state_q != StInit) amount = CountBits'(cycles) - CountBits'(PULSE) - CountBits'(part[4]);
+      increment = CountBits'(cycles) - CountBits'(InitStepXtal);
+      if (state_q != StInit)
+        increment = CountBits'(cycles) - CountBits'(PulseXtal) - CountBits'(sixteenths[4]);
     end
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       count_q <= '0;
-      store_q <= '1;
-      part_q  <= '0;
+      portions_q <= '1;
+      sixteenths_q <= '0;
     end else begin
       if (restart) count_q <= '0;
-      else if (!full) count_q <= count_q + amount;
+      else if (!full) count_q <= count_q + increment;
 
-      if (init_q || restart) store_q <= {!init_q && !(start_i && triangle_i), StoreBits'(number_i)};
-      else if (portion) store_q <= store_q - 1'b1;
+      if (init_q || restart) portions_q <= {!init_q && !(start_i && triangular_i), PortionBits'(number_i)};
+      else if (portion) portions_q <= portions_q - 1'b1;
 
-      if (restart) part_q <= '0;
-      else if (portion) part_q <= part[3:0];
+      if (restart) sixteenths_q <= '0;
+      else if (portion) sixteenths_q <= sixteenths[3:0];
     end
   end
 

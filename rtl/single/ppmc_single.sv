@@ -265,7 +265,7 @@ module ppmc_single
   // ---- end of a motion, read data, pins ------------------------------------------------------------
 
   ppmc_finish_status #(
-      .Fresh(!Traits.stmc_ends)
+      .UnreadFlag(!Traits.stmc_ends)
   ) u_finish (
       .clk_i,
       .rst_ni,

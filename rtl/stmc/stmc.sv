@@ -60,7 +60,7 @@ module stmc
     $fatal(1, "stmc: HOLD_XT, CHOP_ON_XT and CHOP_OFF_XT must be at least 1");
   end
 
-  localparam bit Sheet = 128'(READ_MAP) == "SHEET";
+  localparam bit SheetMap = 128'(READ_MAP) == "SHEET";
   // A quantum lasts at least two cycles. Chopper times that are not a multiple of a quantum are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
@@ -73,12 +73,12 @@ module stmc
   localparam int unsigned OffQuanta = (CHOP_OFF_XT + QuantumXtal - 1) / QuantumXtal;
   localparam int unsigned ChopBits = ppmc_pkg::cnt_width((OnQuanta > OffQuanta) ? OnQuanta : OffQuanta);
 
-  logic rst;
+  logic rst_core_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   // ---- inputs --------------------------------------------------------------------------------------
@@ -90,7 +90,7 @@ module stmc
       .Width(6)
   ) u_sync (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({l1_n, l2_n, l3_n, l4_n, cnp_n, mon}),
       .q1_o  (unused_meta),
       .q2_o  ({l1, l2, l3, l4, cnp, mon_s})
@@ -129,7 +129,7 @@ module stmc
   decoded_byte_t decoded_byte;
   command_req_t command_req;
   check_result_t check_result;
-  cmd_error_e fault;
+  cmd_error_e param_error;
   logic [31:0] unused_params;
   logic slow, unused_bits;
   setup_t setup;
@@ -142,14 +142,14 @@ module stmc
   assign unused_bits = &{1'b0, command_req, setup, motor, rx_byte};
 
   assign decoded_byte = '{
-          decoded: decode(Sheet, rx_byte.data),
+          decoded: decode(SheetMap, rx_byte.data),
           data:
           rx_byte.data
           - 8'(
           is_divisor(rx_byte.code_held[6], rx_byte.code_held[2:0], rx_byte.params_left)
           )
       };
-  assign fault = check_params(
+  assign param_error = check_params(
       rx_byte.code_held[6],
       rx_byte.code_held[2:0],
       command_req.params[7:0],
@@ -157,9 +157,9 @@ module stmc
       command_req.params[31:24]
   );
   assign check_result = '{
-          error: fault,
+          error: param_error,
           is_checked: 1'b1,
-          select: read_select(Sheet, command_req.code[2:0]),
+          select: read_select(SheetMap, command_req.code[2:0]),
           setup: normalise_rates(rx_byte.params)
       };
   assign base = '{external: setup.external, default: 1'b0};
@@ -172,7 +172,7 @@ module stmc
       .Traits   (Traits)
   ) u_single (
       .clk_i         (clk),
-      .rst_ni        (rst),
+      .rst_ni        (rst_core_n),
       .cs_ni         (cs_n),
       .rd_ni         (rd_n),
       .wr_ni         (wr_n),

@@ -221,14 +221,16 @@ module ppmc_axis_fv
   `FV_ASSERT(lemma_rate_constant, lemma_rate_constant_holds)
   `FV_ASSERT(lemma_rate_range,
              !(motion_o.moving && op_q.ramp) || loads || (rate_o <= rate_slow_i && rate_o >= rate_fast_i))
-  logic lemma_rate_probe_holds;
-  assign lemma_rate_probe_holds =
+  logic lemma_rate_lookup_holds;
+  assign lemma_rate_lookup_holds =
       !(motion_o.moving && op_q.ramp) || (slower ? loads || probe == rate_o + 2'd1 : probe >= rate_fast_i &&
       probe <= rate_slow_i && (loads || probe <= rate_o));
-  `FV_ASSERT(lemma_rate_probe, lemma_rate_probe_holds)
-  `FV_ASSERT(
-      lemma_rate_back,
-      !(between && op_q.ramp) || (dut.u_seq.prev_rate_q >= rate_fast_i && dut.u_seq.prev_rate_q <= rate_slow_i))
+  `FV_ASSERT(lemma_rate_lookup, lemma_rate_lookup_holds)
+  logic lemma_rate_prev_holds;
+  assign lemma_rate_prev_holds =
+      !(between && op_q.ramp) ||
+      (dut.u_seq.prev_rate_q >= rate_fast_i && dut.u_seq.prev_rate_q <= rate_slow_i);
+  `FV_ASSERT(lemma_rate_prev, lemma_rate_prev_holds)
   logic lemma_rate_end_holds;
   assign lemma_rate_end_holds =
       !(motion_o.moving && (waits || test || (state == '0 && since_q > 4'd2))) ||

@@ -49,9 +49,9 @@ module ppmc_stop_monitor_fv
 
   `FV_ASSERT(p104_lim_03_every_cause, !(armed_i && immediate) || (stop_o && stmc_stop))
   `FV_ASSERT(p104_end_05_only_causes, !stop_o || (armed_i && immediate))
-  `FV_ASSERT(
-      stmc_in_03_only_causes,
-      !stmc_stop || (armed_i && (immediate || (op_i.origin && slow) || (at_start_rate_i && (slow_i || decel_i)))))
+  logic only_causes;
+  assign only_causes = immediate || (op_i.origin && slow) || (at_start_rate_i && (slow_i || decel_i));
+  `FV_ASSERT(stmc_in_03_only_causes, !stmc_stop || (armed_i && only_causes))
   `FV_ASSERT(p104_fdc_01_asked_for,
              !(armed_i && op_i.ramp && !immediate && !dec_i && (decel_i || slow_i)) || forced_o)
   `FV_ASSERT(p104_fdc_04_not_withdrawn, !$past(rst_ni && forced_o && !stop_o && !clear_i && !complete_i)

@@ -8,7 +8,7 @@ module ppmc_proc_time_motion_fv (
     input wire logic        clk_i,
     input wire logic        init_i,
     input wire logic        start_i,
-    input wire logic        triangle_i,
+    input wire logic        triangular_i,
     input wire logic [15:0] number_i,
     input wire logic        ramp_i,
     input wire logic        single_i,

@@ -46,7 +46,7 @@ module ppmc_single_fv
   logic [15:0] rates;  // rates of the active ramp
   decoded_t decoded;
 
-  assign on        = dut.rst;
+  assign on        = dut.rst_core_n;
   assign act       = dut.u_single.act_o;
   assign busy      = dut.u_single.motion_o.busy;
   assign building  = dut.u_single.building;
