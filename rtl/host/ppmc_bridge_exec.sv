@@ -18,40 +18,40 @@ module ppmc_bridge_exec
 ) (
     input  wire logic                    clk_i,
     input  wire logic                    rst_ni,
-    input  wire logic                    ms_i,             // strobe every millisecond
+    input  wire logic                    ms_i,          // strobe every millisecond
     // request
-    input  wire logic                    start_i,          // begin a script
-    input  wire logic                    resend_i,         // send the last answer again
-    input  wire logic      [        7:0] length_i,         // length of the script in bytes
-    output logic           [        7:0] raddr_o,          // address in the script
-    input  wire logic      [        7:0] rdata_i,          // byte at raddr_o, two cycles later
-    input  wire logic                    interrupt_i,      // a byte was received after start_i
+    input  wire logic                    start_i,       // begin a script
+    input  wire logic                    resend_i,      // send the last answer again
+    input  wire logic      [        7:0] length_i,      // length of the script in bytes
+    output logic           [        7:0] raddr_o,       // address in the script
+    input  wire logic      [        7:0] rdata_i,       // byte at raddr_o, two cycles later
+    input  wire logic                    interrupt_i,   // a byte was received after start_i
     // answer
-    output logic                         script_o,         // a script is running
-    output logic                         answer_o,         // the script has ended, its answer is being sent
-    input  wire logic                    answered_i,       // the answer has been sent
-    output script_result_t               script_result_o,  // result of the script
-    output logic                         we_o,             // write enable of the answer buffer
-    output logic           [        7:0] waddr_o,          // write address
-    output logic           [        7:0] wdata_o,          // write data
+    output logic                         script_o,      // a script is running
+    output logic                         answer_o,      // the script has ended, its answer is being sent
+    input  wire logic                    answered_i,    // the answer has been sent
+    output script_result_t               result_o,      // result of the script
+    output logic                         we_o,          // write enable of the answer buffer
+    output logic           [        7:0] waddr_o,       // write address
+    output logic           [        7:0] wdata_o,       // write data
     // settings
-    output bridge_cmd_t                  bridge_cmd_o,     // settings made by scripts
+    output bridge_cmd_t                  bridge_cmd_o,  // settings made by scripts
     // recorder
-    output logic                         rec_next_o,       // request the next byte of the recorder
-    input  wire logic      [        7:0] rec_data_i,       // byte of the records
-    input  wire logic      [       63:0] rec_info_i,       // data of op RECORDED
+    output logic                         rec_next_o,    // request the next byte of the recorder
+    input  wire logic      [        7:0] rec_data_i,    // byte of the records
+    input  wire logic      [       63:0] rec_info_i,    // data of op RECORDED
     // board
-    input  wire logic      [        7:0] pins_i,           // pins for op PINS
-    input  wire logic      [Axes*32-1:0] count_i,          // pulse counters, axis 1 in the low bits
-    output logic           [   Axes-1:0] count_zero_o,     // strobe: set the counter to 0
-    output logic                         part_rst_no,      // reset of the device, L = active
+    input  wire logic      [        7:0] pins_i,        // pins for op PINS
+    input  wire logic      [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
+    output logic           [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
+    output logic                         part_rst_no,   // reset of the device, L = active
     // bus of the device
-    output logic                         cs_no,            // chip select
-    output logic                         rd_no,            // read strobe
-    output logic                         wr_no,            // write strobe
-    output logic           [        3:0] a_o,              // register
-    output logic           [        7:0] d_o,              // write data
-    input  wire logic      [        7:0] d_i               // read data
+    output logic                         cs_no,         // chip select
+    output logic                         rd_no,         // read strobe
+    output logic                         wr_no,         // write strobe
+    output logic           [        3:0] a_o,           // register
+    output logic           [        7:0] d_o,           // write data
+    input  wire logic      [        7:0] d_i            // read data
 );
 
   typedef enum logic [3:0] {
@@ -133,13 +133,8 @@ module ppmc_bridge_exec
   op_need_e need;
   result_e reject;
 
-  assign decode = state_q == StDecode && reject == ResDone;
-  assign script_result_o = '{
-          result: result_q,
-          pos: pos_q,
-          last: bus_data & {8{has_read_q}},
-          length: length
-      };
+  assign decode   = state_q == StDecode && reject == ResDone;
+  assign result_o = '{result: result_q, pos: pos_q, last: bus_data & {8{has_read_q}}, length: length};
 
   ppmc_bridge_decode #(
       .Axes    (Axes),

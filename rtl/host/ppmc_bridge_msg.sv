@@ -10,26 +10,26 @@ module ppmc_bridge_msg
     input  wire logic                 clk_i,
     input  wire logic                 rst_ni,
     // answer; all inputs are stable while answer_i = 1
-    input  wire logic                 script_i,         // a script is running: no new message is begun
-    input  wire logic                 answer_i,         // an answer is is_available, until answered_o
-    input  wire logic           [6:0] seq_i,            // sequence number of the request
-    input  wire script_result_t       script_result_i,  // result of the script
-    output logic                [7:0] raddr_o,          // address in the answer
-    input  wire logic           [7:0] rdata_i,          // byte at raddr_o, two cycles later
-    output logic                      answered_o,       // the answer has been sent
+    input  wire logic                 script_i,       // a script is running: no new message is begun
+    input  wire logic                 answer_i,       // an answer is available, until answered_o
+    input  wire logic           [6:0] seq_i,          // sequence number of the request
+    input  wire script_result_t       result_i,       // result of the script
+    output logic                [7:0] raddr_o,        // address in the answer
+    input  wire logic           [7:0] rdata_i,        // byte at raddr_o, two cycles later
+    output logic                      answered_o,     // the answer has been sent
     // event
-    input  wire logic                 event_i,          // an event message is pending
-    input  wire logic           [7:0] pins_i,           // pins in the event message
-    output logic                      event_taken_o,    // the event message is being sent
+    input  wire logic                 event_i,        // an event message is pending
+    input  wire logic           [7:0] pins_i,         // pins in the event message
+    output logic                      event_taken_o,  // the event message is being sent
     // NAK
-    input  wire nak_e                 nak_i,            // NAK to send; NakNone: no NAK
-    output logic                      nak_taken_o,      // the NAK is being sent
+    input  wire nak_e                 nak_i,          // NAK to send; NakNone: no NAK
+    output logic                      nak_taken_o,    // the NAK is being sent
     // framer
-    output logic                      start_o,          // begin a frame
-    input  wire logic                 idle_i,           // the framer is idle
-    output logic                [7:0] byte_o,           // next byte of the frame
-    output logic                      more_o,           // byte_o is valid; 0: the frame ends
-    input  wire logic                 take_i            // byte_o is accepted
+    output logic                      start_o,        // begin a frame
+    input  wire logic                 idle_i,         // the framer is idle
+    output logic                [7:0] byte_o,         // next byte of the frame
+    output logic                      more_o,         // byte_o is valid; 0: the frame ends
+    input  wire logic                 take_i          // byte_o is accepted
 );
 
   typedef enum logic [1:0] {
@@ -55,13 +55,13 @@ module ppmc_bridge_msg
       3'd0: byte_o = kind_q == MsgAnswer ? {1'b0, seq_i} : {7'b1000000, kind_q == MsgNak};
       3'd1: begin
         unique case (kind_q)
-          MsgAnswer: byte_o = 8'(script_result_i.result);
+          MsgAnswer: byte_o = 8'(result_i.result);
           MsgEvent:  byte_o = pins_i;
           default:   byte_o = 8'(nak_i);
         endcase
       end
-      3'd2: byte_o = script_result_i.pos;
-      3'd3: byte_o = script_result_i.last;
+      3'd2: byte_o = result_i.pos;
+      3'd3: byte_o = result_i.last;
       default: byte_o = rdata_i;
     endcase
   end
@@ -85,13 +85,13 @@ module ppmc_bridge_msg
   end
 
   always_ff @(posedge clk_i) begin
-    tail_q <= index_q == script_result_i.length;
+    tail_q <= index_q == result_i.length;
     if (start_o) begin
       head_q  <= '0;
       index_q <= '0;
     end else if (take_i) begin
       if (head_q[2]) index_q <= index_q + 1'b1;
-      else if (head_q == 3'd1 && (kind_q != MsgAnswer || script_result_i.result == ResDone)) head_q <= 3'd4;
+      else if (head_q == 3'd1 && (kind_q != MsgAnswer || result_i.result == ResDone)) head_q <= 3'd4;
       else head_q <= head_q + 1'b1;
     end
   end

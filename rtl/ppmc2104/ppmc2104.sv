@@ -122,7 +122,7 @@ module ppmc2104
   error_report_t error_report;
   cmd_error_e speed;
   cmd_error_e [AXES:1] errors;
-  axis_state_t [AXES:1] state;
+  axis_summary_t [AXES:1] state;
 
   assign cmnd = collecting | building | window;
   assign read_axis = act.axis[1].read || act.axis[2].read;

@@ -12,28 +12,28 @@ module ppmc2104_command
   import ppmc2104_pkg::*;
   import ppmc_op_pkg::*;
 (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
+    input wire logic clk_i,
+    input wire logic rst_ni,
     // mailbox
-    input  wire logic                 ready_i,         // byte_i is available
-    input  wire logic                 command_i,       // 1: byte_i was written as a code, 0: as data
-    input  wire logic        [   7:0] byte_i,          // byte from the host
-    input  wire logic                 open_i,          // bytes may be accepted
-    output logic                      take_o,          // accept strobe, effective at the next rising edge
+    input wire logic ready_i,  // byte_i is available
+    input wire logic command_i,  // 1: byte_i was written as a code, 0: as data
+    input wire logic [7:0] byte_i,  // byte from the host
+    input wire logic open_i,  // bytes may be accepted
+    output logic take_o,  // accept strobe, effective at the next rising edge
     // state of the axes
-    input  wire axis_state_t [AXES:1] state_i,         // states of both axes
-    input  wire pin_levels_t [AXES:1] levels_i,        // inputs of both axes, synchronised
-    input  wire logic        [AXES:1] building_i,      // ramp table build; codes that need the table wait
+    input wire axis_summary_t [AXES:1] state_i,  // states of both axes
+    input wire pin_levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
+    input wire logic [AXES:1] building_i,  // ramp table build; codes that need the table wait
     // rate limits (ppmc2104_speed)
-    input  wire cmd_error_e           speed_i,         // rate-limit error of code_o with params_o
+    input wire cmd_error_e speed_i,  // rate-limit error of code_o with params_o
     // result
-    output logic             [AXES:1] collecting_o,    // data bytes are outstanding
-    output action_t                   act_o,           // actions of the accepted byte
-    output error_report_t             error_report_o,  // errors of the accepted byte
-    output logic             [   7:0] code_o,          // code of the action
-    output logic             [  31:0] params_o,        // data bytes of code_o, the last one in the high bits
-    output logic             [   7:0] code_held_o,     // code_o after the C-event, valid until the next one
-    output logic             [  31:0] params_held_o    // data bytes of code_held_o
+    output logic [AXES:1] collecting_o,  // data bytes are outstanding
+    output action_t act_o,  // actions of the accepted byte
+    output error_report_t error_report_o,  // errors of the accepted byte
+    output logic [7:0] code_o,  // code of the action
+    output logic [31:0] params_o,  // data bytes of code_o, the last one in the high bits
+    output logic [7:0] code_held_o,  // code_o after the C-event, valid until the next one
+    output logic [31:0] params_held_o  // data bytes of code_held_o
 );
 
   logic [2:0] params_left_q;  // data bytes outstanding

@@ -180,13 +180,13 @@ package ppmc2104_pkg;
     logic [7:0]           hold_delay;   // units of HOLD_QUANTA, minus 1
   } setup_t;
 
-  // State of an axis for the command unit.
+  // Summary of the state of an axis for the command unit.
   typedef struct packed {
     logic   busy;
     logic   moving;    // before pulse 1 or between pulses
     logic   decel_ok;  // a deceleration stop would be accepted
     setup_t setup;
-  } axis_state_t;
+  } axis_summary_t;
 
   // verilator lint_on UNUSEDPARAM
 

@@ -16,24 +16,24 @@ module ppmc2104_proc_time
     parameter int unsigned ClkHz     = 16_000_000,
     parameter int unsigned XtalHz    = 16_000_000
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
     // command unit, at the C-event
-    input  wire action_t              act_i,          // actions requested by the byte
-    input  wire logic        [   7:0] code_i,         // code of act_i
-    input  wire logic        [  31:0] params_i,       // data bytes of code_i
-    input  wire logic        [   7:0] code_held_i,    // code_i after the C-event
-    input  wire logic        [  31:0] params_held_i,  // data bytes of code_held_i
-    input  wire axis_state_t [AXES:1] state_i,        // states of both axes
-    output logic                      open_o,         // bytes may be accepted
-    output logic             [AXES:1] window_o,       // a window of this axis is open
+    input  wire action_t                act_i,          // actions requested by the byte
+    input  wire logic          [   7:0] code_i,         // code of act_i
+    input  wire logic          [  31:0] params_i,       // data bytes of code_i
+    input  wire logic          [   7:0] code_held_i,    // code_i after the C-event
+    input  wire logic          [  31:0] params_held_i,  // data bytes of code_held_i
+    input  wire axis_summary_t [AXES:1] state_i,        // states of both axes
+    output logic                        open_o,         // bytes may be accepted
+    output logic               [AXES:1] window_o,       // a window of this axis is open
     // actions that take effect
-    output action_t                   act_o,          // actions, effective at the next rising edge
-    output logic             [   7:0] code_o,         // code of the actions at the end of a window
-    output logic             [  31:0] params_o,       // data bytes of code_o
-    output logic             [AXES:1] run_open_o,     // 1: RUN is sampled
-    output logic             [AXES:1] end_delay_o,    // 1: a stopped operation does not end yet
-    output logic                      poll_o          // 1: limits and alarms are sampled in this cycle
+    output action_t                     act_o,          // actions, effective at the next rising edge
+    output logic               [   7:0] code_o,         // code of the actions at the end of a window
+    output logic               [  31:0] params_o,       // data bytes of code_o
+    output logic               [AXES:1] run_open_o,     // 1: RUN is sampled
+    output logic               [AXES:1] end_delay_o,    // 1: a stopped operation does not end yet
+    output logic                        poll_o          // 1: limits and alarms are sampled in this cycle
 );
 
   // Crystal periods: microseconds times 16.
@@ -84,7 +84,7 @@ module ppmc2104_proc_time
     axis_action_t any_act;
     action_t immediate, delayed_q;
     op_code_t op_code;
-    axis_state_t addressed;
+    axis_summary_t addressed;
     logic window_q, begins, past, ends, triangular, unused_bits;
     logic [AXES:1] axis_q, starting_q, halted_q;
     logic [Bits-1:0] limit, limit_q;

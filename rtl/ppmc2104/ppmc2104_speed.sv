@@ -12,13 +12,13 @@ module ppmc2104_speed
 #(
     parameter bit Datasheet = 1'b0
 ) (
-    input  wire logic                 clk_i,
-    input  wire logic                 rst_ni,
-    input  wire logic        [   7:0] code_i,    // code of an operation
-    input  wire logic        [  31:0] params_i,  // data bytes of code_i
-    input  wire axis_state_t [AXES:1] state_i,   // states of both axes
-    input  wire pin_levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
-    output cmd_error_e                error_o    // ErrRateOne, ErrRateTwo or ErrNone
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
+    input  wire logic          [   7:0] code_i,    // code of an operation
+    input  wire logic          [  31:0] params_i,  // data bytes of code_i
+    input  wire axis_summary_t [AXES:1] state_i,   // states of both axes
+    input  wire pin_levels_t   [AXES:1] levels_i,  // inputs of both axes, synchronised
+    output cmd_error_e                  error_o    // ErrRateOne, ErrRateTwo or ErrNone
 );
 
   if (!Datasheet) begin : g_fast
@@ -41,7 +41,7 @@ module ppmc2104_speed
     localparam min_rates_t MinRatesOrigin = '{8'h14, 8'h25, 8'h05, 8'h09};
 
     op_code_t op_code;
-    axis_state_t addressed, other;
+    axis_summary_t addressed, other;
     min_rates_t min_rates;
     logic [RATE_BITS-1:0] rate;
     logic [3:0] below, below_q;  // below: the rate value is below each limit; below_q: one cycle later

@@ -29,7 +29,7 @@ module ppmc_bridge_exec_fv
   bridge_cmd_t bridge_cmd_o;
   logic [3:0] a_o;
   logic count_zero_o;
-  script_result_t script_result_o;
+  script_result_t result_o;
   logic [31:0] counter_q;  // constant here; ppmc_bridge_answer_fv lets it change
 
   `FV_RESET
@@ -67,8 +67,7 @@ module ppmc_bridge_exec_fv
   `FV_ASSUME(start_in_idle, !((start_i || resend_i) && (script_o || answer_o)) && !(start_i && resend_i))
   `FV_ASSUME(answer_of_something, !resend_i || begun_q)
 
-  `FV_ASSERT(answer_stands, !$past(rst_ni && answer_o) || !answer_o || script_result_o == $past
-             (script_result_o))
+  `FV_ASSERT(answer_stands, !$past(rst_ni && answer_o) || !answer_o || result_o == $past(result_o))
   `FV_ASSERT(no_script_with_an_answer, !(script_o && answer_o))
   `FV_ASSERT(bytes_of_the_script_alone, !(begun_q && dut.take) || dut.left_q != '0)
   `FV_ASSERT(
@@ -81,10 +80,9 @@ module ppmc_bridge_exec_fv
              != Loop) || dut.n_q == loop_q - 1'b1)
   `FV_ASSERT(no_wait_for_long, over_q <= 4'd13)
   `FV_ASSERT(bytes_written_when_asked, wr_no || sends)
-  `FV_COVER(
-      seen_a_call,
-      answer_o && script_result_o.result == ResDone && script_result_o.length == 1 && dut.group == OpCall)
-  `FV_COVER(seen_a_timeout, answer_o && script_result_o.result == ResTimeout)
+  `FV_COVER(seen_a_call,
+            answer_o && result_o.result == ResDone && result_o.length == 1 && dut.group == OpCall)
+  `FV_COVER(seen_a_timeout, answer_o && result_o.result == ResTimeout)
 
 endmodule
 
