@@ -95,7 +95,7 @@ module ppmc_bank_plan
 
   ppmc_command_check #(
       .Aux(1'b0)
-  ) u_judge (
+  ) u_check (
       .take_i        (take_o),
       .command_i     (mail_i.command),
       .byte_i        (mail_i.data),

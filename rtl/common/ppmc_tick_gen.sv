@@ -25,7 +25,7 @@ module ppmc_tick_gen #(
   localparam int unsigned Width = ppmc_pkg::cnt_width(Modulus - 1);
 
   if (Modulus < MinCycles * Step) begin : g_check
-    $fatal(1, "ppmc_tick_gen: a tick must last at least %0d clk", MinCycles);
+    $fatal(1, "ppmc_tick_gen: a tick must last at least %0d cycles", MinCycles);
   end
 
   if (Modulus == Step) begin : g_every

@@ -83,7 +83,7 @@ module ppmc_bridge_exec
   logic first_q, written_q, has_read_q;
   logic [3:0] group, low;
   logic system, byte_valid, take;
-  logic system_q, reading_q, sends_q, two_args_q, fetch_q;  // flags of the kind of op; valid after StDecode
+  logic system_q, is_read_q, is_send_q, two_args_q, fetch_q;  // flags of the kind of op; valid after StDecode
 
   assign {group, low} = op_q;
   assign system = group == OpSystem;
@@ -214,15 +214,15 @@ module ppmc_bridge_exec
         if (system_q) begin
           if (bad_arg_q) fail = ResIllegal;
         end else if (group != OpWait && is_zero_q) fail = ResIllegal;
-        else if (sends_q && too_short_q) fail = ResIllegal;
+        else if (is_send_q && too_short_q) fail = ResIllegal;
         else if ((group == OpWait || group == OpCall) && full) fail = ResOverflow;
       end
       StLoop:
       if (byte_valid) begin
         if (is_zero_q) next = group == OpCall ? StPut : StOp;
-        else if (reading_q && full) fail = ResOverflow;
+        else if (is_read_q && full) fail = ResOverflow;
         else if (group == OpPost || group == OpCall || group == OpGet) next = StPoll;
-        else next = fetch_q ? StPut : reading_q ? StRead : StWrite;
+        else next = fetch_q ? StPut : is_read_q ? StRead : StWrite;
       end
       StPoll: if (ready) next = StCompare;
       StCompare:
@@ -245,7 +245,7 @@ module ppmc_bridge_exec
       StWriteEnd: if (done) next = group == OpCall ? StPoll : StLoop;
       StRead: if (ready) next = StReadEnd;
       StReadEnd: if (done) next = StPut;
-      StPut: next = reading_q ? StLoop : StOp;
+      StPut: next = is_read_q ? StLoop : StOp;
       StPause: if (low == SysReset ? n_q[7] : !block) next = StOp;
       default: if (answered_i) next = StIdle;  // StAnswer
     endcase
@@ -285,8 +285,8 @@ module ppmc_bridge_exec
     script_end_q <= left_q == '0;
     system_q <= system;
     fetch_q <= group == OpFetch;
-    reading_q <= group == OpRead || group == OpReadN || group == OpGet || group == OpFetch;
-    sends_q <= group == OpWrite || group == OpWriteN || group == OpPost || group == OpCall;
+    is_read_q <= group == OpRead || group == OpReadN || group == OpGet || group == OpFetch;
+    is_send_q <= group == OpWrite || group == OpWriteN || group == OpPost || group == OpCall;
     two_args_q <= group == OpWait || (system && low == SysTimeout);
     too_short_q <= n_q > left_q;
     is_zero_q <= n_q == '0;

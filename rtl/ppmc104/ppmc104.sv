@@ -100,7 +100,7 @@ module ppmc104
   command_req_t command_req;
   check_result_t check_result;
   logic [31:0] params_late;
-  logic slow_seen, slow_take, stops_only, unused_bits;
+  logic slow_seen, slow_react, stops_only, unused_bits;
   setup_t setup;
   chop_time_t chop;
   action_t act;
@@ -124,7 +124,7 @@ module ppmc104
       .XtalHz   (XTAL_HZ),
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .PhaseIdle(PHASE_IDLE),
-      .Traits   (TRAITS)
+      .PartCfg  (PART_CFG)
   ) u_single (
       .clk_i         (clk),
       .rst_ni        (rst_core_n),
@@ -147,7 +147,7 @@ module ppmc104
       .setup_o       (setup),
       .clock_pin_i   (clock),
       .switches_i    (switches),
-      .slow_i        (slow_take),
+      .slow_i        (slow_react),
       .slow_seen_o   (slow_seen),
       .motion_o      (motion),
       .rate_o        (rate),
@@ -186,7 +186,7 @@ module ppmc104
       .motion_i    (motion),
       .rate_i      (rate),
       .slow_seen_i (slow_seen),
-      .slow_o      (slow_take),
+      .slow_o      (slow_react),
       .stops_only_o(stops_only)
   );
 

@@ -32,7 +32,7 @@ package ppmc104_pkg;
   localparam int unsigned CHOP_ON_VSEL_L = 100;
   localparam int unsigned CHOP_OFF_VSEL_L = 115;
 
-  localparam part_cfg_t TRAITS = '{
+  localparam part_cfg_t PART_CFG = '{
       step_bits: STEP_BITS,
       steps_min: STEPS_MIN,
       steps_max: STEPS_MAX,
@@ -44,7 +44,7 @@ package ppmc104_pkg;
       hold_rest_cycles: 0,
       chop_unit: CHOP_UNIT,
       chop_bits: 9,
-      stmc_ends: 1'b0
+      stmc_stop_rules: 1'b0
   };
 
   // Low three bits of the codes 10 000 xxx that are not read commands.

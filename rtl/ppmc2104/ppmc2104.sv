@@ -118,7 +118,7 @@ module ppmc2104
   logic [AXES:1] collecting, building, window, cmnd, busy;
   logic [23:0] answer;
   logic [AXES:1][23:0] answers;
-  action_t act_taken, act;  // act_taken: requested at the C-event; act: takes effect in this cycle
+  action_t act_req, act;  // act_req: requested at the C-event; act: takes effect in this cycle
   error_report_t error_report;
   cmd_error_e speed;
   cmd_error_e [AXES:1] errors;
@@ -168,7 +168,7 @@ module ppmc2104
       .building_i    (building),
       .speed_i       (speed),
       .collecting_o  (collecting),
-      .act_o         (act_taken),
+      .act_o         (act_req),
       .error_report_o(error_report),
       .code_o        (code),
       .params_o      (params),
@@ -198,7 +198,7 @@ module ppmc2104
   ) u_proc_time (
       .clk_i        (clk),
       .rst_ni       (rst_core_n),
-      .act_i        (act_taken),
+      .act_i        (act_req),
       .code_i       (code),
       .params_i     (params),
       .code_held_i  (code_held),

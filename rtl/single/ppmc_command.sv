@@ -52,7 +52,7 @@ module ppmc_command
   assign code_o = command_i ? byte_i : parser_q.code;
   assign take_o = ready_i && open_i && (!stops_only_i || (command_i && stop));
 
-  ppmc_command_check u_judge (
+  ppmc_command_check u_check (
       .take_i   (take_o),
       .command_i,
       .byte_i,

@@ -18,7 +18,7 @@ module ppmc_single
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0,        // 1: with the processing times of the old chip
     parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
-    parameter part_cfg_t   Traits                   // configuration of the device
+    parameter part_cfg_t   PartCfg                  // configuration of the device
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -63,7 +63,7 @@ module ppmc_single
   logic [7:0] code_late;
   logic [3:0] status;
   logic [23:0] answer, remaining;
-  action_t act_taken;  // act_taken: actions requested at the C-event; act_o: the same when they take effect
+  action_t act_req;  // act_req: actions requested at the C-event; act_o: the same when they take effect
 
   assign rx_byte_o.params_left = status[2:0];
 
@@ -83,7 +83,7 @@ module ppmc_single
       .command_o(is_command),
       .byte_o   (rx_byte_o.data),
       .take_i   (take),
-      .load_i   (act_taken.read),
+      .load_i   (act_req.read),
       .long_i   (check_result_i.select == SEL_REMAINING),
       .answer_i (answer)
   );
@@ -106,7 +106,7 @@ module ppmc_single
       .decelerating_i(motion_o.dec || !motion_o.moving),
       .initialised_i (initialised),
       .status_o      (status),
-      .act_o         (act_taken),
+      .act_o         (act_req),
       .code_o        (command_req_o.code),
       .params_o      (command_req_o.params),
       .code_held_o   (rx_byte_o.code_held),
@@ -118,7 +118,7 @@ module ppmc_single
   op_code_t   op_code;
   init_code_t init_late;
   logic phase_init, ready_init, unused_bits;
-  logic [Traits.step_bits-1:0] steps, lut_data;
+  logic [PartCfg.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
   assign op_code     = op_code_t'(code_late);  // code_late as the code of an operation
@@ -141,14 +141,14 @@ module ppmc_single
   );
 
   ppmc_ramp_table #(
-      .StepBits(Traits.step_bits)
+      .StepBits(PartCfg.step_bits)
   ) u_table (
       .clk_i,
       .rst_ni,
       .start_i(act_o.init),
       .slow_i (check_result_i.setup[7:0]),
       .fast_i (check_result_i.setup[15:8]),
-      .steps_i(check_result_i.setup[16+:Traits.step_bits]),
+      .steps_i(check_result_i.setup[16+:PartCfg.step_bits]),
       .busy_o (building),
       .slow_o (slow),
       .fast_o (fast),
@@ -175,7 +175,7 @@ module ppmc_single
   ppmc_tick_gen #(
       .ClkHz   (ClkHz),
       .XtalHz  (XtalHz),
-      .TickXtal(Traits.quantum_xtal)
+      .TickXtal(PartCfg.quantum_xtal)
   ) u_quantum (
       .clk_i,
       .rst_ni,
@@ -186,14 +186,14 @@ module ppmc_single
   ppmc_axis #(
       .ClkHz      (ClkHz),
       .XtalHz     (XtalHz),
-      .StepBits   (Traits.step_bits),
-      .LevelBits  (ppmc_pkg::cnt_width(Traits.steps_max + 1)),
-      .FastQuanta (Traits.fast_quanta),
-      .SlowQuanta (Traits.slow_quanta),
-      .ExtraQuanta(Traits.extra_quanta),
-      .StopAtSlow (Traits.stmc_ends),
-      .SlowOrigin (Traits.stmc_ends),
-      .PulsePin   (!Traits.stmc_ends)
+      .StepBits   (PartCfg.step_bits),
+      .LevelBits  (ppmc_pkg::cnt_width(PartCfg.steps_max + 1)),
+      .FastQuanta (PartCfg.fast_quanta),
+      .SlowQuanta (PartCfg.slow_quanta),
+      .ExtraQuanta(PartCfg.extra_quanta),
+      .StopAtSlow (PartCfg.stmc_stop_rules),
+      .SlowOrigin (PartCfg.stmc_stop_rules),
+      .PulsePin   (!PartCfg.stmc_stop_rules)
   ) u_axis (
       .clk_i,
       .rst_ni,
@@ -229,14 +229,14 @@ module ppmc_single
       .Datasheet(Datasheet),
       .ClkHz    (ClkHz),
       .XtalHz   (XtalHz),
-      .StepBits (Traits.step_bits),
-      .StepsMin (Traits.steps_min),
-      .StepsMax (Traits.steps_max),
-      .RampTimes(!Traits.stmc_ends)
+      .StepBits (PartCfg.step_bits),
+      .StepsMin (PartCfg.steps_min),
+      .StepsMax (PartCfg.steps_max),
+      .RampTimes(!PartCfg.stmc_stop_rules)
   ) u_proc_time (
       .clk_i,
       .rst_ni,
-      .act_i        (act_taken),
+      .act_i        (act_req),
       .code_i       (command_req_o.code),
       .params_i     (command_req_o.params),
       .code_held_i  (rx_byte_o.code_held),
@@ -265,7 +265,7 @@ module ppmc_single
   // ---- end of a motion, read data, pins ------------------------------------------------------------
 
   ppmc_finish_status #(
-      .UnreadFlag(!Traits.stmc_ends)
+      .UnreadFlag(!PartCfg.stmc_stop_rules)
   ) u_finish (
       .clk_i,
       .rst_ni,
@@ -273,7 +273,7 @@ module ppmc_single
       .op_code_i  (op_code),
       .done_i     (event_now.done),
       .cause_i    (cause),
-      .read_i     (act_taken.read),
+      .read_i     (act_req.read),
       .select_i   (check_result_i.select),
       .remaining_i(remaining),
       .inputs_i,
@@ -284,10 +284,10 @@ module ppmc_single
   );
 
   ppmc_motor_port #(
-      .HoldQuanta(Traits.hold_quanta),
-      .HoldRestCycles(Traits.hold_rest_cycles),
-      .UnitQuanta(Traits.chop_unit),
-      .BaseBits(Traits.chop_bits),
+      .HoldQuanta(PartCfg.hold_quanta),
+      .HoldRestCycles(PartCfg.hold_rest_cycles),
+      .UnitQuanta(PartCfg.chop_unit),
+      .BaseBits(PartCfg.chop_bits),
       .PhaseIdle(PhaseIdle)
   ) u_motor (
       .clk_i,
@@ -304,8 +304,8 @@ module ppmc_single
       .off_i         (act_o.exc_off),
       .chop_i        (setup_o.chop),
       .chop_restart_i(ready_init),
-      .on_base_i     (chop_i.on_base[Traits.chop_bits-1:0]),
-      .off_base_i    (chop_i.off_base[Traits.chop_bits-1:0]),
+      .on_base_i     (chop_i.on_base[PartCfg.chop_bits-1:0]),
+      .off_base_i    (chop_i.off_base[PartCfg.chop_bits-1:0]),
       .on_units_i    (chop_i.on_units),
       .off_units_i   (chop_i.off_units),
       .hold_units_i  (1'b0),

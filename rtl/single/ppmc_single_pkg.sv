@@ -31,7 +31,7 @@ package ppmc_single_pkg;
     // 1: stop and end rules of the J105 STMC. There is no pulse output, so that the last pulse ends the
     // motion. A stop at the start-up rate, and a slow-down limit in an origin search, end the motion
     // immediately. Bit 7 of the finish status is always 1. Ramps have no separate processing times.
-    bit          stmc_ends;
+    bit          stmc_stop_rules;
   } part_cfg_t;
 
   // Current byte and its position in the command.

@@ -109,7 +109,7 @@ module stmc
 
   // ---- decoding of the bytes, shared single-axis core ----------------------------------------------
 
-  localparam part_cfg_t Traits = '{
+  localparam part_cfg_t PartCfg = '{
       step_bits: STEP_BITS,
       steps_min: 32'd0,
       steps_max: STEPS_MAX,
@@ -121,7 +121,7 @@ module stmc
       hold_rest_cycles: HoldRestCycles,
       chop_unit: 0,
       chop_bits: ChopBits,
-      stmc_ends: 1'b1
+      stmc_stop_rules: 1'b1
   };
   localparam chop_time_t Chop = '{on_base: OnQuanta, off_base: OffQuanta, on_units: '0, off_units: '0};
 
@@ -169,7 +169,7 @@ module stmc
       .XtalHz   (XTAL_HZ),
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .PhaseIdle(PHASE_IDLE),
-      .Traits   (Traits)
+      .PartCfg  (PartCfg)
   ) u_single (
       .clk_i         (clk),
       .rst_ni        (rst_core_n),

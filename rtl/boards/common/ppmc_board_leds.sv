@@ -17,7 +17,7 @@ module ppmc_board_leds #(
     output logic      [3:0] leds_o     // 1 = on; bits 3..0: out of reset, switch, motor moves, link
 );
 
-  logic lamp_link;
+  logic led_link;
 
   ppmc_board_reset #(
       .ClkHz(ClkHz)
@@ -30,14 +30,14 @@ module ppmc_board_leds #(
 
   ppmc_board_led_stretch #(
       .ClkHz(ClkHz)
-  ) u_lamp (
+  ) u_led_link (
       .clk_i,
       .rst_ni(rst_no),
       .on_i  (link_i),
-      .led_o (lamp_link)
+      .led_o (led_link)
   );
 
-  assign leds_o = {rst_no, switch_i, moving_i, lamp_link};
+  assign leds_o = {rst_no, switch_i, moving_i, led_link};
 
 endmodule
 

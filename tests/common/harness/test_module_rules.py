@@ -64,12 +64,12 @@ def test_an_active_low_reset(good: str, bad: str, net: str) -> None:
 
 def test_a_number_of_cycles() -> None:
     """A parameter or constant that counts cycles ends in Cycles."""
-    text = "    parameter int unsigned OffClk = 2,\n  localparam int WaitCycles = OffClk;\n"
-    assert name_findings("x.sv", text) == ["x.sv: OffClk: use the suffix Cycles, not Clk"]
-    assert name_findings("x.sv", "  localparam int unsigned MsClk = ClkHz / 1000;\n") == [
-        "x.sv: MsClk: use the suffix Cycles, not Clk"
+    text = "    parameter int unsigned EdgeClk = 2,\n  localparam int WaitCycles = EdgeClk;\n"
+    assert name_findings("x.sv", text) == ["x.sv: EdgeClk: use the suffix Cycles, not Clk"]
+    assert name_findings("x.sv", "  localparam int unsigned StepClk = ClkHz / 1000;\n") == [
+        "x.sv: StepClk: use the suffix Cycles, not Clk"
     ]
-    assert name_findings("x.sv", "  localparam int unsigned ClkHz = 1;  // not OffClk = 1\n") == []
+    assert name_findings("x.sv", "  localparam int unsigned ClkHz = 1;  // not EdgeClk = 1\n") == []
 
 
 @pytest.mark.parametrize("comment", ["it", "the same", "This one.", "what", "when", "where", "and its level"])
