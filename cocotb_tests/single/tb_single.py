@@ -59,13 +59,13 @@ BLOCKS = {
         for idle in (0, 1)
     },
     **{
-        f"finish{fresh}": Block(
+        f"finish{unread_flag}": Block(
             "ppmc_finish_status",
             "start_i op_code_i:8:ppmc_code_pkg::op_code_t done_i cause_i:4 read_i select_i:3 remaining_i:24"
             " inputs_i:8 outputs_i:8 auxi_i:4 answer_o:24 int_no",
-            {"Fresh": fresh},
+            {"UnreadFlag": unread_flag},
         )
-        for fresh in (0, 1)
+        for unread_flag in (0, 1)
     },
     "fast": Block("ppmc_proc_time", PROC_TIME_PORTS.format(steps=14)),
     **{
@@ -198,11 +198,11 @@ async def setup_frozen(dut, idle):
 
 
 @cocotb.test()
-@cocotb.parametrize(fresh=[0, 1])
-async def finish_answers(dut, fresh):
+@cocotb.parametrize(unread_flag=[0, 1])
+async def finish_answers(dut, unread_flag):
     """For random motions and reads, status, answers and interrupt are those of the rules."""
     rand = rng()
-    u = Unit(dut, f"finish{fresh}", BLOCKS, "answer_o int_no")
+    u = Unit(dut, f"finish{unread_flag}", BLOCKS, "answer_o int_no")
     await u.reset()
     unread, silent, op, pending = 0, 0, 0, 0
     for n in range(800):
@@ -213,7 +213,7 @@ async def finish_answers(dut, fresh):
         answer, int_n = await u.settle(
             op_code_i=code, start_i=what == "start", done_i=what == "done", read_i=what == "read", **pins
         )
-        bit7 = unread if fresh else 1
+        bit7 = unread if unread_flag else 1
         shown = {
             0: bit7 << 7 | pins["cause_i"] << 3 | op,
             1: pins["inputs_i"],

@@ -131,7 +131,7 @@ module ppmc_axis_fv
   `FV_ASSERT(lemma_count_gap, !motion_o.moving || gap_q != '0)
   logic lemma_count_width_holds;
   assign lemma_count_width_holds =
-      !near || (!dut.up && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 &&
+      !near || (!dut.width_past && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 &&
       dut.u_shaper.age_q == Second)));
   `FV_ASSERT(lemma_count_width, lemma_count_width_holds)
   `FV_ASSERT(lemma_count_quanta,
