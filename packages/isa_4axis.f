@@ -22,10 +22,10 @@
 ../rtl/motion/ppmc_ramp_pkg.sv
 ../rtl/motion/ppmc_base_clock.sv
 ../rtl/motion/ppmc_ext_clock.sv
-../rtl/motion/ppmc_ext_lag.sv
+../rtl/motion/ppmc_ext_extra_time.sv
 ../rtl/motion/ppmc_rate_counter.sv
 ../rtl/motion/ppmc_pulse_shaper.sv
-../rtl/motion/ppmc_stop_guard.sv
+../rtl/motion/ppmc_stop_monitor.sv
 ../rtl/motion/ppmc_ramp_divide.sv
 ../rtl/motion/ppmc_ramp_serial.sv
 ../rtl/motion/ppmc_ramp_builder.sv
@@ -65,7 +65,7 @@
 ../rtl/ppmc2104/ppmc2104_command.sv
 ../rtl/ppmc2104/ppmc2104_report.sv
 ../rtl/ppmc2104/ppmc2104_speed.sv
-../rtl/ppmc2104/ppmc2104_pace.sv
+../rtl/ppmc2104/ppmc2104_proc_time.sv
 ../rtl/ppmc2104/ppmc2104_setup.sv
 ../rtl/ppmc2104/ppmc2104_axis.sv
 ../rtl/ppmc2104/ppmc2104.sv

@@ -22,10 +22,10 @@
 ../rtl/motion/ppmc_ramp_pkg.sv
 ../rtl/motion/ppmc_base_clock.sv
 ../rtl/motion/ppmc_ext_clock.sv
-../rtl/motion/ppmc_ext_lag.sv
+../rtl/motion/ppmc_ext_extra_time.sv
 ../rtl/motion/ppmc_rate_counter.sv
 ../rtl/motion/ppmc_pulse_shaper.sv
-../rtl/motion/ppmc_stop_guard.sv
+../rtl/motion/ppmc_stop_monitor.sv
 ../rtl/motion/ppmc_ramp_divide.sv
 ../rtl/motion/ppmc_ramp_serial.sv
 ../rtl/motion/ppmc_ramp_builder.sv
@@ -70,6 +70,6 @@
 ../rtl/pmc006/instructions/pmc006_control.sv
 ../rtl/pmc006/pmc006.sv
 ../rtl/boards/common/ppmc_board_reset.sv
-../rtl/boards/common/ppmc_board_lamp.sv
-../rtl/boards/common/ppmc_board_panel.sv
+../rtl/boards/common/ppmc_board_led_stretch.sv
+../rtl/boards/common/ppmc_board_leds.sv
 ../rtl/pmc006/pmc006_carrier.sv

@@ -22,10 +22,10 @@
 ../rtl/motion/ppmc_ramp_pkg.sv
 ../rtl/motion/ppmc_base_clock.sv
 ../rtl/motion/ppmc_ext_clock.sv
-../rtl/motion/ppmc_ext_lag.sv
+../rtl/motion/ppmc_ext_extra_time.sv
 ../rtl/motion/ppmc_rate_counter.sv
 ../rtl/motion/ppmc_pulse_shaper.sv
-../rtl/motion/ppmc_stop_guard.sv
+../rtl/motion/ppmc_stop_monitor.sv
 ../rtl/motion/ppmc_ramp_divide.sv
 ../rtl/motion/ppmc_ramp_serial.sv
 ../rtl/motion/ppmc_ramp_builder.sv

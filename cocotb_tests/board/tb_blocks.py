@@ -1,4 +1,4 @@
-"""Contracts of ppmc_board_reset and ppmc_board_lamp, as their headers state them."""
+"""Contracts of ppmc_board_reset and ppmc_board_led_stretch, as their headers state them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import cocotb
 from cocotb_tests.harness import Block, Unit, rng, same
 
 RESETS = [(1_000_000, 20), (3_000_000, 7), (24_000_000, 2), (50_000_000, 1)]  # ClkHz, HoldUs
-LAMP_CLK_HZ = 1_000_000
+LED_CLK_HZ = 1_000_000
 BLOCKS = {
     **{
         f"reset{i}": Block(
@@ -15,7 +15,7 @@ BLOCKS = {
         )
         for i, (clk, hold) in enumerate(RESETS)
     },
-    "lamp": Block("ppmc_board_lamp", "on_i lamp_o", {"ClkHz": LAMP_CLK_HZ}),
+    "led": Block("ppmc_board_led_stretch", "on_i led_o", {"ClkHz": LED_CLK_HZ}),
 }
 
 
@@ -74,17 +74,17 @@ async def board_reset_assertion(dut):
 
 
 @cocotb.test()
-async def board_lamp_stretch(dut):
+async def board_led_stretch(dut):
     """A single-cycle pulse lights the LED for 1/32 to 1/16 s, and a new pulse during this time extends
     it.
     """
-    unit = Unit(dut, "lamp", BLOCKS, "lamp_o")
+    unit = Unit(dut, "led", BLOCKS, "led_o")
     await unit.reset()
     same("after reset", await unit.clk(on_i=0), 0)
     await unit.clk(on_i=1)
-    lit, again = 0, LAMP_CLK_HZ // 64
+    lit, again = 0, LED_CLK_HZ // 64
     while await unit.clk(on_i=int(lit == again)):
         lit += 1
-        assert lit < LAMP_CLK_HZ, "lamp stays on"
-    least = LAMP_CLK_HZ // 32
+        assert lit < LED_CLK_HZ, "LED stays on"
+    least = LED_CLK_HZ // 32
     assert least + again <= lit <= 2 * least + again + 2, f"{lit} clk"

@@ -26,7 +26,7 @@ RTL = ROOT / "rtl" / "boards"
 # values 0, as in an FPGA: they make the power-on reset of the top, which has no pin that could make an edge
 # of its reset before the first rising edge of `clk`.
 ARGS = ("--output-split", "0", "--x-initial", "0")
-SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "led_stretch", "leds")]
 
 
 @pytest.mark.parametrize("item", BLOCK_ITEMS)

@@ -54,7 +54,7 @@ BLOCKS = {
         f"tick{i}": Block(
             "ppmc_tick_gen",
             "restart_i tick_o",
-            {"ClkHz": clk, "XtalHz": xtal, "TickXtal": step, "MinClk": 1 + (step * clk >= 2 * xtal)},
+            {"ClkHz": clk, "XtalHz": xtal, "TickXtal": step, "MinCycles": 1 + (step * clk >= 2 * xtal)},
         )
         for i, (clk, xtal, step) in enumerate(TICKS)
     },

@@ -42,27 +42,31 @@ BLOCKS = {
     },
     **{
         f"ext{i}": Block(
-            "ppmc_ext_clock", "pin_i rise_o fall_o long_o brisk_o", {"LongClk": long, "BriskClk": brisk}
+            "ppmc_ext_clock",
+            "pin_i rise_o fall_o long_period_o short_period_o",
+            {"LongPeriodCycles": long, "ShortPeriodCycles": short},
         )
-        for i, (long, brisk) in enumerate(EXTERNAL)
+        for i, (long, short) in enumerate(EXTERNAL)
     },
     **{
         f"lag{lag}": Block(
-            "ppmc_ext_lag", "en_i restart_i edge_i long_i hit_i count_o fire_o", {"LagClk": lag}
+            "ppmc_ext_extra_time",
+            "en_i restart_i edge_i long_period_i hit_i count_o fire_o",
+            {"ExtraCycles": lag},
         )
         for lag in LAGS
     },
     **{
         f"shape{i}": Block(
             "ppmc_pulse_shaper",
-            "arm_i pulse_i full_i halve_i rate_i:8 cut_i low_o up_o",
+            "arm_i pulse_i full_i halve_i rate_i:8 cut_i low_o past_o",
             {"ClkHz": clk, "XtalHz": xtal, "WidthXtal": width, "HalfXtal": half, "HalfRates": rates},
         )
         for i, (clk, xtal, width, half, rates) in enumerate(SHAPES)
     },
     **{
         f"hold{quanta}": Block(
-            "ppmc_hold_timer", "busy_i quantum_i units_i hold_o", {"Quanta": quanta, "RestClk": rest}
+            "ppmc_hold_timer", "busy_i quantum_i units_i hold_o", {"Quanta": quanta, "RestCycles": rest}
         )
         for quanta, rest in HOLDS
     },
@@ -83,22 +87,22 @@ BLOCKS = {
     "count": Block("ppmc_pulse_counter", "clear_i pout_ni dir_i count_o:4", {"Width": 4}),
     "excitation": Block(
         "ppmc_excitation",
-        "motor_i:2:ppmc_motion_pkg::motor_e half_i home_i off_i step_i ccw_i pattern_o:5",
+        "motor_i:2:ppmc_motion_pkg::motor_e half_i phase_init_i off_i step_i ccw_i pattern_o:5",
     ),
     **{
         f"port{idle}": Block(
             "ppmc_motor_port",
-            "busy_i low_i step_i ccw_i quantum_i motor_i:2:ppmc_motion_pkg::motor_e half_i positive_i home_i"
-            " off_i chop_i chop_restart_i on_base_i:9 off_base_i:9 on_units_i:8 off_units_i:8 hold_units_i"
-            " levels_o:5 s_o:5 hold_o pout_no dir_o",
+            "busy_i low_i step_i ccw_i quantum_i motor_i:2:ppmc_motion_pkg::motor_e half_i positive_i"
+            " phase_init_i off_i chop_i chop_restart_i on_base_i:9 off_base_i:9 on_units_i:8 off_units_i:8"
+            " hold_units_i levels_o:5 s_o:5 hold_o pout_no dir_o",
             {"HoldQuanta": 6, "PhaseIdle": idle},
         )
         for idle in (0, 1)
     },
     **{
         f"guard{variant}": Block(
-            "ppmc_stop_guard",
-            "clear_i complete_i armed_i op_i:5 switches_i:6 top_i crawl_i dec_i halt_i decel_i slow_i"
+            "ppmc_stop_monitor",
+            "clear_i complete_i armed_i op_i:5 switches_i:6 top_i at_start_rate_i dec_i halt_i decel_i slow_i"
             " slow_seen_o stop_o forced_o flagged_o cause_o:4",
             {"StopAtSlow": min(variant, 1), "SlowAlways": min(variant, 1), "SlowOrigin": variant // 2},
         )
@@ -201,10 +205,10 @@ async def rate_counter_final_rate(dut):
 
 @cocotb.test()
 async def ext_clock_thresholds(dut):
-    """For periods around both thresholds, long_o and brisk_o switch in the exact cycle."""
+    """For periods around both thresholds, long_period_o and short_period_o switch in the exact cycle."""
     rand = rng()
-    for i, (long, brisk) in enumerate(EXTERNAL):
-        u = Unit(dut, f"ext{i}", BLOCKS, "rise_o fall_o long_o brisk_o")
+    for i, (long, short) in enumerate(EXTERNAL):
+        u = Unit(dut, f"ext{i}", BLOCKS, "rise_o fall_o long_period_o short_period_o")
         for rest in (0, 1):
             await u.reset(pin_i=rest)
             for n in range(6):
@@ -213,7 +217,7 @@ async def ext_clock_thresholds(dut):
             await u.clk(pin_i=0)
             await u.clk()
             await u.clk()
-            edges = [brisk - 1, brisk, brisk + 1, long - 1, long, long + 1, 2 * long, 3 * long + 7, 2, 3, 5]
+            edges = [short - 1, short, short + 1, long - 1, long, long + 1, 2 * long, 3 * long + 7, 2, 3, 5]
             levels, last = [0, 0, 0], None
             periods = [*edges, *rand.sample(edges, len(edges)), *edges]
             wave = [
@@ -223,20 +227,20 @@ async def ext_clock_thresholds(dut):
                 for level in [1] * high + [0] * (p - high)
             ]
             for t, level in enumerate([*wave, 1, 1, 1]):
-                rise, fall, is_long, is_brisk = await u.clk(pin_i=level)
+                rise, fall, is_long, is_short = await u.clk(pin_i=level)
                 due = levels[-2] and not levels[-3]
                 same(f"clk {t}: rise, fall", (rise, fall), (due, levels[-3] and not levels[-2]))
                 if rise:
                     period = 10**9 if last is None else t - last
-                    where = f"{EXTERNAL[i]}, period {period}: long, brisk"
-                    same(where, (is_long, is_brisk), (period > long, period < brisk))
+                    where = f"{EXTERNAL[i]}, period {period}: long, short"
+                    same(where, (is_long, is_short), (period > long, period < short))
                     last = t
                 levels.append(level)
 
 
 @cocotb.test()
 async def ext_lag_sum(dut):
-    """If the first base edge is d cycles after the pulse, the interval ends LagClk - d cycles after its
+    """If the first base edge is d cycles after the pulse, the interval ends ExtraCycles - d cycles after its
     hit.
     """
     rand = rng()
@@ -246,12 +250,12 @@ async def ext_lag_sum(dut):
         for d in [0, 1, 2, lag - 1, lag, lag + 1, 3 * lag, *(rand.randint(0, lag) for _ in range(25))]:
             enabled, long, wait = rand.random() < 0.8, rand.random() < 0.2, rand.randint(1, lag + 20)
             where = f"lag {lag}, d {d}, enabled {enabled}, long {long}, hit {wait} later"
-            await u.clk(en_i=enabled, restart_i=1, edge_i=d == 0, hit_i=0, long_i=0)
+            await u.clk(en_i=enabled, restart_i=1, edge_i=d == 0, hit_i=0, long_period_i=0)
             hit = d + wait
             due = hit + (max(lag - d, 0) if enabled and not long else 0)
             for t in range(1, due + 1):
                 is_edge = t in (d, hit)
-                got = await u.clk(restart_i=0, edge_i=is_edge, hit_i=t == hit, long_i=is_edge and long)
+                got = await u.clk(restart_i=0, edge_i=is_edge, hit_i=t == hit, long_period_i=is_edge and long)
                 same(f"{where}, clk {t}: count, fire", got, (t > d or not enabled, t == due))
 
 
@@ -260,7 +264,7 @@ async def pulse_shaper_width(dut):
     """For pulses of all kinds the low time is exact: the full time, half an interval, or cut."""
     rand = rng()
     for i, (clk, xtal, width, half, rates) in enumerate(SHAPES):
-        u = Unit(dut, f"shape{i}", BLOCKS, "low_o up_o")
+        u = Unit(dut, f"shape{i}", BLOCKS, "low_o past_o")
         whole = ceil(Fraction(width * clk, xtal))
         await u.reset()
         for n in range(60):
@@ -393,15 +397,15 @@ async def excitation_walks(dut):
             await u.reset(motor_i=phases - 2, half_i=half)
             same("reset: nothing on", await u.clk(), 0)
             index, on = 0, False
-            await u.clk(home_i=1)
+            await u.clk(phase_init_i=1)
             on = True
-            u.put(home_i=0)
+            u.put(phase_init_i=0)
             ccw = 0
             for n in range(400):
                 ccw ^= rand.random() < 0.15
                 step, off, home = rand.random() < 0.7, rand.random() < 0.01, rand.random() < 0.02
                 step = step and on
-                got = await u.clk(step_i=step, off_i=off, home_i=home and not off, ccw_i=ccw)
+                got = await u.clk(step_i=step, off_i=off, phase_init_i=home and not off, ccw_i=ccw)
                 same(f"{phases} phases, half {half}, clk {n}, index {index}", got, steps[index] if on else 0)
                 if off or home:
                     index, on = 0, not off
@@ -411,16 +415,16 @@ async def excitation_walks(dut):
 
 @cocotb.test()
 async def excitation_off_steps(dut):
-    """After the phases were switched off, full steps energise no phase until home_i."""
+    """After the phases were switched off, full steps energise no phase until phase_init_i."""
     u = Unit(dut, "excitation", BLOCKS, "pattern_o")
     for motor in (1, 2, 3):
         await u.reset(motor_i=motor)
-        await u.clk(home_i=1)
-        await u.clk(home_i=0, off_i=1)
+        await u.clk(phase_init_i=1)
+        await u.clk(phase_init_i=0, off_i=1)
         for _ in range(7):
             same("off", await u.clk(off_i=0, step_i=1), 0)
-        await u.clk(home_i=1, step_i=0)
-        same("home", await u.clk(home_i=0), 3)
+        await u.clk(phase_init_i=1, step_i=0)
+        same("home", await u.clk(phase_init_i=0), 3)
 
 
 @cocotb.test()
@@ -434,13 +438,13 @@ async def motor_port_pins(dut, idle):
     same("hold_o after reset", u.get("hold_o"), 1)
     for _ in range(4):
         same("idle levels", await u.clk(), (off, 1, 0, off))
-    await u.clk(home_i=1, chop_restart_i=1, chop_i=1)
+    await u.clk(phase_init_i=1, chop_restart_i=1, chop_i=1)
     index, before = 0, (off, 1, 0)
     for n in range(300):
         busy = 100 <= n < 200
         step, low, ccw = busy and rand.random() < 0.3, rand.randrange(2), rand.randrange(2)
         got = await u.clk(
-            home_i=0, chop_restart_i=0, busy_i=busy, step_i=step, low_i=low, ccw_i=ccw, off_i=n == 299
+            phase_init_i=0, chop_restart_i=0, busy_i=busy, step_i=step, low_i=low, ccw_i=ccw, off_i=n == 299
         )
         same(f"clk {n}: pins, levels", got, (*before, steps[index] ^ off))
         # Phases are on during a motion; else on for 3 quanta and off for 2. The first ON phase begins at
@@ -473,12 +477,12 @@ def guard(
         return 0, 0, flagged, (0, 0, 0, 0)
     seen = int(bool(slow and (variant or p["top"] or not p["pout_only"])))
     forced = int(p["slow"] or p["decel"])
-    return seen, int(bool(variant and p["crawl"] and forced)), forced, (p["decel"], 0, 0, p["slow"])
+    return seen, int(bool(variant and p["at_start_rate"] and forced)), forced, (p["decel"], 0, 0, p["slow"])
 
 
 OP = ("ramp", "single", "origin", "pout_only", "ccw")
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "home", "alarm")
-PLAIN = ("armed", "top", "crawl", "dec", "halt", "decel", "slow")
+PLAIN = ("armed", "top", "at_start_rate", "dec", "halt", "decel", "slow")
 
 
 def guard_pins(p: dict[str, int], name: str) -> dict[str, int]:
@@ -501,7 +505,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
     await u.reset()
     if flagged:
         await u.clk(armed_i=1, op_i=0b10000, decel_i=1)
-    without = ("single",) if variant else ("single", "crawl")
+    without = ("single",) if variant else ("single", "at_start_rate")
     names = [name for name in (*OP, *SWITCHES, *PLAIN) if name not in without]
     p = dict.fromkeys((*OP, *SWITCHES, *PLAIN), 0)
     await u.settle(armed_i=0, op_i=0, decel_i=0)

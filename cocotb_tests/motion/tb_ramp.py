@@ -35,14 +35,16 @@ BLOCKS = {
     "seq": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:14 load_i count_i:24 single_i rate_i:8 ramp_i"
-        " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
+        " pulse_i forced_i rate_o:8 lookup_busy_o rising_o last_o final_o top_o at_start_rate_o dec_o"
+        " left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 14, "LutBits": 14},
     ),
     # The width is one bit more than the words of the table, for the longest ramp that they can hold.
     "wide": Block(
         "ppmc_ramp_seq",
         "slow_i:8 fast_i:8 lut_addr_o:8 lut_data_i:4 load_i count_i:24 single_i rate_i:8 ramp_i"
-        " pulse_i forced_i rate_o:8 seek_o rising_o last_o final_o top_o crawl_o dec_o left_o:24",
+        " pulse_i forced_i rate_o:8 lookup_busy_o rising_o last_o final_o top_o at_start_rate_o dec_o"
+        " left_o:24",
         {"CountBits": 24, "RateBits": 8, "StepBits": 5, "LutBits": 4},
     ),
 }
@@ -235,23 +237,23 @@ class Walker:
                 self.u.put(forced_i=1)
             rest = 0
             while rest < 3 + rand.randrange(3):
-                rate, seek, *_, rising = await self.clk()
+                rate, lookup_busy, *_, rising = await self.clk()
                 if kp >= 0 and not rising:
                     same(f"{where}, pulse {j}: rate when final", rate, ramp_rate(slow, fast, steps, kp))
-                rest = 0 if seek else rest + 1
+                rest = 0 if lookup_busy else rest + 1
             forced = j >= forced_at
-            rate, seek, last, final, top, slows, left, _ = await self.u.settle(forced_i=forced)
-            crawl = self.u.get("crawl_o")
+            rate, lookup_busy, last, final, top, slows, left, _ = await self.u.settle(forced_i=forced)
+            at_start_rate = self.u.get("at_start_rate_o")
             k = next_index(kp, n - j, steps, forced)
             at = f"{where}, pulse {j}"
-            same(f"{at}: seek, last, final", (seek, last, final), (0, k is None, j == n))
+            same(f"{at}: lookup_busy, last, final", (lookup_busy, last, final), (0, k is None, j == n))
             same(f"{at}: left", left, n - j)
             same(f"{at}: top", top, kp == steps)
             if not forced:
                 same(f"{at}: natural deceleration", slows, dec)
                 if not dec:
                     want = kp < 0 or ramp_rate(slow, fast, steps, kp) == slow
-                    same(f"{at}: still at the start-up rate", crawl, want)
+                    same(f"{at}: still at the start-up rate", at_start_rate, want)
             if kp >= 0:
                 same(f"{at}: rate of index {kp}", rate, ramp_rate(slow, fast, steps, kp))
             await self.clk(pulse_i=1)
@@ -277,7 +279,7 @@ class Walker:
 async def ramp_seq_walks(dut):
     """For random ramps, pulse counts and stop times, rates and counts are those of the model."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
+    u = Unit(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
     for case in range(60):
         steps = rand.randint(4, 24)
@@ -291,7 +293,7 @@ async def ramp_seq_walks(dut):
 async def ramp_seq_longest(dut):
     """A move on the longest ramp of the table accelerates, holds its speed and decelerates correctly."""
     rand = rng()
-    u = Unit(dut, "wide", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
+    u = Unit(dut, "wide", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
     for n, forced_at in ((33, 34), (40, 41), (60, 25), (31, 32), (60, 17)):
         slow = rand.choice((20, 90, 254))
@@ -302,7 +304,7 @@ async def ramp_seq_longest(dut):
 async def ramp_seq_constant(dut):
     """For constant speed and single steps, the rate is the loaded one and the count runs to its end."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, "rate_o seek_o last_o final_o top_o dec_o left_o rising_o")
+    u = Unit(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset(slow_i=200, fast_i=10, ramp_i=0)
     for n, single in ((1, 0), (2, 0), (40, 0), (16_777_216, 1), (70_000, 0)):
         rate = rand.getrandbits(8)

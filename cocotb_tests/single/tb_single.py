@@ -1,4 +1,4 @@
-"""Contracts of the blocks of the parts with one axis: ppmc_command, ppmc_setup, ppmc_finish, ppmc_pace."""
+"""Contracts of ppmc_command, ppmc_setup, ppmc_finish_status and ppmc_proc_time (parts with one axis)."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ CODES = [
     (0xC2, "aux_off", 0),
     (0xFF, "undefined", 0),
 ]
-PACE_PORTS = (
+PROC_TIME_PORTS = (
     "act_i:10:ppmc_code_pkg::action_t code_i:8 params_i:32 code_held_i:8 params_held_i:32 base_i:3 open_o"
-    " act_o:10 code_o:8 params_o:32 base_o:3 initialised_i building_i steps_i:{steps} home_o ready_o ramp_i"
-    " single_i stop_i pulse_i last_i final_i go_o linger_o"
+    " act_o:10 code_o:8 params_o:32 base_o:3 initialised_i building_i steps_i:{steps} phase_init_o ready_o"
+    " ramp_i single_i stop_i pulse_i last_i final_i go_o end_delay_o"
 )
 # Name -> clock, crystal, bits of PA, minimum and maximum of PA, whether forced decelerations and triangular
 # profiles are timed.
-PACES = {
+VARIANTS = {
     "sister": (16_000_000, 16_000_000, 14, 4, 11_220, 1),
     "plain": (11_059_200, 16_000_000, 16, 0, 65_535, 0),
     "quick": (8_000_000, 20_000_000, 16, 0, 65_535, 0),
@@ -46,32 +46,32 @@ BLOCKS = {
     "command": Block(
         "ppmc_command",
         "ready_i command_i byte_i:8 open_i stops_only_i take_o decoded_i:7:ppmc_code_pkg::decoded_t data_i:8"
-        " value_i:3:ppmc_code_pkg::error_e judged_i busy_i ramp_i decelerating_i initialised_i status_o:4"
-        " act_o:10 code_o:8 params_o:32 code_held_o:8 params_held_o:32",
+        " param_error_i:3:ppmc_code_pkg::cmd_error_e is_checked_i busy_i ramp_i decelerating_i initialised_i"
+        " status_o:4 act_o:10 code_o:8 params_o:32 code_held_o:8 params_held_o:32",
     ),
     **{
         f"setup{idle}": Block(
             "ppmc_setup",
-            "init_i code_i:8:ppmc_code_pkg::init_code_t home_i positive_i ready_i off_i setup_o:6"
+            "init_i code_i:8:ppmc_code_pkg::init_code_t phase_init_i positive_i ready_i off_i setup_o:6"
             " initialised_o",
             {"PhaseIdle": idle},
         )
         for idle in (0, 1)
     },
     **{
-        f"finish{fresh}": Block(
-            "ppmc_finish",
+        f"finish{unread_flag}": Block(
+            "ppmc_finish_status",
             "start_i op_code_i:8:ppmc_code_pkg::op_code_t done_i cause_i:4 read_i select_i:3 remaining_i:24"
             " inputs_i:8 outputs_i:8 auxi_i:4 answer_o:24 int_no",
-            {"Fresh": fresh},
+            {"UnreadFlag": unread_flag},
         )
-        for fresh in (0, 1)
+        for unread_flag in (0, 1)
     },
-    "fast": Block("ppmc_pace", PACE_PORTS.format(steps=14)),
+    "fast": Block("ppmc_proc_time", PROC_TIME_PORTS.format(steps=14)),
     **{
-        f"pace_{name}": Block(
-            "ppmc_pace",
-            PACE_PORTS.format(steps=bits),
+        f"proc_time_{name}": Block(
+            "ppmc_proc_time",
+            PROC_TIME_PORTS.format(steps=bits),
             {
                 "Datasheet": 1,
                 "ClkHz": clk,
@@ -82,7 +82,7 @@ BLOCKS = {
                 "RampTimes": timed,
             },
         )
-        for name, (clk, xtal, bits, low, high, timed) in PACES.items()
+        for name, (clk, xtal, bits, low, high, timed) in VARIANTS.items()
     },
 }
 
@@ -131,8 +131,8 @@ async def command_random(dut):
             state["busy_i"] = 0  # no other command collects parameters during a motion
         decoded = KINDS.index(new_kind) << 3 | params
         gate = {"open_i": rand.random() < 0.8, "stops_only_i": rand.random() < 0.2}
-        state["judged_i"] = rand.random() < 0.8
-        u.put(command_i=is_command, byte_i=byte, data_i=kept, value_i=value, decoded_i=decoded, **state)
+        state["is_checked_i"] = rand.random() < 0.8
+        u.put(command_i=is_command, byte_i=byte, data_i=kept, param_error_i=value, decoded_i=decoded, **state)
         got = await u.clk(ready_i=0, **gate)
         same(f"byte {n}: nothing without ready_i", got, (0, 0))
         takes = gate["open_i"] and (not gate["stops_only_i"] or (is_command and new_kind in STOPS))
@@ -145,7 +145,7 @@ async def command_random(dut):
             error, number = 1, 6 if state["busy_i"] else 3
         elif takes:
             data.append(kept)
-            if number == 1 and value and state["judged_i"]:
+            if number == 1 and value and state["is_checked_i"]:
                 error, number = 1, value
             else:
                 number -= 1
@@ -182,11 +182,11 @@ async def setup_frozen(dut, idle):
         await u.clk(init_i=1, code_i=code)
         if not ready:
             half, motor = code >> 2 & 1, code & 3
-            u.put(home_i=1, positive_i=code >> 3 & 1)
+            u.put(phase_init_i=1, positive_i=code >> 3 & 1)
             positive = code >> 3 & 1
         await u.clk(init_i=0, code_i=rand.getrandbits(8))
         tail = external << 5 | positive << 3 | half << 2 | motor
-        got = await u.settle(home_i=0, positive_i=rand.randrange(2))
+        got = await u.settle(phase_init_i=0, positive_i=rand.randrange(2))
         same(f"{n}: before it is complete", got, (tail | chop << 4, ready))
         await u.clk(ready_i=1)
         chop, ready = code >> 5 & 1, 1
@@ -198,11 +198,11 @@ async def setup_frozen(dut, idle):
 
 
 @cocotb.test()
-@cocotb.parametrize(fresh=[0, 1])
-async def finish_answers(dut, fresh):
+@cocotb.parametrize(unread_flag=[0, 1])
+async def finish_answers(dut, unread_flag):
     """For random motions and reads, status, answers and interrupt are those of the rules."""
     rand = rng()
-    u = Unit(dut, f"finish{fresh}", BLOCKS, "answer_o int_no")
+    u = Unit(dut, f"finish{unread_flag}", BLOCKS, "answer_o int_no")
     await u.reset()
     unread, silent, op, pending = 0, 0, 0, 0
     for n in range(800):
@@ -213,7 +213,7 @@ async def finish_answers(dut, fresh):
         answer, int_n = await u.settle(
             op_code_i=code, start_i=what == "start", done_i=what == "done", read_i=what == "read", **pins
         )
-        bit7 = unread if fresh else 1
+        bit7 = unread if unread_flag else 1
         shown = {
             0: bit7 << 7 | pins["cause_i"] << 3 | op,
             1: pins["inputs_i"],
@@ -248,15 +248,15 @@ async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
 
 
 @cocotb.test()
-async def pace_fast(dut):
+async def proc_time_fast(dut):
     """In FAST, actions pass in the same cycle; an initialisation is complete with its table."""
-    u = Unit(dut, "fast", BLOCKS, "act_o open_o go_o linger_o home_o ready_o")
+    u = Unit(dut, "fast", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o")
     await u.reset()
     for name in ACTIONS:
-        home = name == "init"
+        phase_init = name == "init"
         got = await u.clk(act_i=action(name), initialised_i=0)
-        same(name, got, (action(name), 1, 1, 0, int(home), 0))
-    same("no home once initialised", (await u.clk(act_i=action("init"), initialised_i=1))[4], 0)
+        same(name, got, (action(name), 1, 1, 0, int(phase_init), 0))
+    same("no phase_init once initialised", (await u.clk(act_i=action("init"), initialised_i=1))[4], 0)
     u.put(act_i=0)
     for _ in range(5):
         same("closed while the table is built", (await u.clk(building_i=1))[1], 0)
@@ -265,11 +265,13 @@ async def pace_fast(dut):
 
 
 @cocotb.test()
-@cocotb.parametrize(name=list(PACES))
-async def pace_datasheet(dut, name):
+@cocotb.parametrize(name=list(VARIANTS))
+async def proc_time_datasheet(dut, name):
     """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their times."""
-    clk, xtal, bits, low, high, timed = PACES[name]
-    u = Unit(dut, f"pace_{name}", BLOCKS, "act_o open_o go_o linger_o home_o ready_o", Unit.FREE)
+    clk, xtal, bits, low, high, timed = VARIANTS[name]
+    u = Unit(
+        dut, f"proc_time_{name}", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o", Unit.FREE
+    )
     await u.reset()
 
     def cyc(microseconds: float) -> int:
@@ -281,7 +283,7 @@ async def pace_datasheet(dut, name):
     # One cycle later the command unit outputs the bytes a byte lower, followed by the present byte.
     await u.clk(act_i=0, params_i=0xA5 << 24 | steps << 8)
     await u.settle(params_i=0)
-    same("phases", await u.run_until("home_o", 1), cyc(44) - 1)
+    same("phases", await u.run_until("phase_init_o", 1), cyc(44) - 1)
     whole = ceil((264_000 + 209 * (steps - low)) * clk / xtal)
     same("initialisation", await u.run_until("ready_o", 1), whole - cyc(44))
     same("closed", u.get("open_o"), 0)
@@ -319,7 +321,7 @@ async def pace_datasheet(dut, name):
                 same(f"{where}: lingers, closed", (await u.settle(pulse_i=0, last_i=0))[1::2][:2], (0, 1))
                 await u.clk()
             slow = ramp and end != "normal"
-            same(f"{where}: end", await u.run_until("linger_o", 0), cyc(200 if slow else 26))
+            same(f"{where}: end", await u.run_until("end_delay_o", 0), cyc(200 if slow else 26))
             opens = 200 if slow else 26 if single and end == "normal" else 156
             rest = await u.run_until("open_o", 1)
             same(f"{where}: open", rest, cyc(opens) - cyc(200 if slow else 26) + 1)

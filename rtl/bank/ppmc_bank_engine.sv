@@ -9,7 +9,7 @@
 
 module ppmc_bank_engine
   import ppmc_bank_pkg::*;
-  import ppmc_code_pkg::error_e;
+  import ppmc_code_pkg::cmd_error_e;
   import ppmc_code_pkg::decoded_t;
   import ppmc_code_pkg::init_code_t;
 #(
@@ -138,7 +138,7 @@ module ppmc_bank_engine
   logic new3_q, reached, moves, booked;
   axis_t booked_for;
   decoded_t decoded3_q;
-  error_e value3_q;
+  cmd_error_e value3_q;
   logic [TimeBits-1:0] due3_q;
   walk_t walk2;
 
@@ -156,7 +156,7 @@ module ppmc_bank_engine
     due3_q <= due_i;
     new3_q <= mail2_q.seq != early2_q.command.taken;
     decoded3_q <= decode(mail2_q.data);
-    value3_q <= ppmc104_pkg::judge({mail2_q.data, words2_q.params});
+    value3_q <= ppmc104_pkg::check_params({mail2_q.data, words2_q.params});
     facts3_q.fire <= early2_q.rem[TimeBits-1:RoundBits] == '0;
     if (pace2_q.down)
       facts3_q.more <= moves && (walk2.run || (walk2.low && !walk2.last)) && !reached
@@ -179,7 +179,7 @@ module ppmc_bank_engine
   logic [7:0] code, code4_q;
   logic [31:0] params, params4_q;
   logic [TimeBits-1:0] add, add4_q;
-  ppmc_code_pkg::asking_t asking, asking3;
+  ppmc_code_pkg::parser_state_t asking, asking3;
   command_t command3, command4_q;
 
   assign command3 = early3_q.command;

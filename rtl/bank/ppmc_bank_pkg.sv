@@ -114,18 +114,18 @@ package ppmc_bank_pkg;
 
   // Phases, chopper and end of the last motion.
   typedef struct packed {
-    logic       hold;
-    logic       chop;        // chop at standstill
-    logic       on;          // state of the chopper: phases on
-    logic       programmed;  // the times of the chopper are set by the host
-    logic [1:0] motor;
-    logic       half;
-    logic       positive;
-    logic       pair;        // see ppmc_motion_pkg
-    logic [5:1] pattern;
-    logic       fresh;       // finish status not read yet
-    cause_t     cause;
-    logic [1:0] seq;         // seq of the answer loaded last
+    logic        hold;
+    logic        chop;        // chop at standstill
+    logic        on;          // state of the chopper: phases on
+    logic        programmed;  // the times of the chopper are set by the host
+    logic [1:0]  motor;
+    logic        half;
+    logic        positive;
+    logic        pair;        // see ppmc_motion_pkg
+    logic [5:1]  pattern;
+    logic        fresh;       // finish status not read yet
+    stop_cause_t cause;
+    logic [1:0]  seq;         // seq of the answer loaded last
   } rest_t;
 
   // State of the pin cell and switches of an axis, as a visit samples them.
@@ -201,9 +201,9 @@ package ppmc_bank_pkg;
     decoded_t d;
     logic refused;
     d = ppmc104_pkg::decode(code);
-    refused = d.kind inside {KindAuxOut, KindAuxOn, KindAuxOff} || (d.kind == KindInit && code[4])
-        || (d.kind == KindRead && code[2:0] == SEL_AUX_IN);
-    if (refused) d = '{kind: KindUndefined, params: 3'd0};
+    refused = d.kind inside {CmdAuxOut, CmdAuxOn, CmdAuxOff} || (d.kind == CmdInit && code[4])
+        || (d.kind == CmdRead && code[2:0] == SEL_AUX_IN);
+    if (refused) d = '{kind: CmdUndefined, params: 3'd0};
     return d;
   endfunction
 

@@ -19,31 +19,31 @@ module ppmc_bank_plan
     parameter int unsigned TimeBits = 20
 ) (
     // axis
-    input  wire walk_t                   walk_i,     // state of the motion
-    input  wire pace_t                   pace_i,     // interval of the motion
-    input  wire setting_t                setting_i,  // progress of the initialisation
-    input  wire rest_t                   rest_i,     // phases, chopper, end of the last motion
-    input  wire logic                    over_i,     // the hold time ends with this visit
-    input  wire seen_t                   seen_i,     // pin cell and switches
-    input  wire facts_t                  facts_i,    // comparisons of this visit
-    input  wire logic                    free_i,     // a ramp table may be built
+    input  wire walk_t                        walk_i,     // state of the motion
+    input  wire pace_t                        pace_i,     // interval of the motion
+    input  wire setting_t                     setting_i,  // progress of the initialisation
+    input  wire rest_t                        rest_i,     // phases, chopper, end of the last motion
+    input  wire logic                         over_i,     // the hold time ends with this visit
+    input  wire seen_t                        seen_i,     // pin cell and switches
+    input  wire facts_t                       facts_i,    // comparisons of this visit
+    input  wire logic                         free_i,     // a ramp table may be built
     // command unit
-    input  wire logic                    extra_i,    // vsel = L in CONFIG
-    input  wire mail_t                   mail_i,     // byte of the host
-    input  wire logic                    new_i,      // mail_i has not been accepted yet
-    input  wire decoded_t                decoded_i,  // mail_i.data as a code
-    input  wire error_e                  value_i,    // error in an initialisation that mail_i completes
-    input  wire asking_t                 asking_i,   // state before this byte
-    output asking_t                      asking_o,   // state after this byte
-    output logic                         take_o,     // the byte is accepted
-    output logic          [         7:0] code_o,     // code of the actions in plan_o
-    output logic          [        31:0] params_o,   // parameters of code_o
+    input  wire logic                         extra_i,    // vsel = L in CONFIG
+    input  wire mail_t                        mail_i,     // byte of the host
+    input  wire logic                         new_i,      // mail_i has not been accepted yet
+    input  wire decoded_t                     decoded_i,  // mail_i.data as a code
+    input  wire cmd_error_e                   value_i,    // error in an initialisation that mail_i completes
+    input  wire parser_state_t                asking_i,   // state before this byte
+    output parser_state_t                     asking_o,   // state after this byte
+    output logic                              take_o,     // the byte is accepted
+    output logic               [         7:0] code_o,     // code of the actions in plan_o
+    output logic               [        31:0] params_o,   // parameters of code_o
     // decisions
-    input  wire logic     [TimeBits-1:0] due_i,      // W minus the cycles since GO
-    input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_times
-    output plan_t                        plan_o,     // decisions of the visit
-    output logic                         anew_o,     // restart rem from 0
-    output logic          [TimeBits-1:0] add_o       // cycles to add to rem
+    input  wire logic          [TimeBits-1:0] due_i,      // W minus the cycles since GO
+    input  wire logic          [TimeBits-1:0] after_i,    // see ppmc_bank_times
+    output plan_t                             plan_o,     // decisions of the visit
+    output logic                              anew_o,     // restart rem from 0
+    output logic               [TimeBits-1:0] add_o       // cycles to add to rem
 );
 
   localparam int unsigned Width = 20 * Quantum;  // W in cycles
@@ -83,7 +83,7 @@ module ppmc_bank_plan
   assign code_o = mail_i.command ? mail_i.data : asking_i.code;
   assign params_o = {mail_i.data, asking_i.params[31:8]};
 
-  asking_t asking;
+  parser_state_t asking;
   always_comb begin
     asking_o = asking;
     if (refuse) begin
@@ -93,22 +93,22 @@ module ppmc_bank_plan
     end
   end
 
-  ppmc_judge #(
+  ppmc_command_check #(
       .Aux(1'b0)
-  ) u_judge (
+  ) u_check (
       .take_i        (take_o),
       .command_i     (mail_i.command),
       .byte_i        (mail_i.data),
       .data_i        (mail_i.data),
       .decoded_i,
-      .value_i,
-      .judged_i      (inits),
+      .param_error_i (value_i),
+      .is_checked_i  (inits),
       .busy_i        (walk_i.busy),
       .ramp_i        (ramp),
       .decelerating_i(walk_i.forced || walk_i.natural || finished),
       .initialised_i (setting_i.initialised),
-      .asking_i,
-      .asking_o      (asking),
+      .parser_i      (asking_i),
+      .parser_o      (asking),
       .act_o         (act),
       .stop_o        (unused_stop)
   );

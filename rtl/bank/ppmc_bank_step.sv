@@ -137,7 +137,7 @@ module ppmc_bank_step
 
     rest_o = rest_i;
     if (counts && !walk_i.pout_only) begin
-      rest_o.pattern = stepped(rest_i.pattern, rest_i.pair, rest_i.half, motor, ccw);
+      rest_o.pattern = next_phases(rest_i.pattern, rest_i.pair, rest_i.half, motor, ccw);
       rest_o.pair    = rest_i.pair ^ rest_i.half;
     end
     if (plan_i.first) begin

@@ -3,8 +3,8 @@
 //         register 0x3 selects the axis.
 // Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
 // Timing: combinational, except for the selected axis. This axis changes during the write strobe at register
-//         0x3 and is stable from GapClk - 1 cycles before the next strobe on. The bank receives no strobe at
-//         0x3 and no strobe for axes 64 .. 255.
+//         0x3 and is stable from GapCycles - 1 cycles before the next strobe on. The bank receives no strobe
+//         at 0x3 and no strobe for axes 64 .. 255.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -5,8 +5,8 @@
 // Timing: the lines change at tick_o, four ticks a bit: SDA changes, SCL rises, SDA is sampled, SCL falls.
 //         START and STOP take six ticks. done_o or fail_o is high one cycle after the last tick. If the next
 //         command is valid before the next tick, it follows without a gap. While a device holds SCL low, the
-//         sample is repeated at each tick, for up to 1 ms. SCL rises RiseClk cycles after its tick, so that
-//         it is low for 55 % of the period, rounded up to a whole cycle.
+//         sample is repeated at each tick, for up to 1 ms. SCL rises SclRiseCycles cycles after its tick, so
+//         that it is low for 55 % of the period, rounded up to a whole cycle.
 // Assumes: cmd_i is stable until done_o or fail_o.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -35,12 +35,12 @@ module ppmc_i2c_master
 );
 
   localparam int unsigned StretchTicks = 4 * SclHz / 1000 + 1;
-  // LowClk: 0.55 of a bit in cycles (a 24C32 at 400 kHz needs SCL low for 1.3 us). RiseClk: LowClk minus two
-  // ticks, at their shortest length.
+  // SclLowCycles: 0.55 of a bit in cycles (a 24C32 at 400 kHz needs SCL low for 1.3 us). SclRiseCycles:
+  // SclLowCycles minus two ticks, at their shortest length.
   localparam longint unsigned Scl20 = 64'd20 * 64'(SclHz);
-  localparam int unsigned LowClk = 32'((64'd11 * 64'(ClkHz) + Scl20 - 64'd1) / Scl20);
-  localparam int unsigned RiseClk = LowClk - ClkHz / (2 * SclHz);
-  localparam int unsigned RiseBits = ppmc_pkg::cnt_width(RiseClk - 1);
+  localparam int unsigned SclLowCycles = 32'((64'd11 * 64'(ClkHz) + Scl20 - 64'd1) / Scl20);
+  localparam int unsigned SclRiseCycles = SclLowCycles - ClkHz / (2 * SclHz);
+  localparam int unsigned RiseBits = ppmc_pkg::cnt_width(SclRiseCycles - 1);
   localparam int unsigned StretchBits = ppmc_pkg::cnt_width(StretchTicks - 1);
 
   logic [2:0] step_q;
@@ -48,7 +48,7 @@ module ppmc_i2c_master
   logic [8:0] shift_q;
   logic [StretchBits-1:0] stretch_q;
   logic [RiseBits-1:0] rise_q;
-  logic tick, frame, ends, last, held, stuck, first, low;
+  logic tick, frame, byte_ends, last, stretched, stuck, first, low;
 
   ppmc_tick_gen #(
       .ClkHz   (ClkHz),
@@ -65,10 +65,10 @@ module ppmc_i2c_master
   assign frame = cmd_i == CmdStart || cmd_i == CmdStop;
   assign first = step_q == 3'd0 && bit_q == 4'd0 && !frame;
   assign low = first ? !byte_i[7] : !shift_q[8];
-  assign held = step_q == 3'd2 && !scl_i;
+  assign stretched = step_q == 3'd2 && !scl_i;
   assign stuck = cmd_i == CmdFree && bit_q == 4'd8 && !shift_q[0];
-  assign ends = bit_q == 4'd8 || (cmd_i == CmdFree && shift_q[0]);
-  assign last = frame ? step_q == 3'd5 : step_q == 3'd3 && ends;
+  assign byte_ends = bit_q == 4'd8 || (cmd_i == CmdFree && shift_q[0]);
+  assign last = frame ? step_q == 3'd5 : step_q == 3'd3 && byte_ends;
 
   assign first_o = tick && cmd_i == CmdByte && first;
   assign byte_o = shift_q[8:1];
@@ -87,7 +87,7 @@ module ppmc_i2c_master
       fail_o <= 1'b0;
       if (step_q == 3'd2 && rise_q == '0) scl_oe_o <= 1'b0;
       if (tick && cmd_i != CmdNone) begin
-        if (!held) step_q <= last ? 3'd0 : step_q + 1'b1;
+        if (!stretched) step_q <= last ? 3'd0 : step_q + 1'b1;
         unique case (step_q)
           3'd0: begin
             if (cmd_i != CmdStart) scl_oe_o <= 1'b1;
@@ -109,7 +109,7 @@ module ppmc_i2c_master
           end
           default: ;
         endcase
-        if (held && stretch_q == StretchBits'(StretchTicks - 1)) begin
+        if (stretched && stretch_q == StretchBits'(StretchTicks - 1)) begin
           step_q   <= '0;
           bit_q    <= '0;
           fail_o   <= 1'b1;
@@ -121,10 +121,10 @@ module ppmc_i2c_master
   end
 
   always_ff @(posedge clk_i) begin
-    if (step_q != 3'd2) rise_q <= RiseBits'(RiseClk - 1);
+    if (step_q != 3'd2) rise_q <= RiseBits'(SclRiseCycles - 1);
     else if (rise_q != '0) rise_q <= rise_q - 1'b1;
     if (step_q != 3'd2) stretch_q <= '0;
-    else if (tick && held) stretch_q <= stretch_q + 1'b1;
+    else if (tick && stretched) stretch_q <= stretch_q + 1'b1;
     if (tick && first) shift_q <= {byte_i, ack_i};
     else if (tick && step_q == 3'd2 && scl_i) shift_q <= {shift_q[7:0], sda_i};
   end

@@ -23,7 +23,7 @@ module ppmc_square #(
   localparam int unsigned Width = ppmc_pkg::cnt_width(Modulus - 1);
 
   if (Modulus < Step) begin : g_check
-    $fatal(1, "ppmc_square: half a period must last at least a clk");
+    $fatal(1, "ppmc_square: half a period must last at least one cycle");
   end
 
   logic [Width-1:0] phase_q;

@@ -7,10 +7,10 @@
 `default_nettype none
 
 module ppmc_tick_gen #(
-    parameter int unsigned ClkHz    = 16_000_000,
-    parameter int unsigned XtalHz   = 16_000_000,
-    parameter int unsigned TickXtal = 4,           // crystal cycles in a tick period
-    parameter int unsigned MinClk   = 2            // shortest tick period allowed, in cycles: 1 or 2
+    parameter int unsigned ClkHz     = 16_000_000,
+    parameter int unsigned XtalHz    = 16_000_000,
+    parameter int unsigned TickXtal  = 4,           // crystal cycles in a tick period
+    parameter int unsigned MinCycles = 2            // shortest tick period allowed, in cycles: 1 or 2
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
@@ -24,8 +24,8 @@ module ppmc_tick_gen #(
   localparam int unsigned Step = 32'(64'(XtalHz) / Common);
   localparam int unsigned Width = ppmc_pkg::cnt_width(Modulus - 1);
 
-  if (Modulus < MinClk * Step) begin : g_check
-    $fatal(1, "ppmc_tick_gen: a tick must last at least %0d clk", MinClk);
+  if (Modulus < MinCycles * Step) begin : g_check
+    $fatal(1, "ppmc_tick_gen: a tick must last at least %0d cycles", MinCycles);
   end
 
   if (Modulus == Step) begin : g_every
@@ -59,7 +59,7 @@ module ppmc_tick_gen #(
 
 `ifndef SYNTHESIS
     `PPMC_ASSERT(tick_gen_phase_in_range, 32'(phase_q) < Modulus)
-    `PPMC_ASSERT(tick_gen_single, MinClk < 2 || !(tick_o && $past(tick_o)))
+    `PPMC_ASSERT(tick_gen_single, MinCycles < 2 || !(tick_o && $past(tick_o)))
 `endif
   end
 

@@ -35,9 +35,9 @@ module ppmc_uart_rx #(
   localparam logic [Width-1:0] Half = (Modulus == 0) ? {1'b1, {(Width - 1) {1'b0}}} : Width'(-(Modulus / 2));
 
   state_e state_q;
-  logic line, unused_meta, any_q, middle;
+  logic line, unused_meta, has_one_q, middle;
   logic [Width-1:0] phase_q, phase_d;
-  logic [3:0] left_q;  // remaining bits; the stop bit is the last
+  logic [3:0] bits_left_q;  // remaining bits; the stop bit is the last
 
   ppmc_sync u_sync (
       .clk_i,
@@ -59,14 +59,14 @@ module ppmc_uart_rx #(
     // The phase starts at an offset, so that a carry marks the end of each bit time. The step after a carry
     // restores this offset. The end of a character already sets the phase, because the next character may
     // begin in the very next cycle.
-    logic over_q, ends;
+    logic wrapped_q, char_ends;
     logic [Width-1:0] sum;
 
-    assign {middle, sum} = {1'b0, phase_q} + {1'b0, over_q ? wrap_i : step_i};
-    assign ends = state_q == StWaitHigh ||
-        (middle && (state_q == StStart ? line : state_q == StBits && left_q == '0));
-    assign phase_d = ends ? Half : sum;
-    always_ff @(posedge clk_i) over_q <= middle && !ends;
+    assign {middle, sum} = {1'b0, phase_q} + {1'b0, wrapped_q ? wrap_i : step_i};
+    assign char_ends = state_q == StWaitHigh ||
+        (middle && (state_q == StStart ? line : state_q == StBits && bits_left_q == '0));
+    assign phase_d = char_ends ? Half : sum;
+    always_ff @(posedge clk_i) wrapped_q <= middle && !char_ends;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -81,7 +81,7 @@ module ppmc_uart_rx #(
         StIdle:  if (!line) state_q <= StStart;
         StStart: if (middle) state_q <= line ? StIdle : StBits;
         StBits:
-        if (middle && left_q == '0) begin
+        if (middle && bits_left_q == '0) begin
           valid_o <= line;
           error_o <= !line;
           state_q <= line ? StIdle : StWaitHigh;
@@ -91,17 +91,17 @@ module ppmc_uart_rx #(
     end
   end
 
-  assign break_o = !any_q;
+  assign break_o = !has_one_q;
 
   always_ff @(posedge clk_i) begin
     phase_q <= (state_q == StIdle && line) ? Half : phase_d;
     if (state_q == StStart) begin
-      left_q <= 4'd8;
-      any_q  <= 1'b0;
-    end else if (state_q == StBits && middle && left_q != '0) begin
-      left_q <= left_q - 1'b1;
+      bits_left_q <= 4'd8;
+      has_one_q   <= 1'b0;
+    end else if (state_q == StBits && middle && bits_left_q != '0) begin
+      bits_left_q <= bits_left_q - 1'b1;
       byte_o <= {line, byte_o[7:1]};
-      any_q  <= any_q || line;
+      has_one_q <= has_one_q || line;
     end
   end
 

@@ -22,10 +22,10 @@ module ppmc_uart_tx #(
 
   logic [Width-1:0] phase_q, phase_d;
   logic [8:0] bits_q;  // remaining data bits and the stop bit
-  logic [3:0] left_q;  // remaining bits without the current one
-  logic over;
+  logic [3:0] bits_left_q;  // remaining bits without the current one
+  logic bit_end;
 
-  assign {over, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
+  assign {bit_end, phase_d} = {1'b0, phase_q} + {1'b0, step_i};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -34,8 +34,8 @@ module ppmc_uart_tx #(
     end else if (ready_o) begin
       ready_o <= !valid_i;
       txd_o   <= !valid_i;
-    end else if (over) begin
-      ready_o <= left_q == '0;
+    end else if (bit_end) begin
+      ready_o <= bits_left_q == '0;
       txd_o   <= bits_q[0];
     end
   end
@@ -45,10 +45,10 @@ module ppmc_uart_tx #(
   always_ff @(posedge clk_i) begin
     phase_q <= ready_o ? '0 : phase_d;
     if (ready_o) begin
-      left_q <= 4'd9;
+      bits_left_q <= 4'd9;
       bits_q <= {1'b1, byte_i};
-    end else if (over) begin
-      left_q <= left_q - 1'b1;
+    end else if (bit_end) begin
+      bits_left_q <= bits_left_q - 1'b1;
       bits_q <= {1'b1, bits_q[8:1]};
     end
   end

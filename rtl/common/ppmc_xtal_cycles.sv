@@ -20,7 +20,7 @@ module ppmc_xtal_cycles #(
   localparam int unsigned PhaseBits = ppmc_pkg::cnt_width(Modulus + Step);
 
   if (3 * Modulus < Step) begin : g_check
-    $fatal(1, "ppmc_xtal_cycles: at most three crystal cycles a clk");
+    $fatal(1, "ppmc_xtal_cycles: at most three crystal cycles per clock cycle");
   end
 
   if (Modulus == Step) begin : g_same

@@ -42,30 +42,30 @@ module ppmc_axil #(
     input  wire logic                int_ni      // interrupt, L = active
 );
 
-  typedef logic [AddrBits:0] word_t;  // address of a 32-bit word
+  typedef logic [AddrBits:0] word_addr_t;  // address of a 32-bit word
 
-  word_t aw_q, ar_q;
+  word_addr_t aw_q, ar_q;
   logic [7:0] w_q;
   logic strobe_q;  // byte lane 0 of W is enabled
   logic busy_q, write_q;  // busy_q: a strobe access is in progress; write_q: it is a write
-  logic turn_q;  // 1: if both wait, the write is next
-  logic own_q;  // 1: R returns the bridge register or 0, no device data
+  logic write_next_q;  // 1: if both wait, the write is next
+  logic bridge_reg_q;  // 1: R returns the bridge register or 0, no device data
   logic flag_q, unused;
   assign unused = &{1'b0, awaddr_i[1:0], araddr_i[1:0], wdata_i[31:8], wstrb_i[3:1]};
 
   // ---- next access ---------------------------------------------------------------------------------
 
-  logic want_write, want_read, pick_write, strobe, take, ready, done;
-  word_t word;
+  logic write_pending, read_pending, write_first, strobe, take, ready, done;
+  word_addr_t word;
   logic [7:0] rdata;
 
   // awready_o, wready_o and arready_o are low exactly while the register of their channel is full.
-  assign want_write = !busy_q && !awready_o && !wready_o && !bvalid_o;
-  assign want_read  = !busy_q && !arready_o && !rvalid_o;
-  assign pick_write = want_write && (turn_q || !want_read);
-  assign word       = pick_write ? aw_q : ar_q;
-  assign strobe     = (want_write || want_read) && !word[AddrBits] && (strobe_q || !pick_write);
-  assign take       = (want_write || want_read) && (ready || !strobe);
+  assign write_pending = !busy_q && !awready_o && !wready_o && !bvalid_o;
+  assign read_pending  = !busy_q && !arready_o && !rvalid_o;
+  assign write_first   = write_pending && (write_next_q || !read_pending);
+  assign word          = write_first ? aw_q : ar_q;
+  assign strobe        = (write_pending || read_pending) && !word[AddrBits] && (strobe_q || !write_first);
+  assign take          = (write_pending || read_pending) && (ready || !strobe);
 
   ppmc_strobe_master #(
       .AddrBits(AddrBits)
@@ -73,7 +73,7 @@ module ppmc_axil #(
       .clk_i,
       .rst_ni,
       .req_i  (strobe),
-      .we_i   (pick_write),
+      .we_i   (write_first),
       .addr_i (word[AddrBits-1:0]),
       .wdata_i(w_q),
       .ready_o(ready),
@@ -102,18 +102,18 @@ module ppmc_axil #(
       arready_o <= 1'b1;
       busy_q    <= 1'b0;
       write_q   <= 1'b0;
-      turn_q    <= 1'b0;
+      write_next_q    <= 1'b0;
     end else begin
       if (awready_o) awready_o <= !awvalid_i;
-      else if (take && pick_write) awready_o <= 1'b1;
+      else if (take && write_first) awready_o <= 1'b1;
       if (wready_o) wready_o <= !wvalid_i;
-      else if (take && pick_write) wready_o <= 1'b1;
+      else if (take && write_first) wready_o <= 1'b1;
       if (arready_o) arready_o <= !arvalid_i;
-      else if (take && !pick_write) arready_o <= 1'b1;
+      else if (take && !write_first) arready_o <= 1'b1;
       if (take) begin
-        busy_q  <= strobe;
-        write_q <= pick_write;
-        turn_q  <= !pick_write;
+        busy_q <= strobe;
+        write_q <= write_first;
+        write_next_q <= !write_first;
       end else if (done) busy_q <= 1'b0;
     end
   end
@@ -121,8 +121,8 @@ module ppmc_axil #(
   // ---- responses -----------------------------------------------------------------------------------
 
   logic end_write, end_read;
-  assign end_write = (take && pick_write && !strobe) || (done && write_q);
-  assign end_read  = (take && !pick_write && !strobe) || (done && !write_q);
+  assign end_write = (take && write_first && !strobe) || (done && write_q);
+  assign end_read  = (take && !write_first && !strobe) || (done && !write_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -130,31 +130,31 @@ module ppmc_axil #(
       rvalid_o <= 1'b0;
       bresp_o  <= 2'b00;
       rresp_o  <= 2'b00;
-      own_q    <= 1'b0;
+      bridge_reg_q    <= 1'b0;
       flag_q   <= 1'b0;
       irq_o    <= 1'b0;
     end else begin
       irq_o    <= !int_ni;
       bvalid_o <= end_write || (bvalid_o && !bready_i);
       rvalid_o <= end_read || (rvalid_o && !rready_i);
-      if (take && pick_write) bresp_o <= {word[AddrBits], 1'b0};
-      if (take && !pick_write) begin
-        own_q   <= word[AddrBits];
-        flag_q  <= irq_o && word[AddrBits-1:0] == '0;
+      if (take && write_first) bresp_o <= {word[AddrBits], 1'b0};
+      if (take && !write_first) begin
+        bridge_reg_q <= word[AddrBits];
+        flag_q <= irq_o && word[AddrBits-1:0] == '0;
         rresp_o <= {word[AddrBits] && word[AddrBits-1:0] != '0, 1'b0};
       end
     end
   end
 
-  assign rdata_o = {24'd0, own_q ? {7'b0, flag_q} : rdata};
+  assign rdata_o = {24'd0, bridge_reg_q ? {7'b0, flag_q} : rdata};
 
 `ifndef SYNTHESIS
   // verilog_format: off
   `PPMC_ASSERT(axil_b_stable, !$past(bvalid_o && !bready_i) || (bvalid_o && bresp_o == $past(bresp_o)))
   `PPMC_ASSERT(axil_r_stable, !$past(rvalid_o && !rready_i)
                || (rvalid_o && {rdata_o, rresp_o} == $past({rdata_o, rresp_o})))
-  `PPMC_ASSERT(axil_b_earned, !(bvalid_o && !$past(bvalid_o)) || $past(end_write))
-  `PPMC_ASSERT(axil_r_earned, !(rvalid_o && !$past(rvalid_o)) || $past(end_read))
+  `PPMC_ASSERT(axil_b_after_write, !(bvalid_o && !$past(bvalid_o)) || $past(end_write))
+  `PPMC_ASSERT(axil_r_after_read, !(rvalid_o && !$past(rvalid_o)) || $past(end_read))
   `PPMC_ASSERT(axil_b_room, !(end_write && bvalid_o))
   `PPMC_ASSERT(axil_r_room, !(end_read && rvalid_o))
   `PPMC_ASSERT(axil_answer_per_strobe, !done || busy_q)

@@ -37,7 +37,7 @@ module ppmc_bridge_answer
     output logic        [        7:0] wdata_o     // write data
 );
 
-  logic counting_q, parity_q, again;
+  logic counting_q, parity_q, recount;
   logic [31:0] counter;
   logic [ 3:0] left_q;
 
@@ -49,7 +49,7 @@ module ppmc_bridge_answer
     assign counter = second_i ? counter_i[63:32] : counter_i[31:0];
   end
 
-  assign again   = busy_o && counting_q && left_q == '0 && counter[0] != parity_q;
+  assign recount   = busy_o && counting_q && left_q == '0 && counter[0] != parity_q;
   assign we_o    = put_i || busy_o;
   assign waddr_o = length_o[7:0];
 
@@ -68,7 +68,7 @@ module ppmc_bridge_answer
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) busy_o <= 1'b0;
     else if (ident_i || count_i) busy_o <= 1'b1;
-    else if (left_q == '0 && !again) busy_o <= 1'b0;
+    else if (left_q == '0 && !recount) busy_o <= 1'b0;
   end
 
   always_ff @(posedge clk_i) begin
@@ -76,12 +76,12 @@ module ppmc_bridge_answer
     full4_o  <= length_o > 9'd252;
     full16_o <= length_o > 9'd240;
     if (clear_i) length_o <= '0;
-    else if (we_o) length_o <= length_o + {{7{again}}, 2'b01};  // +1 per byte; -3 if COUNT is restarted
+    else if (we_o) length_o <= length_o + {{7{recount}}, 2'b01};  // +1 per byte; -3 if COUNT is restarted
     if (ident_i || count_i) begin
       counting_q <= count_i;
       left_q     <= count_i ? 4'd3 : 4'd15;
     end else begin
-      left_q <= again ? 4'd3 : left_q - 1'b1;
+      left_q <= recount ? 4'd3 : left_q - 1'b1;
     end
     if (left_q[0] && left_q[1]) parity_q <= counter[0];
   end

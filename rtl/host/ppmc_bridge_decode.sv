@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_decode: decodes the code of an op: the first need of the op (need_e), and whether the op may
+// ppmc_bridge_decode: decodes the code of an op: the first need of the op (op_need_e), and whether the op may
 //         begin.
 // Rules:  the op table of docs/uart_bridge.md, UB-ANS-02, -05.
 // Timing: combinational.
@@ -15,7 +15,7 @@ module ppmc_bridge_decode
     input  wire logic       full_i,    // no space for one more byte in the answer
     input  wire logic       full4_i,   // no space for 4 bytes
     input  wire logic       full16_i,  // no space for 16 bytes
-    output need_e           need_o,    // first need of the op
+    output op_need_e        need_o,    // first need of the op
     output result_e         fail_o,    // ResDone, or the reason why the op may not begin
     output logic            second_o,  // the op refers to axis 2
     output logic            ident_o,   // the op begins a block of 16 bytes
@@ -23,21 +23,21 @@ module ppmc_bridge_decode
     output block_e          block_o    // selected block of 16 bytes
 );
 
-  logic [3:0] kind, low;
-  logic known, full;
+  logic [3:0] group, low;
+  logic is_known, full;
 
-  assign kind = op_i[7:4];
+  assign group = op_i[7:4];
   assign low = op_i[3:0];
   assign second_o = Axes > 1 && (low == SysCount2 || low == SysZero2);
   assign block_o = low == SysVersion ? BlockVersion : low == SysRecorded ? BlockRecorded : BlockIdent;
-  assign ident_o = kind == OpSystem && need_o == NeedBlock && low != SysReset && !count_o;
-  assign count_o = kind == OpSystem && (low == SysCount || low == SysCount2);
+  assign ident_o = group == OpSystem && need_o == NeedBlock && low != SysReset && !count_o;
+  assign count_o = group == OpSystem && (low == SysCount || low == SysCount2);
 
   always_comb begin
-    known  = 1'b1;
-    full   = 1'b0;
+    is_known = 1'b1;
+    full = 1'b0;
     need_o = NeedNothing;
-    unique case (kind)
+    unique case (group)
       OpSystem:
       unique case (low)
         SysNop, SysZero: need_o = NeedNothing;
@@ -48,34 +48,34 @@ module ppmc_bridge_decode
         end
         SysCount, SysCount2: begin
           need_o = NeedBlock;
-          full   = full4_i;
-          known  = low == SysCount || second_o;
+          full = full4_i;
+          is_known = low == SysCount || second_o;
         end
-        SysZero2: known = second_o;
+        SysZero2: is_known = second_o;
         SysPins: begin
           need_o = NeedByte;
           full   = full_i;
         end
         SysRecord: begin
-          need_o = NeedOperand;
-          known  = Recorder;
+          need_o   = NeedOperand;
+          is_known = Recorder;
         end
         SysRecorded: begin
           need_o = NeedBlock;
-          full   = full16_i;
-          known  = Recorder;
+          full = full16_i;
+          is_known = Recorder;
         end
-        default: known = 1'b0;
+        default: is_known = 1'b0;
       endcase
       OpReadN, OpPost, OpWait, OpWriteN: need_o = NeedOperand;
       OpFetch: begin
-        need_o = NeedOperand;
-        known  = Recorder && low == '0;
+        need_o   = NeedOperand;
+        is_known = Recorder && low == '0;
       end
       OpWrite, OpRead, OpCall, OpGet: need_o = NeedCheck;
-      default: known = 1'b0;
+      default: is_known = 1'b0;
     endcase
-    fail_o = !known ? ResIllegal : full ? ResOverflow : ResDone;
+    fail_o = !is_known ? ResIllegal : full ? ResOverflow : ResDone;
   end
 
 endmodule

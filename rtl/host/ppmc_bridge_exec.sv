@@ -2,7 +2,7 @@
 // ppmc_bridge_exec: executes the script in the request buffer, with accesses to the bus of the device; stores
 //         the data in the answer.
 // Rules:  the op table of docs/uart_bridge.md, UB-ANS-02 .. 05, UB-OPS-01, UB-WAIT-01.
-// Timing: start_i begins a script of length_i bytes, again_i sends the last answer again; both only in
+// Timing: start_i begins a script of length_i bytes, resend_i sends the last answer again; both only in
 //         StIdle. answer_o is high until answered_i. Request bytes are read two cycles after their address.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -16,42 +16,42 @@ module ppmc_bridge_exec
     parameter logic [127:0] Ident = '0,
     parameter logic [127:0] Build = '0  // data of op VERSION
 ) (
-    input  wire logic               clk_i,
-    input  wire logic               rst_ni,
-    input  wire logic               ms_i,          // strobe every millisecond
+    input  wire logic                    clk_i,
+    input  wire logic                    rst_ni,
+    input  wire logic                    ms_i,          // strobe every millisecond
     // request
-    input  wire logic               start_i,       // begin a script
-    input  wire logic               again_i,       // send the last answer again
-    input  wire logic [        7:0] length_i,      // length of the script in bytes
-    output logic      [        7:0] raddr_o,       // address in the script
-    input  wire logic [        7:0] rdata_i,       // byte at raddr_o, two cycles later
-    input  wire logic               interrupt_i,   // a byte was received after start_i
+    input  wire logic                    start_i,       // begin a script
+    input  wire logic                    resend_i,      // send the last answer again
+    input  wire logic      [        7:0] length_i,      // length of the script in bytes
+    output logic           [        7:0] raddr_o,       // address in the script
+    input  wire logic      [        7:0] rdata_i,       // byte at raddr_o, two cycles later
+    input  wire logic                    interrupt_i,   // a byte was received after start_i
     // answer
-    output logic                    script_o,      // a script is running
-    output logic                    answer_o,      // the script has ended, its answer is being sent
-    input  wire logic               answered_i,    // the answer has been sent
-    output outcome_t                outcome_o,     // result of the script
-    output logic                    we_o,          // write enable of the answer buffer
-    output logic      [        7:0] waddr_o,       // write address
-    output logic      [        7:0] wdata_o,       // write data
+    output logic                         script_o,      // a script is running
+    output logic                         answer_o,      // the script has ended, its answer is being sent
+    input  wire logic                    answered_i,    // the answer has been sent
+    output script_result_t               result_o,      // result of the script
+    output logic                         we_o,          // write enable of the answer buffer
+    output logic           [        7:0] waddr_o,       // write address
+    output logic           [        7:0] wdata_o,       // write data
     // settings
-    output settings_t               settings_o,    // settings made by scripts
+    output bridge_cmd_t                  bridge_cmd_o,  // settings made by scripts
     // recorder
-    output logic                    rec_next_o,    // request the next byte of the recorder
-    input  wire logic [        7:0] rec_data_i,    // byte of the records
-    input  wire logic [       63:0] rec_info_i,    // data of op RECORDED
+    output logic                         rec_next_o,    // request the next byte of the recorder
+    input  wire logic      [        7:0] rec_data_i,    // byte of the records
+    input  wire logic      [       63:0] rec_info_i,    // data of op RECORDED
     // board
-    input  wire logic [        7:0] pins_i,        // pins for op PINS
-    input  wire logic [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
-    output logic      [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
-    output logic                    part_rst_no,   // reset of the device, L = active
+    input  wire logic      [        7:0] pins_i,        // pins for op PINS
+    input  wire logic      [Axes*32-1:0] count_i,       // pulse counters, axis 1 in the low bits
+    output logic           [   Axes-1:0] count_zero_o,  // strobe: set the counter to 0
+    output logic                         part_rst_no,   // reset of the device, L = active
     // bus of the device
-    output logic                    cs_no,         // chip select
-    output logic                    rd_no,         // read strobe
-    output logic                    wr_no,         // write strobe
-    output logic      [        3:0] a_o,           // register
-    output logic      [        7:0] d_o,           // write data
-    input  wire logic [        7:0] d_i            // read data
+    output logic                         cs_no,         // chip select
+    output logic                         rd_no,         // read strobe
+    output logic                         wr_no,         // write strobe
+    output logic           [        3:0] a_o,           // register
+    output logic           [        7:0] d_o,           // write data
+    input  wire logic      [        7:0] d_i            // read data
 );
 
   typedef enum logic [3:0] {
@@ -63,7 +63,7 @@ module ppmc_bridge_exec
     StCheck,     // operands are complete
     StLoop,      // next byte of the op
     StPoll,      // read access of a wait
-    StJudge,     // check of the data of this read
+    StCompare,   // check of the data of this read
     StWrite,
     StWriteEnd,
     StRead,
@@ -79,15 +79,15 @@ module ppmc_bridge_exec
   logic [7:0] pos_q;
   logic [7:0] op_q, n_q, value_q, left_q;  // n_q: operand 1, then op bytes left; left_q: script bytes left
   logic [1:0] age_q;  // cycles since a byte was accepted or stored; at 2, the results of the byte are valid
-  logic none_q, cut_q, zero_q, bad_q, hit_q, judge_q, over;
-  logic first_q, written_q, seen_q;
-  logic [3:0] kind, low;
-  logic system, fetched, take;
-  logic system_q, reading_q, sends_q, pair_q, fetch_q;  // flags of the kind of op; valid after StDecode
+  logic script_end_q, too_short_q, is_zero_q, bad_arg_q, hit_q, compare_q, timeout;
+  logic first_q, written_q, has_read_q;
+  logic [3:0] group, low;
+  logic system, byte_valid, take;
+  logic system_q, is_read_q, is_send_q, two_args_q, fetch_q;  // flags of the kind of op; valid after StDecode
 
-  assign {kind, low} = op_q;
-  assign system = kind == OpSystem;
-  assign fetched = age_q[1];
+  assign {group, low} = op_q;
+  assign system = group == OpSystem;
+  assign byte_valid = age_q[1];
 
   // ---------------------------------------------------------------- bus
 
@@ -97,13 +97,13 @@ module ppmc_bridge_exec
 
   always_comb begin
     unique case (state_q)
-      StPoll:  addr = kind == OpWait ? low : 4'd1;
-      StWrite: addr = kind == OpCall ? {3'd0, first_q} : low;
-      default: addr = kind == OpGet ? 4'd0 : low;
+      StPoll:  addr = group == OpWait ? low : 4'd1;
+      StWrite: addr = group == OpCall ? {3'd0, first_q} : low;
+      default: addr = group == OpGet ? 4'd0 : low;
     endcase
   end
 
-  assign req = state_q == StPoll || state_q == StRead || (state_q == StWrite && fetched);
+  assign req = state_q == StPoll || state_q == StRead || (state_q == StWrite && byte_valid);
 
   ppmc_strobe_master #(
       .AddrBits(4)
@@ -129,12 +129,12 @@ module ppmc_bridge_exec
 
   logic ident, count, full, full4, full16, block, decode;
   logic second;  // the op refers to axis 2
-  block_e kept;
-  need_e need;
-  result_e refused;
+  block_e block_kind;
+  op_need_e need;
+  result_e reject;
 
-  assign decode = state_q == StDecode && refused == ResDone;
-  assign outcome_o = '{result: result_q, pos: pos_q, last: bus_data & {8{seen_q}}, length: length};
+  assign decode   = state_q == StDecode && reject == ResDone;
+  assign result_o = '{result: result_q, pos: pos_q, last: bus_data & {8{has_read_q}}, length: length};
 
   ppmc_bridge_decode #(
       .Axes    (Axes),
@@ -145,11 +145,11 @@ module ppmc_bridge_exec
       .full4_i (full4),
       .full16_i(full16),
       .need_o  (need),
-      .fail_o  (refused),
+      .fail_o  (reject),
       .second_o(second),
       .ident_o (ident),
       .count_o (count),
-      .block_o (kept)
+      .block_o (block_kind)
   );
 
   ppmc_bridge_answer #(
@@ -163,7 +163,7 @@ module ppmc_bridge_exec
       .put_i    (state_q == StPut),
       .data_i   (system_q ? pins_i : fetch_q ? rec_data_i : bus_data),
       .ident_i  (decode && ident),
-      .block_i  (kept),
+      .block_i  (block_kind),
       .info_i   (rec_info_i),
       .count_i  (decode && count),
       .second_i (second),
@@ -190,62 +190,62 @@ module ppmc_bridge_exec
     unique case (state_q)
       StIdle: begin
         if (start_i) next = StOp;
-        else if (again_i) next = StAnswer;
+        else if (resend_i) next = StAnswer;
       end
       StOp:
-      if (fetched) begin
-        take = !none_q;
-        next = none_q ? StAnswer : StDecode;
+      if (byte_valid) begin
+        take = !script_end_q;
+        next = script_end_q ? StAnswer : StDecode;
       end
       StDecode: begin
-        fail = refused;
+        fail = reject;
         next = need == NeedOperand ? StArg : need == NeedCheck ? StCheck : need == NeedByte ? StPut :
                need == NeedBlock ? StPause : StOp;
       end
       StArg, StArg2:
-      if (fetched) begin
-        take = !none_q;
-        if (none_q) fail = ResIllegal;
-        else next = state_q == StArg && pair_q ? StArg2 : StCheck;
+      if (byte_valid) begin
+        take = !script_end_q;
+        if (script_end_q) fail = ResIllegal;
+        else next = state_q == StArg && two_args_q ? StArg2 : StCheck;
       end
       StCheck:
-      if (fetched) begin
-        next = system_q ? StOp : kind == OpWait ? StPoll : StLoop;
+      if (byte_valid) begin
+        next = system_q ? StOp : group == OpWait ? StPoll : StLoop;
         if (system_q) begin
-          if (bad_q) fail = ResIllegal;
-        end else if (kind != OpWait && zero_q) fail = ResIllegal;
-        else if (sends_q && cut_q) fail = ResIllegal;
-        else if ((kind == OpWait || kind == OpCall) && full) fail = ResOverflow;
+          if (bad_arg_q) fail = ResIllegal;
+        end else if (group != OpWait && is_zero_q) fail = ResIllegal;
+        else if (is_send_q && too_short_q) fail = ResIllegal;
+        else if ((group == OpWait || group == OpCall) && full) fail = ResOverflow;
       end
       StLoop:
-      if (fetched) begin
-        if (zero_q) next = kind == OpCall ? StPut : StOp;
-        else if (reading_q && full) fail = ResOverflow;
-        else if (kind == OpPost || kind == OpCall || kind == OpGet) next = StPoll;
-        else next = fetch_q ? StPut : reading_q ? StRead : StWrite;
+      if (byte_valid) begin
+        if (is_zero_q) next = group == OpCall ? StPut : StOp;
+        else if (is_read_q && full) fail = ResOverflow;
+        else if (group == OpPost || group == OpCall || group == OpGet) next = StPoll;
+        else next = fetch_q ? StPut : is_read_q ? StRead : StWrite;
       end
-      StPoll: if (ready) next = StJudge;
-      StJudge:
-      if (judge_q) begin
+      StPoll: if (ready) next = StCompare;
+      StCompare:
+      if (compare_q) begin
         if (hit_q) begin
-          if (kind == OpWait) next = StPut;
-          else if (kind == OpGet) next = StRead;
+          if (group == OpWait) next = StPut;
+          else if (group == OpGet) next = StRead;
           else if (!written_q) next = StWrite;
           else if (bus_data[7]) fail = ResRefused;
           else next = StLoop;
         end else if (interrupt_i) fail = ResInterrupted;
-        else if (over) fail = ResTimeout;
+        else if (timeout) fail = ResTimeout;
         else next = StPoll;
       end
       StWrite:
-      if (fetched && ready) begin
+      if (byte_valid && ready) begin
         take = 1'b1;
         next = StWriteEnd;
       end
-      StWriteEnd: if (done) next = kind == OpCall ? StPoll : StLoop;
+      StWriteEnd: if (done) next = group == OpCall ? StPoll : StLoop;
       StRead: if (ready) next = StReadEnd;
       StReadEnd: if (done) next = StPut;
-      StPut: next = reading_q ? StLoop : StOp;
+      StPut: next = is_read_q ? StLoop : StOp;
       StPause: if (low == SysReset ? n_q[7] : !block) next = StOp;
       default: if (answered_i) next = StIdle;  // StAnswer
     endcase
@@ -256,22 +256,22 @@ module ppmc_bridge_exec
   assign answer_o   = state_q == StAnswer;
   assign rec_next_o = Recorder && state_q == StPut && fetch_q;
 
-  logic set, sets_q;  // set: an op with a setting is legal; sets_q: set, one cycle later
+  logic set, set_q;  // set: an op with a setting is legal; set_q: set, one cycle later
   logic [7:0] straps_q;
-  assign set = state_q == StCheck && fetched && system_q && !bad_q;
+  assign set = state_q == StCheck && byte_valid && system_q && !bad_arg_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q      <= StIdle;
       result_q     <= ResDone;
       straps_q     <= '1;
-      sets_q       <= 1'b0;
+      set_q        <= 1'b0;
       count_zero_o <= '0;
       part_rst_no  <= 1'b0;
     end else begin
       state_q <= next;
       if (start_i || fail != ResDone) result_q <= fail;
-      sets_q <= set;
+      set_q <= set;
       count_zero_o[0] <= state_q == StDecode && system && low == SysZero;
       if (Axes > 1) count_zero_o[Axes-1] <= state_q == StDecode && system && low == SysZero2;
       part_rst_no <= !(state_q == StPause && low == SysReset && n_q[4] && !n_q[7]);
@@ -279,19 +279,19 @@ module ppmc_bridge_exec
     end
   end
 
-  assign settings_o = '{sets: sets_q, op: sys_e'(low), arg: n_q[2:0], straps: straps_q};
+  assign bridge_cmd_o = '{valid: set_q, op: sys_e'(low), arg: n_q[2:0], straps: straps_q};
   always_ff @(posedge clk_i) begin
     age_q <= take || start_i || state_q == StPut ? 2'b00 : {age_q[0], 1'b1};
-    none_q <= left_q == '0;
+    script_end_q <= left_q == '0;
     system_q <= system;
-    fetch_q <= kind == OpFetch;
-    reading_q <= kind == OpRead || kind == OpReadN || kind == OpGet || kind == OpFetch;
-    sends_q <= kind == OpWrite || kind == OpWriteN || kind == OpPost || kind == OpCall;
-    pair_q <= kind == OpWait || (system && low == SysTimeout);
-    cut_q <= n_q > left_q;
-    zero_q <= n_q == '0;
-    bad_q  <= (low == SysRate && n_q > 8'(TopCode)) || (low == SysEvents && n_q[7:1] != '0) ||
-              (low == SysRecord && n_q > 8'(RecordRewind));
+    fetch_q <= group == OpFetch;
+    is_read_q <= group == OpRead || group == OpReadN || group == OpGet || group == OpFetch;
+    is_send_q <= group == OpWrite || group == OpWriteN || group == OpPost || group == OpCall;
+    two_args_q <= group == OpWait || (system && low == SysTimeout);
+    too_short_q <= n_q > left_q;
+    is_zero_q <= n_q == '0;
+    bad_arg_q  <= (low == SysRate && n_q > 8'(TopCode)) || (low == SysEvents && n_q[7:1] != '0) ||
+              (low == SysRecord && n_q > 8'(RECORD_REWIND));
     if (start_i) begin
       raddr_o <= '0;
       left_q  <= length_i;
@@ -304,7 +304,7 @@ module ppmc_bridge_exec
       pos_q <= raddr_o;
     end
     unique case (state_q)
-      StDecode: n_q <= system ? 8'd31 : kind == OpWrite || kind == OpRead ? 8'd1 : {4'd0, low};
+      StDecode: n_q <= system ? 8'd31 : group == OpWrite || group == OpRead ? 8'd1 : {4'd0, low};
       StArg: if (take) n_q <= rdata_i;
       StPause: n_q <= n_q - 1'b1;
       StWrite: if (take) n_q <= n_q - 1'b1;
@@ -326,23 +326,23 @@ module ppmc_bridge_exec
       .start_i,
       .set_i    (state_q == StCheck && system_q && low == SysTimeout),
       .limit_i  ({value_q, n_q}),
-      .waiting_i(state_q == StPoll || state_q == StJudge),
-      .over_o   (over)
+      .waiting_i(state_q == StPoll || state_q == StCompare),
+      .timeout_o(timeout)
   );
 
   always_ff @(posedge clk_i) begin
-    judge_q <= done;
-    unique case (kind)
+    compare_q <= done;
+    unique case (group)
       OpWait:  hit_q <= (bus_data & n_q) == value_q;
       OpGet:   hit_q <= bus_data[0];
       default: hit_q <= !bus_data[1];
     endcase
-    if (start_i) seen_q <= 1'b0;
-    else if (done && state_q != StWriteEnd) seen_q <= 1'b1;
+    if (start_i) has_read_q <= 1'b0;
+    else if (done && state_q != StWriteEnd) has_read_q <= 1'b1;
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(ub_exec_start_in_idle, !(start_i || again_i) || state_q == StIdle)
+  `PPMC_ASSERT(ub_exec_start_in_idle, !(start_i || resend_i) || state_q == StIdle)
 `endif
 
 endmodule

@@ -7,61 +7,61 @@
 module ppmc_bridge_msg
   import ppmc_bridge_pkg::*;
 (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
+    input  wire logic                 clk_i,
+    input  wire logic                 rst_ni,
     // answer; all inputs are stable while answer_i = 1
-    input  wire logic           script_i,       // a script is running: no new message is begun
-    input  wire logic           answer_i,       // an answer is available, until answered_o
-    input  wire logic     [6:0] seq_i,          // sequence number of the request
-    input  wire outcome_t       outcome_i,      // result of the script
-    output logic          [7:0] raddr_o,        // address in the answer
-    input  wire logic     [7:0] rdata_i,        // byte at raddr_o, two cycles later
-    output logic                answered_o,     // the answer has been sent
+    input  wire logic                 script_i,       // a script is running: no new message is begun
+    input  wire logic                 answer_i,       // an answer is available, until answered_o
+    input  wire logic           [6:0] seq_i,          // sequence number of the request
+    input  wire script_result_t       result_i,       // result of the script
+    output logic                [7:0] raddr_o,        // address in the answer
+    input  wire logic           [7:0] rdata_i,        // byte at raddr_o, two cycles later
+    output logic                      answered_o,     // the answer has been sent
     // event
-    input  wire logic           event_i,        // an event message is pending
-    input  wire logic     [7:0] pins_i,         // pins in the event message
-    output logic                event_taken_o,  // the event message is being sent
+    input  wire logic                 event_i,        // an event message is pending
+    input  wire logic           [7:0] pins_i,         // pins in the event message
+    output logic                      event_taken_o,  // the event message is being sent
     // NAK
-    input  wire nak_e           nak_i,          // NAK to send; NakNone: no NAK
-    output logic                nak_taken_o,    // the NAK is being sent
+    input  wire nak_e                 nak_i,          // NAK to send; NakNone: no NAK
+    output logic                      nak_taken_o,    // the NAK is being sent
     // framer
-    output logic                start_o,        // begin a frame
-    input  wire logic           idle_i,         // the framer is idle
-    output logic          [7:0] byte_o,         // next byte of the frame
-    output logic                more_o,         // byte_o is valid; 0: the frame ends
-    input  wire logic           take_i          // byte_o is accepted
+    output logic                      start_o,        // begin a frame
+    input  wire logic                 idle_i,         // the framer is idle
+    output logic                [7:0] byte_o,         // next byte of the frame
+    output logic                      more_o,         // byte_o is valid; 0: the frame ends
+    input  wire logic                 take_i          // byte_o is accepted
 );
 
   typedef enum logic [1:0] {
-    KindAnswer,
-    KindEvent,
-    KindNak
-  } kind_e;
+    MsgAnswer,
+    MsgEvent,
+    MsgNak
+  } msg_kind_e;
 
-  kind_e kind_q;
+  msg_kind_e kind_q;
   logic sending_q;  // from start_o to the last stop bit
   logic [2:0] head_q;  // byte of the head; 4: head complete
   logic [8:0] index_q;  // index of the data byte
   logic tail_q;  // no data byte left
 
   assign raddr_o       = index_q[7:0];
-  assign answered_o    = sending_q && idle_i && !start_o && kind_q == KindAnswer;
-  assign event_taken_o = take_i && kind_q == KindEvent && head_q[0];
-  assign nak_taken_o   = take_i && kind_q == KindNak && head_q[0];
-  assign more_o        = !head_q[2] || !(tail_q || kind_q != KindAnswer);
+  assign answered_o    = sending_q && idle_i && !start_o && kind_q == MsgAnswer;
+  assign event_taken_o = take_i && kind_q == MsgEvent && head_q[0];
+  assign nak_taken_o   = take_i && kind_q == MsgNak && head_q[0];
+  assign more_o        = !head_q[2] || !(tail_q || kind_q != MsgAnswer);
 
   always_comb begin
     unique case (head_q)
-      3'd0: byte_o = kind_q == KindAnswer ? {1'b0, seq_i} : {7'b1000000, kind_q == KindNak};
+      3'd0: byte_o = kind_q == MsgAnswer ? {1'b0, seq_i} : {7'b1000000, kind_q == MsgNak};
       3'd1: begin
         unique case (kind_q)
-          KindAnswer: byte_o = 8'(outcome_i.result);
-          KindEvent: byte_o = pins_i;
-          default: byte_o = 8'(nak_i);
+          MsgAnswer: byte_o = 8'(result_i.result);
+          MsgEvent:  byte_o = pins_i;
+          default:   byte_o = 8'(nak_i);
         endcase
       end
-      3'd2: byte_o = outcome_i.pos;
-      3'd3: byte_o = outcome_i.last;
+      3'd2: byte_o = result_i.pos;
+      3'd3: byte_o = result_i.last;
       default: byte_o = rdata_i;
     endcase
   end
@@ -70,7 +70,7 @@ module ppmc_bridge_msg
     if (!rst_ni) begin
       sending_q <= 1'b0;
       start_o   <= 1'b0;
-      kind_q    <= KindAnswer;
+      kind_q    <= MsgAnswer;
     end else begin
       start_o <= 1'b0;
       if (sending_q) begin
@@ -78,20 +78,20 @@ module ppmc_bridge_msg
       end else if (answer_i || (!script_i && (event_i || nak_i != NakNone))) begin
         sending_q <= 1'b1;
         start_o   <= 1'b1;
-        if (answer_i) kind_q <= KindAnswer;
-        else kind_q <= event_i ? KindEvent : KindNak;
+        if (answer_i) kind_q <= MsgAnswer;
+        else kind_q <= event_i ? MsgEvent : MsgNak;
       end
     end
   end
 
   always_ff @(posedge clk_i) begin
-    tail_q <= index_q == outcome_i.length;
+    tail_q <= index_q == result_i.length;
     if (start_o) begin
       head_q  <= '0;
       index_q <= '0;
     end else if (take_i) begin
       if (head_q[2]) index_q <= index_q + 1'b1;
-      else if (head_q == 3'd1 && (kind_q != KindAnswer || outcome_i.result == ResDone)) head_q <= 3'd4;
+      else if (head_q == 3'd1 && (kind_q != MsgAnswer || result_i.result == ResDone)) head_q <= 3'd4;
       else head_q <= head_q + 1'b1;
     end
   end

@@ -8,13 +8,13 @@ package ppmc_bridge_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  localparam logic [7:0] Flag = 8'h7E;
-  localparam logic [7:0] Escape = 8'h7D;
-  localparam int unsigned EscapeBit = 5;  // bit that is inverted in an escaped byte
-  localparam logic [7:0] ProtocolVersion = 8'd1;
-  localparam logic [15:0] DefaultLimitMs = 16'd250;  // default limit of a wait
-  localparam int unsigned SilenceMs = 100;  // limit of silence inside a frame
-  localparam int unsigned TrialMs = 1000;  // trial time of a new rate
+  localparam logic [7:0] FLAG = 8'h7E;
+  localparam logic [7:0] ESCAPE = 8'h7D;
+  localparam int unsigned ESCAPE_BIT = 5;  // bit that is inverted in an escaped byte
+  localparam logic [7:0] PROTOCOL_VERSION = 8'd1;
+  localparam logic [15:0] DEFAULT_LIMIT_MS = 16'd250;  // default limit of a wait
+  localparam int unsigned SILENCE_MS = 100;  // limit of silence inside a frame
+  localparam int unsigned TRIAL_MS = 1000;  // trial time of a new rate
 
   // Ops without a register number: low four bits of an op whose high four bits are OpSystem.
   typedef enum logic [3:0] {
@@ -47,7 +47,7 @@ package ppmc_bridge_pkg;
     OpWait,
     OpWriteN,
     OpFetch
-  } op_e;
+  } op_group_e;
 
   typedef enum logic [2:0] {
     ResDone,
@@ -64,20 +64,20 @@ package ppmc_bridge_pkg;
     logic [7:0] pos;     // position of the op that ended the script
     logic [7:0] last;    // byte most recently read in the script; 0 if no byte
     logic [8:0] length;  // number of data bytes in the answer
-  } outcome_t;
+  } script_result_t;
 
   // Settings made by scripts, from the script engine to the other blocks of the bridge.
   typedef struct packed {
-    logic       sets;    // strobe: op and arg are valid
+    logic       valid;   // strobe: op and arg are valid
     sys_e       op;      // RATE, EVENTS, RECORD or another op
     logic [2:0] arg;     // first operand
     logic [7:0] straps;  // strap outputs
-  } settings_t;
+  } bridge_cmd_t;
 
   // Operand of op RECORD.
-  localparam logic [1:0] RecordEnd = 2'd0;
-  localparam logic [1:0] RecordBegin = 2'd1;
-  localparam logic [1:0] RecordRewind = 2'd2;
+  localparam logic [1:0] RECORD_END = 2'd0;
+  localparam logic [1:0] RECORD_BEGIN = 2'd1;
+  localparam logic [1:0] RECORD_REWIND = 2'd2;
 
   // First need of an op.
   typedef enum logic [2:0] {
@@ -86,7 +86,7 @@ package ppmc_bridge_pkg;
     NeedCheck,    // check of the number in its code
     NeedByte,     // one byte to store in the answer
     NeedBlock     // bytes to store in the answer, or a pause
-  } need_e;
+  } op_need_e;
 
   // Block of 16 bytes.
   typedef enum logic [1:0] {
@@ -120,7 +120,7 @@ package ppmc_bridge_pkg;
     endcase
   endfunction
 
-  function automatic bit available(int unsigned code, int unsigned clk_hz, int unsigned baud);
+  function automatic bit is_available(int unsigned code, int unsigned clk_hz, int unsigned baud);
     return code <= 6 && 64'(clk_hz) >= 64'd5 * 64'(rate_hz(code, baud));
   endfunction
 
@@ -128,7 +128,7 @@ package ppmc_bridge_pkg;
   function automatic int unsigned top_code(int unsigned clk_hz, int unsigned baud);
     int unsigned top;
     top = 0;
-    for (int unsigned code = 1; code <= 6; code++) if (available(code, clk_hz, baud)) top = code;
+    for (int unsigned code = 1; code <= 6; code++) if (is_available(code, clk_hz, baud)) top = code;
     return top;
   endfunction
 

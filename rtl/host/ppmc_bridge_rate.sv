@@ -24,7 +24,7 @@ module ppmc_bridge_rate
     output logic      [Width-1:0] step_o       // phases in a cycle
 );
 
-  localparam int unsigned TrialBits = $clog2(TrialMs + 1);
+  localparam int unsigned TrialBits = $clog2(TRIAL_MS + 1);
 
   logic [2:0] code_q, next_q;
   logic change_q, trial_q;
@@ -32,14 +32,14 @@ module ppmc_bridge_rate
   logic [Width-1:0] steps[8];
 
   for (genvar code = 0; code < 8; code++) begin : g_step
-    localparam int unsigned Rate = rate_hz(available(code, ClkHz, Baud) ? code : 0, Baud);
+    localparam int unsigned Rate = rate_hz(is_available(code, ClkHz, Baud) ? code : 0, Baud);
     assign steps[code] = Width'(phase_step(Rate, ClkHz, Width));
   end
 
   always_ff @(posedge clk_i) begin
     step_o <= steps[code_q];
     if (set_i) next_q <= code_i;
-    if (answered_i) left_q <= TrialBits'(TrialMs);
+    if (answered_i) left_q <= TrialBits'(TRIAL_MS);
     else if (ms_i) left_q <= left_q - 1'b1;
   end
 

@@ -35,7 +35,7 @@ module ppmc_bridge_rx
 );
 
   localparam logic [8:0] Empty = '1;
-  localparam int unsigned QuietBits = $clog2(SilenceMs + 1);
+  localparam int unsigned QuietBits = $clog2(SILENCE_MS + 1);
 
   logic hunt_q, escaped_q, seq_high_q;
   logic [8:0] index_q;  // index of the previous content byte: 0 is SEQ; Empty: no byte
@@ -45,7 +45,7 @@ module ppmc_bridge_rx
   logic flag, begin_q, content, silent;
   nak_e fault;
 
-  assign wdata_o  = byte_i ^ (8'(escaped_q) << EscapeBit);
+  assign wdata_o  = byte_i ^ (8'(escaped_q) << ESCAPE_BIT);
   assign waddr_o  = index_q[7:0];
   assign we_o     = content;
   assign length_o = index_q[7:0] - 8'd2;
@@ -56,8 +56,8 @@ module ppmc_bridge_rx
 
   // These signals are decoded one cycle before use. Their operands are stable between two characters.
   always_ff @(posedge clk_i) begin
-    is_flag_q    <= byte_i == Flag;
-    is_escape_q  <= byte_i == Escape;
+    is_flag_q    <= byte_i == FLAG;
+    is_escape_q  <= byte_i == ESCAPE;
     short_q      <= index_q[8:1] == '0;
     crc_bad_q    <= crc_q != '0;
     open_q       <= index_q != Empty || escaped_q;
@@ -111,7 +111,7 @@ module ppmc_bridge_rx
   end
 
   always_ff @(posedge clk_i) begin
-    if (valid_q && !busy_q) quiet_q <= QuietBits'(SilenceMs);
+    if (valid_q && !busy_q) quiet_q <= QuietBits'(SILENCE_MS);
     else if (ms_i) quiet_q <= quiet_q - 1'b1;
     if (valid_q && !busy_q) escaped_q <= content || is_flag_q ? 1'b0 : is_escape_q;
     // index_q is cleared one cycle after the flag, so that length_o is valid with request_o.

@@ -40,8 +40,8 @@ module ppmc_bridge_tx
   logic        feedback;
 
   // A byte that must be escaped is sent as two characters.
-  assign special  = !plain_q && !escaped_q && (char_q == Flag || char_q == Escape);
-  assign byte_o   = special ? Escape : char_q ^ (8'(escaped_q) << EscapeBit);
+  assign special  = !plain_q && !escaped_q && (char_q == FLAG || char_q == ESCAPE);
+  assign byte_o   = special ? ESCAPE : char_q ^ (8'(escaped_q) << ESCAPE_BIT);
   assign valid_o  = full_q;
   assign accepted = full_q && ready_i;
   assign take_o   = state_q == StContent && !full_q && ready_i && more_i;
@@ -92,7 +92,7 @@ module ppmc_bridge_tx
         StContent: char_q <= byte_i;
         StCrcHigh: char_q <= crc_q[15:8];
         StCrcLow:  char_q <= crc_q[7:0];
-        default:   char_q <= Flag;  // StIdle, StFlag
+        default:   char_q <= FLAG;  // StIdle, StFlag
       endcase
     end
   end

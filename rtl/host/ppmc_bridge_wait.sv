@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bridge_wait: compares the duration of a wait of a script with its limit.
 // Rules:  UB-WAIT-01, op TIMEOUT.
-// Timing: the time is held at 0 while waiting_i is low. over_o rises limit .. limit + 1 ms and one cycle
-//         after waiting_i; with limit 0, over_o is always high.
+// Timing: the time is held at 0 while waiting_i is low. timeout_o rises limit .. limit + 1 ms and one cycle
+//         after waiting_i; with limit 0, timeout_o is always high.
 `default_nettype none
 
 module ppmc_bridge_wait
@@ -14,24 +14,24 @@ module ppmc_bridge_wait
     input  wire logic        set_i,      // set another limit
     input  wire logic [15:0] limit_i,    // new limit, ms
     input  wire logic        waiting_i,  // a wait is in progress
-    output logic             over_o      // the limit has been reached
+    output logic             timeout_o   // the limit has been reached
 );
 
   logic [15:0] limit_q, wait_q;
-  logic look_once_q, at_limit_q, overdue_q;
+  logic limit_zero_q, at_limit_q, expired_q;
 
-  assign over_o = overdue_q || look_once_q;
+  assign timeout_o = expired_q || limit_zero_q;
 
   always_ff @(posedge clk_i) begin
-    if (start_i) limit_q <= DefaultLimitMs;
+    if (start_i) limit_q <= DEFAULT_LIMIT_MS;
     else if (set_i) limit_q <= limit_i;
-    look_once_q <= limit_q == '0;
-    at_limit_q  <= waiting_i && wait_q == limit_q;  // waiting_i excludes a match of the previous wait
+    limit_zero_q <= limit_q == '0;
+    at_limit_q   <= waiting_i && wait_q == limit_q;  // waiting_i excludes a match of the previous wait
     if (!waiting_i) begin
-      overdue_q <= 1'b0;
+      expired_q <= 1'b0;
       wait_q    <= '0;
     end else if (ms_i) begin
-      overdue_q <= overdue_q || at_limit_q;
+      expired_q <= expired_q || at_limit_q;
       wait_q    <= wait_q + 1'b1;
     end
   end

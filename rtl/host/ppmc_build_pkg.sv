@@ -14,7 +14,7 @@ package ppmc_build_pkg;
   `define PPMC_BUILD 128'h0
 `endif
 
-  localparam logic [127:0] Build = `PPMC_BUILD;  // first byte of the answer in the low bits
+  localparam logic [127:0] BUILD_ID = `PPMC_BUILD;  // first byte of the answer in the low bits
 
   // verilator lint_on UNUSEDPARAM
 

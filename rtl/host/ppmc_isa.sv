@@ -43,20 +43,20 @@ module ppmc_isa #(
 
   // ---- address decoder -------------------------------------------------------------------------------
 
-  logic here, hit_source, read, write;
+  logic in_window, hit_source, read, write;
   logic [ Bits-1:0] pair;  // number of the pair of registers
   logic [Parts-1:0] hit;
 
-  assign here       = !aen_i && (sa_i >> Bits) == 10'(Base >> Bits);
+  assign in_window  = !aen_i && (sa_i >> Bits) == 10'(Base >> Bits);
   assign pair       = Bits'({1'b0, sa_i[Bits-1:0]} >> 1);
   assign read       = !ior_ni && iow_ni;
   assign write      = !iow_ni && ior_ni;
   assign a0_o       = sa_i[0];
   assign cs_no      = ~hit;
-  assign hit_source = Source && here && sa_i[Bits-1:0] == Bits'(2 * Parts);
+  assign hit_source = Source && in_window && sa_i[Bits-1:0] == Bits'(2 * Parts);
 
   always_comb begin
-    for (int unsigned p = 0; p < Parts; p++) hit[p] = here && pair == Bits'(p);
+    for (int unsigned p = 0; p < Parts; p++) hit[p] = in_window && pair == Bits'(p);
   end
 
   // ---- interrupts ------------------------------------------------------------------------------------

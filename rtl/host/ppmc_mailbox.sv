@@ -59,27 +59,27 @@ module ppmc_mailbox #(
 
   localparam int unsigned MoreBits = 8 * (QueueBytes - 1);
   logic [MoreBits-1:0] more_q;  // bytes after the current one
-  logic [QueueBytes-2:0] have_q;  // bytes of more_q that are present
+  logic [QueueBytes-2:0] more_valid_q;  // bytes of more_q that are present
   logic next;
 
-  assign next  = !obf_o && have_q[0];
+  assign next  = !obf_o && more_valid_q[0];
   assign new_o = load_i || next;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      out_o  <= '0;
-      obf_o  <= 1'b0;
+      out_o <= '0;
+      obf_o <= 1'b0;
       more_q <= '0;
-      have_q <= '0;
+      more_valid_q <= '0;
     end else if (load_i) begin
       {more_q, out_o} <= answer_i;
-      have_q          <= {(QueueBytes - 1) {long_i}};
+      more_valid_q    <= {(QueueBytes - 1) {long_i}};
       obf_o           <= 1'b1;
     end else if (next) begin
-      out_o  <= more_q[7:0];
+      out_o <= more_q[7:0];
       more_q <= {more_q[MoreBits-1-:8], more_q[MoreBits-1:8]};
-      have_q <= have_q >> 1;
-      obf_o  <= 1'b1;
+      more_valid_q <= more_valid_q >> 1;
+      obf_o <= 1'b1;
     end else if (rd_done_i) begin
       obf_o <= 1'b0;
     end

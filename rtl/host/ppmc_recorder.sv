@@ -33,9 +33,9 @@ module ppmc_recorder
   localparam int unsigned Lane = 16;  // levels that are compared together
   localparam int unsigned Lanes = (Width + Lane - 1) / Lane;
 
-  logic running_q, first_q, full_q, rest_q, we, wanted;
+  logic running_q, first_q, full_q, rest_q, we, write_req;
   logic [Width-1:0] levels_q;
-  logic [Lanes-1:0] moved_q;
+  logic [Lanes-1:0] changed_q;
   logic [TimeBits-1:0] time_q;
   logic [AddrBits:0] count_q;
 
@@ -46,13 +46,13 @@ module ppmc_recorder
 
   always_ff @(posedge clk_i) begin
     levels_q <= watch_i;
-    for (int unsigned n = 0; n < Lanes; n++) moved_q[n] <= |differ[Lane*n+:Lane];
+    for (int unsigned n = 0; n < Lanes; n++) changed_q[n] <= |differ[Lane*n+:Lane];
   end
 
   // ---------------------------------------------------------------- records
 
-  assign wanted = running_q && (first_q || end_i || moved_q != '0 || rest_q);
-  assign we     = wanted && !count_q[AddrBits];
+  assign write_req = running_q && (first_q || end_i || changed_q != '0 || rest_q);
+  assign we        = write_req && !count_q[AddrBits];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -63,7 +63,7 @@ module ppmc_recorder
       if (begin_i) count_q <= '0;
       else if (we) count_q <= count_q + 1'b1;
       if (begin_i) {running_q, full_q} <= 2'b10;
-      else if (wanted) {running_q, full_q} <= {we && !end_i, !we};
+      else if (write_req) {running_q, full_q} <= {we && !end_i, !we};
     end
   end
 
@@ -77,7 +77,7 @@ module ppmc_recorder
 
   localparam int unsigned ByteBits = $clog2(Bytes);
   localparam int unsigned Pairs = (Bytes + 1) / 2;
-  logic [AddrBits-1:0] place_q;
+  logic [AddrBits-1:0] read_addr_q;
   logic [ByteBits-1:0] byte_q, pair;
   logic [8*Bytes-1:0] record;
 
@@ -87,24 +87,24 @@ module ppmc_recorder
   ) u_ram (
       .clk_i,
       .we_i   (we),
-      .addr_i (running_q ? count_q[AddrBits-1:0] : place_q),
+      .addr_i (running_q ? count_q[AddrBits-1:0] : read_addr_q),
       .wdata_i({levels_q, time_q}),
       .rdata_o(record)
   );
 
   // Two multiplexer stages, because a block RAM of an ECP5 needs half a cycle at 100 MHz.
   logic [16*Pairs-1:0] padded;
-  logic [ 8*Pairs-1:0] chosen_q;
+  logic [ 8*Pairs-1:0] byte_of_pair_q;
   assign padded = (16 * Pairs)'(record);
   assign pair   = byte_q >> 1;
 
   always_ff @(posedge clk_i) begin
-    for (int unsigned n = 0; n < Pairs; n++) chosen_q[8*n+:8] <= padded[16*n+8*byte_q[0]+:8];
-    data_o <= chosen_q[8*pair+:8] & {8{!running_q}};
-    if (begin_i || rewind_i) {place_q, byte_q} <= '0;
+    for (int unsigned n = 0; n < Pairs; n++) byte_of_pair_q[8*n+:8] <= padded[16*n+8*byte_q[0]+:8];
+    data_o <= byte_of_pair_q[8*pair+:8] & {8{!running_q}};
+    if (begin_i || rewind_i) {read_addr_q, byte_q} <= '0;
     else if (next_i) begin
-      byte_q  <= byte_q == ByteBits'(Bytes - 1) ? '0 : byte_q + 1'b1;
-      place_q <= place_q + AddrBits'(byte_q == ByteBits'(Bytes - 1));
+      byte_q <= byte_q == ByteBits'(Bytes - 1) ? '0 : byte_q + 1'b1;
+      read_addr_q <= read_addr_q + AddrBits'(byte_q == ByteBits'(Bytes - 1));
     end
   end
 

@@ -8,11 +8,11 @@ package ppmc_recorder_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  localparam int unsigned LeastTime = 14;  // minimum number of time bits in a record
+  localparam int unsigned MIN_TIME_BITS = 14;  // minimum number of time bits in a record
 
   // Number of bytes in a record with `width` levels.
   function automatic int unsigned record_bytes(int unsigned width);
-    return (width + LeastTime + 7) / 8;
+    return (width + MIN_TIME_BITS + 7) / 8;
   endfunction
 
   // verilator lint_on UNUSEDPARAM

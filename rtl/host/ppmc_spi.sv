@@ -70,7 +70,7 @@ module ppmc_spi #(
       .q2_o({sck, mosi, cs_n})
   );
 
-  logic rise, fall, whole, ended;
+  logic rise, fall, byte_end, frame_end;
   logic [2:0] count_q;  // number of received bits of this byte
   logic [6:0] bits_q;  // received bits of this byte
   logic [7:0] byte_in;
@@ -78,8 +78,8 @@ module ppmc_spi #(
   assign rise    = !cs_n && sck && !sck_q[0];
   assign fall    = !cs_n && !sck && sck_q[0];
   assign byte_in = {bits_q, mosi};
-  assign whole   = rise && count_q == 3'd7;
-  assign ended   = cs_n && active_o;  // high for one cycle
+  assign byte_end   = rise && count_q == 3'd7;
+  assign frame_end   = cs_n && active_o;  // high for one cycle
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -101,33 +101,33 @@ module ppmc_spi #(
   state_e state_q;
   mode_t mode_q;
   logic [9:0] addr_q;
-  logic bad_q;  // header rejected
+  logic reject_q;  // header rejected
   logic req, ready, done, unused;
 
   assign unused = ^{addr_q, meta};
 
   // A read begins at the first bit of the byte that requests it, so that it ends during the seven other bits.
-  assign req    = state_q == StData && (mode_q.write ? whole : rise && count_q == '0 && mosi);
+  assign req    = state_q == StData && (mode_q.write ? byte_end : rise && count_q == '0 && mosi);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q <= StHigh;
-      mode_q  <= '0;
-      addr_q  <= '0;
-      bad_q   <= 1'b0;
+      state_q  <= StHigh;
+      mode_q   <= '0;
+      addr_q   <= '0;
+      reject_q <= 1'b0;
     end else begin
       if (cs_n) state_q <= StHigh;
-      else if (whole)
+      else if (byte_end)
         unique case (state_q)
           StHigh:  state_q <= StLow;
-          StLow:   state_q <= bad_q ? StWaste : StData;
+          StLow:   state_q <= reject_q ? StWaste : StData;
           default: state_q <= state_q;
         endcase
-      if (whole && state_q == StHigh) begin
+      if (byte_end && state_q == StHigh) begin
         mode_q      <= byte_in[7:5];
-        bad_q       <= byte_in[4:2] != '0;
+        reject_q    <= byte_in[4:2] != '0;
         addr_q[9:8] <= byte_in[1:0];
-      end else if (whole && state_q == StLow) begin
+      end else if (byte_end && state_q == StLow) begin
         addr_q[7:0] <= byte_in;
       end else if (req) begin
         addr_q <= addr_q + {5'b0, mode_q.axis, 3'b0, mode_q.next};
@@ -137,25 +137,25 @@ module ppmc_spi #(
 
   // ---- data to the host ------------------------------------------------------------------------------
 
-  flags_t shown_q, flags_q, now;
-  logic asked_q;  // this byte requests a read
+  flags_t sent_flags_q, flags_q, now;
+  logic read_req_q;  // this byte requests a read
   logic [7:0] out_q, status, rdata;
 
   always_comb begin
     now         = '0;
     now.fast    = rise && sck_q[2:1] != '0;
-    now.cut     = ended && (count_q != '0 || state_q == StLow);
-    now.refused = whole && state_q == StLow && bad_q;
+    now.cut     = frame_end && (count_q != '0 || state_q == StLow);
+    now.refused = byte_end && state_q == StLow && reject_q;
   end
 
   // A flag stays set until a status byte with this flag has been sent completely.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      shown_q <= '0;
+      sent_flags_q <= '0;
       flags_q <= '0;
     end else begin
-      if (cs_n) shown_q <= flags_q;
-      if (whole && state_q == StHigh) flags_q <= (flags_q & ~shown_q) | now;
+      if (cs_n) sent_flags_q <= flags_q;
+      if (byte_end && state_q == StHigh) flags_q <= (flags_q & ~sent_flags_q) | now;
       else flags_q <= flags_q | now;
     end
   end
@@ -164,15 +164,15 @@ module ppmc_spi #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      asked_q   <= 1'b0;
-      out_q     <= '0;
-      miso_oe_o <= 1'b0;
+      read_req_q <= 1'b0;
+      out_q      <= '0;
+      miso_oe_o  <= 1'b0;
     end else begin
       miso_oe_o <= !cs_n;
-      if (rise && count_q == '0) asked_q <= req && !mode_q.write;
+      if (rise && count_q == '0) read_req_q <= req && !mode_q.write;
       if (cs_n) out_q <= status;
       else if (fall && count_q != '0) out_q <= out_q << 1;
-      else if (fall && state_q != StHigh) out_q <= asked_q ? rdata : '0;
+      else if (fall && state_q != StHigh) out_q <= read_req_q ? rdata : '0;
     end
   end
 
@@ -208,7 +208,7 @@ module ppmc_spi #(
   end
 
   `PPMC_ASSERT(spi_never_late, !req || ready)
-  `PPMC_ASSERT(spi_read_in_time, !(fall && count_q == '0 && asked_q && state_q == StData) || !open_q)
+  `PPMC_ASSERT(spi_read_in_time, !(fall && count_q == '0 && read_req_q && state_q == StData) || !open_q)
 `endif
 
 endmodule

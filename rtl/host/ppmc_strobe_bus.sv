@@ -80,46 +80,46 @@ module ppmc_strobe_bus (
   // wr_a0_o and wr_data_o load them while wr1 is high. At the end of the strobe, wr1 may be metastable. Then
   // it makes no difference whether the registers are loaded once more, because address and data have been
   // stable since the previous sample (P104-BUS-04).
-  logic wr3_q;
+  logic wr_s3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      wr3_q     <= 1'b0;
+      wr_s3_q   <= 1'b0;
       wr_a0_o   <= 1'b0;
       wr_data_o <= '0;
     end else begin
-      wr3_q <= wr2;
+      wr_s3_q <= wr2;
       if (wr1) {wr_a0_o, wr_data_o} <= {a01, d1};
     end
   end
 
-  assign wr_o      = wr3_q && !wr2;
-  assign wr_busy_o = wr1 || wr2 || wr3_q;
+  assign wr_o      = wr_s3_q && !wr2;
+  assign wr_busy_o = wr1 || wr2 || wr_s3_q;
 
   // Read: the byte counts as read if it was valid at the last load of d_o and no new byte arrives during the
   // read. A strobe of a single sample has no refresh. Therefore a byte that arrived at edge 0 of such a
   // strobe was not output.
-  logic taking_q, new_q, new2_q;
+  logic reading_q, new_q, new_s2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      d_oe_o   <= 1'b0;
-      d_o      <= '0;
-      taking_q <= 1'b0;
-      new_q    <= 1'b0;
-      new2_q   <= 1'b0;
+      d_oe_o    <= 1'b0;
+      d_o       <= '0;
+      reading_q <= 1'b0;
+      new_q     <= 1'b0;
+      new_s2_q  <= 1'b0;
     end else begin
       d_oe_o <= rd_raw;
-      new_q  <= data_new_i;
-      new2_q <= new_q;
+      new_q <= data_new_i;
+      new_s2_q <= new_q;
       if (rd_raw && !(rd1 && rd2)) d_o <= a0_i ? status_i : data_i;
-      if (data_new_i) taking_q <= 1'b0;
-      else if (rd1 && !rd2) taking_q <= !a01 && data_valid_i && !rd_done_o;
-      else taking_q <= rd_busy_o && rd2;
+      if (data_new_i) reading_q <= 1'b0;
+      else if (rd1 && !rd2) reading_q <= !a01 && data_valid_i && !rd_done_o;
+      else reading_q <= rd_busy_o && rd2;
     end
   end
 
-  assign rd_busy_o = taking_q && (rd1 || !new2_q);
+  assign rd_busy_o = reading_q && (rd1 || !new_s2_q);
   assign rd_done_o = rd_busy_o && !rd2;
 
 `ifndef SYNTHESIS

@@ -8,9 +8,9 @@
 
 module ppmc_strobe_master #(
     parameter int unsigned AddrBits = 1,
-    parameter int unsigned WriteClk = 4,  // length of a write strobe in cycles, at least 2
-    parameter int unsigned ReadClk  = 6,  // length of a read strobe in cycles, at least 5
-    parameter int unsigned GapClk   = 4   // cycles without a strobe between accesses, at least 3
+    parameter int unsigned WriteCycles = 4,  // length of a write strobe in cycles, at least 2
+    parameter int unsigned ReadCycles = 6,  // length of a read strobe in cycles, at least 5
+    parameter int unsigned GapCycles = 4  // cycles without a strobe between accesses, at least 3
 ) (
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
@@ -31,12 +31,12 @@ module ppmc_strobe_master #(
     input  wire logic [         7:0] d_i       // read data
 );
 
-  if (WriteClk < 2 || ReadClk < 5 || GapClk < 3) begin : g_check
-    $fatal(1, "ppmc_strobe_master: WriteClk >= 2, ReadClk >= 5, GapClk >= 3");
+  if (WriteCycles < 2 || ReadCycles < 5 || GapCycles < 3) begin : g_check
+    $fatal(1, "ppmc_strobe_master: WriteCycles >= 2, ReadCycles >= 5, GapCycles >= 3");
   end
 
-  localparam int unsigned Longest = ReadClk > WriteClk ? ReadClk : WriteClk;
-  localparam int unsigned CntBits = $clog2((Longest > GapClk ? Longest : GapClk) + 1);
+  localparam int unsigned LongestCycles = ReadCycles > WriteCycles ? ReadCycles : WriteCycles;
+  localparam int unsigned CntBits = $clog2((LongestCycles > GapCycles ? LongestCycles : GapCycles) + 1);
 
   typedef enum logic [1:0] {
     StIdle,
@@ -77,14 +77,14 @@ module ppmc_strobe_master #(
         StSetup: begin
           state_q <= StStrobe;
           cs_no   <= 1'b0;
-          left_q  <= write_q ? CntBits'(WriteClk - 1) : CntBits'(ReadClk - 1);
+          left_q  <= write_q ? CntBits'(WriteCycles - 1) : CntBits'(ReadCycles - 1);
         end
         StStrobe:
         if (left_q == '0) begin
           state_q <= StGap;
           cs_no   <= 1'b1;
           done_o  <= 1'b1;
-          left_q  <= CntBits'(GapClk - 3);
+          left_q  <= CntBits'(GapCycles - 3);
           if (!write_q) rdata_o <= d_i;
         end
         default: if (left_q == '0) state_q <= StIdle;  // StGap

@@ -40,7 +40,7 @@ module ppmc_uart_bridge
     output logic                    active_o       // a script is running or its answer is being sent
 );
 
-  if (!available(0, ClkHz, Baud)) begin : g_check
+  if (!is_available(0, ClkHz, Baud)) begin : g_check
     $fatal(1, "ppmc_uart_bridge: ClkHz must be at least 5 * Baud");
   end
   if (Axes < 1 || Axes > 2) begin : g_check_axes
@@ -57,13 +57,13 @@ module ppmc_uart_bridge
   // The zeros are needed because Verilator up to 5.032 treats a parameter that is set to a plain number as
   // one without a width.
   localparam logic [127:0] Ident = {
-    32'd0 | ClkHz, 32'd0 | XtalHz, IdentFlags, Part[15:0], ProtocolVersion, 8'h43, 8'h4D, 8'h50, 8'h50
+    32'd0 | ClkHz, 32'd0 | XtalHz, IdentFlags, Part[15:0], PROTOCOL_VERSION, 8'h43, 8'h4D, 8'h50, 8'h50
   };
 
   // ---------------------------------------------------------------- a millisecond
 
-  localparam int unsigned MsClk = ClkHz / 1000;
-  localparam int unsigned MsBits = $clog2(MsClk);
+  localparam int unsigned MsCycles = ClkHz / 1000;
+  localparam int unsigned MsBits = $clog2(MsCycles);
   logic [MsBits-1:0] prescale_q;
   logic ms_q;
 
@@ -73,7 +73,7 @@ module ppmc_uart_bridge
       ms_q       <= 1'b0;
     end else begin
       ms_q       <= prescale_q == '0;
-      prescale_q <= ms_q ? MsBits'(MsClk - 2) : prescale_q - 1'b1;
+      prescale_q <= ms_q ? MsBits'(MsCycles - 2) : prescale_q - 1'b1;
     end
   end
 
@@ -83,7 +83,7 @@ module ppmc_uart_bridge
   logic [7:0] rx_byte, tx_byte;
   logic rx_valid, rx_error, rx_break, tx_valid, tx_ready;
   logic good, answered;
-  settings_t settings;
+  bridge_cmd_t bridge_cmd;
 
   ppmc_bridge_rate #(
       .ClkHz(ClkHz),
@@ -93,8 +93,8 @@ module ppmc_uart_bridge
       .clk_i,
       .rst_ni,
       .ms_i      (ms_q),
-      .set_i     (settings.sets && settings.op == SysRate),
-      .code_i    (settings.arg),
+      .set_i     (bridge_cmd.valid && bridge_cmd.op == SysRate),
+      .code_i    (bridge_cmd.arg),
       .answered_i(answered),
       .good_i    (good),
       .break_i   (rx_error && rx_break),
@@ -129,7 +129,7 @@ module ppmc_uart_bridge
 
   // ---------------------------------------------------------------- requests
 
-  logic request, start, again, dropped, script, answer, nak_taken;
+  logic request, start, resend, dropped, script, answer, nak_taken;
   logic req_we, ans_we;
   logic [7:0] req_waddr, req_wdata, req_raddr, req_length, ans_waddr, ans_wdata, ans_raddr, rdata;
   logic [6:0] seq, last_seq_q;
@@ -156,8 +156,8 @@ module ppmc_uart_bridge
   );
 
   // A request that was already answered is answered again from the buffer (UB-SEQ-02).
-  assign again    = request && seq == last_seq_q && seq != '0;
-  assign start    = request && !again;
+  assign resend    = request && seq == last_seq_q && seq != '0;
+  assign start    = request && !resend;
   assign active_o = script || answer;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -181,7 +181,7 @@ module ppmc_uart_bridge
 
   // ---------------------------------------------------------------- scripts
 
-  outcome_t outcome;
+  script_result_t script_result;
   logic rec_next;
   logic [7:0] rec_data;
   logic [63:0] rec_info;
@@ -191,28 +191,28 @@ module ppmc_uart_bridge
       .Axes(Axes),
       .Recorder(Record != 0),
       .Ident(Ident),
-      .Build(ppmc_build_pkg::Build)
+      .Build(ppmc_build_pkg::BUILD_ID)
   ) u_exec (
       .clk_i,
       .rst_ni,
-      .ms_i       (ms_q),
-      .start_i    (start),
-      .again_i    (again),
-      .length_i   (req_length),
-      .raddr_o    (req_raddr),
-      .rdata_i    (rdata),
-      .interrupt_i(dropped),
-      .script_o   (script),
-      .answer_o   (answer),
-      .answered_i (answered),
-      .outcome_o  (outcome),
-      .we_o       (ans_we),
-      .waddr_o    (ans_waddr),
-      .wdata_o    (ans_wdata),
-      .settings_o (settings),
-      .rec_next_o (rec_next),
-      .rec_data_i (rec_data),
-      .rec_info_i (rec_info),
+      .ms_i        (ms_q),
+      .start_i     (start),
+      .resend_i    (resend),
+      .length_i    (req_length),
+      .raddr_o     (req_raddr),
+      .rdata_i     (rdata),
+      .interrupt_i (dropped),
+      .script_o    (script),
+      .answer_o    (answer),
+      .answered_i  (answered),
+      .result_o    (script_result),
+      .we_o        (ans_we),
+      .waddr_o     (ans_waddr),
+      .wdata_o     (ans_wdata),
+      .bridge_cmd_o(bridge_cmd),
+      .rec_next_o  (rec_next),
+      .rec_data_i  (rec_data),
+      .rec_info_i  (rec_info),
       .pins_i,
       .count_i,
       .count_zero_o,
@@ -226,8 +226,8 @@ module ppmc_uart_bridge
   );
 
   logic record;
-  assign record   = settings.sets && settings.op == SysRecord;
-  assign straps_o = settings.straps;
+  assign record   = bridge_cmd.valid && bridge_cmd.op == SysRecord;
+  assign straps_o = bridge_cmd.straps;
 
   if (Record != 0) begin : g_recorder
     logic begin_q, end_q, rewind_q;
@@ -235,9 +235,9 @@ module ppmc_uart_bridge
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) {begin_q, end_q, rewind_q} <= '0;
       else begin
-        begin_q  <= record && settings.arg[1:0] == RecordBegin;
-        end_q    <= record && settings.arg[1:0] == RecordEnd;
-        rewind_q <= record && settings.arg[1:0] == RecordRewind;
+        begin_q  <= record && bridge_cmd.arg[1:0] == RECORD_BEGIN;
+        end_q    <= record && bridge_cmd.arg[1:0] == RECORD_END;
+        rewind_q <= record && bridge_cmd.arg[1:0] == RECORD_REWIND;
       end
     end
 
@@ -266,7 +266,7 @@ module ppmc_uart_bridge
   // ---------------------------------------------------------------- events
 
   logic enabled_q, event_q, int_nq, event_taken, events_set;
-  assign events_set = settings.sets && settings.op == SysEvents;
+  assign events_set = bridge_cmd.valid && bridge_cmd.op == SysEvents;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -275,8 +275,8 @@ module ppmc_uart_bridge
       int_nq    <= 1'b1;
     end else begin
       int_nq <= int_ni;
-      if (events_set) enabled_q <= settings.arg[0];
-      if (events_set) event_q <= settings.arg[0] && (event_q || (!enabled_q && !int_ni));
+      if (events_set) enabled_q <= bridge_cmd.arg[0];
+      if (events_set) event_q <= bridge_cmd.arg[0] && (event_q || (!enabled_q && !int_ni));
       else if (enabled_q && int_nq && !int_ni) event_q <= 1'b1;
       else if (event_taken) event_q <= 1'b0;
     end
@@ -293,7 +293,7 @@ module ppmc_uart_bridge
       .script_i     (script),
       .answer_i     (answer),
       .seq_i        (seq),
-      .outcome_i    (outcome),
+      .result_i     (script_result),
       .raddr_o      (ans_raddr),
       .rdata_i      (rdata),
       .answered_o   (answered),

@@ -43,19 +43,19 @@ module ppmc_uart_host #(
   logic [Axes*32-1:0] count;
   logic [Axes-1:0] zero;
   logic [6:0] pins;
-  logic rst;
+  logic rst_host_n;
 
   ppmc_reset u_reset (
       .clk_i,
       .rst_ni,
-      .rst_no(rst)
+      .rst_no(rst_host_n)
   );
 
   ppmc_sync #(
       .Width(Axes * 6)
   ) u_sync (
       .clk_i,
-      .rst_ni(rst),
+      .rst_ni(rst_host_n),
       .d_i   (switches_ni),
       .q1_o  (unused_meta),
       .q2_o  (switches)
@@ -79,7 +79,7 @@ module ppmc_uart_host #(
       .Record   (Record)
   ) u_bridge (
       .clk_i,
-      .rst_ni      (rst),
+      .rst_ni      (rst_host_n),
       .rxd_i,
       .txd_o,
       .cs_no,
@@ -102,7 +102,7 @@ module ppmc_uart_host #(
     for (genvar n = 0; n < Axes; n++) begin : g_axis
       ppmc_pulse_counter u_counter (
           .clk_i,
-          .rst_ni (rst),
+          .rst_ni (rst_host_n),
           .clear_i(zero[n]),
           .pout_ni(pout_ni[n]),
           .dir_i  (dir_i[n]),

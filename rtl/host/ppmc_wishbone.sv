@@ -34,19 +34,20 @@ module ppmc_wishbone #(
     input  wire logic                int_ni   // interrupt, L = active
 );
 
-  logic call, own, bad, done, ready, req, unused;
+  logic call, bridge_reg, bad, done, ready, req, unused;
   logic [7:0] rdata;
   logic busy_q;  // a strobe access of this bridge is in progress
-  logic live_q;  // 1: the master still waits for this response
-  logic quick_q;  // 1: this response needs no strobe
+  logic waiting_q;  // 1: the master still waits for this response
+  logic no_strobe_q;  // 1: this response needs no strobe
   logic error_q;  // 1: this response is ERR, not ACK
   logic flag_q;  // data bit 0 of this response
 
   assign unused = &{1'b0, sel_i[3:1], dat_i[31:8]};
-  assign call   = cyc_i && stb_i && !busy_q && !quick_q;
-  assign own    = adr_i[AddrBits+2];
-  assign bad    = own && (we_i || adr_i[AddrBits+1:2] != '0);  // reserved, or a write to the bridge register
-  assign req    = call && !own && sel_i[0];
+  assign call = cyc_i && stb_i && !busy_q && !no_strobe_q;
+  assign bridge_reg = adr_i[AddrBits+2];
+  // bad: reserved, or a write to the bridge register
+  assign bad    = bridge_reg && (we_i || adr_i[AddrBits+1:2] != '0);
+  assign req = call && !bridge_reg && sel_i[0];
 
   ppmc_strobe_master #(
       .AddrBits(AddrBits)
@@ -70,18 +71,18 @@ module ppmc_wishbone #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      busy_q  <= 1'b0;
-      live_q  <= 1'b0;
-      quick_q <= 1'b0;
+      busy_q <= 1'b0;
+      waiting_q <= 1'b0;
+      no_strobe_q <= 1'b0;
       error_q <= 1'b0;
-      flag_q  <= 1'b0;
-      irq_o   <= 1'b0;
+      flag_q <= 1'b0;
+      irq_o <= 1'b0;
     end else begin
-      irq_o   <= !int_ni;
-      quick_q <= call && (own || !sel_i[0]);
+      irq_o <= !int_ni;
+      no_strobe_q <= call && (bridge_reg || !sel_i[0]);
       error_q <= bad;
-      flag_q  <= own && !bad && irq_o;
-      live_q  <= cyc_i && stb_i && (live_q || !busy_q);
+      flag_q <= bridge_reg && !bad && irq_o;
+      waiting_q <= cyc_i && stb_i && (waiting_q || !busy_q);
       if (req && ready) busy_q <= 1'b1;
       else if (done) busy_q <= 1'b0;
     end
@@ -89,17 +90,17 @@ module ppmc_wishbone #(
 
   // Gated, so that a master that aborts at the last moment gets no response.
   logic answer;
-  assign answer = cyc_i && stb_i && (quick_q || (done && live_q));
-  assign ack_o  = answer && !(quick_q && error_q);
-  assign err_o  = answer && quick_q && error_q;
-  assign dat_o  = {24'd0, quick_q ? {7'b0, flag_q} : rdata};
+  assign answer = cyc_i && stb_i && (no_strobe_q || (done && waiting_q));
+  assign ack_o  = answer && !(no_strobe_q && error_q);
+  assign err_o  = answer && no_strobe_q && error_q;
+  assign dat_o  = {24'd0, no_strobe_q ? {7'b0, flag_q} : rdata};
 
 `ifndef SYNTHESIS
   // verilog_format: off
   `PPMC_ASSERT(wb_one_answer, !(ack_o && err_o))
-  `PPMC_ASSERT(wb_answer_asked, !(ack_o || err_o) || (cyc_i && stb_i))
+  `PPMC_ASSERT(wb_answer_requested, !(ack_o || err_o) || (cyc_i && stb_i))
   `PPMC_ASSERT(wb_answer_single, !((ack_o || err_o) && $past(ack_o || err_o)))
-  `PPMC_ASSERT(wb_ack_per_strobe, quick_q || ack_o == (done && live_q && cyc_i && stb_i))
+  `PPMC_ASSERT(wb_ack_per_strobe, no_strobe_q || ack_o == (done && waiting_q && cyc_i && stb_i))
   `PPMC_ASSERT(wb_strobe_owned, !done || busy_q)
   // The master's side of the contract: a request that is neither answered nor aborted stays unchanged.
   `PPMC_ASSERT(wb_request_stable, !($past(rst_ni && cyc_i && stb_i && !ack_o && !err_o) && cyc_i && stb_i)

@@ -20,7 +20,7 @@ module ppmc_axis
     parameter int unsigned CountBits = 24,
     parameter int unsigned RateBits = 8,
     parameter int unsigned StepBits = 14,
-    parameter int unsigned ClimbBits = StepBits,  // must hold PA + 1
+    parameter int unsigned LevelBits = StepBits,  // must hold PA + 1
     parameter int unsigned WidthXtal = 80,  // pulse width and direction set-up, crystal cycles
     parameter int unsigned FastQuanta = 8,  // period of the fast internal base clock, quanta
     parameter int unsigned SlowQuanta = 32,  // period of the slow internal base clock, quanta
@@ -39,7 +39,7 @@ module ppmc_axis
     input wire op_t op_i,  // operation to start
     input wire logic [CountBits-1:0] count_i,  // number of pulses - 1
     input wire logic [RateBits-1:0] rate_i,  // rate at constant speed
-    input wire base_t base_i,  // base clock of the operation
+    input wire base_clock_t base_i,  // base clock of the operation
     // active ramp, stable while busy
     input wire logic [RateBits-1:0] rate_slow_i,  // start-up rate
     input wire logic [RateBits-1:0] rate_fast_i,  // high-speed rate
@@ -53,7 +53,7 @@ module ppmc_axis
     output logic slow_seen_o,  // an effective slow-down limit is active
     input wire logic run_i,  // 0: a motion that has not begun waits in the RUN gate
     input wire logic go_i,  // 0: pulse 1 is held back
-    input wire logic linger_i,  // 1 keeps the motion from ending
+    input wire logic end_delay_i,  // 1 keeps the motion from ending
     // clocks
     input wire logic quantum_i,  // quantum tick, restarted by restart_o
     input wire logic clock_pin_i,  // external base clock, asynchronous
@@ -62,14 +62,15 @@ module ppmc_axis
     output motion_t motion_o,  // state of the motion
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
     output logic low_o,  // a pulse is active
-    output event_t event_o,  // events at the next edge
-    output cause_t cause_o,  // valid with event_o.done
+    output motion_event_t event_o,  // events at the next edge
+    output stop_cause_t cause_o,  // valid with event_o.done
     output logic [CountBits-1:0] left_o  // remaining pulses as the host reads them
 );
 
-  localparam int unsigned BriskXtal = 128;  // P104-TIM-05 (c)
-  localparam int unsigned LongXtal = (ExtraQuanta != 0) ? 136 : BriskXtal;  // P104-INT-03: 8.5 us at 16 MHz
-  localparam int unsigned LagXtal = 4 * ExtraQuanta;
+  localparam int unsigned ShortPeriodXtal = 128;  // P104-TIM-05 (c)
+  // P104-INT-03: 8.5 us at 16 MHz
+  localparam int unsigned LongPeriodXtal = (ExtraQuanta != 0) ? 136 : ShortPeriodXtal;
+  localparam int unsigned ExtraXtal = 4 * ExtraQuanta;
 
   typedef enum logic [1:0] {
     StIdle,
@@ -79,18 +80,18 @@ module ppmc_axis
   } state_e;
 
   state_e state_q;
-  logic brisk_q;
-  switches_t guarded;
+  logic short_period_q;
+  switches_t stop_switches;
   logic busy, running, gated_q, armed, fire, last, complete, stop, done, top;
-  op_t   op_q;
-  base_t base_q;
-  logic due, up, seek, rising, forced, flagged, dec, crawl, last_pulse;
-  logic low, base_tick, rise, fall, ext_long, ext_brisk, tick, hit, half, edges, ext_count, cut;
+  op_t op_q;
+  base_clock_t base_q;
+  logic interval_end, width_past, lookup_busy, rising, forced, flagged, dec, at_start_rate, last_pulse;
+  logic low, base_tick, rise, fall, ext_long_period, ext_short_period, tick, hit, half, edges, ext_count, cut;
 
   assign armed = state_q == StStart || state_q == StRun;
   assign busy = state_q != StIdle;
   assign running = state_q == StRun;
-  assign done = state_q == StFinish && !low_o && !linger_i;
+  assign done = state_q == StFinish && !low_o && !end_delay_i;
   assign restart_o = (fire && state_q == StStart) || done;
   assign low_o = PulsePin && low;
   assign last = last_pulse || (OriginAtPulse && op_q.origin && switches_i.origin);
@@ -98,8 +99,8 @@ module ppmc_axis
   // An immediate cause also suppresses a pulse that is scheduled for the same edge.
   always_comb begin
     fire = 1'b0;
-    if (state_q == StStart) fire = up && go_i && (op_q.single || !base_q.external || rise);
-    if (state_q == StRun) fire = due && !(base_q.external && low_o);
+    if (state_q == StStart) fire = width_past && go_i && (op_q.single || !base_q.external || rise);
+    if (state_q == StRun) fire = interval_end && !(base_q.external && low_o);
     if (stop) fire = 1'b0;
   end
 
@@ -111,8 +112,8 @@ module ppmc_axis
   end
 
   always_comb begin
-    guarded = switches_i;
-    if (OriginAtPulse || gated_q) guarded.origin = 1'b0;
+    stop_switches = switches_i;
+    if (OriginAtPulse || gated_q) stop_switches.origin = 1'b0;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -120,7 +121,7 @@ module ppmc_axis
       state_q <= StIdle;
       op_q    <= '0;
       base_q  <= '0;
-      brisk_q <= 1'b0;
+      short_period_q <= 1'b0;
     end else begin
       if (start_i) begin
         state_q <= StStart;
@@ -129,39 +130,39 @@ module ppmc_axis
       end else if (stop) state_q <= StFinish;
       else if (fire) state_q <= last ? StFinish : StRun;
       else if (done) state_q <= StIdle;
-      if (fire) brisk_q <= ext_brisk && base_q.external;
+      if (fire) short_period_q <= ext_short_period && base_q.external;
     end
   end
 
-  ppmc_stop_guard #(
+  ppmc_stop_monitor #(
       .StopAtSlow(StopAtSlow),
       .SlowAlways(SlowAlways),
       .SlowOrigin(SlowOrigin)
-  ) u_guard (
+  ) u_stop (
       .clk_i,
       .rst_ni,
-      .clear_i   (start_i),
-      .complete_i(fire && complete),
-      .armed_i   (armed),
-      .op_i      (op_q),
-      .switches_i(guarded),
-      .top_i     (top),
-      .crawl_i   (crawl && running),
-      .dec_i     (dec),
+      .clear_i        (start_i),
+      .complete_i     (fire && complete),
+      .armed_i        (armed),
+      .op_i           (op_q),
+      .switches_i     (stop_switches),
+      .top_i          (top),
+      .at_start_rate_i(at_start_rate && running),
+      .dec_i          (dec),
       .halt_i,
       .decel_i,
       .slow_i,
       .slow_seen_o,
-      .stop_o    (stop),
-      .forced_o  (forced),
-      .flagged_o (flagged),
+      .stop_o         (stop),
+      .forced_o       (forced),
+      .flagged_o      (flagged),
       .cause_o
   );
 
   ppmc_ramp_seq #(
       .CountBits(CountBits),
       .RateBits (RateBits),
-      .StepBits (ClimbBits),
+      .StepBits (LevelBits),
       .LutBits  (StepBits)
   ) u_seq (
       .clk_i,
@@ -178,12 +179,12 @@ module ppmc_axis
       .pulse_i (fire),
       .forced_i(forced),
       .rate_o,
-      .seek_o  (seek),
+      .lookup_busy_o  (lookup_busy),
       .rising_o(rising),
       .last_o  (last_pulse),
       .final_o (complete),
       .top_o   (top),
-      .crawl_o (crawl),
+      .at_start_rate_o (at_start_rate),
       .dec_o   (dec),
       .left_o
   );
@@ -205,7 +206,7 @@ module ppmc_axis
       .rate_i (rate_o),
       .cut_i  (cut),
       .low_o  (low),
-      .up_o   (up)
+      .past_o (width_past)
   );
 
   // Interval: counts base clocks, which are internal or edges of the clock pin, and adds the extra time.
@@ -213,17 +214,18 @@ module ppmc_axis
   // this cycle:
   // - Edge number rate + 1 after a pulse outputs the next pulse (u_rate: hit_o), or the extra time follows
   //   this edge. An edge while low_o = 1 outputs no pulse; the next edge does. This can occur only after a
-  //   pulse of rate 0 that is not brisk.
+  //   pulse of rate 0 whose period is not short.
   // - Edge number floor((rate + 1) / 2) marks half of the interval (u_rate: half_o). It cuts low_o, unless
-  //   the pulse is a full one. At rate 0, the falling edge cuts low_o if the pulse is brisk (u_shaper,
-  //   P104-TIM-05).
+  //   the pulse is a full one. At rate 0, the falling edge cuts low_o if the period before the pulse was
+  //   short (u_shaper, P104-TIM-05).
   // Both numbers refer to the rate of the running interval, which u_seq outputs with the pulse. Only from the
   // second deceleration step on, this rate may still rise for some cycles (rising). During these cycles
   // neither event occurs: the half is made up for afterwards, and the next pulse cannot be reached yet (times
   // in ppmc_ramp_seq).
   assign edges = base_q.external && rise;
-  assign tick  = base_q.external ? edges && ext_count : base_tick;
-  assign cut   = base_q.external && ((half && rate_o != '0) || (brisk_q && fall && rate_o == '0 && !rising));
+  assign tick = base_q.external ? edges && ext_count : base_tick;
+  assign cut   = base_q.external &&
+      ((half && rate_o != '0) || (short_period_q && fall && rate_o == '0 && !rising));
 
   ppmc_base_clock #(
       .FastQuanta (FastQuanta),
@@ -240,16 +242,16 @@ module ppmc_axis
   );
 
   ppmc_ext_clock #(
-      .LongClk (ppmc_pkg::cyc_round(LongXtal, ClkHz, XtalHz)),
-      .BriskClk(ppmc_pkg::cyc(BriskXtal, ClkHz, XtalHz))
+      .LongPeriodCycles (ppmc_pkg::cyc_round(LongPeriodXtal, ClkHz, XtalHz)),
+      .ShortPeriodCycles(ppmc_pkg::cyc(ShortPeriodXtal, ClkHz, XtalHz))
   ) u_ext (
       .clk_i,
       .rst_ni,
-      .pin_i  (clock_pin_i),
-      .rise_o (rise),
-      .fall_o (fall),
-      .long_o (ext_long),
-      .brisk_o(ext_brisk)
+      .pin_i(clock_pin_i),
+      .rise_o(rise),
+      .fall_o(fall),
+      .long_period_o(ext_long_period),
+      .short_period_o(ext_short_period)
   );
 
   ppmc_rate_counter #(
@@ -260,32 +262,32 @@ module ppmc_axis
       .restart_i(fire),
       .tick_i   (tick),
       .rate_i   (rate_o),
-      .wait_i   (seek),
+      .wait_i   (lookup_busy),
       .rising_i (rising),
       .hit_o    (hit),
       .half_o   (half)
   );
 
   if (ExtraQuanta != 0) begin : g_extra
-    ppmc_ext_lag #(
-        .LagClk(ppmc_pkg::cyc_round(LagXtal, ClkHz, XtalHz))
-    ) u_lag (
+    ppmc_ext_extra_time #(
+        .ExtraCycles(ppmc_pkg::cyc_round(ExtraXtal, ClkHz, XtalHz))
+    ) u_extra_time (
         .clk_i,
         .rst_ni,
-        .en_i     (base_q.external && base_q.extra),
-        .restart_i(fire),
-        .edge_i   (edges),
-        .long_i   (ext_long),
-        .hit_i    (hit),
-        .count_o  (ext_count),
-        .fire_o   (due)
+        .en_i         (base_q.external && base_q.extra),
+        .restart_i    (fire),
+        .edge_i       (edges),
+        .long_period_i(ext_long_period),
+        .hit_i        (hit),
+        .count_o      (ext_count),
+        .fire_o       (interval_end)
     );
   end else begin : g_plain
     logic unused_long;
 
-    assign unused_long = ext_long;
-    assign ext_count   = 1'b1;
-    assign due         = hit;
+    assign unused_long  = ext_long_period;
+    assign ext_count    = 1'b1;
+    assign interval_end = hit;
   end
 
   assign event_o = '{pulse: fire, last: last, complete: complete, stop: stop, done: done};
@@ -316,7 +318,8 @@ module ppmc_axis
       too_fast_q <= too_fast && !start_i;
     end
   end
-  `PPMC_ASSERT(p104_tim_05_cut, !(running && due && low_o && base_q.external && rate_o != '0 && !too_fast))
+  `PPMC_ASSERT(p104_tim_05_cut,
+               !(running && interval_end && low_o && base_q.external && rate_o != '0 && !too_fast))
   `PPMC_ASSERT(p2104_opr_02, !(fire && gated_q))
   `PPMC_ASSERT(p104_opr_12, !(start_i && busy))
   logic final_seen_q;

@@ -23,7 +23,7 @@ module ppmc_base_clock #(
   localparam int unsigned Longest = (Slower > ExtraQuanta) ? Slower : ExtraQuanta;
   localparam int unsigned Width = ppmc_pkg::cnt_width(Longest - 1);
 
-  logic [Width-1:0] left_q, whole;  // left_q: remaining quanta minus 1; whole: its next start value
+  logic [Width-1:0] left_q, reload;  // left_q: remaining quanta minus 1; reload: its next start value
   logic extra_q;  // the extra time is running
   logic last_q;  // the next quantum ends the period
   logic ends;
@@ -32,8 +32,8 @@ module ppmc_base_clock #(
   assign tick_o = ends && !extra_q;
 
   always_comb begin
-    whole = slow_i ? Width'(SlowQuanta - 1) : Width'(FastQuanta - 1);
-    if (restart_i && extra_i) whole = Width'(ExtraQuanta - 1);
+    reload = slow_i ? Width'(SlowQuanta - 1) : Width'(FastQuanta - 1);
+    if (restart_i && extra_i) reload = Width'(ExtraQuanta - 1);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -42,7 +42,7 @@ module ppmc_base_clock #(
       last_q  <= 1'b0;
     end else if (restart_i || ends) begin
       extra_q <= restart_i && extra_i;
-      last_q  <= whole == '0;
+      last_q  <= reload == '0;
     end else if (quantum_i) begin
       last_q <= left_q == Width'(1);
     end
@@ -50,7 +50,7 @@ module ppmc_base_clock #(
 
   // No reset, because the first pulse of a motion restarts left_q.
   always_ff @(posedge clk_i) begin
-    if (restart_i || ends) left_q <= whole;
+    if (restart_i || ends) left_q <= reload;
     else if (quantum_i) left_q <= Width'(ppmc_pkg::dec(32'(left_q)));
   end
 

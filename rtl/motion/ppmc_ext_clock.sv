@@ -2,30 +2,30 @@
 // ppmc_ext_clock: edges of an external base clock and the length of its last period.
 // Rules:  P104-BCK-04, P104-INT-03 (period compared with the threshold), P104-TIM-05 (c).
 // Timing: for a rising pin edge first sampled at edge t, rise_o is high in the cycle before edge t + 2; for a
-//         falling edge likewise fall_o. In the cycle of rise_o, long_o and brisk_o refer to the period that
-//         this edge ends.
+//         falling edge likewise fall_o. In the cycle of rise_o, long_period_o and short_period_o refer to the
+//         period that this edge ends.
 `default_nettype none
 
 module ppmc_ext_clock #(
-    parameter int unsigned LongClk  = 136,  // a longer period is long, cycles
-    parameter int unsigned BriskClk = 128   // a shorter period is brisk, cycles; at most LongClk
+    parameter int unsigned LongPeriodCycles  = 136,  // a longer period is long
+    parameter int unsigned ShortPeriodCycles = 128   // a shorter period is short; at most LongPeriodCycles
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
-    input  wire logic pin_i,   // external clock, asynchronous
-    output logic      rise_o,  // rising edge of the pin
-    output logic      fall_o,  // falling edge of the pin
-    output logic      long_o,  // more than LongClk cycles since the previous rising edge
-    output logic      brisk_o  // less than BriskClk cycles since the previous rising edge
+    input  wire logic pin_i,          // external clock, asynchronous
+    output logic      rise_o,         // rising edge of the pin
+    output logic      fall_o,         // falling edge of the pin
+    output logic      long_period_o,  // more than LongPeriodCycles cycles since the previous rising edge
+    output logic      short_period_o  // less than ShortPeriodCycles cycles since the previous rising edge
 );
 
-  localparam int unsigned Width = ppmc_lfsr_pkg::width(LongClk);
-  localparam logic [Width-1:0] Brisk = Width'(ppmc_lfsr_pkg::after(BriskClk - 2, Width));
-  localparam logic [Width-1:0] Long = Width'(ppmc_lfsr_pkg::after(LongClk - 1, Width));
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(LongPeriodCycles);
+  localparam logic [Width-1:0] ShortLast = Width'(ppmc_lfsr_pkg::after(ShortPeriodCycles - 2, Width));
+  localparam logic [Width-1:0] LongLast = Width'(ppmc_lfsr_pkg::after(LongPeriodCycles - 1, Width));
 
-  logic level, last_q, slow_q;
+  logic level, last_q, not_short_q;
   logic unused_meta;
-  logic [Width-1:0] age_q;  // cycles since the last rising edge; not used with long_o
+  logic [Width-1:0] age_q;  // cycles since the last rising edge; not used with long_period_o
 
   ppmc_sync #(
       .Width   (1),
@@ -38,28 +38,28 @@ module ppmc_ext_clock #(
       .q2_o(level)
   );
 
-  assign rise_o  = level && !last_q;
-  assign fall_o  = !level && last_q;
-  assign brisk_o = !slow_q;
+  assign rise_o = level && !last_q;
+  assign fall_o = !level && last_q;
+  assign short_period_o = !not_short_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       last_q <= 1'b1;
-      slow_q <= 1'b1;  // no previous edge: the period is infinite
-      long_o <= 1'b1;
+      not_short_q <= 1'b1;  // no previous edge: the period is infinite
+      long_period_o <= 1'b1;
     end else begin
       last_q <= level;
       if (rise_o) begin
-        slow_q <= 1'b0;
-        long_o <= 1'b0;
-      end else if (!long_o) begin
-        if (age_q == Brisk) slow_q <= 1'b1;
-        if (age_q == Long) long_o <= 1'b1;
+        not_short_q   <= 1'b0;
+        long_period_o <= 1'b0;
+      end else if (!long_period_o) begin
+        if (age_q == ShortLast) not_short_q <= 1'b1;
+        if (age_q == LongLast) long_period_o <= 1'b1;
       end
     end
   end
 
-  // No reset, because long_o is set until the first edge clears it.
+  // No reset, because long_period_o is set until the first edge clears it.
   always_ff @(posedge clk_i) begin
     if (rise_o) age_q <= Width'(1);
     else age_q <= Width'(ppmc_lfsr_pkg::step(31'(age_q), Width));

@@ -2,14 +2,14 @@
 // ppmc_hold_timer: asserts hold_o when the motor has been at standstill for the hold time, which is fixed or
 //         a number of units set by the host.
 // Rules:  P104-END-08, P104-DS-09, P2104-END-07, P2104-AUX-05; STMC-HLD-01.
-// Timing: hold_o is deasserted one cycle after busy_i rises. It is asserted one cycle, plus RestClk cycles,
-//         after quantum tick number Quanta since the fall of busy_i (with units: tick number Quanta *
+// Timing: hold_o is deasserted one cycle after busy_i rises. It is asserted one cycle, plus RestCycles
+//         cycles, after quantum tick number Quanta since the fall of busy_i (with units: tick number Quanta *
 //         (units_i + 1)). units_i is sampled while busy_i is high.
 `default_nettype none
 
 module ppmc_hold_timer #(
     parameter int unsigned Quanta = 136_000,  // quantum ticks; 34 ms at 16 MHz
-    parameter int unsigned RestClk = 0,  // cycles after the last quantum, fewer than a quantum has
+    parameter int unsigned RestCycles = 0,  // cycles after the last quantum, fewer than a quantum has
     parameter int unsigned UnitBits = 0,  // bits of units_i; 0: fixed time; else Quanta is a power of 2
     localparam int unsigned UnitTop = (UnitBits == 0) ? 0 : UnitBits - 1
 ) (
@@ -41,17 +41,17 @@ module ppmc_hold_timer #(
       );
     end
 
-    if (RestClk == 0) begin : g_whole
+    if (RestCycles == 0) begin : g_whole
       assign done = counted;
     end else begin : g_rest
-      localparam int unsigned RestBits = ppmc_pkg::cnt_width(RestClk);
+      localparam int unsigned RestBits = ppmc_pkg::cnt_width(RestCycles);
 
       logic [RestBits-1:0] rest_q;
 
       assign done = counted && rest_q == '0;
 
       always_ff @(posedge clk_i) begin
-        if (busy_i) rest_q <= RestBits'(RestClk);
+        if (busy_i) rest_q <= RestBits'(RestCycles);
         else if (counted && rest_q != '0) rest_q <= rest_q - 1'b1;
       end
     end

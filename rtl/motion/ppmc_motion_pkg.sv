@@ -29,7 +29,7 @@ package ppmc_motion_pkg;
     logic external;  // edges of the clock pin, not the internal base clock
     logic slow;      // slow internal base clock
     logic extra;     // extra time in every interval
-  } base_t;
+  } base_clock_t;
 
   // Causes that ended a motion before its last pulse (P104-END-04), in the bit order of the finish status.
   typedef struct packed {
@@ -37,7 +37,7 @@ package ppmc_motion_pkg;
     logic alarm;  // ALM
     logic limit;  // limit in the direction of the motion
     logic slow;   // slow-down limit in the direction of the motion
-  } cause_t;
+  } stop_cause_t;
 
   // Levels of the switches after the synchroniser, 1 = active.
   typedef struct packed {
@@ -51,14 +51,14 @@ package ppmc_motion_pkg;
 
   // State of the motion of an axis.
   typedef struct packed {
-    logic  busy;     // from the start until the low time of the last pulse has ended
-    logic  moving;   // before pulse 1 or between pulses, not yet stopping
-    logic  running;  // between pulses
-    logic  gated;    // waiting in the RUN gate
-    logic  dec;      // decelerating, forced or natural
-    logic  top;      // on the plateau of the ramp
-    op_t   op;       // the running or last operation
-    base_t base;     // base clock of this operation
+    logic        busy;     // from the start until the low time of the last pulse has ended
+    logic        moving;   // before pulse 1 or between pulses, not yet stopping
+    logic        running;  // between pulses
+    logic        gated;    // waiting in the RUN gate
+    logic        dec;      // decelerating, forced or natural
+    logic        top;      // on the plateau of the ramp
+    op_t         op;       // the running or last operation
+    base_clock_t base;     // base clock of this operation
   } motion_t;
 
   // Events of a motion at the next edge.
@@ -68,7 +68,7 @@ package ppmc_motion_pkg;
     logic complete;  // with pulse: the count is complete
     logic stop;      // immediate end
     logic done;      // the motion has ended
-  } event_t;
+  } motion_event_t;
 
   // Times of the chopper: a phase lasts its base time plus its units. They are sampled when the phase begins.
   typedef struct packed {
@@ -76,12 +76,13 @@ package ppmc_motion_pkg;
     logic [31:0] off_base;   // base time of the OFF phase, quanta, at least 1
     logic [7:0]  on_units;   // ON units set by the host
     logic [7:0]  off_units;  // OFF units set by the host
-  } chop_t;
+  } chop_time_t;
 
   // Phases of a motor, 1 = energised. No table is needed: a full step rotates the pattern by one phase. Half
   // steps use in turn AND and OR of the pattern and the rotated pattern. A 5-phase motor starts with OR,
-  // other motors with AND. pair: two adjacent phases are on, which is an even index of the half-step table.
-  function automatic logic [5:1] turned(logic [5:1] pattern, motor_e motor, logic ccw);
+  // other motors with AND. two_phases: two adjacent phases are on, which is an even index of the half-step
+  // table.
+  function automatic logic [5:1] rotate_phases(logic [5:1] pattern, motor_e motor, logic ccw);
     logic [5:1] t;
     if (ccw) begin
       t = {1'b0, pattern[5:2]};
@@ -107,11 +108,11 @@ package ppmc_motion_pkg;
     return t;
   endfunction
 
-  function automatic logic [5:1] stepped(logic [5:1] pattern, logic pair, logic half, motor_e motor,
-                                         logic ccw);
+  function automatic logic [5:1] next_phases(logic [5:1] pattern, logic two_phases, logic half, motor_e motor,
+                                             logic ccw);
     logic [5:1] t;
-    t = turned(pattern, motor, ccw);
-    if (half) t = (pair == (motor == Motor5)) ? pattern | t : pattern & t;
+    t = rotate_phases(pattern, motor, ccw);
+    if (half) t = (two_phases == (motor == Motor5)) ? pattern | t : pattern & t;
     return t;
   endfunction
 

@@ -10,11 +10,11 @@ module ppmc_motor_port
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned HoldQuanta = 136_000,
-    parameter int unsigned HoldRest = 0,  // cycles added to the hold time
+    parameter int unsigned HoldRestCycles = 0,  // cycles added to the hold time
     parameter int unsigned HoldBits = 0,  // bits of hold_units_i; 0: the hold time is fixed
     parameter int unsigned UnitQuanta = 12,
     parameter int unsigned BaseBits = 9,
-    parameter bit PhaseIdle = 1'b1,  // level of s_o in reset; positive_i must be !PhaseIdle until home_i
+    parameter bit PhaseIdle = 1'b1,  // level of s_o in reset; positive_i = !PhaseIdle until phase_init_i
     localparam int unsigned HoldTop = (HoldBits == 0) ? 0 : HoldBits - 1
 ) (
     input  wire logic                  clk_i,
@@ -29,8 +29,8 @@ module ppmc_motor_port
     input  wire motor_e                motor_i,         // number of phases
     input  wire logic                  half_i,          // half step
     input  wire logic                  positive_i,      // 1: high = energised; stable while energised
-    input  wire logic                  home_i,          // set the phases to index 0
-    input  wire logic                  off_i,           // switch the phases off until home_i
+    input  wire logic                  phase_init_i,    // set the phases to index 0
+    input  wire logic                  off_i,           // switch the phases off until phase_init_i
     // chopper
     input  wire logic                  chop_i,          // chop at standstill
     input  wire logic                  chop_restart_i,  // begin a complete ON phase
@@ -59,7 +59,7 @@ module ppmc_motor_port
       .rst_ni,
       .motor_i,
       .half_i,
-      .home_i,
+      .phase_init_i,
       .off_i,
       .step_i,
       .ccw_i,
@@ -83,8 +83,8 @@ module ppmc_motor_port
   );
 
   ppmc_hold_timer #(
-      .Quanta  (HoldQuanta),
-      .RestClk (HoldRest),
+      .Quanta(HoldQuanta),
+      .RestCycles(HoldRestCycles),
       .UnitBits(HoldBits)
   ) u_hold (
       .clk_i,

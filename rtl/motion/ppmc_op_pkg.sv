@@ -16,7 +16,7 @@ package ppmc_op_pkg;
   localparam logic [2:0] OP_ORIGIN = 3'b111;
 
   // Operation in the form that the axis uses.
-  function automatic ppmc_motion_pkg::op_t op_of(logic pout_only, logic ccw, logic [2:0] op);
+  function automatic ppmc_motion_pkg::op_t motion_op(logic pout_only, logic ccw, logic [2:0] op);
     return
     '{
         ramp: op inside {OP_ACC_DEC, OP_CONT_HIGH},

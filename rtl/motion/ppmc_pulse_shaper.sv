@@ -2,8 +2,8 @@
 // ppmc_pulse_shaper: low time of a pulse; the same time is the direction set-up before the first pulse.
 // Rules:  P104-TIM-02 (set-up), P104-TIM-05 (width), P104-END-01/02 (a low time that has begun is not
 //         changed).
-// Timing: low_o is high for exactly WidthClk cycles from the edge of pulse_i, unless it is cut. up_o rises
-//         WidthClk cycles after arm_i.
+// Timing: low_o is high for exactly WidthCycles cycles from the edge of pulse_i, unless it is cut. past_o
+//         rises WidthCycles cycles after arm_i.
 `default_nettype none
 
 module ppmc_pulse_shaper #(
@@ -23,23 +23,23 @@ module ppmc_pulse_shaper #(
     input  wire logic [RateBits-1:0] rate_i,   // rate of the interval that follows
     input  wire logic                cut_i,    // end the low time now, unless the pulse is a full one
     output logic                     low_o,    // 1 = pulse active
-    output logic                     up_o      // WidthClk cycles have passed since arm_i or pulse_i
+    output logic                     past_o    // WidthCycles cycles have passed since arm_i or pulse_i
 );
 
-  localparam int unsigned WidthClk = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
-  localparam int unsigned Width = ppmc_lfsr_pkg::width(WidthClk - 1);
+  localparam int unsigned WidthCycles = ppmc_pkg::cyc(WidthXtal, ClkHz, XtalHz);
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(WidthCycles - 1);
 
-  localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthClk - 2, Width));
+  localparam logic [Width-1:0] Last = Width'(ppmc_lfsr_pkg::after(WidthCycles - 2, Width));
 
-  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after up_o
+  logic [Width-1:0] age_q;  // cycles since arm_i or pulse_i; not used after past_o
   logic full_q;
   logic [HalfRates:0] halves;  // bit r: half the interval of rate r has passed; the top bit is always 0
 
   assign halves[HalfRates] = 1'b0;
 
   for (genvar r = 0; r < HalfRates; r++) begin : g_half
-    localparam int unsigned HalfClk = ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz);
-    localparam logic [Width-1:0] Half = Width'(ppmc_lfsr_pkg::after(HalfClk - 1, Width));
+    localparam int unsigned HalfCycles = ppmc_pkg::cyc(HalfXtal * (r + 1), ClkHz, XtalHz);
+    localparam logic [Width-1:0] Half = Width'(ppmc_lfsr_pkg::after(HalfCycles - 1, Width));
 
     assign halves[r] = halve_i && rate_i == RateBits'(r) && age_q == Half;
   end
@@ -48,13 +48,13 @@ module ppmc_pulse_shaper #(
     if (!rst_ni) begin
       full_q <= 1'b0;
       low_o  <= 1'b0;
-      up_o   <= 1'b0;
+      past_o <= 1'b0;
     end else begin
-      up_o <= !(arm_i || pulse_i) && (up_o || age_q == Last);
+      past_o <= !(arm_i || pulse_i) && (past_o || age_q == Last);
       if (pulse_i) begin
         low_o  <= 1'b1;
         full_q <= full_i;
-      end else if (up_o || (!full_q && (halves != '0 || cut_i))) begin
+      end else if (past_o || (!full_q && (halves != '0 || cut_i))) begin
         low_o <= 1'b0;
       end
     end

@@ -35,8 +35,8 @@ module ppmc_ramp_builder
   pass_e pass_q;  // running pass
   pass_e pass;  // next pass
   logic first_q, begin_q;  // first_q, begin_q: first and second cycle of a build
-  logic slower_q;  // 1: the factor is 2a; 0: the factor is b
-  logic again_q;  // second multiplication by this factor
+  logic factor_2a_q;  // 1: the factor is 2a; 0: the factor is b
+  logic second_mul_q;  // second multiplication by this factor
   logic [MulBits-1:0] mul_q;  // index of the multiplier bit; between two factors the highest
   logic [RateBits-1:0] rate_q;  // r
   logic found_q;  // bits_q is a threshold
@@ -45,9 +45,9 @@ module ppmc_ramp_builder
   logic [RateBits:0] first, second;
 
   assign done    = rate_q == slow_i;
-  assign next    = begin_q ? !done : last && !(pass_q == PassTell && done);
-  assign mul_bit = slower_q ? slow_i[mul_q] : fast_i[mul_q];
-  assign product = pass_q == PassMulEnd && slower_q && again_q;  // the last product
+  assign next    = begin_q ? !done : last && !(pass_q == PassOutput && done);
+  assign mul_bit = factor_2a_q ? slow_i[mul_q] : fast_i[mul_q];
+  assign product = pass_q == PassMulEnd && factor_2a_q && second_mul_q;  // the last product
   assign we_o    = begin_q || found_q;
   assign addr_o  = rate_q;
   assign data_o  = bits_q;
@@ -56,7 +56,7 @@ module ppmc_ramp_builder
   always_comb begin
     first  = {rate_q, 1'b0};
     second = {rate_q, 1'b0};
-    if (pass_q == PassShare) begin
+    if (pass_q == PassDivide) begin
       first  = {1'b0, slow_i + ~fast_i};
       second = {1'b0, slow_i} + {1'b0, fast_i} + 1'b1;
     end
@@ -72,7 +72,7 @@ module ppmc_ramp_builder
       .next_i  (pass),
       .pass_i  (pass_q),
       .mul_i   (mul_bit),
-      .keep_i  (!slower_q),
+      .keep_i  (!factor_2a_q),
       .init_i  (bits_q[0]),
       .first_i (first),
       .second_i(second),
@@ -92,14 +92,14 @@ module ppmc_ramp_builder
       PassInit:   pass = PassMulBit;
       PassMulBit: begin
         pass = PassMulBit;
-        if (mul_q == '0) pass = slower_q ? PassMulOne : PassMulEnd;
+        if (mul_q == '0) pass = factor_2a_q ? PassMulOne : PassMulEnd;
       end
       PassMulOne: pass = PassMulEnd;
-      PassSquare: pass = PassLess;
-      PassLess:   pass = PassShare;
-      PassShare:  pass = PassTell;
-      PassTell:   pass = PassSquare;
-      default:    pass = product ? PassSquare : PassMulBit;  // PassMulEnd
+      PassDivideSquare: pass = PassSubtract;
+      PassSubtract:   pass = PassDivide;
+      PassDivide:  pass = PassOutput;
+      PassOutput:   pass = PassDivideSquare;
+      default:    pass = product ? PassDivideSquare : PassMulBit;  // PassMulEnd
     endcase
     if (begin_q) pass = PassInit;
   end
@@ -111,18 +111,19 @@ module ppmc_ramp_builder
       begin_q  <= 1'b0;
       found_q  <= 1'b0;
       pass_q   <= PassInit;
-      slower_q <= 1'b0;
-      again_q  <= 1'b0;
+      factor_2a_q <= 1'b0;
+      second_mul_q  <= 1'b0;
       mul_q    <= MulBits'(RateBits - 1);
     end else begin
       first_q <= start_i && !busy_o;
       begin_q <= first_q;
-      found_q <= last && pass_q == PassTell;
+      found_q <= last && pass_q == PassOutput;
       if (!busy_o) busy_o <= start_i;
       else if (done && we_o) busy_o <= 1'b0;
 
       if (next) pass_q <= pass;
-      if (last && pass_q == PassMulEnd) {slower_q, again_q} <= {slower_q ^ again_q, !again_q};
+      if (last && pass_q == PassMulEnd)
+        {factor_2a_q, second_mul_q} <= {factor_2a_q ^ second_mul_q, !second_mul_q};
       if (last && pass_q == PassMulBit) mul_q <= (mul_q == '0) ? MulBits'(RateBits - 1) : mul_q - 1'b1;
     end
   end

@@ -7,13 +7,13 @@
 `default_nettype none
 
 module ppmc_ramp_divide #(
-    parameter int unsigned Width = 9  // bits of less_i
+    parameter int unsigned Width = 9  // bits of divisor_m1_i
 ) (
     input  wire logic             clk_i,
-    input  wire logic             run_i,   // bit_i is valid
-    input  wire logic             bit_i,   // bit of the dividend
-    input  wire logic [Width-1:0] less_i,  // divisor - 1; stable while run_i = 1
-    output logic                  bit_o    // bit of the quotient
+    input  wire logic             run_i,         // bit_i is valid
+    input  wire logic             bit_i,         // bit of the dividend
+    input  wire logic [Width-1:0] divisor_m1_i,  // divisor - 1; stable while run_i = 1
+    output logic                  bit_o          // bit of the quotient
 );
 
   logic [Width:0] rem_q;  // remainder, -divisor .. divisor - 1
@@ -25,7 +25,7 @@ module ppmc_ramp_divide #(
 
   // An additional bit below the sum generates the carry-in.
   assign {trial, unused_carry} =
-      {rem_q[Width-1:0], bit_i, below} + {{1'b0, less_i} ^ {(Width + 1) {!below}}, below};
+      {rem_q[Width-1:0], bit_i, below} + {{1'b0, divisor_m1_i} ^ {(Width + 1) {!below}}, below};
 
   always_ff @(posedge clk_i) begin
     if (!run_i) rem_q <= '0;

@@ -8,14 +8,14 @@ package ppmc_ramp_pkg;
   // verilator lint_off UNUSEDPARAM
 
   typedef enum logic [2:0] {
-    PassInit,    // n = PA, v = 0
+    PassInit,  // n = PA, v = 0
     PassMulBit,  // v = 2v + bit * n: one multiplier bit, the highest first
     PassMulOne,  // v = 2v + n: multiplier bit 1
     PassMulEnd,  // n = n + v, v = 0: multiplied by the multiplier + 1
-    PassSquare,  // v = n / s / s, s = 2r + 1
-    PassLess,    // v = v - u
-    PassShare,   // v = v / (a - b) / (a + b)
-    PassTell     // output v + 1; v is overwritten
+    PassDivideSquare,  // v = n / s / s, s = 2r + 1
+    PassSubtract,  // v = v - u
+    PassDivide,  // v = v / (a - b) / (a + b)
+    PassOutput  // output v + 1; v is overwritten
   } pass_e;
 
   // verilator lint_on UNUSEDPARAM

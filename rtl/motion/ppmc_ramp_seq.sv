@@ -3,7 +3,8 @@
 // Rules:  P104-PRO-01..06, P104-FDC-01..03/05, P104-RMP-01/02, P104-OPR-02, P104-RD-07, P104-BCK-05.
 // Timing: all state changed by pulse_i is valid after its edge, except rate_o, the rate of the new interval.
 //         - Accelerating or at constant rate: rate_o changes at the same edge. The look-up of the next rate
-//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); seek_o then keeps a pulse back.
+//           follows. It takes 3 n + 1 cycles (n: rates that the ramp skips); lookup_busy_o then keeps a pulse
+//           back.
 //         - First deceleration step: rate_o changes one cycle later (rising_o), to the rate of the interval
 //           before the last acceleration step.
 //         - Further deceleration steps: rate_o is valid when rising_o falls. The look-up runs in the new
@@ -35,45 +36,46 @@ module ppmc_ramp_seq #(
     input wire logic forced_i,  // forced deceleration; stays set until the motion ends
     // state
     output logic [RateBits-1:0] rate_o,  // rate of the running interval
-    output logic seek_o,  // a look-up is running: no pulse may occur
+    output logic lookup_busy_o,  // a look-up is running: no pulse may occur
     output logic rising_o,  // a look-up is running: rate_o may still rise
     output logic last_o,  // a pulse now would be the last one
     output logic final_o,  // a pulse now would complete the count
     output logic top_o,  // running interval is on the plateau
-    output logic crawl_o,  // before any deceleration: running interval has the start-up rate
+    output logic at_start_rate_o,  // before any deceleration: running interval has the start-up rate
     output logic dec_o,  // natural deceleration has begun
     output logic [CountBits-1:0] left_o  // remaining pulses minus 1, but at least 0
 );
 
   typedef enum logic [1:0] {
-    StRest,  // the threshold of probe_q is valid
+    StRest,  // the threshold of lookup_rate_q is valid
     StRead,  // table access
     StWait,
     StTest
   } state_e;
 
   state_e state_q;
-  // climb: number of acceleration pulses that were output and not yet reversed; this is the index of the
-  // running interval + 1. room_q is climb inverted, so that the comparison is an addition without inverters.
-  logic [StepBits-1:0] climb, room_q;
-  logic [RateBits-1:0] probe_q;  // rate under test
-  logic [RateBits-1:0] back_q;  // rate of the interval before the last step up
-  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and climb, one cycle late
-  logic load_q;  // probe_q is the rate of the running interval
-  logic slower_q;  // the deceleration has begun
+  // ramp_level: number of acceleration pulses that were output and not yet reversed; this is the index of the
+  // running interval + 1. ramp_level_nq is ramp_level inverted, so that the comparison is an addition without
+  // inverters.
+  logic [StepBits-1:0] ramp_level, ramp_level_nq;
+  logic [RateBits-1:0] lookup_rate_q;  // rate under test
+  logic [RateBits-1:0] prev_rate_q;  // rate of the interval before the last step up
+  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle late
+  logic load_q;  // lookup_rate_q is the rate of the running interval
+  logic decel_q;  // the deceleration has begun
   logic end_q;  // the look-up is at the end of the ramp; valid before each test
-  logic probe_slow_q;  // probe_q is the start-up rate; valid long before it is used
-  logic up, down, turn, odd, high, step, below, reached, more;
+  logic lookup_slow_q;  // lookup_rate_q is the start-up rate; valid long before it is used
+  logic up, down, decel_starts, odd, high, lookup_step, below, reached, more;
   logic [StepBits:0] unused_sum;
 
   // Ramp step at a pulse event: up, down or no step. left_o is the number of pulses that follow this one.
   always_comb begin
-    odd     = left_o[0] ^ climb[0];  // with near_q: the deceleration needs all remaining pulses
-    down    = ramp_i && (forced_i || dec_o || (near_q && odd));
-    up      = ramp_i && !down && !near_q && !top_o;
-    turn    = down && !slower_q;
-    final_o = zero_q;
-    last_o  = zero_q || (forced_i && low_q);
+    odd          = left_o[0] ^ ramp_level[0];  // with near_q: the deceleration needs all remaining pulses
+    down         = ramp_i && (forced_i || dec_o || (near_q && odd));
+    up           = ramp_i && !down && !near_q && !top_o;
+    decel_starts = down && !decel_q;
+    final_o      = zero_q;
+    last_o       = zero_q || (forced_i && low_q);
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -85,10 +87,10 @@ module ppmc_ramp_seq #(
       top_o  <= 1'b0;
       dec_o  <= 1'b0;
     end else begin
-      near_q <= !high && !ppmc_pkg::less(32'(climb), 32'(left_o[StepBits-1:0]));
-      full_q <= reached;  // 1 without a look-up and before deceleration: climb = PA
+      near_q <= !high && !ppmc_pkg::less(32'(ramp_level), 32'(left_o[StepBits-1:0]));
+      full_q <= reached;  // 1 without a look-up and before deceleration: ramp_level = PA
       zero_q <= !high && left_o[StepBits-1:0] == '0;
-      low_q  <= climb[StepBits-1:1] == '0;
+      low_q  <= ramp_level[StepBits-1:1] == '0;
       if (load_i) begin
         top_o <= 1'b0;
         dec_o <= 1'b0;
@@ -108,58 +110,59 @@ module ppmc_ramp_seq #(
 
   // No reset, because every motion begins with a load.
   always_ff @(posedge clk_i) begin
-    probe_slow_q <= probe_q == slow_i;
-    end_q <= slower_q ? rate_o == slow_i : probe_q == fast_i;
-    if (load_i) crawl_o <= 1'b1;
-    else if (pulse_i && up) crawl_o <= probe_slow_q;
+    lookup_slow_q <= lookup_rate_q == slow_i;
+    end_q <= decel_q ? rate_o == slow_i : lookup_rate_q == fast_i;
+    if (load_i) at_start_rate_o <= 1'b1;
+    else if (pulse_i && up) at_start_rate_o <= lookup_slow_q;
   end
 
-  assign high  = left_o[CountBits-1:StepBits] != '0;
+  assign high = left_o[CountBits-1:StepBits] != '0;
 
-  assign climb = ~room_q;
+  assign ramp_level = ~ramp_level_nq;
 
   // No reset, because every motion begins with a load.
   always_ff @(posedge clk_i) begin
-    if (load_i) room_q <= '1;
-    else if (pulse_i && (up || down)) room_q <= room_q + {{(StepBits - 1) {!down}}, 1'b1};
+    if (load_i) ramp_level_nq <= '1;
+    else if (pulse_i && (up || down)) ramp_level_nq <= ramp_level_nq + {{(StepBits - 1) {!down}}, 1'b1};
   end
 
-  // Rate look-up. While accelerating, probe_q decreases as long as climb has reached the threshold of
-  // probe_q; after the look-up, probe_q is the rate of the next step up. While decelerating, rate_o follows
-  // probe_q as long as the index, climb - 1, is below the threshold of probe_q; after the look-up, probe_q is
-  // the next slower rate. The threshold of probe_q is valid then, so that a look-up begins with a test.
-  // below: climb < threshold; while decelerating, climb <= threshold. In these cases the sum has a carry.
-  // Base clocks 4 cycles apart never reach the end of an interval before its look-up ends, because n is at
-  // most the rate of the interval. Base clocks 6 cycles apart do not reach the middle of the interval before
-  // the look-up ends: on ramps of 4 steps and more, n is smaller than the rate, or 1.
-  assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), slower_q} + {1'b0, room_q, slower_q};
+  // Rate look-up. While accelerating, lookup_rate_q decreases as long as ramp_level has reached the threshold
+  // of lookup_rate_q; after the look-up, lookup_rate_q is the rate of the next step up. While decelerating,
+  // rate_o follows lookup_rate_q as long as the index, ramp_level - 1, is below the threshold of
+  // lookup_rate_q; after the look-up, lookup_rate_q is the next slower rate. The threshold of lookup_rate_q
+  // is valid then, so that a look-up begins with a test. below: ramp_level < threshold; while decelerating,
+  // ramp_level <= threshold. In these cases the sum has a carry. Base clocks 4 cycles apart never reach the
+  // end of an interval before its look-up ends, because n is at most the rate of the interval. Base clocks 6
+  // cycles apart do not reach the middle of the interval before the look-up ends: on ramps of 4 steps and
+  // more, n is smaller than the rate, or 1.
+  assign {below, unused_sum} = {1'b0, StepBits'(lut_data_i), decel_q} + {1'b0, ramp_level_nq, decel_q};
   assign reached             = !below;
-  assign more                = !end_q && reached != slower_q;
-  assign step                = (load_q && slower_q) || (state_q == StTest && more);
-  assign seek_o              = state_q != StRest || load_q;
-  assign rising_o            = seek_o && slower_q;
-  assign lut_addr_o          = probe_q;
+  assign more                = !end_q && reached != decel_q;
+  assign lookup_step         = (load_q && decel_q) || (state_q == StTest && more);
+  assign lookup_busy_o       = state_q != StRest || load_q;
+  assign rising_o            = lookup_busy_o && decel_q;
+  assign lut_addr_o          = lookup_rate_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q  <= StRest;
-      probe_q  <= '0;
-      rate_o   <= '0;
-      load_q   <= 1'b0;
-      slower_q <= 1'b0;
+      state_q <= StRest;
+      lookup_rate_q <= '0;
+      rate_o <= '0;
+      load_q <= 1'b0;
+      decel_q <= 1'b0;
     end else begin
-      load_q <= load_i || (pulse_i && turn);
-      if (load_q || (pulse_i && up) || (step && slower_q)) rate_o <= probe_q;
+      load_q <= load_i || (pulse_i && decel_starts);
+      if (load_q || (pulse_i && up) || (lookup_step && decel_q)) rate_o <= lookup_rate_q;
 
-      if (load_i) probe_q <= rate_i;
-      else if (pulse_i && turn) probe_q <= back_q;
-      else if (step) probe_q <= probe_q + {{(RateBits - 1) {!slower_q}}, 1'b1};
+      if (load_i) lookup_rate_q <= rate_i;
+      else if (pulse_i && decel_starts) lookup_rate_q <= prev_rate_q;
+      else if (lookup_step) lookup_rate_q <= lookup_rate_q + {{(RateBits - 1) {!decel_q}}, 1'b1};
 
-      if (load_i) slower_q <= 1'b0;
-      else if (pulse_i && down) slower_q <= 1'b1;
+      if (load_i) decel_q <= 1'b0;
+      else if (pulse_i && down) decel_q <= 1'b1;
 
       unique case (state_q)
-        StRest:  if (pulse_i && (up || (down && slower_q))) state_q <= StTest;
+        StRest:  if (pulse_i && (up || (down && decel_q))) state_q <= StTest;
         StRead:  state_q <= StWait;
         StWait:  state_q <= StTest;
         default: state_q <= more ? StRead : StRest;
@@ -168,16 +171,16 @@ module ppmc_ramp_seq #(
     end
   end
 
-  // No reset, because the first step up loads back_q.
+  // No reset, because the first step up loads prev_rate_q.
   always_ff @(posedge clk_i) begin
-    if (pulse_i && up) back_q <= rate_o;
+    if (pulse_i && up) prev_rate_q <= rate_o;
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p104_rmp_02_answer, state_q != StTest || probe_q == $past(probe_q, 2))
-  `PPMC_ASSERT(p104_bck_05_known, !(pulse_i && ramp_i && seek_o))
+  `PPMC_ASSERT(p104_rmp_02_answer, state_q != StTest || lookup_rate_q == $past(lookup_rate_q, 2))
+  `PPMC_ASSERT(p104_bck_05_known, !(pulse_i && ramp_i && lookup_busy_o))
   `PPMC_ASSERT(p104_rmp_rate_range, !(pulse_i && ramp_i) || (rate_o <= slow_i && rate_o >= fast_i))
-  `PPMC_ASSERT(p104_pro_index, !(pulse_i && up) || !end_q || 32'(climb) <= 32'(lut_data_i))
+  `PPMC_ASSERT(p104_pro_index, !(pulse_i && up) || !end_q || 32'(ramp_level) <= 32'(lut_data_i))
 `endif
 
 endmodule

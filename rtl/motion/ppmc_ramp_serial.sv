@@ -3,7 +3,7 @@
 //         bit of each number in a word.
 // Rules:  P104-RMP-02/04 (numerator and denominator of every threshold).
 // Timing: a pass begins in the cycle after start_i and lasts 2 cycles more than it has words. last_o marks
-//         its last cycle, in which the next pass may be started. PassTell outputs one bit per cycle from
+//         its last cycle, in which the next pass may be started. PassOutput outputs one bit per cycle from
 //         its third to its last cycle (use_o = 1).
 // How:    n = numerator, u = subtrahend between the divisions, v = product, quotient or difference. Bit i is
 //         stored in word i. A quotient follows its dividend by two cycles and is written two words lower: its
@@ -27,72 +27,73 @@ module ppmc_ramp_serial
     input  wire logic              init_i,    // bit of PassInit, in the order and at the time of bit_o
     input  wire logic  [Width-1:0] first_i,   // first divisor of a division, minus 1
     input  wire logic  [Width-1:0] second_i,  // divisor of the first quotient, minus 1
-    output logic                   bit_o,     // bit of PassTell, the lowest first
+    output logic                   bit_o,     // bit of PassOutput, the lowest first
     output logic                   use_o,     // bit_o is valid, init_i is used
     output logic                   last_o     // the pass ends with this cycle
 );
 
-  localparam int unsigned ShareBits = StepBits + 2 * RateBits;  // bits of v when u is subtracted
-  localparam int unsigned Bits = ShareBits + 2 * Width;  // bits of n
+  localparam int unsigned DivideBits = StepBits + 2 * RateBits;  // bits of v when u is subtracted
+  localparam int unsigned Bits = DivideBits + 2 * Width;  // bits of n
   localparam int unsigned AddrBits = ppmc_pkg::cnt_width(Bits + 10);
 
   typedef logic [AddrBits-1:0] addr_t;
-  typedef struct packed {logic n, v, u;} word_t;
+  typedef struct packed {logic n, v, u;} serial_word_t;
 
   // First and last word of each pass. Divisions run towards lower words.
   function automatic addr_t first_word(pass_e pass);
     unique case (pass)
-      PassSquare: return addr_t'(Bits - 1);
-      PassShare:  return addr_t'(ShareBits - 1);
-      PassLess:   return -addr_t'(2);
-      PassTell:   return -addr_t'(2);
+      PassDivideSquare: return addr_t'(Bits - 1);
+      PassDivide:  return addr_t'(DivideBits - 1);
+      PassSubtract:   return -addr_t'(2);
+      PassOutput:   return -addr_t'(2);
       default:    return '0;
     endcase
   endfunction
 
   function automatic addr_t last_word(pass_e pass);
     unique case (pass)
-      PassSquare, PassShare: return -addr_t'(2);
-      PassLess:              return addr_t'(ShareBits - 1);
-      PassTell:              return addr_t'(StepBits - 3);
-      default:               return addr_t'(Bits - 1);
+      PassDivideSquare, PassDivide: return -addr_t'(2);
+      PassSubtract:                 return addr_t'(DivideBits - 1);
+      PassOutput:                   return addr_t'(StepBits - 3);
+      default:                      return addr_t'(Bits - 1);
     endcase
   endfunction
 
-  word_t rd, wr;
-  addr_t read_at_q, at;  // read_at_q: word to read; at: word in use, read two cycles before
-  addr_t turn, turned;
+  serial_word_t rd, wr;
+  addr_t read_addr_q, use_addr;  // read_addr_q: word to read; use_addr: word in use
+  addr_t flip, flipped;
   logic down;
   logic run_q, read_q, use_q, second_q;  // stages of a word: address, RAM, use, second division
 
-  assign down   = pass_i inside {PassSquare, PassShare};
-  assign use_o  = use_q;
-  assign last_o = use_q && !read_q;
-  // at is read_at_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from gates.
-  assign turn   = {{(AddrBits - 1) {!down}}, 1'b0};
-  assign turned = read_at_q ^ turn;
-  assign at     = {(AddrBits - 1)'(ppmc_pkg::inc(32'(turned[AddrBits-1:1]))), turned[0]} ^ turn;
+  assign down     = pass_i inside {PassDivideSquare, PassDivide};
+  assign use_o    = use_q;
+  assign last_o   = use_q && !read_q;
+  // use_addr is read_addr_q two words back: minus 2 in a pass that runs upwards, else plus 2; built from
+  // gates.
+  assign flip     = {{(AddrBits - 1) {!down}}, 1'b0};
+  assign flipped  = read_addr_q ^ flip;
+  assign use_addr = {(AddrBits - 1)'(ppmc_pkg::inc(32'(flipped[AddrBits-1:1]))), flipped[0]} ^ flip;
 
   ppmc_ram #(
-      .Width   ($bits(word_t)),
+      .Width   ($bits(serial_word_t)),
       .AddrBits(AddrBits)
   ) u_scratch (
       .clk_i,
       .we_i   (use_q),
-      .waddr_i(at),
+      .waddr_i(use_addr),
       .wdata_i(wr),
-      .raddr_i(read_at_q),
+      .raddr_i(read_addr_q),
       .rdata_o(rd)
   );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {second_q, use_q, read_q, run_q} <= '0;
-      read_at_q <= '0;
+      read_addr_q <= '0;
     end else begin
       {second_q, use_q, read_q} <= {use_q, read_q, run_q};
-      run_q <= start_i || (run_q && read_at_q != last_word(pass_i));
-      read_at_q <= start_i ? first_word(next_i) : read_at_q + {{(AddrBits - 1) {down}}, 1'b1};
+      run_q <= start_i || (run_q && read_addr_q != last_word(pass_i));
+      read_addr_q <= start_i ? first_word(next_i) : read_addr_q + {{(AddrBits - 1) {down}}, 1'b1};
     end
   end
 
@@ -105,19 +106,19 @@ module ppmc_ramp_serial
     unique case (pass_i)
       PassInit:               addend = 1'b0;
       PassMulBit, PassMulOne: addend = v_q[0];  // times 2
-      PassLess:               addend = v_q[1];  // the difference is stored two words lower
+      PassSubtract:           addend = v_q[1];  // the difference is stored two words lower
       default:                addend = rd.v;
     endcase
     unique case (pass_i)
       PassMulBit: operand = rd.n && mul_i;
-      PassLess:   operand = !rd.u;
-      PassInit, PassTell: operand = 1'b0;
+      PassSubtract:   operand = !rd.u;
+      PassInit, PassOutput: operand = 1'b0;
       default:    operand = rd.n;
     endcase
     sum = addend ^ operand ^ carry_q;
   end
 
-  // carry_q is cleared between passes; before PassLess and PassTell it is set.
+  // carry_q is cleared between passes; before PassSubtract and PassOutput it is set.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       v_q     <= '0;
@@ -125,7 +126,7 @@ module ppmc_ramp_serial
     end else begin
       v_q <= {v_q[0], rd.v && use_q};
       if (use_q) carry_q <= (addend && operand) || (addend && carry_q) || (operand && carry_q);
-      else carry_q <= pass_i inside {PassLess, PassTell};
+      else carry_q <= pass_i inside {PassSubtract, PassOutput};
     end
   end
 
@@ -139,20 +140,20 @@ module ppmc_ramp_serial
       .Width(Width)
   ) u_first (
       .clk_i,
-      .run_i (use_q),
-      .bit_i ((pass_i == PassSquare) ? rd.n : rd.v),
-      .less_i(first_i),
-      .bit_o (between)
+      .run_i(use_q),
+      .bit_i((pass_i == PassDivideSquare) ? rd.n : rd.v),
+      .divisor_m1_i(first_i),
+      .bit_o(between)
   );
 
   ppmc_ramp_divide #(
       .Width(Width)
   ) u_second (
       .clk_i,
-      .run_i (second_q),
-      .bit_i (between),
-      .less_i(second_i),
-      .bit_o (quotient)
+      .run_i(second_q),
+      .bit_i(between),
+      .divisor_m1_i(second_i),
+      .bit_o(quotient)
   );
 
   // ---- write-back of each pass ---------------------------------------------------------------------
@@ -167,7 +168,7 @@ module ppmc_ramp_serial
         wr.v = 1'b0;
         if (keep_i) wr.u = sum;
       end
-      PassSquare, PassShare: wr.v = quotient;
+      PassDivideSquare, PassDivide: wr.v = quotient;
       default: ;
     endcase
   end

@@ -23,23 +23,23 @@ module ppmc_ramp_tables #(
 );
 
   logic second_q;  // axis of the running build: 1 = axis 2
-  logic ran_q, we, start, busy, done;
-  logic [2:1] at;
+  logic was_busy_q, we, start, busy, done;
+  logic [2:1] build_axis;
   logic [RateBits-1:0] slow_q, fast_q, waddr;
   logic [StepBits-1:0] steps_q, wdata;
 
-  assign at    = {second_q, !second_q};
-  assign done  = ran_q && !busy;
-  assign start = busy_o != '0 && !busy && !ran_q;
+  assign build_axis    = {second_q, !second_q};
+  assign done  = was_busy_q && !busy;
+  assign start = busy_o != '0 && !busy && !was_busy_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       busy_o   <= '0;
       second_q <= 1'b0;
-      ran_q    <= 1'b0;
+      was_busy_q    <= 1'b0;
     end else begin
-      ran_q  <= busy;
-      busy_o <= (busy_o & ~(at &{2{done}})) | start_i;
+      was_busy_q <= busy;
+      busy_o <= (busy_o & ~(build_axis &{2{done}})) | start_i;
       if (start) second_q <= !busy_o[1];
     end
   end
@@ -75,7 +75,7 @@ module ppmc_ramp_tables #(
         .AddrBits(RateBits)
     ) u_lut (
         .clk_i,
-        .we_i   (we && at[n]),
+        .we_i   (we && build_axis[n]),
         .waddr_i(waddr),
         .wdata_i(wdata),
         .raddr_i(addr_i[n]),
@@ -85,7 +85,7 @@ module ppmc_ramp_tables #(
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p2104_hsk_05_once, (start_i & busy_o) == '0)
-  `PPMC_ASSERT(p2104_hsk_05_wanted, !busy || (busy_o & at) != '0)
+  `PPMC_ASSERT(p2104_hsk_05_requested, !busy || (busy_o & build_axis) != '0)
 `endif
 
 endmodule

@@ -67,7 +67,7 @@ module pmc006_carrier #(
   assign rxd = uart_rxd && rs485_rxd;
   assign uart_txd = rs485_txd;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(CLK_HZ)
   ) u_panel (
       .clk_i   (clk),
@@ -77,7 +77,7 @@ module pmc006_carrier #(
       .link_i  (rs485_de),
       .moving_i(mon_busy),
       .switch_i(!(ext1 && ext2)),
-      .lamps_o (lamps)
+      .leds_o (lamps)
   );
 
   ppmc_sync #(

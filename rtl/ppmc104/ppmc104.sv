@@ -59,12 +59,12 @@ module ppmc104
     $fatal(1, "ppmc104: XTAL_HZ must be 1e6 .. 16e6");
   end
 
-  logic rst;
+  logic rst_core_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   // ---- inputs --------------------------------------------------------------------------------------
@@ -78,7 +78,7 @@ module ppmc104
       .Width(12)
   ) u_sync (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({l1_n, l2_n, l3_n, l4_n, cnp_n, alm_n, csel, vsel, auxi}),
       .q1_o  (unused_meta),
       .q2_o  ({l1, l2, l3, l4, cnp, alm, csel_s, vsel_s, auxi_s})
@@ -95,66 +95,66 @@ module ppmc104
 
   // ---- decoding of the bytes, shared single-axis core ----------------------------------------------
 
-  sent_t sent;
-  meaning_t meaning;
-  asked_t asked;
-  verdict_t verdict;
+  rx_byte_t rx_byte;
+  decoded_byte_t decoded_byte;
+  command_req_t command_req;
+  check_result_t check_result;
   logic [31:0] params_late;
-  logic slow_seen, slow_take, stops_only, unused_bits;
+  logic slow_seen, slow_react, stops_only, unused_bits;
   setup_t setup;
-  chop_t chop;
+  chop_time_t chop;
   action_t act;
   motion_t motion;
   logic [7:0] rate;
   motor_t motor;
-  base_t base_now;
+  base_clock_t base_now;
 
-  assign meaning = '{decoded: decode(sent.data), data: sent.data};
-  assign verdict = '{
-          value: judge(asked.params),
-          judged: sent.held[7:6] == 2'b00,
-          select: asked.code[2:0],
-          setup: sent.params
+  assign decoded_byte = '{decoded: decode(rx_byte.data), data: rx_byte.data};
+  assign check_result = '{
+          error: check_params(command_req.params),
+          is_checked: rx_byte.code_held[7:6] == 2'b00,
+          select: command_req.code[2:0],
+          setup: rx_byte.params
       };
   assign base_now = '{external: setup.external, slow: !csel_s, extra: !vsel_s};
-  assign unused_bits = &{1'b0, sent, asked, params_late, setup};
+  assign unused_bits = &{1'b0, rx_byte, command_req, params_late, setup};
 
   ppmc_single #(
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ),
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .PhaseIdle(PHASE_IDLE),
-      .Traits   (TRAITS)
+      .PartCfg  (PART_CFG)
   ) u_single (
-      .clk_i        (clk),
-      .rst_ni       (rst),
-      .cs_ni        (cs_n),
-      .rd_ni        (rd_n),
-      .wr_ni        (wr_n),
-      .a0_i         (a0),
+      .clk_i         (clk),
+      .rst_ni        (rst_core_n),
+      .cs_ni         (cs_n),
+      .rd_ni         (rd_n),
+      .wr_ni         (wr_n),
+      .a0_i          (a0),
       .d_i,
       .d_o,
-      .d_oe_o       (d_oe),
-      .int_no       (int_n),
-      .sent_o       (sent),
-      .meaning_i    (meaning),
-      .asked_o      (asked),
-      .verdict_i    (verdict),
-      .stops_only_i (stops_only),
-      .act_o        (act),
-      .params_late_o(params_late),
-      .base_i       (base_now),
-      .setup_o      (setup),
-      .clock_pin_i  (clock),
-      .switches_i   (switches),
-      .slow_i       (slow_take),
-      .slow_seen_o  (slow_seen),
-      .motion_o     (motion),
-      .rate_o       (rate),
-      .inputs_i     ({cnp, alm, 2'b00, l1, l2, l3, l4}),
-      .auxi_i       (auxi_s),
-      .chop_i       (chop),
-      .motor_o      (motor)
+      .d_oe_o        (d_oe),
+      .int_no        (int_n),
+      .rx_byte_o     (rx_byte),
+      .decoded_byte_i(decoded_byte),
+      .command_req_o (command_req),
+      .check_result_i(check_result),
+      .stops_only_i  (stops_only),
+      .act_o         (act),
+      .params_late_o (params_late),
+      .base_i        (base_now),
+      .setup_o       (setup),
+      .clock_pin_i   (clock),
+      .switches_i    (switches),
+      .slow_i        (slow_react),
+      .slow_seen_o   (slow_seen),
+      .motion_o      (motion),
+      .rate_o        (rate),
+      .inputs_i      ({cnp, alm, 2'b00, l1, l2, l3, l4}),
+      .auxi_i        (auxi_s),
+      .chop_i        (chop),
+      .motor_o       (motor)
   );
 
   assign s = motor.s;
@@ -166,9 +166,9 @@ module ppmc104
 
   ppmc104_setup u_switching (
       .clk_i   (clk),
-      .rst_ni  (rst),
+      .rst_ni  (rst_core_n),
       .act_i   (act),
-      .params_i(asked.params),
+      .params_i(command_req.params),
       .aux_i   (params_late[27:24]),
       .vsel_i  (vsel_s),
       .chop_o  (chop),
@@ -176,17 +176,17 @@ module ppmc104
       .aux_no  (aux_n)
   );
 
-  ppmc104_pace #(
+  ppmc104_proc_time #(
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ)
-  ) u_own_pace (
+  ) u_own_proc_time (
       .clk_i       (clk),
-      .rst_ni      (rst),
+      .rst_ni      (rst_core_n),
       .motion_i    (motion),
       .rate_i      (rate),
       .slow_seen_i (slow_seen),
-      .slow_o      (slow_take),
+      .slow_o      (slow_react),
       .stops_only_o(stops_only)
   );
 

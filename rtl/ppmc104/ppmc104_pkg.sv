@@ -32,7 +32,7 @@ package ppmc104_pkg;
   localparam int unsigned CHOP_ON_VSEL_L = 100;
   localparam int unsigned CHOP_OFF_VSEL_L = 115;
 
-  localparam traits_t TRAITS = '{
+  localparam part_cfg_t PART_CFG = '{
       step_bits: STEP_BITS,
       steps_min: STEPS_MIN,
       steps_max: STEPS_MAX,
@@ -41,10 +41,10 @@ package ppmc104_pkg;
       slow_quanta: SLOW_QUANTA,
       extra_quanta: EXTRA_QUANTA,
       hold_quanta: HOLD_QUANTA,
-      hold_rest: 0,
+      hold_rest_cycles: 0,
       chop_unit: CHOP_UNIT,
       chop_bits: 9,
-      stmc_ends: 1'b0
+      stmc_stop_rules: 1'b0
   };
 
   // Low three bits of the codes 10 000 xxx that are not read commands.
@@ -53,37 +53,37 @@ package ppmc104_pkg;
 
   function automatic decoded_t decode(logic [7:0] code);
     decoded_t d;
-    d = '{kind: KindUndefined, params: 3'd0};
+    d = '{kind: CmdUndefined, params: 3'd0};
     unique case (code[7:6])
       2'b10:
       if (code[5:3] == 3'b000) begin
         unique case (code[2:0])
-          SEL_SWITCHING: d = '{kind: KindSwitching, params: 3'd2};
-          SEL_AUX_OUT:   d = '{kind: KindAuxOut, params: 3'd1};
+          SEL_SWITCHING: d = '{kind: CmdSwitching, params: 3'd2};
+          SEL_AUX_OUT:   d = '{kind: CmdAuxOut, params: 3'd1};
           3'b111:        ;
-          default:       d.kind = KindRead;
+          default:       d.kind = CmdRead;
         endcase
       end
       2'b11:
       unique case (code[2:0])
-        3'b000:                   d.kind = KindExcOff;
-        3'b001:                   d.kind = KindAuxOn;
-        3'b010:                   d.kind = KindAuxOff;
-        OP_ACC_DEC, OP_CONT_HIGH: d = '{kind: KindOperation, params: op_params(code[2:0])};
+        3'b000:                   d.kind = CmdExcOff;
+        3'b001:                   d.kind = CmdAuxOn;
+        3'b010:                   d.kind = CmdAuxOff;
+        OP_ACC_DEC, OP_CONT_HIGH: d = '{kind: CmdOperation, params: op_params(code[2:0])};
         default:                  ;
       endcase
       2'b01: begin
-        if (code[2:0] == 3'b000) d.kind = KindHalt;
-        else if (code[2:0] == 3'b001) d.kind = KindDecel;
-        else d = '{kind: KindOperation, params: op_params(code[2:0])};
+        if (code[2:0] == 3'b000) d.kind = CmdHalt;
+        else if (code[2:0] == 3'b001) d.kind = CmdDecel;
+        else d = '{kind: CmdOperation, params: op_params(code[2:0])};
       end
-      default: if (code[1:0] != 2'b00) d = '{kind: KindInit, params: 3'd4};
+      default: if (code[1:0] != 2'b00) d = '{kind: CmdInit, params: 3'd4};
     endcase
     return d;
   endfunction
 
   // Returns the error number of the complete parameters of an initialisation.
-  function automatic error_e judge(logic [31:0] params);
+  function automatic cmd_error_e check_params(logic [31:0] params);
     if (params[31:16] > 16'(STEPS_MAX)) return ErrStepsHigh;
     if (ppmc_pkg::less(32'(params[7:0]), 32'(params[15:8])) || params[31:16] < 16'(STEPS_MIN))
       return ErrRates;

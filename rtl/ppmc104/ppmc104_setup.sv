@@ -8,7 +8,7 @@
 module ppmc104_setup
   import ppmc104_pkg::*;
   import ppmc_code_pkg::action_t;
-  import ppmc_motion_pkg::chop_t;
+  import ppmc_motion_pkg::chop_time_t;
 (
     input  wire logic           clk_i,
     input  wire logic           rst_ni,
@@ -16,7 +16,7 @@ module ppmc104_setup
     input  wire logic    [31:0] params_i,  // parameters of act_i.switching
     input  wire logic    [ 3:0] aux_i,     // data of act_i.aux_out
     input  wire logic           vsel_i,    // VSEL, synchronised
-    output chop_t               chop_o,    // chopper times
+    output chop_time_t          chop_o,    // chopper times
     output logic         [ 3:0] auxo_o,    // auxiliary outputs
     output logic                aux_no     // AUX output, active low
 );

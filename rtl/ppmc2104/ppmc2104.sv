@@ -60,12 +60,12 @@ module ppmc2104
 
   localparam bit Datasheet = 128'(TIMING) == "DATASHEET";
 
-  logic rst;
+  logic rst_core_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   ppmc_square #(
@@ -74,15 +74,15 @@ module ppmc2104
       .HalfXtal(CLOCK_OUT_XTAL)
   ) u_clock_out (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .wave_o(clk_o)
   );
 
   // ---- inputs -------------------------------------------------------------------------------------
 
-  localparam int unsigned Pins = AXES * $bits(levels_t) + 4;
+  localparam int unsigned Pins = AXES * $bits(pin_levels_t) + 4;
 
-  levels_t [AXES:1] pins, levels;
+  pin_levels_t [AXES:1] pins, levels;
   logic busc_s, errint_s;
   logic [1:0] auxi_s;
   logic [Pins-1:0] unused_meta;
@@ -104,7 +104,7 @@ module ppmc2104
       .Width(Pins)
   ) u_sync (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({pins, busc, errint_n, auxi}),
       .q1_o  (unused_meta),
       .q2_o  ({levels, busc_s, errint_s, auxi_s})
@@ -118,11 +118,11 @@ module ppmc2104
   logic [AXES:1] collecting, building, window, cmnd, busy;
   logic [23:0] answer;
   logic [AXES:1][23:0] answers;
-  action_t act_taken, act;  // act_taken: requested at the C-event; act: takes effect in this cycle
-  charge_t charge;
-  error_e speed;
-  error_e [AXES:1] errors;
-  state_t [AXES:1] state;
+  action_t act_req, act;  // act_req: requested at the C-event; act: takes effect in this cycle
+  error_report_t error_report;
+  cmd_error_e speed;
+  cmd_error_e [AXES:1] errors;
+  axis_summary_t [AXES:1] state;
 
   assign cmnd = collecting | building | window;
   assign read_axis = act.axis[1].read || act.axis[2].read;
@@ -136,7 +136,7 @@ module ppmc2104
       .QueueBytes(3)
   ) u_host (
       .clk_i    (clk),
-      .rst_ni   (rst),
+      .rst_ni   (rst_core_n),
       .style_i  (busc_s),
       .cs_ni    (cs_n),
       .rd_ni    (rw_rds_n),
@@ -156,31 +156,31 @@ module ppmc2104
   );
 
   ppmc2104_command u_command (
-      .clk_i        (clk),
-      .rst_ni       (rst),
-      .ready_i      (ready),
-      .command_i    (is_command),
-      .byte_i       (in_byte),
-      .open_i       (open),
-      .take_o       (take),
-      .state_i      (state),
-      .levels_i     (levels),
-      .building_i   (building),
-      .speed_i      (speed),
-      .collecting_o (collecting),
-      .act_o        (act_taken),
-      .charge_o     (charge),
-      .code_o       (code),
-      .params_o     (params),
-      .code_held_o  (code_held),
-      .params_held_o(params_held)
+      .clk_i         (clk),
+      .rst_ni        (rst_core_n),
+      .ready_i       (ready),
+      .command_i     (is_command),
+      .byte_i        (in_byte),
+      .open_i        (open),
+      .take_o        (take),
+      .state_i       (state),
+      .levels_i      (levels),
+      .building_i    (building),
+      .speed_i       (speed),
+      .collecting_o  (collecting),
+      .act_o         (act_req),
+      .error_report_o(error_report),
+      .code_o        (code),
+      .params_o      (params),
+      .code_held_o   (code_held),
+      .params_held_o (params_held)
   );
 
   ppmc2104_speed #(
       .Datasheet(Datasheet)
   ) u_speed (
       .clk_i   (clk),
-      .rst_ni  (rst),
+      .rst_ni  (rst_core_n),
       .code_i  (code),
       .params_i(params),
       .state_i (state),
@@ -188,17 +188,17 @@ module ppmc2104
       .error_o (speed)
   );
 
-  logic [AXES:1] run_open, linger, ends, read_end, read_error;
+  logic [AXES:1] run_open, end_delay, ends, read_end, read_error;
   logic poll;
 
-  ppmc2104_pace #(
+  ppmc2104_proc_time #(
       .Datasheet(Datasheet),
       .ClkHz    (CLK_HZ),
       .XtalHz   (XTAL_HZ)
-  ) u_pace (
+  ) u_proc_time (
       .clk_i        (clk),
-      .rst_ni       (rst),
-      .act_i        (act_taken),
+      .rst_ni       (rst_core_n),
+      .act_i        (act_req),
       .code_i       (code),
       .params_i     (params),
       .code_held_i  (code_held),
@@ -210,27 +210,27 @@ module ppmc2104
       .code_o       (code_late),
       .params_o     (params_late),
       .run_open_o   (run_open),
-      .linger_o     (linger),
+      .end_delay_o  (end_delay),
       .poll_o       (poll)
   );
 
   ppmc2104_report #(
-      .WidthClk(ppmc_pkg::cyc(WIDTH_XTAL, CLK_HZ, XTAL_HZ))
+      .WidthCycles(ppmc_pkg::cyc(WIDTH_XTAL, CLK_HZ, XTAL_HZ))
   ) u_report (
-      .clk_i       (clk),
-      .rst_ni      (rst),
-      .charge_i    (charge),
-      .errint_ni   (errint_s),
-      .end_i       (ends),
-      .read_end_i  (read_end),
-      .read_error_i(read_error),
-      .error_o     (errors),
-      .any_error_o (any_error),
-      .int_no      (int_n)
+      .clk_i         (clk),
+      .rst_ni        (rst_core_n),
+      .error_report_i(error_report),
+      .errint_ni     (errint_s),
+      .end_i         (ends),
+      .read_end_i    (read_end),
+      .read_error_i  (read_error),
+      .error_o       (errors),
+      .any_error_o   (any_error),
+      .int_no        (int_n)
   );
 
-  always_ff @(posedge clk or negedge rst) begin
-    if (!rst) auxo <= '1;
+  always_ff @(posedge clk or negedge rst_core_n) begin
+    if (!rst_core_n) auxo <= '1;
     else if (act.aux_out) auxo <= ~code_late[5:4];
   end
 
@@ -245,7 +245,7 @@ module ppmc2104
       .StepBits(STEP_BITS)
   ) u_table (
       .clk_i  (clk),
-      .rst_ni (rst),
+      .rst_ni (rst_core_n),
       .start_i(build),
       .slow_i (slow),
       .fast_i (fast),
@@ -277,7 +277,7 @@ module ppmc2104
         .Datasheet(Datasheet)
     ) u_axis (
         .clk_i        (clk),
-        .rst_ni       (rst),
+        .rst_ni       (rst_core_n),
         .act_i        (act.axis[n]),
         .code_i       (code),
         .params_i     (params),
@@ -292,7 +292,7 @@ module ppmc2104
         .lut_data_i   (lut_data[n]),
         .run_open_i   (run_open[n]),
         .poll_i       (poll),
-        .linger_i     (linger[n]),
+        .end_delay_i  (end_delay[n]),
         .levels_i     (levels[n]),
         .extck_i      (extck[n]),
         .s_no         (s_n[n]),

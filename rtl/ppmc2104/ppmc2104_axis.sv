@@ -24,9 +24,9 @@ module ppmc2104_axis
     input  wire logic         [          7:0] code_late_i,    // code of the other actions
     input  wire logic         [         31:0] params_late_i,  // parameters of code_late_i
     input  wire logic                         ready_i,        // 1: no table build runs and no window is open
-    output state_t                            state_o,        // state for the other blocks
+    output axis_summary_t                     state_o,        // state for the other blocks
     output logic                              end_o,          // an operation with I = 0 ends
-    input  wire error_e                       error_i,        // error register
+    input  wire cmd_error_e                   error_i,        // error register
     output logic              [         23:0] answer_o,       // answer to the read instruction code_late_i
     // ramp table
     output logic              [RATE_BITS-1:0] lut_addr_o,     // r; lut_data_i is expected two cycles later
@@ -34,9 +34,9 @@ module ppmc2104_axis
     // processing times
     input  wire logic                         run_open_i,     // 1: RUN is sampled
     input  wire logic                         poll_i,         // 1: limits and alarm are sampled
-    input  wire logic                         linger_i,       // 1: a stopped operation does not end yet
+    input  wire logic                         end_delay_i,    // 1: a stopped operation does not end yet
     // pins
-    input  wire levels_t                      levels_i,       // inputs of this axis, synchronised
+    input  wire pin_levels_t                  levels_i,       // inputs of this axis, synchronised
     input  wire logic                         extck_i,        // external base clock, asynchronous
     output logic              [          5:1] s_no,           // phases
     output logic                              hold_o,         // standstill for the hold delay
@@ -46,11 +46,11 @@ module ppmc2104_axis
 
   op_code_t op_code;
   motion_t motion;
-  event_t event_now;
+  motion_event_t event_now;
   switches_t switches;
-  cause_t cause;
+  stop_cause_t cause;
   setup_t setup;
-  logic home, chop, low, quantum, restart, slow_seen;
+  logic phase_init, chop, low, quantum, restart, slow_seen;
   logic [23:0] count, remaining;
   logic [5:1] levels;
 
@@ -82,13 +82,13 @@ module ppmc2104_axis
       .clk_i,
       .rst_ni,
       .act_i,
-      .code_i (init_code_t'(code_i)),
+      .code_i(init_code_t'(code_i)),
       .params_i,
       .params_late_i,
       .ready_i,
       .setup_o(setup),
-      .home_o (home),
-      .chop_o (chop)
+      .phase_init_o(phase_init),
+      .chop_o(chop)
   );
 
   ppmc_tick_gen #(
@@ -123,7 +123,7 @@ module ppmc2104_axis
       .clk_i,
       .rst_ni,
       .start_i    (act_i.start),
-      .op_i       (op_of(op_code.pout_only, op_code.ccw, op_code.op)),
+      .op_i       (motion_op(op_code.pout_only, op_code.ccw, op_code.op)),
       .count_i    (count),
       .rate_i     ((op_code.op == OP_CONSTANT) ? params_i[7:0] : params_i[31:24]),
       .base_i     ('{external: setup.external, slow: !levels_i.csel, extra: 1'b0}),
@@ -138,7 +138,7 @@ module ppmc2104_axis
       .slow_seen_o(slow_seen),
       .run_i      (levels_i.run && run_open_i),
       .go_i       (1'b1),
-      .linger_i,
+      .end_delay_i,
       .quantum_i  (quantum),
       .clock_pin_i(extck_i),
       .restart_o  (restart),
@@ -165,7 +165,7 @@ module ppmc2104_axis
       .motor_i       (motor_e'(setup.motor)),
       .half_i        (setup.half),
       .positive_i    (1'b0),
-      .home_i        (home),
+      .phase_init_i  (phase_init),
       .off_i         (act_i.exc_off),
       .chop_i        (chop),
       .chop_restart_i(1'b0),
@@ -183,14 +183,14 @@ module ppmc2104_axis
 
   // ---- end status, answers ------------------------------------------------------------------------
 
-  logic fresh_q, silent_q;  // fresh_q: end status not read yet; silent_q: no interrupt requested
+  logic unread_q, silent_q;  // unread_q: end status not read yet; silent_q: no interrupt requested
   logic [2:0] op_q;
 
   assign end_o = event_now.done && !silent_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      fresh_q  <= 1'b0;
+      unread_q <= 1'b0;
       silent_q <= 1'b0;
       op_q     <= '0;
     end else begin
@@ -198,8 +198,8 @@ module ppmc2104_axis
         silent_q <= op_code.silent;
         op_q     <= op_code.op;
       end
-      if (event_now.done) fresh_q <= 1'b1;
-      else if (act_i.read && code_late_i[2:0] == SEL_END) fresh_q <= 1'b0;
+      if (event_now.done) unread_q <= 1'b1;
+      else if (act_i.read && code_late_i[2:0] == SEL_END) unread_q <= 1'b0;
     end
   end
 
@@ -208,7 +208,7 @@ module ppmc2104_axis
   always_comb begin
     answer_o = remaining;  // only this answer uses the second and third byte
     unique case (code_late_i[2:0])
-      SEL_END:   answer_o[7:0] = {fresh_q, cause, op_q};
+      SEL_END:   answer_o[7:0] = {unread_q, cause, op_q};
       SEL_INPUTS: begin
         answer_o[7:0] = {
           levels_i.org, levels_i.alm, 2'b00, levels_i.fl, levels_i.fhl, levels_i.bl, levels_i.bhl

@@ -2,9 +2,9 @@
 // ppmc2104_command: accepts bytes from the host, checks them, collects data bytes and issues the actions.
 // Rules:  P2104-HSK-03/04/08, P2104-CMD-01..04, P2104-INI-02/03, P2104-STP-02..07, P2104-AUX-04,
 //         P2104-ERR-01..05, P2104-LIM-06, P2104-FSM-01..05.
-// Timing: take_o is the C-event: state changes of this block, act_o and charge_o take effect at the edge that
-//         ends the cycle of take_o. The request of the byte and the check of its values are computed in the
-//         cycle before; the states and pins of the axes are sampled in the cycle of take_o.
+// Timing: take_o is the C-event: state changes of this block, act_o and error_report_o take effect at the
+//         edge that ends the cycle of take_o. The request of the byte and the check of its values are
+//         computed in the cycle before; the states and pins of the axes are sampled in the cycle of take_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -12,45 +12,45 @@ module ppmc2104_command
   import ppmc2104_pkg::*;
   import ppmc_op_pkg::*;
 (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
+    input wire logic clk_i,
+    input wire logic rst_ni,
     // mailbox
-    input  wire logic             ready_i,       // byte_i is available
-    input  wire logic             command_i,     // 1: byte_i was written as a code, 0: as data
-    input  wire logic    [   7:0] byte_i,        // byte from the host
-    input  wire logic             open_i,        // bytes may be accepted
-    output logic                  take_o,        // accept strobe, effective at the next rising edge
+    input wire logic ready_i,  // byte_i is available
+    input wire logic command_i,  // 1: byte_i was written as a code, 0: as data
+    input wire logic [7:0] byte_i,  // byte from the host
+    input wire logic open_i,  // bytes may be accepted
+    output logic take_o,  // accept strobe, effective at the next rising edge
     // state of the axes
-    input  wire state_t  [AXES:1] state_i,       // states of both axes
-    input  wire levels_t [AXES:1] levels_i,      // inputs of both axes, synchronised
-    input  wire logic    [AXES:1] building_i,    // ramp table build; codes that need the table wait
+    input wire axis_summary_t [AXES:1] state_i,  // states of both axes
+    input wire pin_levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
+    input wire logic [AXES:1] building_i,  // ramp table build; codes that need the table wait
     // rate limits (ppmc2104_speed)
-    input  wire error_e           speed_i,       // rate-limit error of code_o with params_o
+    input wire cmd_error_e speed_i,  // rate-limit error of code_o with params_o
     // result
-    output logic         [AXES:1] collecting_o,  // data bytes are outstanding
-    output action_t               act_o,         // actions of the accepted byte
-    output charge_t               charge_o,      // errors of the accepted byte
-    output logic         [   7:0] code_o,        // code of the action
-    output logic         [  31:0] params_o,      // data bytes of code_o, the last one in the high bits
-    output logic         [   7:0] code_held_o,   // code_o after the C-event, valid until the next one
-    output logic         [  31:0] params_held_o  // data bytes of code_held_o
+    output logic [AXES:1] collecting_o,  // data bytes are outstanding
+    output action_t act_o,  // actions of the accepted byte
+    output error_report_t error_report_o,  // errors of the accepted byte
+    output logic [7:0] code_o,  // code of the action
+    output logic [31:0] params_o,  // data bytes of code_o, the last one in the high bits
+    output logic [7:0] code_held_o,  // code_o after the C-event, valid until the next one
+    output logic [31:0] params_held_o  // data bytes of code_held_o
 );
 
-  logic [2:0] awaited_q;  // data bytes outstanding
+  logic [2:0] params_left_q;  // data bytes outstanding
   logic [7:0] code_q;
   logic [31:0] params_q;
-  logic awaited;
+  logic collecting;
 
-  assign awaited = awaited_q != '0;
+  assign collecting = params_left_q != '0;
   assign params_o = {byte_i, params_q[31:8]};
   assign params_held_o = params_q;
   assign code_held_o = code_q;
   assign code_o = command_i ? byte_i : code_q;
-  assign collecting_o = {awaited && code_q[5], awaited && !code_q[5]};
+  assign collecting_o = {collecting && code_q[5], collecting && !code_q[5]};
 
   // ---- values of a last data byte -----------------------------------------------------------------
 
-  error_e value;
+  cmd_error_e value;
   logic external, operation;
   setup_t setup;  // settings of the axis whose data bytes are collected
   init_code_t init_code;
@@ -83,145 +83,145 @@ module ppmc2104_command
   // ---- request of the byte, one cycle before it is accepted ---------------------------------------
 
   typedef struct packed {
-    axis_action_t act;        // actions if the state of the axis allows them
+    axis_action_t act;             // actions if the state of the axis allows them
     logic         aux_out;
     logic         aux_in;
-    error_e       error;      // error of the byte, regardless of the axis state
-    logic         stop;       // stop instruction
-    logic         abandons;   // stop that cancels outstanding data bytes
-    logic         rest;       // the byte is an error while the axis is busy
-    logic         operation;  // the byte is an error while the axis is not initialised
-    logic         table_use;  // the instruction waits while the ramp table is being built
-    logic         anyone;     // errors are charged to axis 1, regardless of second
-    logic         second;     // the instruction is for axis 2
+    cmd_error_e   error;           // error of the byte, regardless of the axis state
+    logic         stop;            // stop instruction
+    logic         cancels_params;  // stop that cancels outstanding data bytes
+    logic         needs_idle;      // the byte is an error while the axis is busy
+    logic         needs_init;      // the byte is an error while the axis is not initialised
+    logic         needs_table;     // the instruction waits while the ramp table is being built
+    logic         no_axis;         // errors are reported for axis 1, regardless of second
+    logic         second;          // the instruction is for axis 2
     logic         ccw;
     logic         origin;
-    logic [2:0]   params;     // data bytes that follow
-  } wish_t;
+    logic [2:0]   params;          // data bytes that follow
+  } byte_request_t;
 
   decoded_t dec;
   op_code_t op_now;
-  wish_t wish, wish_q;
+  byte_request_t request, request_q;
 
   assign op_now = op_code_t'(code_o);
   assign dec = decode(byte_i);
 
   always_comb begin
-    wish        = '0;
-    wish.second = op_now.second;
-    wish.ccw    = op_now.ccw;
-    wish.origin = op_now.op == OP_ORIGIN;
+    request        = '0;
+    request.second = op_now.second;
+    request.ccw    = op_now.ccw;
+    request.origin = op_now.op == OP_ORIGIN;
     if (command_i) begin
-      wish.stop      = dec.kind inside {KindHalt, KindDecel};
-      wish.abandons  = awaited && wish.stop;
-      wish.rest      = !wish.stop && !(dec.kind inside {KindAuxOut, KindAuxIn, KindErrorRead});
-      wish.operation = dec.kind == KindOperation;
-      wish.table_use = !awaited && dec.kind inside {KindInit, KindOperation, KindExcOff};
-      wish.anyone    = dec.kind inside {KindAuxOut, KindAuxIn};
-      wish.params    = dec.params;
-      if (awaited && !wish.stop) wish.error = ErrAbandoned;
-      else if (dec.kind == KindUndefined) wish.error = ErrUndefined;
+      request.stop           = dec.kind inside {CmdHalt, CmdDecel};
+      request.cancels_params = collecting && request.stop;
+      request.needs_idle     = !request.stop && !(dec.kind inside {CmdAuxOut, CmdAuxIn, CmdErrorRead});
+      request.needs_init     = dec.kind == CmdOperation;
+      request.needs_table    = !collecting && dec.kind inside {CmdInit, CmdOperation, CmdExcOff};
+      request.no_axis        = dec.kind inside {CmdAuxOut, CmdAuxIn};
+      request.params         = dec.params;
+      if (collecting && !request.stop) request.error = ErrAbandoned;
+      else if (dec.kind == CmdUndefined) request.error = ErrUndefined;
       else if (dec.params == '0) begin
-        wish.act.start   = dec.kind == KindOperation;
-        wish.act.halt    = dec.kind == KindHalt;
-        wish.act.decel   = dec.kind == KindDecel;
-        wish.act.exc_off = dec.kind == KindExcOff;
-        wish.act.read    = dec.kind inside {KindRead, KindErrorRead};
-        wish.aux_out     = dec.kind == KindAuxOut;
-        wish.aux_in      = dec.kind == KindAuxIn;
+        request.act.start   = dec.kind == CmdOperation;
+        request.act.halt    = dec.kind == CmdHalt;
+        request.act.decel   = dec.kind == CmdDecel;
+        request.act.exc_off = dec.kind == CmdExcOff;
+        request.act.read    = dec.kind inside {CmdRead, CmdErrorRead};
+        request.aux_out     = dec.kind == CmdAuxOut;
+        request.aux_in      = dec.kind == CmdAuxIn;
       end
-    end else if (!awaited) begin
-      wish.error  = ErrData;
-      wish.anyone = 1'b1;
-    end else if (awaited_q == 3'd1) begin
-      wish.error = value;
+    end else if (!collecting) begin
+      request.error   = ErrData;
+      request.no_axis = 1'b1;
+    end else if (params_left_q == 3'd1) begin
+      request.error = value;
       if (value == ErrNone) begin
-        wish.act.start      = operation;
-        wish.act.init       = !operation && !code_q[7];
-        wish.act.switching  = !operation && code_q[7] && !code_q[0];
-        wish.act.hold_delay = !operation && code_q[7] && code_q[0];
+        request.act.start      = operation;
+        request.act.init       = !operation && !code_q[7];
+        request.act.switching  = !operation && code_q[7] && !code_q[0];
+        request.act.hold_delay = !operation && code_q[7] && code_q[0];
       end
     end
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) wish_q <= '0;
-    else wish_q <= wish;
+    if (!rst_ni) request_q <= '0;
+    else request_q <= request;
   end
 
   // ---- check against the state of the axes --------------------------------------------------------
 
-  logic [AXES:1] mine, refused;
-  logic waits, taken;
+  logic [AXES:1] addressed, refused;
+  logic waits_for_table, error_stored;
   logic unused_bits;
 
-  assign waits = wish_q.table_use && (building_i & mine) != '0;
-  assign take_o = ready_i && open_i && !waits;
+  assign waits_for_table = request_q.needs_table && (building_i & addressed) != '0;
+  assign take_o = ready_i && open_i && !waits_for_table;
   assign unused_bits = &{1'b0, op_now, init_code, setup, state_i, levels_i};
 
   for (genvar n = 1; n <= AXES; n++) begin : g_axis
     axis_action_t act;
-    logic busy, limit, fine;
+    logic busy, limit, can_start;
 
-    assign busy       = state_i[n].busy;
-    assign mine[n]    = wish_q.second == (n == 2);
-    assign limit      = wish_q.ccw ? !levels_i[n].bl : !levels_i[n].fl;
-    assign refused[n] = limit || !levels_i[n].alm || (wish_q.origin && !levels_i[n].org);
-    assign fine       = state_i[n].setup.initialised && !refused[n] && speed_i == ErrNone;
+    assign busy         = state_i[n].busy;
+    assign addressed[n] = request_q.second == (n == 2);
+    assign limit        = request_q.ccw ? !levels_i[n].bl : !levels_i[n].fl;
+    assign refused[n]   = limit || !levels_i[n].alm || (request_q.origin && !levels_i[n].org);
+    assign can_start    = state_i[n].setup.initialised && !refused[n] && speed_i == ErrNone;
 
     always_comb begin
-      act           = wish_q.act;
-      act.start     = wish_q.act.start && !busy && fine;
-      act.halt      = wish_q.act.halt && busy;
-      act.decel     = wish_q.act.decel && state_i[n].decel_ok;
-      act.exc_off   = wish_q.act.exc_off && !busy;
-      act.read      = wish_q.act.read && !(wish_q.rest && busy);
-      act_o.axis[n] = (take_o && mine[n]) ? act : '0;
+      act           = request_q.act;
+      act.start     = request_q.act.start && !busy && can_start;
+      act.halt      = request_q.act.halt && busy;
+      act.decel     = request_q.act.decel && state_i[n].decel_ok;
+      act.exc_off   = request_q.act.exc_off && !busy;
+      act.read      = request_q.act.read && !(request_q.needs_idle && busy);
+      act_o.axis[n] = (take_o && addressed[n]) ? act : '0;
     end
   end
 
-  assign act_o.aux_out = take_o && wish_q.aux_out;
-  assign act_o.aux_in  = take_o && wish_q.aux_in;
+  assign act_o.aux_out = take_o && request_q.aux_out;
+  assign act_o.aux_in  = take_o && request_q.aux_in;
 
   // ---- errors: order of the checks as in P2104-ERR-04/05 ------------------------------------------
 
   logic busy, decel_ok, initialised, error;  // states of the addressed axis
-  error_e number;
+  cmd_error_e number;
 
-  assign busy = wish_q.second ? state_i[2].busy : state_i[1].busy;
-  assign decel_ok = wish_q.second ? state_i[2].decel_ok : state_i[1].decel_ok;
-  assign initialised = wish_q.second ? state_i[2].setup.initialised : state_i[1].setup.initialised;
+  assign busy = request_q.second ? state_i[2].busy : state_i[1].busy;
+  assign decel_ok = request_q.second ? state_i[2].decel_ok : state_i[1].decel_ok;
+  assign initialised = request_q.second ? state_i[2].setup.initialised : state_i[1].setup.initialised;
 
   always_comb begin
-    number = wish_q.error;
-    if (wish_q.stop) begin
-      if (wish_q.act.decel && busy && !decel_ok) number = ErrDecel;
-      else if (wish_q.abandons) number = ErrAbandoned;
+    number = request_q.error;
+    if (request_q.stop) begin
+      if (request_q.act.decel && busy && !decel_ok) number = ErrDecel;
+      else if (request_q.cancels_params) number = ErrAbandoned;
       else if (!busy) number = initialised ? ErrStopped : ErrInitial;
-    end else if (wish_q.error == ErrNone) begin
-      if (wish_q.rest && busy) number = ErrBusy;
-      else if (wish_q.operation && !initialised) number = ErrInitial;
-      else if (wish_q.act.start && speed_i != ErrNone) number = speed_i;
-      else if (wish_q.act.start && (refused & mine) != '0) number = ErrRefused;
+    end else if (request_q.error == ErrNone) begin
+      if (request_q.needs_idle && busy) number = ErrBusy;
+      else if (request_q.needs_init && !initialised) number = ErrInitial;
+      else if (request_q.act.start && speed_i != ErrNone) number = speed_i;
+      else if (request_q.act.start && (refused & addressed) != '0) number = ErrRefused;
     end
     error = number != ErrNone;
-    taken = take_o && error;
-    charge_o.number = number;
-    charge_o.axis[1] = taken && (!wish_q.second || wish_q.anyone);
-    charge_o.axis[2] = taken && wish_q.second && !wish_q.anyone;
+    error_stored = take_o && error;
+    error_report_o.number = number;
+    error_report_o.axis[1] = error_stored && (!request_q.second || request_q.no_axis);
+    error_report_o.axis[2] = error_stored && request_q.second && !request_q.no_axis;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      awaited_q <= '0;
+      params_left_q <= '0;
       code_q    <= '0;
       params_q  <= '0;
     end else if (take_o) begin
       if (command_i) begin
-        awaited_q <= error ? '0 : wish_q.params;
+        params_left_q <= error ? '0 : request_q.params;
         code_q    <= byte_i;
       end else begin
-        if (awaited) awaited_q <= awaited_q - 1'b1;
+        if (collecting) params_left_q <= params_left_q - 1'b1;
         params_q <= params_o;
       end
     end
@@ -239,10 +239,10 @@ module ppmc2104_command
 
   `PPMC_ASSERT(p2104_opr_01, (starts & running) == '0)
   `PPMC_ASSERT(p2104_opr_10, acts != '1)
-  `PPMC_ASSERT(p2104_err_03, !taken || number == ErrAbandoned || act_o == '0)
+  `PPMC_ASSERT(p2104_err_03, !error_stored || number == ErrAbandoned || act_o == '0)
   `PPMC_ASSERT(p2104_err_04,
-               !take_o || error || act_o != '0 || wish_q.params != '0 || (!command_i && awaited_q > 1))
-  `PPMC_ASSERT(p2104_stp_07, !(take_o && wish_q.act.halt && busy) || halts != '0)
+               !take_o || error || act_o != '0 || request_q.params != '0 || (!command_i && params_left_q > 1))
+  `PPMC_ASSERT(p2104_stp_07, !(take_o && request_q.act.halt && busy) || halts != '0)
 `endif
 
 endmodule

@@ -45,22 +45,22 @@ package ppmc2104_pkg;
     ErrSwitching = 4'd11,
     ErrRateOne   = 4'd12,  // too fast for one operating axis
     ErrRateTwo   = 4'd13   // too fast while the other axis operates
-  } error_e;
+  } cmd_error_e;
 
   typedef enum logic [3:0] {
-    KindUndefined,
-    KindInit,
-    KindHalt,       // Immediate stop
-    KindDecel,      // Deceleration stop
-    KindOperation,
-    KindRead,
-    KindErrorRead,
-    KindSwitching,
-    KindHoldDelay,
-    KindExcOff,
-    KindAuxOut,
-    KindAuxIn
-  } kind_e;
+    CmdUndefined,
+    CmdInit,
+    CmdHalt,       // Immediate stop
+    CmdDecel,      // Deceleration stop
+    CmdOperation,
+    CmdRead,
+    CmdErrorRead,
+    CmdSwitching,
+    CmdHoldDelay,
+    CmdExcOff,
+    CmdAuxOut,
+    CmdAuxIn
+  } cmd_kind_e;
 
   // Low three bits of the codes 10A0 0xxx.
   localparam logic [2:0] SEL_END = 3'b000;
@@ -92,36 +92,36 @@ package ppmc2104_pkg;
   } op_code_t;
 
   typedef struct packed {
-    kind_e      kind;
+    cmd_kind_e  kind;
     logic [2:0] params;  // data bytes that follow
   } decoded_t;
 
   function automatic decoded_t decode(logic [7:0] code);
     decoded_t d;
-    d = '{kind: KindUndefined, params: 3'd0};
+    d = '{kind: CmdUndefined, params: 3'd0};
     unique case (code[7:6])
-      2'b00: if (code[1:0] != 2'b00) d = '{kind: KindInit, params: 3'd4};
+      2'b00: if (code[1:0] != 2'b00) d = '{kind: CmdInit, params: 3'd4};
       2'b01: begin
-        if (code[2:0] == 3'b000) d.kind = KindHalt;
-        else if (code[2:0] == 3'b001) d.kind = KindDecel;
-        else d = '{kind: KindOperation, params: op_params(code[2:0])};
+        if (code[2:0] == 3'b000) d.kind = CmdHalt;
+        else if (code[2:0] == 3'b001) d.kind = CmdDecel;
+        else d = '{kind: CmdOperation, params: op_params(code[2:0])};
       end
       2'b10:
       if (code[4:3] == 2'b00) begin
         unique case (code[2:0])
-          SEL_SWITCHING:  d = '{kind: KindSwitching, params: 3'd2};
-          SEL_HOLD_DELAY: d = '{kind: KindHoldDelay, params: 3'd1};
-          SEL_ERROR:      d.kind = KindErrorRead;
+          SEL_SWITCHING:  d = '{kind: CmdSwitching, params: 3'd2};
+          SEL_HOLD_DELAY: d = '{kind: CmdHoldDelay, params: 3'd1};
+          SEL_ERROR:      d.kind = CmdErrorRead;
           3'b111:         ;
-          default:        d.kind = KindRead;
+          default:        d.kind = CmdRead;
         endcase
       end
       default:
       unique case (code[2:0])
-        3'b000:                   if (code[4:3] == 2'b00) d.kind = KindExcOff;
-        3'b001:                   if (!code[3]) d.kind = KindAuxOut;
-        3'b010:                   if (code[5:3] == 3'b000) d.kind = KindAuxIn;
-        OP_ACC_DEC, OP_CONT_HIGH: d = '{kind: KindOperation, params: op_params(code[2:0])};
+        3'b000:                   if (code[4:3] == 2'b00) d.kind = CmdExcOff;
+        3'b001:                   if (!code[3]) d.kind = CmdAuxOut;
+        3'b010:                   if (code[5:3] == 3'b000) d.kind = CmdAuxIn;
+        OP_ACC_DEC, OP_CONT_HIGH: d = '{kind: CmdOperation, params: op_params(code[2:0])};
         default:                  ;
       endcase
     endcase
@@ -147,11 +147,11 @@ package ppmc2104_pkg;
     logic                  aux_in;
   } action_t;
 
-  // Error that is charged to an axis.
+  // Error of an instruction and its axis.
   typedef struct packed {
     logic [AXES:1] axis;    // axis in error; 0: no error
-    error_e        number;
-  } charge_t;
+    cmd_error_e    number;
+  } error_report_t;
 
   // Pin levels of an axis after the synchroniser.
   typedef struct packed {
@@ -163,7 +163,7 @@ package ppmc2104_pkg;
     logic fhl;
     logic bl;
     logic bhl;
-  } levels_t;
+  } pin_levels_t;
 
   // Settings of an axis by the host (ppmc2104_setup).
   typedef struct packed {
@@ -180,13 +180,13 @@ package ppmc2104_pkg;
     logic [7:0]           hold_delay;   // units of HOLD_QUANTA, minus 1
   } setup_t;
 
-  // State of an axis for the command unit.
+  // Summary of the state of an axis for the command unit.
   typedef struct packed {
     logic   busy;
     logic   moving;    // before pulse 1 or between pulses
     logic   decel_ok;  // a deceleration stop would be accepted
     setup_t setup;
-  } state_t;
+  } axis_summary_t;
 
   // verilator lint_on UNUSEDPARAM
 

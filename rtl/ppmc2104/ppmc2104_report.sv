@@ -3,28 +3,28 @@
 // Rules:  P2104-ERR-06, P2104-RD-03/07, P2104-STA-06, P2104-INT-01..05.
 // Timing: registers and causes change at the edge that ends the cycle of their event; int_no follows one
 //         cycle later. A cause that is cleared at edge e keeps int_no = 1 from edge e + 1 to at least edge
-//         e + 1 + WidthClk.
+//         e + 1 + WidthCycles.
 `include "ppmc_assert.svh"
 `default_nettype none
 
 module ppmc2104_report
   import ppmc2104_pkg::*;
 #(
-    parameter int unsigned WidthClk = 80  // minimum release time of int_no in cycles
+    parameter int unsigned WidthCycles = 80  // minimum release time of int_no in cycles
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire charge_t          charge_i,      // errors to be stored
-    input  wire logic             errint_ni,     // ERRINT, synchronised
-    input  wire logic    [AXES:1] end_i,         // an operation with I = 0 ends
-    input  wire logic    [AXES:1] read_end_i,    // End status read is executed
-    input  wire logic    [AXES:1] read_error_i,  // Error code read is executed
-    output error_e       [AXES:1] error_o,       // error registers
-    output logic                  any_error_o,   // at least one error register is not empty
-    output logic                  int_no         // interrupt, low while there is a cause
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
+    input  wire error_report_t          error_report_i,  // errors to be stored
+    input  wire logic                   errint_ni,       // ERRINT, synchronised
+    input  wire logic          [AXES:1] end_i,           // an operation with I = 0 ends
+    input  wire logic          [AXES:1] read_end_i,      // End status read is executed
+    input  wire logic          [AXES:1] read_error_i,    // Error code read is executed
+    output cmd_error_e         [AXES:1] error_o,         // error registers
+    output logic                        any_error_o,     // at least one error register is not empty
+    output logic                        int_no           // interrupt, low while there is a cause
 );
 
-  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthClk - 1);
+  localparam int unsigned Width = ppmc_pkg::cnt_width(WidthCycles - 1);
 
   logic [AXES:1] end_q, error_q;
   logic [Width-1:0] age_q;  // cycles since the start of the release window
@@ -42,12 +42,12 @@ module ppmc2104_report
       int_no   <= 1'b1;
     end else begin
       for (int n = 1; n <= AXES; n++) begin
-        if (charge_i.axis[n]) error_o[n] <= charge_i.number;
+        if (error_report_i.axis[n]) error_o[n] <= error_report_i.number;
         else if (read_error_i[n]) error_o[n] <= ErrNone;
       end
-      error_q  <= (error_q & ~read_error_i) | (errint_ni ? '0 : charge_i.axis);
+      error_q  <= (error_q & ~read_error_i) | (errint_ni ? '0 : error_report_i.axis);
       end_q    <= (end_q & ~read_end_i) | end_i;
-      window_q <= release_d || (window_q && age_q != Width'(WidthClk - 1));
+      window_q <= release_d || (window_q && age_q != Width'(WidthCycles - 1));
       int_no   <= window_q || (end_q == '0 && error_q == '0);
     end
   end
@@ -59,8 +59,8 @@ module ppmc2104_report
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p2104_err_once, charge_i.axis != '1)
-  `PPMC_ASSERT(p2104_err_read, (charge_i.axis & read_error_i) == '0)
+  `PPMC_ASSERT(p2104_err_once, error_report_i.axis != '1)
+  `PPMC_ASSERT(p2104_err_read, (error_report_i.axis & read_error_i) == '0)
   `PPMC_ASSERT(p2104_int_02, (read_end_i & end_i) == '0)
 `endif
 

@@ -16,7 +16,7 @@ module ppmc2104_setup
     input  wire logic         [31:0] params_late_i,  // data bytes of act_i.switching, act_i.hold_delay
     input  wire logic                ready_i,        // 1: no table build and no open window of this axis
     output setup_t                   setup_o,        // current settings
-    output logic                     home_o,         // set the phases to index 0
+    output logic                     phase_init_o,   // set the phases to index 0
     output logic                     chop_o          // chop at standstill
 );
 
@@ -24,7 +24,7 @@ module ppmc2104_setup
   logic unused_bits;
 
   assign unused_bits = &{1'b0, act_i, code_i, params_i, params_late_i};
-  assign home_o = act_i.init && !setup_o.initialised;
+  assign phase_init_o = act_i.init && !setup_o.initialised;
   assign chop_o = setup_o.chop && setup_o.initialised && (ready_i || !first_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -48,14 +48,14 @@ module ppmc2104_setup
         setup_o.steps <= params_i[16+:STEP_BITS];
       end
       // Only the first setting writes these fields; they are then frozen until Excitation OFF.
-      if (home_o) begin
+      if (phase_init_o) begin
         setup_o.chop     <= code_i.chop;
         setup_o.external <= code_i.external;
         setup_o.half     <= code_i.half;
         setup_o.motor    <= code_i.motor;
       end
       if (act_i.init || act_i.exc_off) setup_o.initialised <= act_i.init;
-      first_q <= home_o || (first_q && !ready_i);
+      first_q <= phase_init_o || (first_q && !ready_i);
       if (act_i.switching) begin
         setup_o.on  <= params_late_i[23:16];
         setup_o.off <= params_late_i[31:24];

@@ -12,13 +12,13 @@ module ppmc2104_speed
 #(
     parameter bit Datasheet = 1'b0
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire logic    [   7:0] code_i,    // code of an operation
-    input  wire logic    [  31:0] params_i,  // data bytes of code_i
-    input  wire state_t  [AXES:1] state_i,   // states of both axes
-    input  wire levels_t [AXES:1] levels_i,  // inputs of both axes, synchronised
-    output error_e                error_o    // ErrRateOne, ErrRateTwo or ErrNone
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
+    input  wire logic          [   7:0] code_i,    // code of an operation
+    input  wire logic          [  31:0] params_i,  // data bytes of code_i
+    input  wire axis_summary_t [AXES:1] state_i,   // states of both axes
+    input  wire pin_levels_t   [AXES:1] levels_i,  // inputs of both axes, synchronised
+    output cmd_error_e                  error_o    // ErrRateOne, ErrRateTwo or ErrNone
 );
 
   if (!Datasheet) begin : g_fast
@@ -30,42 +30,42 @@ module ppmc2104_speed
 
     // Lowest legal rate values: with one or two operating axes, with the fast or the slow internal clock.
     typedef struct packed {
-      logic [RATE_BITS-1:0] alone_fast;
-      logic [RATE_BITS-1:0] beside_fast;
-      logic [RATE_BITS-1:0] alone_slow;
-      logic [RATE_BITS-1:0] beside_slow;
-    } limits_t;
+      logic [RATE_BITS-1:0] one_axis_fast;
+      logic [RATE_BITS-1:0] two_axes_fast;
+      logic [RATE_BITS-1:0] one_axis_slow;
+      logic [RATE_BITS-1:0] two_axes_slow;
+    } min_rates_t;
 
-    localparam limits_t POUT = '{8'h0C, 8'h19, 8'h03, 8'h06};
-    localparam limits_t PHASE = '{8'h12, 8'h23, 8'h04, 8'h08};
-    localparam limits_t ORIGIN = '{8'h14, 8'h25, 8'h05, 8'h09};
+    localparam min_rates_t MinRatesPout = '{8'h0C, 8'h19, 8'h03, 8'h06};
+    localparam min_rates_t MinRatesPhase = '{8'h12, 8'h23, 8'h04, 8'h08};
+    localparam min_rates_t MinRatesOrigin = '{8'h14, 8'h25, 8'h05, 8'h09};
 
     op_code_t op_code;
-    state_t mine, other;
-    limits_t limits;
+    axis_summary_t addressed, other;
+    min_rates_t min_rates;
     logic [RATE_BITS-1:0] rate;
     logic [3:0] below, below_q;  // below: the rate value is below each limit; below_q: one cycle later
-    logic counts, second_q, csel, alone, beside, unused_bits;
+    logic is_limited, second_q, csel, below_one_axis, below_two_axes, unused_bits;
 
     assign op_code = op_code_t'(code_i);
-    assign mine = op_code.second ? state_i[2] : state_i[1];
-    assign unused_bits = &{1'b0, op_code, params_i, state_i, levels_i, mine, other};
+    assign addressed = op_code.second ? state_i[2] : state_i[1];
+    assign unused_bits = &{1'b0, op_code, params_i, state_i, levels_i, addressed, other};
 
     always_comb begin
       unique case (op_code.op)
-        OP_ACC_DEC, OP_CONT_HIGH: rate = mine.setup.fast;
+        OP_ACC_DEC, OP_CONT_HIGH: rate = addressed.setup.fast;
         OP_CONSTANT:              rate = params_i[7:0];
         default:                  rate = params_i[31:24];
       endcase
-      limits = PHASE;
-      if (op_code.pout_only) limits = POUT;
-      else if (op_code.op == OP_ORIGIN) limits = ORIGIN;
-      counts = op_code.op != OP_SINGLE && !mine.setup.external;
+      min_rates = MinRatesPhase;
+      if (op_code.pout_only) min_rates = MinRatesPout;
+      else if (op_code.op == OP_ORIGIN) min_rates = MinRatesOrigin;
+      is_limited = op_code.op != OP_SINGLE && !addressed.setup.external;
       below = {
-        rate < limits.alone_fast,
-        rate < limits.beside_fast,
-        rate < limits.alone_slow,
-        rate < limits.beside_slow
+        rate < min_rates.one_axis_fast,
+        rate < min_rates.two_axes_fast,
+        rate < min_rates.one_axis_slow,
+        rate < min_rates.two_axes_slow
       };
     end
 
@@ -74,7 +74,7 @@ module ppmc2104_speed
         below_q  <= '0;
         second_q <= 1'b0;
       end else begin
-        below_q  <= below & {4{counts}};
+        below_q  <= below & {4{is_limited}};
         second_q <= op_code.second;
       end
     end
@@ -83,11 +83,12 @@ module ppmc2104_speed
     always_comb begin
       other = second_q ? state_i[1] : state_i[2];
       csel = second_q ? levels_i[2].csel : levels_i[1].csel;
-      alone = csel ? below_q[3] : below_q[1];
-      beside = csel ? below_q[2] : below_q[0];
+      below_one_axis = csel ? below_q[3] : below_q[1];
+      below_two_axes = csel ? below_q[2] : below_q[0];
       error_o = ErrNone;
-      if (alone) error_o = ErrRateOne;
-      else if (beside && (other.busy || (other.setup.initialised && other.setup.chop))) error_o = ErrRateTwo;
+      if (below_one_axis) error_o = ErrRateOne;
+      else if (below_two_axes && (other.busy || (other.setup.initialised && other.setup.chop)))
+        error_o = ErrRateTwo;
     end
   end
 

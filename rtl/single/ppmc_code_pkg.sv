@@ -19,21 +19,21 @@ package ppmc_code_pkg;
     ErrRates      = 3'd5,  // illegal rate, or PA too small
     ErrDataBusy   = 3'd6,  // as ErrData, during a motion
     ErrDecelAgain = 3'd7
-  } error_e;
+  } cmd_error_e;
 
   typedef enum logic [3:0] {
-    KindUndefined,
-    KindInit,
-    KindHalt,       // Immediate Stop
-    KindDecel,      // Decelerating Stop
-    KindOperation,
-    KindRead,
-    KindSwitching,
-    KindAuxOut,
-    KindExcOff,     // Excitation OFF, AUX ON while busy
-    KindAuxOn,
-    KindAuxOff
-  } kind_e;
+    CmdUndefined,
+    CmdInit,
+    CmdHalt,       // Immediate Stop
+    CmdDecel,      // Decelerating Stop
+    CmdOperation,
+    CmdRead,
+    CmdSwitching,
+    CmdAuxOut,
+    CmdExcOff,     // Excitation OFF, AUX ON while busy
+    CmdAuxOn,
+    CmdAuxOff
+  } cmd_kind_e;
 
   // Data that a read command selects: low three bits of the codes 10 000 xxx.
   localparam logic [2:0] SEL_FINISH = 3'b000;
@@ -63,7 +63,7 @@ package ppmc_code_pkg;
   } op_code_t;
 
   typedef struct packed {
-    kind_e      kind;
+    cmd_kind_e  kind;
     logic [2:0] params;  // bytes that follow
   } decoded_t;
 
@@ -87,7 +87,7 @@ package ppmc_code_pkg;
     logic [2:0]  number;  // error number if error = 1, else number of remaining parameters
     logic [7:0]  code;    // code of the parameters
     logic [31:0] params;  // parameters received so far, the last one in the high bits
-  } asking_t;
+  } parser_state_t;
 
   // Settings of the initialisation (ppmc_setup), without the ramp.
   typedef struct packed {

@@ -4,8 +4,8 @@
 // Rules:  P104-STA-01..07, P104-ERR-00..03, P104-HSK-03/07, P104-CMD-01..04, P104-INI-02..06,
 //         P104-STP-02..08, P104-FSM-01..03; STMC-CMD-01..03, STMC-STP-01..05, STMC-FSM-01..04.
 // Timing: take_o marks the C-event: act_o and all state changes of this block belong to the edge that ends
-//         this cycle. decoded_i and value_i are combinational from the byte and are registered here, so that
-//         they are used one cycle later. data_i and judged_i are used in the same cycle.
+//         this cycle. decoded_i and param_error_i are combinational from the byte and are registered here, so
+//         that they are used one cycle later. data_i and is_checked_i are used in the same cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -24,8 +24,8 @@ module ppmc_command
     // meaning of the byte in this device
     input wire decoded_t decoded_i,  // byte_i as a code
     input wire logic [7:0] data_i,  // byte_i in the form in which parameters are stored
-    input wire error_e value_i,  // error in params_o; ErrUndefined: no error
-    input wire logic judged_i,  // value_i applies to the current code; used in the same cycle
+    input wire cmd_error_e param_error_i,  // error in params_o; ErrUndefined: no error
+    input wire logic is_checked_i,  // param_error_i applies to the current code; used in the same cycle
     // state of the core
     input wire logic busy_i,  // a motion is in progress
     input wire logic ramp_i,  // running operation has a ramp
@@ -40,32 +40,32 @@ module ppmc_command
     output logic [31:0] params_held_o  // parameters of code_held_o
 );
 
-  decoded_t dec_q;  // decoded_i, one cycle later
-  error_e   value_q;  // value_i, one cycle later; the byte is stable before it is accepted
-  asking_t asking_q, asking;
+  decoded_t   dec_q;  // decoded_i, one cycle later
+  cmd_error_e param_error_q;  // param_error_i, one cycle later; the byte is stable before it is accepted
+  parser_state_t parser_q, parser;
   logic stop;
 
-  assign status_o = {asking_q.error, asking_q.number};
-  assign params_o = {data_i, asking_q.params[31:8]};
-  assign params_held_o = asking_q.params;
-  assign code_held_o = asking_q.code;
-  assign code_o = command_i ? byte_i : asking_q.code;
+  assign status_o = {parser_q.error, parser_q.number};
+  assign params_o = {data_i, parser_q.params[31:8]};
+  assign params_held_o = parser_q.params;
+  assign code_held_o = parser_q.code;
+  assign code_o = command_i ? byte_i : parser_q.code;
   assign take_o = ready_i && open_i && (!stops_only_i || (command_i && stop));
 
-  ppmc_judge u_judge (
+  ppmc_command_check u_check (
       .take_i   (take_o),
       .command_i,
       .byte_i,
       .data_i,
       .decoded_i(dec_q),
-      .value_i  (value_q),
-      .judged_i,
+      .param_error_i  (param_error_q),
+      .is_checked_i,
       .busy_i,
       .ramp_i,
       .decelerating_i,
       .initialised_i,
-      .asking_i (asking_q),
-      .asking_o (asking),
+      .parser_i (parser_q),
+      .parser_o (parser),
       .act_o,
       .stop_o   (stop)
   );
@@ -73,18 +73,18 @@ module ppmc_command
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       dec_q    <= '0;
-      value_q  <= ErrUndefined;
-      asking_q <= '0;
+      param_error_q  <= ErrUndefined;
+      parser_q <= '0;
     end else begin
       dec_q    <= decoded_i;
-      value_q  <= value_i;
-      asking_q <= asking;
+      param_error_q  <= param_error_i;
+      parser_q <= parser;
     end
   end
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_opr_12, !(act_o.start && busy_i))
-  `PPMC_ASSERT(p104_err_03, !(take_o && asking.error) || act_o == '0)
+  `PPMC_ASSERT(p104_err_03, !(take_o && parser.error) || act_o == '0)
 `endif
 
 endmodule

@@ -13,8 +13,8 @@ module ppmc_setup
     input  wire logic       rst_ni,
     input  wire logic       init_i,        // initialisation accepted
     input  wire init_code_t code_i,        // initialisation code, with init_i
-    input  wire logic       home_i,        // set the phases to index 0: first initialisation
-    input  wire logic       positive_i,    // 1: high = energised, with home_i
+    input  wire logic       phase_init_i,  // set the phases to index 0: first initialisation
+    input  wire logic       positive_i,    // 1: high = energised, with phase_init_i
     input  wire logic       ready_i,       // the initialisation is complete
     input  wire logic       off_i,         // return to the state before an initialisation
     output setup_t          setup_o,       // active settings
@@ -46,7 +46,7 @@ module ppmc_setup
         setup_o.half  <= code_i.half;
         setup_o.motor <= code_i.motor;
       end
-      if (home_i) setup_o.positive <= positive_i;
+      if (phase_init_i) setup_o.positive <= positive_i;
       if (ready_i) begin
         initialised_o <= 1'b1;
         setup_o.chop  <= chop_next_q;

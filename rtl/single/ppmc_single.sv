@@ -5,7 +5,7 @@
 // Rules:  those of its blocks.
 // Timing: a command acts 4 cycles after the rising edge of clk_i that first samples the end of its write;
 //         motor pins follow one cycle later.
-// Assumes: meaning_i and verdict_i are combinational functions of sent_o and asked_o.
+// Assumes: decoded_byte_i and check_result_i are combinational functions of rx_byte_o and command_req_o.
 `default_nettype none
 
 module ppmc_single
@@ -18,54 +18,54 @@ module ppmc_single
     parameter int unsigned XtalHz    = 16_000_000,
     parameter bit          Datasheet = 1'b0,        // 1: with the processing times of the old chip
     parameter bit          PhaseIdle = 1'b1,        // level of the phases until the first initialisation
-    parameter traits_t     Traits                   // configuration of the device
+    parameter part_cfg_t   PartCfg                  // configuration of the device
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
+    input wire logic clk_i,
+    input wire logic rst_ni,
     // host bus: pins of the device
-    input  wire logic             cs_ni,          // chip select
-    input  wire logic             rd_ni,          // read strobe
-    input  wire logic             wr_ni,          // write strobe
-    input  wire logic             a0_i,           // 0 data, 1 status or command
-    input  wire logic      [ 7:0] d_i,            // data written by the host
-    output logic           [ 7:0] d_o,            // data read by the host
-    output logic                  d_oe_o,         // the host is reading: drive d_o
-    output logic                  int_no,         // L: a motion has ended
+    input wire logic cs_ni,  // chip select
+    input wire logic rd_ni,  // read strobe
+    input wire logic wr_ni,  // write strobe
+    input wire logic a0_i,  // 0 data, 1 status or command
+    input wire logic [7:0] d_i,  // data written by the host
+    output logic [7:0] d_o,  // data read by the host
+    output logic d_oe_o,  // the host is reading: drive d_o
+    output logic int_no,  // L: a motion has ended
     // meaning of the bytes, decoded by the device
-    output sent_t                 sent_o,         // current byte of the host
-    input  wire meaning_t         meaning_i,      // meaning of the current byte
-    output asked_t                asked_o,        // command requested with the current byte
-    input  wire verdict_t         verdict_i,      // result of the check of asked_o
-    input  wire logic             stops_only_i,   // only stop commands may be accepted
+    output rx_byte_t rx_byte_o,  // current byte of the host
+    input wire decoded_byte_t decoded_byte_i,  // meaning of the current byte
+    output command_req_t command_req_o,  // command requested with the current byte
+    input wire check_result_t check_result_i,  // result of the check of command_req_o
+    input wire logic stops_only_i,  // only stop commands may be accepted
     // actions
-    output action_t               act_o,          // actions that take effect at the next edge
-    output logic           [31:0] params_late_o,  // parameters of act_o
-    input  wire base_t            base_i,         // base clock of the next operation
-    output setup_t                setup_o,        // settings of the initialisation
+    output action_t act_o,  // actions that take effect at the next edge
+    output logic [31:0] params_late_o,  // parameters of act_o
+    input wire base_clock_t base_i,  // base clock of the next operation
+    output setup_t setup_o,  // settings of the initialisation
     // motion
-    input  wire logic             clock_pin_i,    // external base clock, asynchronous
-    input  wire switches_t        switches_i,     // synchronous levels
-    input  wire logic             slow_i,         // act on the slow-down limit; slow_seen_o, delayed or not
-    output logic                  slow_seen_o,    // an effective slow-down limit is active
-    output motion_t               motion_o,       // state of the motion
-    output logic           [ 7:0] rate_o,         // rate of the running interval
+    input wire logic clock_pin_i,  // external base clock, asynchronous
+    input wire switches_t switches_i,  // synchronous levels
+    input wire logic slow_i,  // act on the slow-down limit; slow_seen_o, delayed or not
+    output logic slow_seen_o,  // an effective slow-down limit is active
+    output motion_t motion_o,  // state of the motion
+    output logic [7:0] rate_o,  // rate of the running interval
     // read data
-    input  wire logic      [ 7:0] inputs_i,       // levels of the inputs as the host reads them
-    input  wire logic      [ 3:0] auxi_i,         // auxiliary inputs
+    input wire logic [7:0] inputs_i,  // levels of the inputs as the host reads them
+    input wire logic [3:0] auxi_i,  // auxiliary inputs
     // motor
-    input  wire chop_t            chop_i,         // times of the chopper at standstill
-    output motor_t                motor_o         // motor pins
+    input wire chop_time_t chop_i,  // times of the chopper at standstill
+    output motor_t motor_o  // motor pins
 );
 
   // ---- host ----------------------------------------------------------------------------------------
 
   logic ready, is_command, take, open, initialised, building;
   logic [7:0] code_late;
-  logic [3:0] judgement;
+  logic [3:0] status;
   logic [23:0] answer, remaining;
-  action_t act_taken;  // act_taken: actions requested at the C-event; act_o: the same when they take effect
+  action_t act_req;  // act_req: actions requested at the C-event; act_o: the same when they take effect
 
-  assign sent_o.left = judgement[2:0];
+  assign rx_byte_o.params_left = status[2:0];
 
   ppmc_host_port u_host (
       .clk_i,
@@ -78,13 +78,13 @@ module ppmc_single
       .d_i,
       .d_o,
       .d_oe_o,
-      .state_i  ({judgement, 1'b0, motion_o.busy}),
+      .state_i  ({status, 1'b0, motion_o.busy}),
       .ready_o  (ready),
       .command_o(is_command),
-      .byte_o   (sent_o.data),
+      .byte_o   (rx_byte_o.data),
       .take_i   (take),
-      .load_i   (act_taken.read),
-      .long_i   (verdict_i.select == SEL_REMAINING),
+      .load_i   (act_req.read),
+      .long_i   (check_result_i.select == SEL_REMAINING),
       .answer_i (answer)
   );
 
@@ -93,37 +93,37 @@ module ppmc_single
       .rst_ni,
       .ready_i       (ready),
       .command_i     (is_command),
-      .byte_i        (sent_o.data),
+      .byte_i        (rx_byte_o.data),
       .open_i        (open),
       .stops_only_i,
       .take_o        (take),
-      .decoded_i     (meaning_i.decoded),
-      .data_i        (meaning_i.data),
-      .value_i       (verdict_i.value),
-      .judged_i      (verdict_i.judged),
+      .decoded_i     (decoded_byte_i.decoded),
+      .data_i        (decoded_byte_i.data),
+      .param_error_i (check_result_i.error),
+      .is_checked_i  (check_result_i.is_checked),
       .busy_i        (motion_o.busy),
       .ramp_i        (motion_o.op.ramp),
       .decelerating_i(motion_o.dec || !motion_o.moving),
       .initialised_i (initialised),
-      .status_o      (judgement),
-      .act_o         (act_taken),
-      .code_o        (asked_o.code),
-      .params_o      (asked_o.params),
-      .code_held_o   (sent_o.held),
-      .params_held_o (sent_o.params)
+      .status_o      (status),
+      .act_o         (act_req),
+      .code_o        (command_req_o.code),
+      .params_o      (command_req_o.params),
+      .code_held_o   (rx_byte_o.code_held),
+      .params_held_o (rx_byte_o.params)
   );
 
   // ---- set-up, ramp table, motion ------------------------------------------------------------------
 
   op_code_t   op_code;
   init_code_t init_late;
-  logic home, ready_init, unused_bits;
-  logic [Traits.step_bits-1:0] steps, lut_data;
+  logic phase_init, ready_init, unused_bits;
+  logic [PartCfg.step_bits-1:0] steps, lut_data;
   logic [7:0] slow, fast, lut_addr;
 
   assign op_code     = op_code_t'(code_late);  // code_late as the code of an operation
   assign init_late   = init_code_t'(code_late);  // code_late as the code of an initialisation
-  assign unused_bits = &{1'b0, op_code, init_late, chop_i, verdict_i};
+  assign unused_bits = &{1'b0, op_code, init_late, chop_i, check_result_i};
 
   ppmc_setup #(
       .PhaseIdle(PhaseIdle)
@@ -131,8 +131,8 @@ module ppmc_single
       .clk_i,
       .rst_ni,
       .init_i       (act_o.init),
-      .code_i       (init_code_t'(asked_o.code)),
-      .home_i       (home),
+      .code_i       (init_code_t'(command_req_o.code)),
+      .phase_init_i (phase_init),
       .positive_i   (init_late.positive),
       .ready_i      (ready_init),
       .off_i        (act_o.exc_off),
@@ -141,14 +141,14 @@ module ppmc_single
   );
 
   ppmc_ramp_table #(
-      .StepBits(Traits.step_bits)
+      .StepBits(PartCfg.step_bits)
   ) u_table (
       .clk_i,
       .rst_ni,
       .start_i(act_o.init),
-      .slow_i (verdict_i.setup[7:0]),
-      .fast_i (verdict_i.setup[15:8]),
-      .steps_i(verdict_i.setup[16+:Traits.step_bits]),
+      .slow_i (check_result_i.setup[7:0]),
+      .fast_i (check_result_i.setup[15:8]),
+      .steps_i(check_result_i.setup[16+:PartCfg.step_bits]),
       .busy_o (building),
       .slow_o (slow),
       .fast_o (fast),
@@ -166,16 +166,16 @@ module ppmc_single
     endcase
   end
 
-  logic quantum, restart, low, go, linger;
-  event_t event_now;
-  base_t base_late;
-  cause_t cause;
+  logic quantum, restart, low, go, end_delay;
+  motion_event_t event_now;
+  base_clock_t base_late;
+  stop_cause_t cause;
   logic [5:1] levels;
 
   ppmc_tick_gen #(
       .ClkHz   (ClkHz),
       .XtalHz  (XtalHz),
-      .TickXtal(Traits.quantum_xtal)
+      .TickXtal(PartCfg.quantum_xtal)
   ) u_quantum (
       .clk_i,
       .rst_ni,
@@ -186,19 +186,19 @@ module ppmc_single
   ppmc_axis #(
       .ClkHz      (ClkHz),
       .XtalHz     (XtalHz),
-      .StepBits   (Traits.step_bits),
-      .ClimbBits  (ppmc_pkg::cnt_width(Traits.steps_max + 1)),
-      .FastQuanta (Traits.fast_quanta),
-      .SlowQuanta (Traits.slow_quanta),
-      .ExtraQuanta(Traits.extra_quanta),
-      .StopAtSlow (Traits.stmc_ends),
-      .SlowOrigin (Traits.stmc_ends),
-      .PulsePin   (!Traits.stmc_ends)
+      .StepBits   (PartCfg.step_bits),
+      .LevelBits  (ppmc_pkg::cnt_width(PartCfg.steps_max + 1)),
+      .FastQuanta (PartCfg.fast_quanta),
+      .SlowQuanta (PartCfg.slow_quanta),
+      .ExtraQuanta(PartCfg.extra_quanta),
+      .StopAtSlow (PartCfg.stmc_stop_rules),
+      .SlowOrigin (PartCfg.stmc_stop_rules),
+      .PulsePin   (!PartCfg.stmc_stop_rules)
   ) u_axis (
       .clk_i,
       .rst_ni,
       .start_i    (act_o.start),
-      .op_i       (op_of(op_code.pout_only, op_code.ccw, op_code.op)),
+      .op_i       (motion_op(op_code.pout_only, op_code.ccw, op_code.op)),
       .count_i    (count),
       .rate_i     ((op_code.op == OP_CONSTANT) ? params_late_o[7:0] : params_late_o[31:24]),
       .base_i     (base_late),
@@ -213,7 +213,7 @@ module ppmc_single
       .slow_seen_o,
       .run_i      (1'b1),
       .go_i       (go),
-      .linger_i   (linger),
+      .end_delay_i(end_delay),
       .quantum_i  (quantum),
       .clock_pin_i,
       .restart_o  (restart),
@@ -225,22 +225,22 @@ module ppmc_single
       .left_o     (remaining)
   );
 
-  ppmc_pace #(
+  ppmc_proc_time #(
       .Datasheet(Datasheet),
       .ClkHz    (ClkHz),
       .XtalHz   (XtalHz),
-      .StepBits (Traits.step_bits),
-      .StepsMin (Traits.steps_min),
-      .StepsMax (Traits.steps_max),
-      .RampTimes(!Traits.stmc_ends)
-  ) u_pace (
+      .StepBits (PartCfg.step_bits),
+      .StepsMin (PartCfg.steps_min),
+      .StepsMax (PartCfg.steps_max),
+      .RampTimes(!PartCfg.stmc_stop_rules)
+  ) u_proc_time (
       .clk_i,
       .rst_ni,
-      .act_i        (act_taken),
-      .code_i       (asked_o.code),
-      .params_i     (asked_o.params),
-      .code_held_i  (sent_o.held),
-      .params_held_i(sent_o.params),
+      .act_i        (act_req),
+      .code_i       (command_req_o.code),
+      .params_i     (command_req_o.params),
+      .code_held_i  (rx_byte_o.code_held),
+      .params_held_i(rx_byte_o.params),
       .base_i,
       .open_o       (open),
       .act_o,
@@ -250,7 +250,7 @@ module ppmc_single
       .initialised_i(initialised),
       .building_i   (building),
       .steps_i      (steps),
-      .home_o       (home),
+      .phase_init_o (phase_init),
       .ready_o      (ready_init),
       .ramp_i       (motion_o.op.ramp),
       .single_i     (motion_o.op.single),
@@ -259,13 +259,13 @@ module ppmc_single
       .last_i       (event_now.last),
       .final_i      (event_now.complete),
       .go_o         (go),
-      .linger_o     (linger)
+      .end_delay_o  (end_delay)
   );
 
   // ---- end of a motion, read data, pins ------------------------------------------------------------
 
-  ppmc_finish #(
-      .Fresh(!Traits.stmc_ends)
+  ppmc_finish_status #(
+      .UnreadFlag(!PartCfg.stmc_stop_rules)
   ) u_finish (
       .clk_i,
       .rst_ni,
@@ -273,8 +273,8 @@ module ppmc_single
       .op_code_i  (op_code),
       .done_i     (event_now.done),
       .cause_i    (cause),
-      .read_i     (act_taken.read),
-      .select_i   (verdict_i.select),
+      .read_i     (act_req.read),
+      .select_i   (check_result_i.select),
       .remaining_i(remaining),
       .inputs_i,
       .outputs_i  ({levels[1], levels[2], levels[3], levels[4], levels[5], motor_o.hold, motor_o.dir, 1'b0}),
@@ -284,11 +284,11 @@ module ppmc_single
   );
 
   ppmc_motor_port #(
-      .HoldQuanta(Traits.hold_quanta),
-      .HoldRest  (Traits.hold_rest),
-      .UnitQuanta(Traits.chop_unit),
-      .BaseBits  (Traits.chop_bits),
-      .PhaseIdle (PhaseIdle)
+      .HoldQuanta(PartCfg.hold_quanta),
+      .HoldRestCycles(PartCfg.hold_rest_cycles),
+      .UnitQuanta(PartCfg.chop_unit),
+      .BaseBits(PartCfg.chop_bits),
+      .PhaseIdle(PhaseIdle)
   ) u_motor (
       .clk_i,
       .rst_ni,
@@ -300,12 +300,12 @@ module ppmc_single
       .motor_i       (motor_e'(setup_o.motor)),
       .half_i        (setup_o.half),
       .positive_i    (setup_o.positive),
-      .home_i        (home),
+      .phase_init_i  (phase_init),
       .off_i         (act_o.exc_off),
       .chop_i        (setup_o.chop),
       .chop_restart_i(ready_init),
-      .on_base_i     (chop_i.on_base[Traits.chop_bits-1:0]),
-      .off_base_i    (chop_i.off_base[Traits.chop_bits-1:0]),
+      .on_base_i     (chop_i.on_base[PartCfg.chop_bits-1:0]),
+      .off_base_i    (chop_i.off_base[PartCfg.chop_bits-1:0]),
       .on_units_i    (chop_i.on_units),
       .off_units_i   (chop_i.off_units),
       .hold_units_i  (1'b0),

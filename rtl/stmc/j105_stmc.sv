@@ -44,13 +44,13 @@ module j105_stmc #(
     $fatal(1, "j105_stmc: EXT_HZ must be 1 .. CLK_HZ / 4");
   end
 
-  logic rst, ext_clk, cs_n, a0, d_oe, int_n;
+  logic rst_core_n, ext_clk, cs_n, a0, d_oe, int_n;
   logic [7:0] d;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   // ppmc_square counts half a period of the wave as one cycle of a virtual crystal.
@@ -60,7 +60,7 @@ module j105_stmc #(
       .HalfXtal(1)
   ) u_ext (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .wave_o(ext_clk)
   );
 
@@ -69,7 +69,7 @@ module j105_stmc #(
       .Base (BASE_ADDR)
   ) u_isa (
       .clk_i  (clk),
-      .rst_ni (rst),
+      .rst_ni (rst_core_n),
       .sa_i   (sa),
       .aen_i  (aen),
       .ior_ni (ior_n),

@@ -60,11 +60,11 @@ module stmc
     $fatal(1, "stmc: HOLD_XT, CHOP_ON_XT and CHOP_OFF_XT must be at least 1");
   end
 
-  localparam bit Sheet = 128'(READ_MAP) == "SHEET";
+  localparam bit SheetMap = 128'(READ_MAP) == "SHEET";
   // A quantum lasts at least two cycles. Chopper times that are not a multiple of a quantum are rounded up.
   localparam int unsigned QuantumXtal = (2 * CLK_HZ >= XTAL_HZ) ? 32'd4 : 32'd5;
   localparam int unsigned HoldQuanta = HOLD_XT / QuantumXtal;
-  localparam int unsigned HoldRest = ppmc_pkg::cyc(
+  localparam int unsigned HoldRestCycles = ppmc_pkg::cyc(
       HOLD_XT, CLK_HZ, XTAL_HZ
   ) - ppmc_pkg::cyc(
       HoldQuanta * QuantumXtal, CLK_HZ, XTAL_HZ
@@ -73,12 +73,12 @@ module stmc
   localparam int unsigned OffQuanta = (CHOP_OFF_XT + QuantumXtal - 1) / QuantumXtal;
   localparam int unsigned ChopBits = ppmc_pkg::cnt_width((OnQuanta > OffQuanta) ? OnQuanta : OffQuanta);
 
-  logic rst;
+  logic rst_core_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   // ---- inputs --------------------------------------------------------------------------------------
@@ -90,7 +90,7 @@ module stmc
       .Width(6)
   ) u_sync (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({l1_n, l2_n, l3_n, l4_n, cnp_n, mon}),
       .q1_o  (unused_meta),
       .q2_o  ({l1, l2, l3, l4, cnp, mon_s})
@@ -109,7 +109,7 @@ module stmc
 
   // ---- decoding of the bytes, shared single-axis core ----------------------------------------------
 
-  localparam traits_t Traits = '{
+  localparam part_cfg_t PartCfg = '{
       step_bits: STEP_BITS,
       steps_min: 32'd0,
       steps_max: STEPS_MAX,
@@ -118,18 +118,18 @@ module stmc
       slow_quanta: STEP_XTAL / QuantumXtal,
       extra_quanta: 0,
       hold_quanta: HoldQuanta,
-      hold_rest: HoldRest,
+      hold_rest_cycles: HoldRestCycles,
       chop_unit: 0,
       chop_bits: ChopBits,
-      stmc_ends: 1'b1
+      stmc_stop_rules: 1'b1
   };
-  localparam chop_t Chop = '{on_base: OnQuanta, off_base: OffQuanta, on_units: '0, off_units: '0};
+  localparam chop_time_t Chop = '{on_base: OnQuanta, off_base: OffQuanta, on_units: '0, off_units: '0};
 
-  sent_t sent;
-  meaning_t meaning;
-  asked_t asked;
-  verdict_t verdict;
-  error_e fault;
+  rx_byte_t rx_byte;
+  decoded_byte_t decoded_byte;
+  command_req_t command_req;
+  check_result_t check_result;
+  cmd_error_e param_error;
   logic [31:0] unused_params;
   logic slow, unused_bits;
   setup_t setup;
@@ -137,22 +137,30 @@ module stmc
   motion_t unused_motion;
   logic [RATE_BITS-1:0] unused_rate;
   motor_t motor;
-  base_t base;
+  base_clock_t base;
 
-  assign unused_bits = &{1'b0, asked, setup, motor, sent};
+  assign unused_bits = &{1'b0, command_req, setup, motor, rx_byte};
 
-  assign meaning = '{
-          decoded: decode(Sheet, sent.data),
-          data: sent.data - 8'(is_divisor(sent.held[6], sent.held[2:0], sent.left))
+  assign decoded_byte = '{
+          decoded: decode(SheetMap, rx_byte.data),
+          data:
+          rx_byte.data
+          - 8'(
+          is_divisor(rx_byte.code_held[6], rx_byte.code_held[2:0], rx_byte.params_left)
+          )
       };
-  assign fault = judge(
-      sent.held[6], sent.held[2:0], asked.params[7:0], asked.params[15:8], asked.params[31:24]
+  assign param_error = check_params(
+      rx_byte.code_held[6],
+      rx_byte.code_held[2:0],
+      command_req.params[7:0],
+      command_req.params[15:8],
+      command_req.params[31:24]
   );
-  assign verdict = '{
-          value: fault,
-          judged: 1'b1,
-          select: selected(Sheet, asked.code[2:0]),
-          setup: levelled(sent.params)
+  assign check_result = '{
+          error: param_error,
+          is_checked: 1'b1,
+          select: read_select(SheetMap, command_req.code[2:0]),
+          setup: normalise_rates(rx_byte.params)
       };
   assign base = '{external: setup.external, default: 1'b0};
 
@@ -161,37 +169,37 @@ module stmc
       .XtalHz   (XTAL_HZ),
       .Datasheet(128'(TIMING) == "DATASHEET"),
       .PhaseIdle(PHASE_IDLE),
-      .Traits   (Traits)
+      .PartCfg  (PartCfg)
   ) u_single (
-      .clk_i        (clk),
-      .rst_ni       (rst),
-      .cs_ni        (cs_n),
-      .rd_ni        (rd_n),
-      .wr_ni        (wr_n),
-      .a0_i         (a0),
+      .clk_i         (clk),
+      .rst_ni        (rst_core_n),
+      .cs_ni         (cs_n),
+      .rd_ni         (rd_n),
+      .wr_ni         (wr_n),
+      .a0_i          (a0),
       .d_i,
       .d_o,
-      .d_oe_o       (d_oe),
-      .int_no       (int_n),
-      .sent_o       (sent),
-      .meaning_i    (meaning),
-      .asked_o      (asked),
-      .verdict_i    (verdict),
-      .stops_only_i (1'b0),
-      .act_o        (unused_act),
-      .params_late_o(unused_params),
-      .base_i       (base),
-      .setup_o      (setup),
-      .clock_pin_i  (ext_clk),
-      .switches_i   (switches),
-      .slow_i       (slow),
-      .slow_seen_o  (slow),
-      .motion_o     (unused_motion),
-      .rate_o       (unused_rate),
-      .inputs_i     ({cnp, mon_s, 2'b00, l1, l2, l3, l4}),
-      .auxi_i       ('0),
-      .chop_i       (Chop),
-      .motor_o      (motor)
+      .d_oe_o        (d_oe),
+      .int_no        (int_n),
+      .rx_byte_o     (rx_byte),
+      .decoded_byte_i(decoded_byte),
+      .command_req_o (command_req),
+      .check_result_i(check_result),
+      .stops_only_i  (1'b0),
+      .act_o         (unused_act),
+      .params_late_o (unused_params),
+      .base_i        (base),
+      .setup_o       (setup),
+      .clock_pin_i   (ext_clk),
+      .switches_i    (switches),
+      .slow_i        (slow),
+      .slow_seen_o   (slow),
+      .motion_o      (unused_motion),
+      .rate_o        (unused_rate),
+      .inputs_i      ({cnp, mon_s, 2'b00, l1, l2, l3, l4}),
+      .auxi_i        ('0),
+      .chop_i        (Chop),
+      .motor_o       (motor)
   );
 
   assign s = motor.s;

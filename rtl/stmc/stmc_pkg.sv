@@ -23,23 +23,23 @@ package stmc_pkg;
 
   // Data that a read command selects. The headings of the data sheet number them 0, 2, 3, 4; related devices
   // use 0, 1, 2, 3.
-  function automatic logic [2:0] selected(logic sheet, logic [2:0] number);
-    return (sheet && number != 3'd0) ? number - 3'd1 : number;
+  function automatic logic [2:0] read_select(logic sheet_map, logic [2:0] number);
+    return (sheet_map && number != 3'd0) ? number - 3'd1 : number;
   endfunction
 
-  function automatic decoded_t decode(logic sheet, logic [7:0] code);
+  function automatic decoded_t decode(logic sheet_map, logic [7:0] code);
     decoded_t d;
-    d = '{kind: KindUndefined, params: 3'd0};
+    d = '{kind: CmdUndefined, params: 3'd0};
     if (code[7:6] == 2'b00) begin
-      if (code[1:0] != 2'b00) d = '{kind: KindInit, params: 3'd4};
+      if (code[1:0] != 2'b00) d = '{kind: CmdInit, params: 3'd4};
     end else if (code[7:6] == 2'b01) begin
       unique case (code[2:0])
-        3'b000:  d.kind = KindHalt;
-        3'b001:  d.kind = KindDecel;
-        default: d = '{kind: KindOperation, params: op_params(code[2:0])};
+        3'b000:  d.kind = CmdHalt;
+        3'b001:  d.kind = CmdDecel;
+        default: d = '{kind: CmdOperation, params: op_params(code[2:0])};
       endcase
-    end else if (code[6:3] == '0 && selected(sheet, code[2:0]) <= SEL_REMAINING) begin
-      if (!sheet || code[2:0] != 3'd1) d.kind = KindRead;
+    end else if (code[6:3] == '0 && read_select(sheet_map, code[2:0]) <= SEL_REMAINING) begin
+      if (!sheet_map || code[2:0] != 3'd1) d.kind = CmdRead;
     end
     return d;
   endfunction
@@ -52,20 +52,20 @@ package stmc_pkg;
   endfunction
 
   // Returns the error number of complete data. The first, second and last byte may be divisors.
-  function automatic error_e judge(logic operation, logic [2:0] op, logic [7:0] first, logic [7:0] second,
-                                   logic [7:0] final_one);
-    logic bad;
+  function automatic cmd_error_e check_params(logic operation, logic [2:0] op, logic [7:0] first,
+                                              logic [7:0] second, logic [7:0] last_byte);
+    logic is_bad;
     unique case (op)
-      OP_CONSTANT:                 bad = first == RATE_NONE;
-      OP_CONT_CONSTANT, OP_ORIGIN: bad = final_one == RATE_NONE;
-      default:                     bad = 1'b0;
+      OP_CONSTANT:                 is_bad = first == RATE_NONE;
+      OP_CONT_CONSTANT, OP_ORIGIN: is_bad = last_byte == RATE_NONE;
+      default:                     is_bad = 1'b0;
     endcase
-    if (!operation) bad = first == RATE_NONE || second > first;
-    return bad ? ErrRates : ErrUndefined;
+    if (!operation) is_bad = first == RATE_NONE || second > first;
+    return is_bad ? ErrRates : ErrUndefined;
   endfunction
 
   // Data of an initialisation for the core: without a ramp there are one rate and no acceleration steps.
-  function automatic logic [31:0] levelled(logic [31:0] data);
+  function automatic logic [31:0] normalise_rates(logic [31:0] data);
     logic [31:0] out;
     out = data;
     if (data[31:16] == '0) out[7:0] = data[15:8];

@@ -94,7 +94,7 @@ def station_design(item) -> Design:
     replaces its PLL.
     """
     part = part_design("ppmc2104", item.config)
-    panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "lamp", "panel")]
+    panel = [BOARDS / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "led_stretch", "leds")]
     boards = [*panel, *board_files("ppmc2104"), BOARDS / "ulx3s" / "board_ulx3s_ppmc2104.sv"]
     bench = ROOT / "cocotb_tests/host/bridge/station_bench.sv"
     return Design("station_bench", [*part.sources, *boards, bench], part.includes, {}, FROM_ZERO, "*")

@@ -20,14 +20,14 @@ module ppmc312_board_bench (
     output logic            dir,
     output logic      [5:0] auxo_n,
     output logic            d_oe,
-    output logic      [3:0] lamps
+    output logic      [3:0] leds
 );
 
   logic rst_n, led_link, led_moving, led_switch;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(8_000_000)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (1'b1),
       .req_ni  (btn_n),
@@ -35,7 +35,7 @@ module ppmc312_board_bench (
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o (leds)
   );
 
   ppmc312_carrier #(

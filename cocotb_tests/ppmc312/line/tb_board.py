@@ -66,7 +66,7 @@ class Board:
 
     def lamp(self, which: int) -> int:
         """Return the state of an LED, 1 = on."""
-        return int(self.dut.lamps.value) >> which & 1
+        return int(self.dut.leds.value) >> which & 1
 
     async def boot(self) -> None:
         """Wait until the LED "running" is on."""

@@ -56,12 +56,12 @@ module board_arty_a7_ppmc104 #(
   localparam int unsigned ClkHz = 100_000_000;
 
   logic rst_n, led_link, led_moving, led_switch;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [7:0] part_d;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (1'b1),
       .req_ni  (ck_rst_n && host_rst_n),
@@ -69,7 +69,7 @@ module board_arty_a7_ppmc104 #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc104_carrier #(
@@ -115,7 +115,7 @@ module board_arty_a7_ppmc104 #(
   );
 
   assign d   = d_oe ? part_d : 'z;
-  assign led = lamps;
+  assign led = leds;
 
 endmodule
 

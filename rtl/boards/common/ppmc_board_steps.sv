@@ -18,7 +18,7 @@ module ppmc_board_steps (
 
   logic [5:1] now_q, last_q;
 
-  function automatic logic few(logic [5:1] pins);
+  function automatic logic at_most_two(logic [5:1] pins);
     logic [2:0] count;
     count = '0;
     for (int n = 1; n <= 5; n++) count += 3'(pins[n]);
@@ -28,15 +28,15 @@ module ppmc_board_steps (
   // The smaller group of equal pins is taken as the energised phases. Then adjacent patterns of 3, 4 or 5
   // phases share exactly one energised phase. Only 5-phase motors have half steps between 2 and 3 energised
   // phases. For such a step either group can be taken.
-  function automatic logic clockwise(logic [5:1] was, logic [5:1] is);
+  function automatic logic is_clockwise(logic [5:1] prev, logic [5:1] next);
     logic [5:1] a, b, from, to, changed;
-    changed = was ^ is;
-    if (few(was) != few(is)) begin
-      if ((changed & is) != '0) return (changed & {was[4:1], was[5]}) != '0;
-      return (changed & {is[1], is[5:2]}) != '0;
+    changed = prev ^ next;
+    if (at_most_two(prev) != at_most_two(next)) begin
+      if ((changed & next) != '0) return (changed & {prev[4:1], prev[5]}) != '0;
+      return (changed & {next[1], next[5:2]}) != '0;
     end
-    a    = few(was) ? was : ~was;
-    b    = few(is) ? is : ~is;
+    a    = at_most_two(prev) ? prev : ~prev;
+    b    = at_most_two(next) ? next : ~next;
     to   = b & ~a;
     from = a & b;
     if (to == '0) begin
@@ -62,7 +62,7 @@ module ppmc_board_steps (
       now_q   <= s_i;
       pout_no <= !step;
       if (energised) last_q <= now_q;
-      if (step) dir_o <= !clockwise(last_q, now_q);
+      if (step) dir_o <= !is_clockwise(last_q, now_q);
     end
   end
 

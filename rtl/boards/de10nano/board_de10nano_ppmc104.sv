@@ -55,12 +55,12 @@ module board_de10nano_ppmc104 #(
   localparam int unsigned ClkHz = 50_000_000;
 
   logic rst_n, led_link, led_moving, led_switch;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [7:0] part_d;
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (1'b1),
       .req_ni  (key_n && host_rst_n),
@@ -68,7 +68,7 @@ module board_de10nano_ppmc104 #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc104_carrier #(
@@ -114,7 +114,7 @@ module board_de10nano_ppmc104 #(
   );
 
   assign d   = d_oe ? part_d : 'z;
-  assign led = lamps;
+  assign led = leds;
 
 endmodule
 

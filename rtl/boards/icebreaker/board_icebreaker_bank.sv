@@ -32,7 +32,7 @@ module board_icebreaker_bank #(
   localparam int unsigned ClkHz = 24_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
 
   ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
@@ -40,9 +40,9 @@ module board_icebreaker_bank #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (btn_n),
@@ -50,7 +50,7 @@ module board_icebreaker_bank #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc_bank_carrier #(
@@ -87,10 +87,10 @@ module board_icebreaker_bank #(
       .led_switch
   );
 
-  assign ledg_n = ~lamps[0];
-  assign ledr_n = ~lamps[1];
+  assign ledg_n = ~leds[0];
+  assign ledr_n = ~leds[1];
 
-  assign unused = ^{lamps[3:2]};
+  assign unused = ^{leds[3:2]};
 
 endmodule
 

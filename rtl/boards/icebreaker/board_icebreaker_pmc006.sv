@@ -50,7 +50,7 @@ module board_icebreaker_pmc006 #(
   localparam int unsigned ClkHz = 24_000_000;
 
   logic clk, lock, scl_oe, sda_oe, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [4:0] part_gpo;
 
   ppmc_clock_icebreaker u_clock (
@@ -101,16 +101,16 @@ module board_icebreaker_pmc006 #(
       .sda_oe,
       .mon_step(),
       .mon_dir (),
-      .lamps
+      .lamps   (leds)
   );
 
   assign scl    = scl_oe ? 1'b0 : 'z;
   assign sda    = sda_oe ? 1'b0 : 'z;
   assign gpo    = part_gpo[2:0];
-  assign ledg_n = ~lamps[0];
-  assign ledr_n = ~lamps[1];
+  assign ledg_n = ~leds[0];
+  assign ledr_n = ~leds[1];
 
-  assign unused = ^{part_gpo[4:3], lamps[3:2]};
+  assign unused = ^{part_gpo[4:3], leds[3:2]};
 
 endmodule
 

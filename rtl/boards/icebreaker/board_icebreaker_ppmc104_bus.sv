@@ -40,7 +40,7 @@ module board_icebreaker_ppmc104_bus #(
   localparam int unsigned ClkHz = 24_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [7:0] part_d;
   logic [5:1] part_s;
 
@@ -50,9 +50,9 @@ module board_icebreaker_ppmc104_bus #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (btn_n && host_rst_n),
@@ -60,7 +60,7 @@ module board_icebreaker_ppmc104_bus #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc104_carrier #(
@@ -105,10 +105,10 @@ module board_icebreaker_ppmc104_bus #(
 
   assign d      = d_oe ? part_d : 'z;
   assign s      = part_s[4:1];
-  assign ledg_n = ~lamps[0];
-  assign ledr_n = ~lamps[1];
+  assign ledg_n = ~leds[0];
+  assign ledr_n = ~leds[1];
 
-  assign unused = ^{part_s[5], lamps[3:2]};
+  assign unused = ^{part_s[5], leds[3:2]};
 
 endmodule
 

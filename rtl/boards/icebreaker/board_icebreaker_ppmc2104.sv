@@ -42,7 +42,7 @@ module board_icebreaker_ppmc2104 #(
   localparam int unsigned ClkHz = 24_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [5:1] part_s1;
 
   ppmc_clock_icebreaker u_clock (
@@ -51,9 +51,9 @@ module board_icebreaker_ppmc2104 #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (btn_n),
@@ -61,7 +61,7 @@ module board_icebreaker_ppmc2104 #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc2104_carrier #(
@@ -110,10 +110,10 @@ module board_icebreaker_ppmc2104 #(
   );
 
   assign s1     = part_s1[4:1];
-  assign ledg_n = ~lamps[0];
-  assign ledr_n = ~lamps[1];
+  assign ledg_n = ~leds[0];
+  assign ledr_n = ~leds[1];
 
-  assign unused = ^{part_s1[5], lamps[3:2]};
+  assign unused = ^{part_s1[5], leds[3:2]};
 
 endmodule
 

@@ -37,7 +37,7 @@ module board_icebreaker_stmc #(
   localparam int unsigned ClkHz = 24_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
 
   ppmc_clock_icebreaker u_clock (
       .clk_12m_i(clk_12m),
@@ -45,9 +45,9 @@ module board_icebreaker_stmc #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (btn_n),
@@ -55,7 +55,7 @@ module board_icebreaker_stmc #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   stmc_carrier #(
@@ -93,10 +93,10 @@ module board_icebreaker_stmc #(
       .led_switch
   );
 
-  assign ledg_n = ~lamps[0];
-  assign ledr_n = ~lamps[1];
+  assign ledg_n = ~leds[0];
+  assign ledr_n = ~leds[1];
 
-  assign unused = ^{lamps[3:2]};
+  assign unused = ^{leds[3:2]};
 
 endmodule
 

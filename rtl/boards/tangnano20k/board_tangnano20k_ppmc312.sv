@@ -51,7 +51,7 @@ module board_tangnano20k_ppmc312 #(
   localparam int unsigned ClkHz = 54_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [5:0] part_auxo_n;
 
   ppmc_clock_tangnano #(
@@ -63,9 +63,9 @@ module board_tangnano20k_ppmc312 #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (!btn),
@@ -73,7 +73,7 @@ module board_tangnano20k_ppmc312 #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc312_carrier #(
@@ -134,7 +134,7 @@ module board_tangnano20k_ppmc312 #(
   );
 
   assign auxo_n = part_auxo_n[1:0];
-  assign led_n  = ~lamps;
+  assign led_n  = ~leds;
 
   assign unused = ^{part_auxo_n[5:2]};
 

@@ -55,7 +55,7 @@ module board_tangnano20k_ppmc312_serial #(
   localparam int unsigned ClkHz = 54_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, unused;
-  logic [3:0] lamps;
+  logic [3:0] leds;
 
   ppmc_clock_tangnano #(
       .Device("GW2A-18C"),
@@ -66,9 +66,9 @@ module board_tangnano20k_ppmc312_serial #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (!btn),
@@ -76,7 +76,7 @@ module board_tangnano20k_ppmc312_serial #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc312_carrier #(
@@ -137,7 +137,7 @@ module board_tangnano20k_ppmc312_serial #(
       .led_switch
   );
 
-  assign unused = ^{lamps};
+  assign unused = ^{leds};
 
 endmodule
 

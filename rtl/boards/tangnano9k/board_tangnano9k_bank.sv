@@ -35,7 +35,7 @@ module board_tangnano9k_bank #(
   localparam int unsigned ClkHz = 54_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, part_miso, miso_oe;
-  logic [3:0] lamps;
+  logic [3:0] leds;
 
   ppmc_clock_tangnano u_clock (
       .clk_27m_i(clk_27m),
@@ -43,9 +43,9 @@ module board_tangnano9k_bank #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (btn_n),
@@ -53,7 +53,7 @@ module board_tangnano9k_bank #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc_bank_carrier #(
@@ -91,7 +91,7 @@ module board_tangnano9k_bank #(
   );
 
   assign miso  = miso_oe ? part_miso : 'z;
-  assign led_n = ~lamps;
+  assign led_n = ~leds;
 
 endmodule
 

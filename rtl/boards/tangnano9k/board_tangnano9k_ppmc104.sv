@@ -56,7 +56,7 @@ module board_tangnano9k_ppmc104 #(
   localparam int unsigned ClkHz = 54_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [7:0] part_d;
 
   ppmc_clock_tangnano u_clock (
@@ -65,9 +65,9 @@ module board_tangnano9k_ppmc104 #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (btn_n && host_rst_n),
@@ -75,7 +75,7 @@ module board_tangnano9k_ppmc104 #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc104_carrier #(
@@ -121,7 +121,7 @@ module board_tangnano9k_ppmc104 #(
   );
 
   assign d     = d_oe ? part_d : 'z;
-  assign led_n = ~lamps;
+  assign led_n = ~leds;
 
 endmodule
 

@@ -38,7 +38,7 @@ module board_ulx3s_bank #(
   localparam int unsigned ClkHz = 100_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch, part_miso, miso_oe, unused;
-  logic [ 3:0] lamps;
+  logic [ 3:0] leds;
   logic [31:0] part_pout_n;
   logic [31:0] part_dir;
 
@@ -48,9 +48,9 @@ module board_ulx3s_bank #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (!btn_f1),
@@ -58,7 +58,7 @@ module board_ulx3s_bank #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc_bank_carrier #(
@@ -98,7 +98,7 @@ module board_ulx3s_bank #(
   assign miso       = miso_oe ? part_miso : 'z;
   assign pout_n     = part_pout_n[24:0];
   assign dir        = part_dir[24:0];
-  assign led        = lamps;
+  assign led        = leds;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

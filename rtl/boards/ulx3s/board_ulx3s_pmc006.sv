@@ -60,7 +60,7 @@ module board_ulx3s_pmc006 #(
   localparam int unsigned ClkHz = 50_000_000;
 
   logic clk, lock, scl_oe, sda_oe;
-  logic [3:0] lamps;
+  logic [3:0] leds;
 
   ppmc_clock_ulx3s #(
       .Divisor(12)
@@ -112,12 +112,12 @@ module board_ulx3s_pmc006 #(
       .sda_oe,
       .mon_step,
       .mon_dir,
-      .lamps
+      .lamps(leds)
   );
 
   assign scl        = scl_oe ? 1'b0 : 'z;
   assign sda        = sda_oe ? 1'b0 : 'z;
-  assign led        = lamps;
+  assign led        = leds;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

@@ -61,7 +61,7 @@ module board_ulx3s_ppmc312_serial #(
   localparam int unsigned ClkHz = 50_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch;
-  logic [3:0] lamps;
+  logic [3:0] leds;
 
   ppmc_clock_ulx3s #(
       .Divisor(12)
@@ -71,9 +71,9 @@ module board_ulx3s_ppmc312_serial #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (!btn_f1),
@@ -81,7 +81,7 @@ module board_ulx3s_ppmc312_serial #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc312_carrier #(
@@ -142,7 +142,7 @@ module board_ulx3s_ppmc312_serial #(
       .led_switch
   );
 
-  assign led        = lamps;
+  assign led        = leds;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

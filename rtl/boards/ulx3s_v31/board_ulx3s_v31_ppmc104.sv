@@ -57,7 +57,7 @@ module board_ulx3s_v31_ppmc104 #(
   localparam int unsigned ClkHz = 100_000_000;
 
   logic clk, lock, rst_n, led_link, led_moving, led_switch;
-  logic [3:0] lamps;
+  logic [3:0] leds;
   logic [7:0] part_d;
 
   ppmc_clock_ulx3s u_clock (
@@ -66,9 +66,9 @@ module board_ulx3s_v31_ppmc104 #(
       .lock_o   (lock)
   );
 
-  ppmc_board_panel #(
+  ppmc_board_leds #(
       .ClkHz(ClkHz)
-  ) u_panel (
+  ) u_leds (
       .clk_i   (clk),
       .lock_i  (lock),
       .req_ni  (!btn_f1 && host_rst_n),
@@ -76,7 +76,7 @@ module board_ulx3s_v31_ppmc104 #(
       .link_i  (led_link),
       .moving_i(led_moving),
       .switch_i(led_switch),
-      .lamps_o (lamps)
+      .leds_o  (leds)
   );
 
   ppmc104_carrier #(
@@ -122,7 +122,7 @@ module board_ulx3s_v31_ppmc104 #(
   );
 
   assign d          = d_oe ? part_d : 'z;
-  assign led        = lamps;
+  assign led        = leds;
 
   // Low would put the ESP32 into its boot loader at its next reset.
   assign wifi_gpio0 = 1'b1;

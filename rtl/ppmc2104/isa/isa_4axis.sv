@@ -49,20 +49,20 @@ module isa_4axis #(
 
   localparam int unsigned Parts = 2;
 
-  logic rst_both, rst;
+  logic rst_both_n, rst_core_n;
   logic a0;
-  logic [Parts-1:0] cs, d_oe, int_n;
+  logic [Parts-1:0] cs_n, d_oe, int_n;
   logic [Parts-1:0][7:0] d;
-  logic [3:0][4:0] phases;  // of axes 4 .. 1
+  logic [3:0][4:0] s_n;  // of axes 4 .. 1
   logic unused_clk;
 
-  assign rst_both = rst_n && !reset_drv;
-  assign {s4_n, s3_n, s2_n, s1_n} = phases;
+  assign rst_both_n = rst_n && !reset_drv;
+  assign {s4_n, s3_n, s2_n, s1_n} = s_n;
 
   ppmc_reset u_reset (
       .clk_i (clk),
-      .rst_ni(rst_both),
-      .rst_no(rst)
+      .rst_ni(rst_both_n),
+      .rst_no(rst_core_n)
   );
 
   ppmc_isa #(
@@ -71,7 +71,7 @@ module isa_4axis #(
       .Base  (BASE_ADDR)
   ) u_isa (
       .clk_i  (clk),
-      .rst_ni (rst),
+      .rst_ni (rst_core_n),
       .sa_i   (sa),
       .aen_i  (aen),
       .ior_ni (ior_n),
@@ -79,7 +79,7 @@ module isa_4axis #(
       .sd_o,
       .sd_oe_o(sd_oe),
       .irq_o  (irq),
-      .cs_no  (cs),
+      .cs_no  (cs_n),
       .a0_o   (a0),
       .d_i    (d),
       .d_oe_i (d_oe),
@@ -97,8 +97,8 @@ module isa_4axis #(
         .TIMING (TIMING)
     ) u_part (
         .clk,
-        .rst_n   (rst_both),
-        .cs_n    (cs[p]),
+        .rst_n   (rst_both_n),
+        .cs_n    (cs_n[p]),
         .a0,
         .busc    (1'b0),              // separate read and write strobes
         .ds_wrs_n(iow_n),
@@ -111,8 +111,8 @@ module isa_4axis #(
         .pout_n  (pout_n[2*p+1+:2]),
         .dir     (dir[2*p+1+:2]),
         .hold    (hold[2*p+1+:2]),
-        .s1_n    (phases[2*p]),
-        .s2_n    (phases[2*p+1]),
+        .s1_n    (s_n[2*p]),
+        .s2_n    (s_n[2*p+1]),
         .run     (run[2*p+1+:2]),
         .extck   (extck[2*p+1+:2]),
         .csel    (csel[2*p+1+:2]),

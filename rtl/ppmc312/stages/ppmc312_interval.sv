@@ -45,7 +45,7 @@ module ppmc312_interval #(
       .ClkHz   (ClkHz),
       .XtalHz  (XtalHz),
       .TickXtal(2),
-      .MinClk  (1)
+      .MinCycles  (1)
   ) u_quantum (
       .clk_i,
       .rst_ni,
@@ -135,7 +135,7 @@ module ppmc312_interval #(
       .rate_i (1'b0),
       .cut_i  (cut),
       .low_o  (high_o),
-      .up_o   (up)
+      .past_o (up)
   );
 
 `ifndef SYNTHESIS

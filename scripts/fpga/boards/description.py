@@ -21,7 +21,7 @@ from openppmc import parts as table
 FOLDER = project.ROOT / "constraints"
 HOSTS = ("uart", "bus", "spi")
 SHOWS = ("link", "moving", "switch", "running")
-"""What an LED can indicate, in the order of the bits of lamps_o of ppmc_board_panel."""
+"""What an LED can indicate, in the order of the bits of leds_o of ppmc_board_leds."""
 
 LANGUAGES = {"ice40": "pcf", "ecp5": "lpf", "gowin": "cst", "artix7": "xdc", "cyclone5": "qsf"}
 """FPGA family -> suffix of its constraint files."""

@@ -127,7 +127,7 @@ def listing(boards: tuple[Description, ...], fitted: list[Fitted], text: str) ->
     names = [path.relative_to(project.RTL).as_posix() for path in files]
     names += [f"boards/{one.board.name}/{one.top}.sv" for one in fitted]
     carriers = dict.fromkeys(f"{one.on.row.rtl}_carrier" for one in fitted)
-    order = [group for group in project.listed() if group in ("panel", *carriers)]
+    order = [group for group in project.listed() if group in ("leds", *carriers)]
     body = "\n".join([f"  needs: [{', '.join(order)}]", "  files:", *(f"    - {name}" for name in names)])
     return put(text, "  # written by `make boards`", "  # end", body, "rtl/files.yml")
 

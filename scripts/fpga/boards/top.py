@@ -10,8 +10,8 @@ from scripts.fpga.boards.pads import HOST_RESET, Fitted
 from scripts.fpga.boards.verilog import declaration, instance, literal, part_select, without_comma
 from scripts.fpga.boards.words import clk, head, title, wrapped
 
-OWN_PANEL = ("lock", "req_n", "lamps")
-"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_panel."""
+OWN_LEDS = ("lock", "req_n", "lamps")
+"""Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_leds."""
 
 
 class Top:
@@ -22,7 +22,7 @@ class Top:
         self.board, self.on, self.carrier = fitted.board, fitted.on, fitted.carrier
         self.pll = self.board.clock.get("module")
         self.clk = "clk" if self.pll else self.board.clock["port"]
-        self.own_panel = all(port in self.carrier.ports for port in OWN_PANEL)
+        self.own_leds = all(port in self.carrier.ports for port in OWN_LEDS)
         self.two_way = self.carrier.two_way()
         self.fixed = {"HOST": literal(self.on.hosts[0].upper())} if len(self.on.hosts) == 1 else {}
         self.fixed |= {name: literal(value) for name, value in (self.on.set or {}).items()}
@@ -105,23 +105,23 @@ class Top:
         button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
         return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
 
-    def panel(self) -> list[str]:
+    def led_block(self) -> list[str]:
         """Return the instance for power-on reset and LEDs."""
-        if self.own_panel:
+        if self.own_leds:
             return []
-        lamps = {"link_i": "led_link", "moving_i": "led_moving", "switch_i": "led_switch", "lamps_o": "lamps"}
-        self.wires += ["rst_n", *list(lamps.values())[:3]]
+        leds = {"link_i": "led_link", "moving_i": "led_moving", "switch_i": "led_switch", "leds_o": "leds"}
+        self.wires += ["rst_n", *list(leds.values())[:3]]
         lock = "lock" if self.pll else "1'b1"
         start = {"clk_i": self.clk, "lock_i": lock, "req_ni": self.reset_wanted(), "rst_no": "rst_n"}
-        return instance("ppmc_board_panel", {"ClkHz": "ClkHz"}, "u_panel", {**start, **lamps})
+        return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_leds", {**start, **leds})
 
     def around(self, port: Port) -> tuple[bool, str | None]:
         """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
-        if self.own_panel and port.name in OWN_PANEL:
+        if self.own_leds and port.name in OWN_LEDS:
             lock = None if self.pll else "1'b1"
-            return True, {"lock": lock, "req_n": self.reset_wanted(), "lamps": None}[port.name]
+            return True, {"lock": lock, "req_n": self.reset_wanted(), "lamps": "leds"}[port.name]
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
@@ -182,21 +182,21 @@ class Top:
                 lines.append(f"  assign {name} = {name}_oe ? {level} : 'z;")
         return lines + self.assigns
 
-    def lamps(self) -> list[str]:
+    def leds(self) -> list[str]:
         """Return the assignments of the LEDs."""
         shown = {lamp["port"]: SHOWS.index(lamp["shows"]) for lamp in self.board.lamps["pins"]}
         if not self.on.lamps:
-            self.unused.append("lamps")
+            self.unused.append("leds")
             return []
         turned = "" if self.board.lamps["active"] else "~"
         lines = []
         for name in dict.fromkeys(port.split("[")[0] for port in shown):
             order = [shown[bit] for bit in self.fitted.bits(name)]
-            word = ", ".join(f"lamps[{n}]" for n in reversed(order))
-            word = "lamps" if order == [0, 1, 2, 3] else word if len(order) == 1 else f"{{{word}}}"
+            word = ", ".join(f"leds[{n}]" for n in reversed(order))
+            word = "leds" if order == [0, 1, 2, 3] else word if len(order) == 1 else f"{{{word}}}"
             lines.append(f"  assign {name} = {turned}{word};")
         dark = [n for n in range(len(SHOWS)) if n not in shown.values()]
-        self.unused += [part_select("lamps", [f"[{n}]" for n in dark])] if dark else []
+        self.unused += [part_select("leds", [f"[{n}]" for n in dark])] if dark else []
         return lines
 
     def ties(self) -> list[str]:
@@ -209,8 +209,8 @@ class Top:
     def text(self) -> str:
         """Return the whole file, not yet formatted."""
         start = [*head(self.fitted, "//"), *self.comment(), "`default_nettype none", "", *self.header()]
-        blocks = [*self.clock(), *self.panel(), *self.part()]
-        ends = [*self.pads(), *self.lamps(), *self.ties()]
+        blocks = [*self.clock(), *self.led_block(), *self.part()]
+        ends = [*self.pads(), *self.leds(), *self.ties()]
         if self.unused:
             self.wires.append("unused")
             ends += [*([""] if ends else []), f"  assign unused = ^{{{', '.join(self.unused)}}};"]
@@ -222,7 +222,7 @@ class Top:
     def signals(self) -> list[str]:
         """Return the declarations of the signals between the blocks, with all single bits on one line."""
         single = [wire for wire in self.wires if "[" not in wire]
-        wide = ["[3:0] lamps", *(wire for wire in self.wires if "[" in wire)]
+        wide = ["[3:0] leds", *(wire for wire in self.wires if "[" in wire)]
         lines = [f"  logic {', '.join(single)};"] if single else []
         return lines + [f"  logic {wire};" for wire in wide]
 

@@ -40,7 +40,7 @@ __all__ += ["check_host", "part_of"]
 
 def sources(top: str) -> list[Path]:
     """Return the sources of a board top in compile order, after the declarations of vendor cells."""
-    own = project.files(f"{table.part(part_of(top)).rtl}_carrier", "panel")
+    own = project.files(f"{table.part(part_of(top)).rtl}_carrier", "leds")
     on_board = project.listed()["boards"].files
     text = "".join(path.read_text(encoding="utf-8") for path in on_board if path.stem == top)
     files = [path for path in on_board if re.search(rf"^(?:module| ) {path.stem} ", text, re.M)]

@@ -107,7 +107,7 @@ def command() -> bytes:
         "bus": Box(0.55, 0, "bus pins", "pin", 0.9, 0.4),
         "port": Box(2.0, 0, "ppmc_host_port\nstrobes, mailbox", "host", 1.5),
         "command": Box(4.1, 0, "ppmc_command\nchecks, collects", "host", 1.5),
-        "pace": Box(6.2, 0, "ppmc_pace\nprocessing times", "host", 1.6),
+        "pace": Box(6.2, 0, "ppmc_proc_time\nprocessing times", "host", 1.6),
         "setup": Box(8.3, 0, "ppmc_setup\ninitialised values", "motion", 1.5),
         "meaning": Box(4.1, 1.05, "the part\nmeaning of a byte", "part", 1.5),
         "table": Box(8.3, 1.05, "ppmc_ramp_table\nbuilder + RAM", "motion", 1.5),
@@ -124,7 +124,7 @@ def command() -> bytes:
             1.1,
         ),
         "motor": Box(8.7, 2.35, "ppmc_motor_port\nphases, chopper, hold", "motion", 1.75),
-        "finish": Box(8.7, 3.15, "ppmc_finish\ninterrupt, responses", "host", 1.75),
+        "finish": Box(8.7, 3.15, "ppmc_finish_status\ninterrupt, responses", "host", 1.75),
         "pins": Box(10.45, 2.35, "s, pout_n,\ndir, hold", "pin", 0.9, 0.5),
         "int": Box(10.45, 3.15, "int_n;\nto the mailbox", "pin", 0.95, 0.5),
     }

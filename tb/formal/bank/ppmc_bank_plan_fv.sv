@@ -9,28 +9,28 @@ module ppmc_bank_plan_fv
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 (
-    input wire logic            clk_i,
-    input wire walk_t           walk_i,
-    input wire pace_t           pace_i,
-    input wire setting_t        setting_i,
-    input wire rest_t           rest_i,
-    input wire logic            over_i,
-    input wire seen_t           seen_i,
-    input wire facts_t          facts_i,
-    input wire logic            free_i,
-    input wire logic            extra_i,
-    input wire mail_t           mail_i,
-    input wire logic            new_i,
-    input wire decoded_t        decoded_i,
-    input wire error_e          value_i,
-    input wire asking_t         asking_i,
-    input wire logic     [17:0] due_i,
-    input wire logic     [17:0] after_i
+    input wire logic                 clk_i,
+    input wire walk_t                walk_i,
+    input wire pace_t                pace_i,
+    input wire setting_t             setting_i,
+    input wire rest_t                rest_i,
+    input wire logic                 over_i,
+    input wire seen_t                seen_i,
+    input wire facts_t               facts_i,
+    input wire logic                 free_i,
+    input wire logic                 extra_i,
+    input wire mail_t                mail_i,
+    input wire logic                 new_i,
+    input wire decoded_t             decoded_i,
+    input wire cmd_error_e           value_i,
+    input wire parser_state_t        asking_i,
+    input wire logic          [17:0] due_i,
+    input wire logic          [17:0] after_i
 );
 
   localparam int unsigned Quantum = 25, Round = 32, Width = 20 * Quantum;  // cycles
 
-  asking_t asking_o;
+  parser_state_t asking_o;
   logic take_o, anew_o;
   logic [7:0] code_o;
   logic [31:0] params_o;
@@ -51,7 +51,7 @@ module ppmc_bank_plan_fv
   assign last = !mail_i.command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
 
   `FV_ASSUME(at_rest_nothing_runs, walk_i.busy || !(walk_i.run || walk_i.low))
-  `FV_ASSUME(known_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)
+  `FV_ASSUME(known_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
 
   logic bank_hsk_02_takes_none_holds;
   assign bank_hsk_02_takes_none_holds =

@@ -10,31 +10,31 @@ module ppmc_bank_step_fv
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
 (
-    input wire logic            clk_i,
-    input wire walk_t           walk_i,
-    input wire pace_t           pace_i,
-    input wire setting_t        setting_i,
-    input wire units_t          units_i,
-    input wire logic            chop_i,
-    input wire logic     [ 7:0] slow_i,
-    input wire rest_t           rest_i,
-    input wire logic            over_i,
-    input wire seen_t           seen_i,
-    input wire facts_t          facts_i,
-    input wire logic            free_i,
-    input wire logic            extra_i,
-    input wire mail_t           mail_i,
-    input wire logic            new_i,
-    input wire decoded_t        decoded_i,
-    input wire error_e          value_i,
-    input wire asking_t         asking_i,
-    input wire logic     [17:0] due_i,
-    input wire logic     [17:0] after_i,
-    input wire logic     [16:0] left_i,
-    input wire logic     [31:0] position_i
+    input wire logic                 clk_i,
+    input wire walk_t                walk_i,
+    input wire pace_t                pace_i,
+    input wire setting_t             setting_i,
+    input wire units_t               units_i,
+    input wire logic                 chop_i,
+    input wire logic          [ 7:0] slow_i,
+    input wire rest_t                rest_i,
+    input wire logic                 over_i,
+    input wire seen_t                seen_i,
+    input wire facts_t               facts_i,
+    input wire logic                 free_i,
+    input wire logic                 extra_i,
+    input wire mail_t                mail_i,
+    input wire logic                 new_i,
+    input wire decoded_t             decoded_i,
+    input wire cmd_error_e           value_i,
+    input wire parser_state_t        asking_i,
+    input wire logic          [17:0] due_i,
+    input wire logic          [17:0] after_i,
+    input wire logic          [16:0] left_i,
+    input wire logic          [31:0] position_i
 );
 
-  asking_t asking_o;
+  parser_state_t asking_o;
   logic take_o, anew_o, call_o, calm_o;
   logic [7:0] code_o;
   logic [31:0] params_o, position_o;
@@ -64,9 +64,9 @@ module ppmc_bank_step_fv
   // Invariants of a motion's state.
   `FV_ASSUME(at_rest_nothing_runs, walk_i.busy || !(walk_i.run || walk_i.low))
   `FV_ASSUME(operations_behind_their_initialisation, !setting_i.building || !walk_i.busy)
-  `FV_ASSUME(known_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)
+  `FV_ASSUME(known_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
   `FV_ASSUME(params_fit_the_kind,
-             decoded_i.params == '0 || decoded_i.kind inside {KindInit, KindOperation, KindSwitching})
+             decoded_i.params == '0 || decoded_i.kind inside {CmdInit, CmdOperation, CmdSwitching})
   `FV_ASSUME(parameters_at_rest, !(walk_i.busy && !asking_i.error && asking_i.number != '0))
 
   `FV_ASSERT(one_order, 2'(order_o.pulse) + 2'(order_o.rise) + 2'(order_o.sets) <= 2'd1)

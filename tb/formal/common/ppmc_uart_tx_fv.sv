@@ -73,7 +73,7 @@ module ppmc_uart_tx_fv (
   `FV_ASSERT(lemma_age, !way_q || age_q <= 7'd53)
   logic lemma_sends_holds;
   assign lemma_sends_holds =
-      way_q ? !ready_o && dut.phase_q == sent[3:0] && 5'(dut.left_q) + 5'(sent[7:4]) == 5'd9 &&
+      way_q ? !ready_o && dut.phase_q == sent[3:0] && 5'(dut.bits_left_q) + 5'(sent[7:4]) == 5'd9 &&
       dut.bits_q == rest && txd_o == line : ready_o && txd_o;
   `FV_ASSERT(lemma_sends, lemma_sends_holds)
   `FV_ASSERT(lemma_waits, !(way_q ? age_q < 7'd3 : young_q > 3'd2) || (rx_idle && u_rx.phase_q == 4'd8))
@@ -82,7 +82,8 @@ module ppmc_uart_tx_fv (
   logic lemma_receives_holds;
   assign lemma_receives_holds =
       !(way_q && age_q >= 7'd3 && age_q < 7'd53) || (u_rx.phase_q == seen[3:0] &&
-      (seen[7:4] == '0 ? u_rx.state_q == 1 : u_rx.state_q == 2 && 5'(u_rx.left_q) + 5'(seen[7:4]) == 5'd9));
+      (seen[7:4] == '0 ? u_rx.state_q == 1 :
+       u_rx.state_q == 2 && 5'(u_rx.bits_left_q) + 5'(seen[7:4]) == 5'd9));
   `FV_ASSERT(lemma_receives, lemma_receives_holds)
   logic lemma_byte_holds;
   assign lemma_byte_holds =

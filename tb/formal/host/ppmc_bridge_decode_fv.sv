@@ -14,8 +14,8 @@ module ppmc_bridge_decode_fv
     input wire logic       full16_i
 );
 
-  need_e   need_o;
-  result_e fail_o;
+  op_need_e need_o;
+  result_e  fail_o;
   logic second_o, ident_o, count_o;
   block_e block_o;
 

@@ -10,7 +10,7 @@ module ppmc_bridge_exec_fv
     input wire logic       clk_i,
     input wire logic       ms_i,
     input wire logic       start_i,
-    input wire logic       again_i,
+    input wire logic       resend_i,
     input wire logic [7:0] length_i,
     input wire logic [7:0] rdata_i,
     input wire logic       interrupt_i,
@@ -26,10 +26,10 @@ module ppmc_bridge_exec_fv
 
   logic [7:0] raddr_o, waddr_o, wdata_o, d_o;
   logic script_o, answer_o, we_o, rec_next_o, part_rst_no, cs_no, rd_no, wr_no;
-  settings_t settings_o;
+  bridge_cmd_t bridge_cmd_o;
   logic [3:0] a_o;
   logic count_zero_o;
-  outcome_t outcome_o;
+  script_result_t result_o;
   logic [31:0] counter_q;  // constant here; ppmc_bridge_answer_fv lets it change
 
   `FV_RESET
@@ -44,7 +44,7 @@ module ppmc_bridge_exec_fv
 
   logic waiting, sends;
   assign waiting = dut.state_q == Poll || dut.state_q == Judge;
-  assign sends   = dut.kind inside {OpWrite, OpWriteN, OpPost, OpCall};
+  assign sends   = dut.group inside {OpWrite, OpWriteN, OpPost, OpCall};
 
   logic begun_q;  // a script has begun, so registers without reset have a value
   logic [5:0] stay_q;  // cycles in the current state
@@ -60,14 +60,14 @@ module ppmc_bridge_exec_fv
       stay_q <= (dut.next != dut.state_q || waiting || dut.state_q == Idle || answer_o) ? '0 : stay_q + 1'b1;
       if (dut.state_q == Decode) looped_q <= 1'b0;
       else if (dut.state_q == Loop) {looped_q, loop_q} <= {1'b1, dut.n_q};
-      over_q <= (waiting && dut.over) ? over_q + 1'b1 : '0;
+      over_q <= (waiting && dut.timeout) ? over_q + 1'b1 : '0;
     end
   end
 
-  `FV_ASSUME(start_in_idle, !((start_i || again_i) && (script_o || answer_o)) && !(start_i && again_i))
-  `FV_ASSUME(answer_of_something, !again_i || begun_q)
+  `FV_ASSUME(start_in_idle, !((start_i || resend_i) && (script_o || answer_o)) && !(start_i && resend_i))
+  `FV_ASSUME(answer_of_something, !resend_i || begun_q)
 
-  `FV_ASSERT(answer_stands, !$past(rst_ni && answer_o) || !answer_o || outcome_o == $past(outcome_o))
+  `FV_ASSERT(answer_stands, !$past(rst_ni && answer_o) || !answer_o || result_o == $past(result_o))
   `FV_ASSERT(no_script_with_an_answer, !(script_o && answer_o))
   `FV_ASSERT(bytes_of_the_script_alone, !(begun_q && dut.take) || dut.left_q != '0)
   `FV_ASSERT(
@@ -81,8 +81,8 @@ module ppmc_bridge_exec_fv
   `FV_ASSERT(no_wait_for_long, over_q <= 4'd13)
   `FV_ASSERT(bytes_written_when_asked, wr_no || sends)
   `FV_COVER(seen_a_call,
-            answer_o && outcome_o.result == ResDone && outcome_o.length == 1 && dut.kind == OpCall)
-  `FV_COVER(seen_a_timeout, answer_o && outcome_o.result == ResTimeout)
+            answer_o && result_o.result == ResDone && result_o.length == 1 && dut.group == OpCall)
+  `FV_COVER(seen_a_timeout, answer_o && result_o.result == ResTimeout)
 
 endmodule
 

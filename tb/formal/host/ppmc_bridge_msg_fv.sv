@@ -7,17 +7,17 @@
 module ppmc_bridge_msg_fv
   import ppmc_bridge_pkg::*;
 (
-    input wire logic           clk_i,
-    input wire logic           script_i,
-    input wire logic           want_i,
-    input wire logic     [6:0] seq_i,
-    input wire outcome_t       outcome_i,
-    input wire logic     [7:0] rdata_i,
-    input wire logic           event_i,
-    input wire logic     [7:0] pins_i,
-    input wire logic     [3:0] nak_code_i,
-    input wire logic           end_i,
-    input wire logic           step_i
+    input wire logic                 clk_i,
+    input wire logic                 script_i,
+    input wire logic                 want_i,
+    input wire logic           [6:0] seq_i,
+    input wire script_result_t       result_i,
+    input wire logic           [7:0] rdata_i,
+    input wire logic                 event_i,
+    input wire logic           [7:0] pins_i,
+    input wire logic           [3:0] nak_code_i,
+    input wire logic                 end_i,
+    input wire logic                 step_i
 );
 
   logic [7:0] raddr_o, byte_o;
@@ -52,29 +52,29 @@ module ppmc_bridge_msg_fv
   assign answer_i = answer_q;
   always_ff @(posedge clk_i) answer_q <= rst_ni && (answer_q ? !answered_o : want_i && !script_i);
 
-  `FV_ASSUME(answer_stands, !answer_q || {seq_i, outcome_i} == $past({seq_i, outcome_i}))
-  `FV_ASSUME(short_answer, outcome_i.length <= 9'd3)
+  `FV_ASSUME(answer_stands, !answer_q || {seq_i, result_i} == $past({seq_i, result_i}))
+  `FV_ASSUME(short_answer, result_i.length <= 9'd3)
   `FV_ASSUME(no_script_with_an_answer, !(script_i && answer_q))
   `FV_ASSUME(nak_stands, !$past(rst_ni && nak_i != NakNone && !nak_taken_o) || nak_i == $past(nak_i))
 
-  logic own_q, asked_q;  // own_q: the frame began for the answer; asked_q: answer_i one cycle ago
+  logic own_q, answer_prev_q;  // own_q: the frame began for the answer; answer_prev_q: answer_i one cycle ago
+  logic is_done;
+  assign is_done = result_i.result == ResDone;
   logic [3:0] bytes_q;
 
   always_ff @(posedge clk_i)
-    if (!rst_ni || start_o) {bytes_q, own_q} <= {4'd0, start_o && asked_q};
+    if (!rst_ni || start_o) {bytes_q, own_q} <= {4'd0, start_o && answer_prev_q};
     else bytes_q <= bytes_q + 4'(take_i);
 
-  always_ff @(posedge clk_i) asked_q <= rst_ni && answer_i;
+  always_ff @(posedge clk_i) answer_prev_q <= rst_ni && answer_i;
 
   `FV_ASSERT(starts_when_idle, !start_o || idle_i)
   `FV_ASSERT(ub_frm_07_nothing_begins_in_a_script, !(start_o && !answer_i) || $past(!script_i))
   `FV_ASSERT(ub_ans_01_answered_once_it_is_sent, !answered_o || (answer_i && own_q && !framing_q))
-  `FV_ASSERT(
-      ub_ans_01_length,
-      !(over_q && answer_i && own_q && outcome_i.result == ResDone) || 9'(bytes_q) == 9'd2 + outcome_i.length)
-  `FV_ASSERT(
-      ub_ans_01_length_of_a_failure,
-      !(over_q && answer_i && own_q && outcome_i.result != ResDone) || 9'(bytes_q) == 9'd4 + outcome_i.length)
+  `FV_ASSERT(ub_ans_01_length,
+             !(over_q && answer_i && own_q && is_done) || 9'(bytes_q) == 9'd2 + result_i.length)
+  `FV_ASSERT(ub_ans_01_length_of_a_failure,
+             !(over_q && answer_i && own_q && !is_done) || 9'(bytes_q) == 9'd4 + result_i.length)
   `FV_ASSERT(ub_msg_01_two_bytes, !(over_q && framing_q && !own_q) || bytes_q == 4'd2)
   `FV_ASSERT(ub_frm_07_one_is_taken, !(event_taken_o && nak_taken_o))
   `FV_COVER(seen_answer, answered_o && bytes_q == 4'd7)

@@ -46,15 +46,15 @@ module ppmc_bridge_rx_fv
     if (!rst_ni) {flag_q, flag2_q, fresh_q, idle_q, idle2_q} <= '0;
     else begin
       {idle2_q, idle_q} <= {idle_q, !busy_i};
-      {flag2_q, flag_q} <= {flag_q, valid_i && character_i == Flag && !busy_i};
-      if (valid_i || error_i) fresh_q <= valid_i && character_i == Flag;
+      {flag2_q, flag_q} <= {flag_q, valid_i && character_i == FLAG && !busy_i};
+      if (valid_i || error_i) fresh_q <= valid_i && character_i == FLAG;
     end
 
   `FV_ASSERT(ub_frm_01_good_ends_with_a_flag, !good_o || flag2_q)
   `FV_ASSERT(ub_frm_06_request_is_good, !request_o || good_o)
   `FV_ASSERT(ub_frm_03_crc, !good_o || $past(dut.crc_q) == '0)
   `FV_ASSERT(ub_frm_04_length, !request_o || ($past(dut.index_q) >= 9'd2 && $past(dut.index_q) <= 9'd255))
-  `FV_ASSERT(ub_frm_02_never_writes_a_flag_raw, !we_o || $past(byte_i) != Flag)
+  `FV_ASSERT(ub_frm_02_never_writes_a_flag_raw, !we_o || $past(byte_i) != FLAG)
   `FV_ASSERT(ub_frm_04_within_the_buffer, !we_o || dut.index_q == 9'h1FF || dut.index_q <= 9'd255)
   // The deframer never hangs: after a flag it receives the next frame, regardless of the characters before.
   `FV_ASSERT(ub_frm_05_a_flag_makes_it_listen, !(flag2_q && $past(idle2_q && !busy_i)
@@ -62,7 +62,7 @@ module ppmc_bridge_rx_fv
   `FV_ASSERT(nak_stands_until_taken, !($past(rst_ni && nak_o != NakNone && !nak_taken_i)) || nak_o == $past
              (nak_o))
   `FV_ASSERT(nothing_is_written_while_busy, !(we_o && !idle_q))
-  `FV_COVER(seen_escape, we_o && wdata_o == Flag)
+  `FV_COVER(seen_escape, we_o && wdata_o == FLAG)
   `FV_COVER(seen_short, nak_o == NakShort)
   `FV_COVER(seen_crc, nak_o == NakCrc)
 

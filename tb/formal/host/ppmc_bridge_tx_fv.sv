@@ -45,24 +45,24 @@ module ppmc_bridge_tx_fv
     else begin
       if (take_o) {taken_q, byte_q} <= {1'b1, byte_i};
       if (valid_i) begin
-        escape_q <= byte_o == Escape;
-        if (byte_o == Flag) {open_q, crc_q} <= {!open_q, 2'd0};
-        else if (byte_o != Escape) begin
+        escape_q <= byte_o == ESCAPE;
+        if (byte_o == FLAG) {open_q, crc_q} <= {!open_q, 2'd0};
+        else if (byte_o != ESCAPE) begin
           taken_q <= 1'b0;
           if (!taken_q) crc_q <= crc_q + 1'b1;
         end
       end
     end
 
-  `FV_ASSERT(ub_frm_01_begins_with_a_flag, !(valid_i && !open_q) || byte_o == Flag)
+  `FV_ASSERT(ub_frm_01_begins_with_a_flag, !(valid_i && !open_q) || byte_o == FLAG)
   `FV_ASSERT(ub_frm_01_ends_behind_the_crc,
-             !(valid_i && open_q && byte_o == Flag) || (crc_q == 2'd2 && !taken_q))
+             !(valid_i && open_q && byte_o == FLAG) || (crc_q == 2'd2 && !taken_q))
   `FV_ASSERT(ub_frm_02_no_double_escape, !(valid_i && escape_q) || byte_o inside {8'h5E, 8'h5D})
   `FV_ASSERT(
       each_byte_once,
-      !(valid_i && open_q && taken_q && byte_o != Escape) || byte_o == (escape_q ? byte_q ^ 8'h20 : byte_q))
+      !(valid_i && open_q && taken_q && byte_o != ESCAPE) || byte_o == (escape_q ? byte_q ^ 8'h20 : byte_q))
   `FV_ASSERT(ub_frm_02_escaped_if_needed,
-             !(valid_i && taken_q && byte_q inside {Flag, Escape}) || byte_o == Escape || escape_q)
+             !(valid_i && taken_q && byte_q inside {FLAG, ESCAPE}) || byte_o == ESCAPE || escape_q)
   `FV_ASSERT(takes_one_at_a_time, !(take_o && taken_q))
   `FV_ASSERT(two_crc_bytes, crc_q <= 2'd2)
   `FV_ASSERT(idle_between_frames, !(idle_o && open_q))
@@ -71,7 +71,7 @@ module ppmc_bridge_tx_fv
   always_ff @(posedge clk_i)
     was_q <= rst_ni && (was_q || (valid_i && escape_q && byte_o == 8'h5E && taken_q));
 
-  `FV_COVER(seen_escaped_flag, valid_i && open_q && byte_o == Flag && was_q)
+  `FV_COVER(seen_escaped_flag, valid_i && open_q && byte_o == FLAG && was_q)
 
 endmodule
 

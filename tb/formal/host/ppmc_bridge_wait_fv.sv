@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bridge_wait_fv: proves that over_o rises with millisecond tick number limit + 1 of the wait, so after
+// ppmc_bridge_wait_fv: proves that timeout_o rises with millisecond tick number limit + 1 of the wait, so
+//         after
 // more than limit and at most limit + 1 milliseconds; with limit 0 it is high immediately.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -12,7 +13,7 @@ module ppmc_bridge_wait_fv (
     input wire logic       waiting_i
 );
 
-  logic over_o;
+  logic timeout_o;
 
   `FV_RESET
 
@@ -39,8 +40,8 @@ module ppmc_bridge_wait_fv (
       ms_q <= !waiting_i ? '0 : ms_q + 3'(ms_i);
     end
 
-  `FV_ASSERT(ub_wait_01_in_time, !settled_q || over_o == (ms_q > 3'(limit_q) || limit_q == '0))
-  `FV_COVER(seen_limit, settled_q && over_o && limit_q == 2'd3)
+  `FV_ASSERT(ub_wait_01_in_time, !settled_q || timeout_o == (ms_q > 3'(limit_q) || limit_q == '0))
+  `FV_COVER(seen_limit, settled_q && timeout_o && limit_q == 2'd3)
 
 endmodule
 

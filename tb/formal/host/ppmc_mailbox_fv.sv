@@ -58,7 +58,7 @@ module ppmc_mailbox_fv (
   `FV_ASSERT(p104_hsk_08_never_more_than_there_are, read_q <= bytes_q)
   logic [1:0] behind;  // bytes after the byte that is output
   assign behind = bytes_q - read_q - 2'(obf_o);
-  `FV_ASSERT(lemma_behind, dut.have_q == {behind >= 2'd2, behind != 2'd0})
+  `FV_ASSERT(lemma_behind, dut.more_valid_q == {behind >= 2'd2, behind != 2'd0})
   `FV_ASSERT(new_is_told, !$past(rst_ni && !new_o) || out_o == $past(out_o))
   `FV_COVER(seen_third_byte, bytes_q == 2'd3 && read_q == 2'd3)
   `FV_COVER(seen_taken_while_written, take_i && wr_i && full_q)

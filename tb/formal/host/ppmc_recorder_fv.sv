@@ -52,7 +52,7 @@ module ppmc_recorder_fv (
   always_ff @(posedge clk_i) seen_q <= rst_ni && (seen_q || begin_i);
 
   // With these lemmas, an induction over two cycles is sufficient.
-  `FV_ASSERT(lemma_levels, !seen_q || (dut.levels_q == now_q && dut.moved_q[0] == (now_q != before_q)))
+  `FV_ASSERT(lemma_levels, !seen_q || (dut.levels_q == now_q && dut.changed_q[0] == (now_q != before_q)))
   `FV_ASSERT(lemma_time, !seen_q || (dut.time_q == age_q && dut.rest_q == (age_q == '1)))
   `FV_ASSERT(lemma_state, dut.first_q == first_q || !$past(rst_ni))
   `FV_ASSERT(lemma_begun, seen_q || !running)

@@ -13,7 +13,7 @@ module ppmc_uart_bridge_fv (
     input wire logic [31:0] count_i
 );
 
-  localparam int unsigned MsClk = 6;
+  localparam int unsigned MsCycles = 6;
 
   logic txd_o, cs_no, rd_no, wr_no, part_rst_no, active_o;
   logic [3:0] a_o;
@@ -23,7 +23,7 @@ module ppmc_uart_bridge_fv (
   `FV_RESET
 
   ppmc_uart_bridge #(
-      .ClkHz (1000 * MsClk),
+      .ClkHz (1000 * MsCycles),
       .XtalHz(1_000_000),
       .Baud  (1200)
   ) dut (
@@ -45,14 +45,14 @@ module ppmc_uart_bridge_fv (
     end
 
   // Assumptions of the proofs of exec, wait, rx, msg.
-  `FV_ASSERT(start_in_idle, !((dut.start || dut.again) && active_o) && !(dut.start && dut.again))
-  `FV_ASSERT(answer_of_something, !dut.again || begun_q)
-  `FV_ASSERT(ms_apart, !dut.ms_q || since_ms_q >= 3'(MsClk - 2))
-  `FV_ASSERT(ms_within, since_ms_q < 3'(MsClk))
+  `FV_ASSERT(start_in_idle, !((dut.start || dut.resend) && active_o) && !(dut.start && dut.resend))
+  `FV_ASSERT(answer_of_something, !dut.resend || begun_q)
+  `FV_ASSERT(ms_apart, !dut.ms_q || since_ms_q >= 3'(MsCycles - 2))
+  `FV_ASSERT(ms_within, since_ms_q < 3'(MsCycles))
   `FV_ASSERT(one_outcome, !(dut.rx_valid && dut.rx_error))
 
   `FV_ASSERT(ub_seq_02_last_number, !own_q || dut.last_seq_q == seq_q)
-  `FV_ASSERT(ub_seq_02_no_script_again, !$past(rst_ni && dut.again) || (!dut.script && dut.answer))
+  `FV_ASSERT(ub_seq_02_no_script_again, !$past(rst_ni && dut.resend) || (!dut.script && dut.answer))
   `FV_ASSERT(ub_frm_07_script_for_a_request, !dut.script || $past(dut.script || dut.start))
   `FV_ASSERT(ub_frm_07_request_stands, !(dut.script && dut.req_we))
   `FV_ASSERT(one_writes, !(dut.req_we && dut.ans_we))

@@ -40,7 +40,7 @@ module ppmc_uart_host_fv (
   assign pins   = dut.u_bridge.pins_i;
 
   always_ff @(posedge clk_i)
-    if (!dut.rst) {before_nq, first_q, seen_q, pulses_q} <= {26'h3FFFFFF, 64'd0};
+    if (!dut.rst_host_n) {before_nq, first_q, seen_q, pulses_q} <= {26'h3FFFFFF, 64'd0};
     else begin
       {seen_q, first_q} <= {first_q, switches_ni};
       before_nq <= pout_ni;
@@ -49,11 +49,11 @@ module ppmc_uart_host_fv (
       else if (before_nq[n] && !pout_ni[n]) pulses_q[n] <= pulses_q[n] + (dir_i[n] ? '1 : 32'd1);
     end
 
-  `FV_ASSERT(pins_of_axis_1, !dut.rst || !straps_o[7] || pins == {seen_q[5:0], hold_i[0], int_ni})
-  `FV_ASSERT(pins_of_axis_2, !dut.rst || straps_o[7] || pins == {seen_q[11:6], hold_i[1], int_ni})
-  `FV_ASSERT(counts_of_axis_1, !dut.rst || counts[0] == pulses_q[0])
-  `FV_ASSERT(counts_of_axis_2, !dut.rst || counts[1] == pulses_q[1])
-  `FV_COVER(seen_both_ways, dut.rst && counts[1] == 32'd2 && counts[0] == '1)
+  `FV_ASSERT(pins_of_axis_1, !dut.rst_host_n || !straps_o[7] || pins == {seen_q[5:0], hold_i[0], int_ni})
+  `FV_ASSERT(pins_of_axis_2, !dut.rst_host_n || straps_o[7] || pins == {seen_q[11:6], hold_i[1], int_ni})
+  `FV_ASSERT(counts_of_axis_1, !dut.rst_host_n || counts[0] == pulses_q[0])
+  `FV_ASSERT(counts_of_axis_2, !dut.rst_host_n || counts[1] == pulses_q[1])
+  `FV_COVER(seen_both_ways, dut.rst_host_n && counts[1] == 32'd2 && counts[0] == '1)
 
 endmodule
 

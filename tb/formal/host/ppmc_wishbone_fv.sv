@@ -39,7 +39,7 @@ module ppmc_wishbone_fv (
     if (!rst_ni || !stb_i || answer) {wait_q, cycles_q} <= '0;
     else begin
       wait_q <= wait_q + 1'b1;
-      if (dut.done && dut.live_q && cycles_q != '1) cycles_q <= cycles_q + 1'b1;
+      if (dut.done && dut.waiting_q && cycles_q != '1) cycles_q <= cycles_q + 1'b1;
     end
 
   always_ff @(posedge clk_i) stood_q <= rst_ni && stb_i && !answer;
@@ -54,7 +54,7 @@ module ppmc_wishbone_fv (
   `FV_ASSERT(no_second_strobe, cycles_q == '0)
   `FV_ASSERT(error_for_the_reserved_alone, !err_o || (adr_i[1] && (we_i || adr_i[0])))
   `FV_ASSERT(own_register, !(ack_o && adr_i[1] && sel_i[0]) || dat_o[31:1] == '0)
-  `FV_ASSERT(strobe_as_asked, cs_no || !dut.live_q || !stb_i || as_asked)
+  `FV_ASSERT(strobe_as_asked, cs_no || !dut.waiting_q || !stb_i || as_asked)
   `FV_COVER(seen_read, ack_o && !we_i && !adr_i[1] && sel_i[0] && dat_o == 32'hA5)
   `FV_COVER(seen_error, err_o)
 

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_axis_fv: a complete motion. Proves the number of pulses, their times and low times, and that no pulse
 // follows the end. Times are short: width 6 cycles, quanta at least 4 cycles apart, base clocks of 2 and 3
-// quanta. Assumes: rising edges of the clock pin at least 8 cycles apart; table entries of at most PA, and PA at
-// the high-speed rate; rates and PA stable during a motion. Stops, switches and gates are unconstrained.
+// quanta. Assumes: rising edges of the clock pin at least 8 cycles apart; table entries of at most PA, and PA
+// at the high-speed rate; rates and PA stable during a motion. Stops, switches and gates are unconstrained.
 `include "ppmc_fv.svh"
 `default_nettype none
 
 module ppmc_axis_fv
   import ppmc_motion_pkg::*;
 (
-    input wire logic            clk_i,
-    input wire logic            start_i,
-    input wire op_t             op_i,
-    input wire logic      [3:0] count_i,
-    input wire logic      [1:0] rate_i,
-    input wire base_t           base_i,
-    input wire logic      [1:0] rate_slow_i,
-    input wire logic      [1:0] rate_fast_i,
-    input wire logic      [1:0] ramp_steps_i,
-    input wire logic      [2:0] lut_data_i,
-    input wire logic            halt_i,
-    input wire logic            decel_i,
-    input wire switches_t       switches_i,
-    input wire logic            slow_i,
-    input wire logic            run_i,
-    input wire logic            go_i,
-    input wire logic            linger_i,
-    input wire logic            quantum_i,
-    input wire logic            clock_pin_i
+    input wire logic              clk_i,
+    input wire logic              start_i,
+    input wire op_t               op_i,
+    input wire logic        [3:0] count_i,
+    input wire logic        [1:0] rate_i,
+    input wire base_clock_t       base_i,
+    input wire logic        [1:0] rate_slow_i,
+    input wire logic        [1:0] rate_fast_i,
+    input wire logic        [1:0] ramp_steps_i,
+    input wire logic        [2:0] lut_data_i,
+    input wire logic              halt_i,
+    input wire logic              decel_i,
+    input wire switches_t         switches_i,
+    input wire logic              slow_i,
+    input wire logic              run_i,
+    input wire logic              go_i,
+    input wire logic              end_delay_i,
+    input wire logic              quantum_i,
+    input wire logic              clock_pin_i
 );
 
   localparam int unsigned Width = 6;
@@ -35,8 +35,8 @@ module ppmc_axis_fv
   logic [1:0] lut_addr_o, rate_o;
   logic slow_seen_o, restart_o, low_o;
   motion_t motion_o;
-  event_t event_o;
-  cause_t cause_o;
+  motion_event_t event_o;
+  stop_cause_t cause_o;
   logic [3:0] left_o;
 
   `FV_RESET
@@ -80,9 +80,9 @@ module ppmc_axis_fv
 
   // ---- the motion as requested by the host ---------------------------------------------------------
 
-  op_t   op_q;
-  base_t base_q;
-  logic  ended_q;  // an immediate cause has occurred
+  op_t op_q;
+  base_clock_t base_q;
+  logic ended_q;  // an immediate cause has occurred
   logic [4:0] total_q, pulses_q;  // total_q: requested pulses; pulses_q: pulses made
   logic [1:0] rate_q;
   logic immediate, limit;
@@ -131,15 +131,16 @@ module ppmc_axis_fv
   `FV_ASSERT(lemma_count_gap, !motion_o.moving || gap_q != '0)
   logic lemma_count_width_holds;
   assign lemma_count_width_holds =
-      !near || (!dut.up && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 &&
+      !near || (!dut.width_past && (dut.u_shaper.age_q == Age'(1) || (gap_q == 2'd2 &&
       dut.u_shaper.age_q == Second)));
   `FV_ASSERT(lemma_count_width, lemma_count_width_holds)
   `FV_ASSERT(lemma_count_quanta,
              !(near && motion_o.running && !base_q.external) || quantum_gap_q == gap_q - 2'd1)
   logic lemma_count_edges_holds;
   assign lemma_count_edges_holds =
-      !(near && motion_o.running && base_q.external) || (!dut.g_extra.u_lag.after_q && (rise_gap_q < 3'd3 ||
-      (base_q.extra && dut.g_extra.u_lag.before_q)));
+      !(near && motion_o.running && base_q.external) || (
+          !dut.g_extra.u_extra_time.after_q && (rise_gap_q < 3'd3 ||
+      (base_q.extra && dut.g_extra.u_extra_time.before_q)));
   `FV_ASSERT(lemma_count_edges, lemma_count_edges_holds)
   `FV_ASSERT(lemma_count_forced, !dut.flagged || cause_o.stop || cause_o.slow)
   `FV_ASSERT(lemma_count_why,
@@ -194,23 +195,23 @@ module ppmc_axis_fv
     else begin
       since_q <= (start_i || event_o.pulse) ? 4'd1 : (since_q == '1) ? '1 : since_q + 4'(since_q != '0);
       if (event_o.pulse) from_q <= rate_o;
-      still_q <= !(start_i || event_o.pulse || dut.seek || dut.tick);
+      still_q <= !(start_i || event_o.pulse || dut.lookup_busy || dut.tick);
     end
 
   logic [1:0] state, probe, counted;
-  logic [2:0] climb;
+  logic [2:0] ramp_level;
   logic test, read, waits, slower, loads;
-  assign {state, probe, counted} = {dut.u_seq.state_q, dut.u_seq.probe_q, dut.u_rate.count_q};
-  assign climb = dut.u_seq.climb;
+  assign {state, probe, counted} = {dut.u_seq.state_q, dut.u_seq.lookup_rate_q, dut.u_rate.count_q};
+  assign ramp_level = dut.u_seq.ramp_level;
   assign {test, read, waits} = {state == 2'd3, state == 2'd1, state == 2'd2};
-  assign {slower, loads} = {dut.u_seq.slower_q, dut.u_seq.load_q};
+  assign {slower, loads} = {dut.u_seq.decel_q, dut.u_seq.load_q};
 
   `FV_ASSERT(lemma_rate_since, gap_q == (since_q > 4'd3 ? 2'd3 : since_q[1:0]))
-  `FV_ASSERT(lemma_rate_first, !(motion_o.moving && !between) || (state == '0 && !slower && climb == '0))
+  `FV_ASSERT(lemma_rate_first, !(motion_o.moving && !between) || (state == '0 && !slower && ramp_level == '0))
   logic lemma_rate_near_holds;
   assign lemma_rate_near_holds =
-      !motion_o.moving || gap_q < 2'd2 || (dut.u_seq.near_q == (!left_o[3] && climb >= left_o[2:0]) &&
-      dut.u_seq.low_q == (climb[2:1] == '0));
+      !motion_o.moving || gap_q < 2'd2 || (dut.u_seq.near_q == (!left_o[3] && ramp_level >= left_o[2:0]) &&
+      dut.u_seq.low_q == (ramp_level[2:1] == '0));
   `FV_ASSERT(lemma_rate_near, lemma_rate_near_holds)
   `FV_ASSERT(lemma_rate_loads, !loads || (since_q == 4'd1 && state == '0))
   logic lemma_rate_constant_holds;
@@ -220,13 +221,16 @@ module ppmc_axis_fv
   `FV_ASSERT(lemma_rate_constant, lemma_rate_constant_holds)
   `FV_ASSERT(lemma_rate_range,
              !(motion_o.moving && op_q.ramp) || loads || (rate_o <= rate_slow_i && rate_o >= rate_fast_i))
-  logic lemma_rate_probe_holds;
-  assign lemma_rate_probe_holds =
+  logic lemma_rate_lookup_holds;
+  assign lemma_rate_lookup_holds =
       !(motion_o.moving && op_q.ramp) || (slower ? loads || probe == rate_o + 2'd1 : probe >= rate_fast_i &&
       probe <= rate_slow_i && (loads || probe <= rate_o));
-  `FV_ASSERT(lemma_rate_probe, lemma_rate_probe_holds)
-  `FV_ASSERT(lemma_rate_back,
-             !(between && op_q.ramp) || (dut.u_seq.back_q >= rate_fast_i && dut.u_seq.back_q <= rate_slow_i))
+  `FV_ASSERT(lemma_rate_lookup, lemma_rate_lookup_holds)
+  logic lemma_rate_prev_holds;
+  assign lemma_rate_prev_holds =
+      !(between && op_q.ramp) ||
+      (dut.u_seq.prev_rate_q >= rate_fast_i && dut.u_seq.prev_rate_q <= rate_slow_i);
+  `FV_ASSERT(lemma_rate_prev, lemma_rate_prev_holds)
   logic lemma_rate_end_holds;
   assign lemma_rate_end_holds =
       !(motion_o.moving && (waits || test || (state == '0 && since_q > 4'd2))) ||
@@ -246,10 +250,12 @@ module ppmc_axis_fv
   logic lemma_rate_edges_holds;
   assign lemma_rate_edges_holds =
       !(between && base_q.external) || since_q == '1 ||
-      6'(since_q) >= {1'b0, counted, 3'b000} + (dut.g_extra.u_lag.before_q ? 6'd0 : 6'(rise_gap_q)) + 6'd1;
+      6'(since_q) >= {1'b0, counted, 3'b000} +
+      (dut.g_extra.u_extra_time.before_q ? 6'd0 : 6'(rise_gap_q)) + 6'd1;
   `FV_ASSERT(lemma_rate_edges, lemma_rate_edges_holds)
-  `FV_ASSERT(lemma_rate_before,
-             !(between && base_q.external && base_q.extra && dut.g_extra.u_lag.before_q) || counted == '0)
+  `FV_ASSERT(
+      lemma_rate_before,
+      !(between && base_q.external && base_q.extra && dut.g_extra.u_extra_time.before_q) || counted == '0)
   `FV_ASSERT(lemma_rate_counted, !between || counted <= rate_o || loads)
   logic lemma_rate_left_holds;
   assign lemma_rate_left_holds =

@@ -10,7 +10,7 @@ module ppmc_excitation_fv
     input wire logic       clk_i,
     input wire logic [1:0] motor_code_i,
     input wire logic       half_i,
-    input wire logic       home_i,
+    input wire logic       phase_init_i,
     input wire logic       off_i,
     input wire logic       step_i,
     input wire logic       ccw_i
@@ -34,7 +34,7 @@ module ppmc_excitation_fv
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {on_q, index_q} <= '0;
-    else if (home_i || off_i) {on_q, index_q} <= {home_i, 4'd0};
+    else if (phase_init_i || off_i) {on_q, index_q} <= {phase_init_i, 4'd0};
     else if (step_i && ccw_i) index_q <= (index_q < stride) ? index_q + length - stride : index_q - stride;
     else if (step_i) index_q <= (index_q + stride >= length) ? index_q + stride - length : index_q + stride;
 
@@ -56,7 +56,7 @@ module ppmc_excitation_fv
   `FV_ASSUME(a_motor, motor_i != MotorNone)
   // ppmc_setup loads motor_i and half_i in the first initialisation, which sets the phases to index 0, and
   // holds them until Excitation OFF.
-  `FV_ASSUME(motor_stays, !on_q || $past(home_i) || {motor_i, half_i} == $past({motor_i, half_i}))
+  `FV_ASSUME(motor_stays, !on_q || $past(phase_init_i) || {motor_i, half_i} == $past({motor_i, half_i}))
 
   `FV_ASSERT(p104_phs_01_row_of_the_table, pattern_o == (on_q ? row : 5'd0))
   `FV_ASSERT(p104_phs_05_off_until_home, on_q || pattern_o == '0)

@@ -9,13 +9,13 @@ module ppmc_ext_clock_fv (
     input wire logic pin_i
 );
 
-  logic rise_o, fall_o, long_o, brisk_o;
+  logic rise_o, fall_o, long_period_o, short_period_o;
 
   `FV_RESET
 
   ppmc_ext_clock #(
-      .LongClk (9),
-      .BriskClk(7)
+      .LongPeriodCycles (9),
+      .ShortPeriodCycles(7)
   ) dut (
       .*
   );
@@ -32,9 +32,9 @@ module ppmc_ext_clock_fv (
 
   `FV_ASSERT(p104_bck_04_rise, rise_o == (pin_q[2:1] == 2'b01))
   `FV_ASSERT(p104_bck_04_fall, fall_o == (pin_q[2:1] == 2'b10))
-  `FV_ASSERT(p104_int_03_long, !rise_o || long_o == (age_q > 5'd9))
-  `FV_ASSERT(p104_tim_05_brisk, !rise_o || brisk_o == (age_q < 5'd7))
-  `FV_COVER(seen_neither, rise_o && !long_o && !brisk_o)
+  `FV_ASSERT(p104_int_03_long, !rise_o || long_period_o == (age_q > 5'd9))
+  `FV_ASSERT(p104_tim_05_brisk, !rise_o || short_period_o == (age_q < 5'd7))
+  `FV_COVER(seen_neither, rise_o && !long_period_o && !short_period_o)
 
 endmodule
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_hold_timer_fv: proves that hold_o rises one cycle plus RestClk cycles after the last quantum of the
+// ppmc_hold_timer_fv: proves that hold_o rises one cycle plus RestCycles cycles after the last quantum of the
 // hold time, and falls with a motion.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -24,8 +24,8 @@ module ppmc_hold_timer_fv (
   );
 
   ppmc_hold_timer #(
-      .Quanta (5),
-      .RestClk(2)
+      .Quanta(5),
+      .RestCycles(2)
   ) u_rested (
       .units_i(1'b0),
       .hold_o (rested_o),

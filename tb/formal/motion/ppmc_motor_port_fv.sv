@@ -15,7 +15,7 @@ module ppmc_motor_port_fv
     input wire logic quantum_i,
     input wire logic half_i,
     input wire logic positive_i,
-    input wire logic home_i,
+    input wire logic phase_init_i,
     input wire logic off_i,
     input wire logic chop_i,
     input wire logic chop_restart_i
@@ -47,10 +47,10 @@ module ppmc_motor_port_fv
   always_ff @(posedge clk_i) moved_q <= rst_ni && (moved_q || busy_i);
 
   logic homed_q;
-  always_ff @(posedge clk_i) homed_q <= rst_ni && (home_i || (homed_q && !off_i));
+  always_ff @(posedge clk_i) homed_q <= rst_ni && (phase_init_i || (homed_q && !off_i));
 
-  `FV_ASSUME(motor_stays, !homed_q || $past(home_i) || half_i == $past(half_i))
-  `FV_ASSUME(polarity_of_reset, homed_q || home_i || !positive_i)
+  `FV_ASSUME(motor_stays, !homed_q || $past(phase_init_i) || half_i == $past(half_i))
+  `FV_ASSUME(polarity_of_reset, homed_q || phase_init_i || !positive_i)
 
   `FV_ASSERT(p104_tim_04_pulse_one_clk_behind, !$past(rst_ni) || pout_no == $past(!low_i))
   `FV_ASSERT(p104_tim_04_direction_one_clk_behind, !$past(rst_ni) || dir_o == $past(ccw_i))

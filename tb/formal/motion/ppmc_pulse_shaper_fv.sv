@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pulse_shaper_fv: proves that a pulse is low for exactly WidthClk cycles, or shorter if it is cut, and
+// ppmc_pulse_shaper_fv: proves that a pulse is low for exactly WidthCycles cycles, or shorter if it is cut,
+//         and
 // that the set-up time has the same length.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -14,7 +15,7 @@ module ppmc_pulse_shaper_fv (
     input wire logic       cut_i
 );
 
-  localparam int unsigned Clk = 10;  // WidthClk
+  localparam int unsigned Clk = 10;  // WidthCycles
   localparam int unsigned Half = 2;  // cycles of rate 0
 
   logic low, up;
@@ -33,8 +34,8 @@ module ppmc_pulse_shaper_fv (
       .halve_i,
       .rate_i,
       .cut_i,
-      .low_o(low),
-      .up_o (up)
+      .low_o (low),
+      .past_o(up)
   );
 
   logic [3:0] since_q;  // cycles since the pulse or the arming, at most 15

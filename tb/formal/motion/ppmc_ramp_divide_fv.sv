@@ -8,7 +8,7 @@ module ppmc_ramp_divide_fv (
     input wire logic       clk_i,
     input wire logic       run_i,
     input wire logic       bit_i,
-    input wire logic [2:0] less_i
+    input wire logic [2:0] divisor_m1_i
 );
 
   logic bit_o;
@@ -27,7 +27,7 @@ module ppmc_ramp_divide_fv (
   logic [3:0] rest_q;  // remainder of the bits so far, less than the divisor
   logic bit_q, valid_q, one_q;  // bit_q: bit of the quotient; valid_q: it is valid; one_q: a bit was 1
 
-  assign divisor = {1'b0, less_i} + 4'd1;
+  assign divisor = {1'b0, divisor_m1_i} + 4'd1;
   assign next    = {rest_q, bit_i};
 
   always_ff @(posedge clk_i)
@@ -39,7 +39,7 @@ module ppmc_ramp_divide_fv (
       one_q   <= one_q || bit_q;
     end
 
-  `FV_ASSUME(divisor_stands, !valid_q || !run_i || less_i == $past(less_i))
+  `FV_ASSUME(divisor_stands, !valid_q || !run_i || divisor_m1_i == $past(divisor_m1_i))
 
   `FV_ASSERT(p104_rmp_02_each_bit, !valid_q || bit_o == bit_q)
   `FV_COVER(seen_rest_behind_a_one, valid_q && one_q && !bit_q && rest_q == 4'd6)

@@ -20,7 +20,7 @@ module ppmc_ramp_seq_fv (
 );
 
   logic [2:0] lut_addr_o, rate_o;
-  logic seek_o, rising_o, last_o, final_o, top_o, crawl_o, dec_o;
+  logic lookup_busy_o, rising_o, last_o, final_o, top_o, at_start_rate_o, dec_o;
   logic [4:0] left_o;
 
   `FV_RESET
@@ -62,8 +62,9 @@ module ppmc_ramp_seq_fv (
 
   // Assumptions on the axis: pulses of a motion are at least 3 cycles apart, the first one at least 4 cycles
   // after its start. No pulse occurs during a look-up or after the last pulse.
-  `FV_ASSUME(pulses_apart,
-             !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || seek_o)))
+  `FV_ASSUME(
+      pulses_apart,
+      !(pulse_i && (load_i || gap_q < (first_q ? 3'd4 : 3'd3) || !loaded_q || over_q || lookup_busy_o)))
   // The builder writes no threshold above PA; the entry of the high-speed rate is PA.
   `FV_ASSUME(table_up_to_pa, lut_data_i <= 3'(steps_i) && (addr2_q != fast_i || lut_data_i == 3'(steps_i)))
   `FV_ASSUME(motion_steady, load_i || !loaded_q || {slow_i, fast_i, steps_i} == $past
@@ -86,7 +87,7 @@ module ppmc_ramp_seq_fv (
              !(pulse_i && last_o) || due_q == 6'd1 || (forced_i && ramp_i) || !ramp_i)
   `FV_ASSERT(p104_int_01_constant_rate,
              !(loaded_q && !over_q && !load_i && !ramp_i && gap_q >= 3'd3) || rate_o == constant_q)
-  `FV_ASSERT(p104_pro_index_up_to_pa, !(pulse_i && ramp_i) || dut.climb <= 3'(steps_i) + 3'd1)
+  `FV_ASSERT(p104_pro_index_up_to_pa, !(pulse_i && ramp_i) || dut.ramp_level <= 3'(steps_i) + 3'd1)
   `FV_COVER(seen_plateau_and_down,
             loaded_q && pulse_i && last_o && final_o && dec_o && steps_i == 2'd2 && ramp_i && top_q)
 

@@ -39,10 +39,10 @@ module ppmc_ramp_serial_fv
 
   always_comb begin
     unique case (pass_i)
-      PassSquare: words = 5'(Bits + 2);
-      PassShare:  words = 5'(Share + 2);
-      PassLess:   words = 5'(Share + 2);
-      PassTell:   words = 5'd3;
+      PassDivideSquare: words = 5'(Bits + 2);
+      PassDivide:  words = 5'(Share + 2);
+      PassSubtract:   words = 5'(Share + 2);
+      PassOutput:   words = 5'd3;
       default:    words = 5'(Bits);
     endcase
   end
@@ -62,8 +62,8 @@ module ppmc_ramp_serial_fv
   `FV_ASSERT(ends, !run_q || age_q <= words + 5'd1)
   `FV_ASSERT(nothing_between_passes, run_q || !last_o)
   `FV_ASSERT(a_bit_with_each_word, use_o == (run_q && age_q >= 5'd2))
-  `FV_ASSERT(no_word_read_and_written, !(dut.use_q && dut.run_q && dut.read_at_q == dut.at))
-  `FV_COVER(seen_division_behind_another_pass, run_q && last_o && again_q && pass_i == PassSquare)
+  `FV_ASSERT(no_word_read_and_written, !(dut.use_q && dut.run_q && dut.read_addr_q == dut.use_addr))
+  `FV_COVER(seen_division_behind_another_pass, run_q && last_o && again_q && pass_i == PassDivideSquare)
 
 endmodule
 

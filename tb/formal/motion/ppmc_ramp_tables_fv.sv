@@ -35,7 +35,7 @@ module ppmc_ramp_tables_fv (
       if (!rst_ni || !busy_o[n]) {age_q[n], words_q[n]} <= '0;
       else begin
         age_q[n]   <= age_q[n] + 1'b1;
-        words_q[n] <= words_q[n] + 2'(dut.we && dut.at[n]);
+        words_q[n] <= words_q[n] + 2'(dut.we && dut.build_axis[n]);
       end
 
     `FV_ASSUME(once, !(start_i[n] && busy_o[n]))
@@ -43,8 +43,9 @@ module ppmc_ramp_tables_fv (
                {slow_i[n], fast_i[n], steps_i[n]}))
 
     `FV_ASSERT(p2104_hsk_05_waits_for_one_other, age_q[n] <= 4'(2 * Build + 1))
-    `FV_ASSERT(p2104_rmp_01_its_own_numbers,
-               !(dut.we && dut.at[n]) || (busy_o[n] && dut.waddr == slow_i[n] && dut.wdata == steps_i[n]))
+    `FV_ASSERT(
+        p2104_rmp_01_its_own_numbers,
+        !(dut.we && dut.build_axis[n]) || (busy_o[n] && dut.waddr == slow_i[n] && dut.wdata == steps_i[n]))
     `FV_ASSERT(p2104_rmp_01_built, !($past(rst_ni && busy_o[n]) && !busy_o[n]) || $past(words_q[n]) == 2'd1)
   end
 

@@ -7,19 +7,19 @@
 module ppmc_command_fv
   import ppmc_code_pkg::*;
 (
-    input wire logic           clk_i,
-    input wire logic           wr_i,
-    input wire logic           wr_a0_i,
-    input wire logic     [7:0] wr_data_i,
-    input wire logic           open_i,
-    input wire logic           stops_only_i,
-    input wire decoded_t       meaning_i,
-    input wire error_e         value_i,
-    input wire logic           judged_i,
-    input wire logic           ended_i,
-    input wire logic           ramp_i,
-    input wire logic           decelerating_i,
-    input wire logic           initialised_i
+    input wire logic             clk_i,
+    input wire logic             wr_i,
+    input wire logic             wr_a0_i,
+    input wire logic       [7:0] wr_data_i,
+    input wire logic             open_i,
+    input wire logic             stops_only_i,
+    input wire decoded_t         decoded_byte_i,
+    input wire cmd_error_e       param_error_i,
+    input wire logic             is_checked_i,
+    input wire logic             ended_i,
+    input wire logic             ramp_i,
+    input wire logic             decelerating_i,
+    input wire logic             initialised_i
 );
 
   logic ready_i, command_i, take_o, busy_i;
@@ -55,20 +55,21 @@ module ppmc_command_fv
   always_ff @(posedge clk_i) busy_i <= rst_ni && (act_o.start || (busy_i && !ended_i));
 
   // The decoder is a function of the byte.
-  assign decoded_i = meaning_i;
-  `FV_ASSUME(decoder_stands, $past(byte_i) != byte_i || $past(command_i) != command_i || meaning_i == $past
-             (meaning_i))
-  `FV_ASSUME(known_kind, meaning_i.kind <= KindAuxOff && meaning_i.params <= 3'd4)
+  assign decoded_i = decoded_byte_i;
+  `FV_ASSUME(decoder_stands, $past(byte_i) != byte_i || $past(command_i)
+             != command_i || decoded_byte_i == $past(decoded_byte_i))
+  `FV_ASSUME(known_kind, decoded_byte_i.kind <= CmdAuxOff && decoded_byte_i.params <= 3'd4)
   `FV_ASSUME(
       params_of_rest,
-      meaning_i.params == '0 || meaning_i.kind inside {KindInit, KindOperation, KindSwitching, KindAuxOut})
-  `FV_ASSUME(codes_with_parameters, meaning_i.params == '0 || (meaning_i.kind == KindOperation) == byte_i[6])
-  `FV_ASSUME(code_of_aux, meaning_i.kind != KindAuxOut || byte_i[7:6] == 2'b10)
+      decoded_byte_i.params == '0 || decoded_byte_i.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut})
+  `FV_ASSUME(codes_with_parameters,
+             decoded_byte_i.params == '0 || (decoded_byte_i.kind == CmdOperation) == byte_i[6])
+  `FV_ASSUME(code_of_aux, decoded_byte_i.kind != CmdAuxOut || byte_i[7:6] == 2'b10)
 
   `FV_ASSERT(p104_hsk_03_takes_ready_bytes, !take_o || (ready_i && open_i))
   `FV_ASSERT(stops_alone, !(take_o && stops_only_i) || act_o == '0 || act_o.halt || act_o.decel)
   `FV_ASSERT(p104_opr_12_no_start_in_a_motion, !(act_o.start && busy_i))
-  `FV_ASSERT(meaning_is_of_the_byte, !(take_o && command_i) || dut.dec_q == meaning_i)
+  `FV_ASSERT(meaning_is_of_the_byte, !(take_o && command_i) || dut.dec_q == decoded_byte_i)
   `FV_ASSERT(p104_sta_04_status_moves_with_a_byte, $past(take_o || !rst_ni) || status_o == $past(status_o))
   `FV_COVER(seen_start_with_three, act_o.start && !command_i)
   `FV_COVER(seen_halt, act_o.halt)

@@ -10,7 +10,7 @@ module ppmc_setup_fv
     input wire logic       clk_i,
     input wire logic       init_i,
     input wire init_code_t code_i,
-    input wire logic       home_i,
+    input wire logic       phase_init_i,
     input wire logic       positive_i,
     input wire logic       ready_i,
     input wire logic       off_i
@@ -26,13 +26,14 @@ module ppmc_setup_fv
   logic open_q;  // an initialisation is in progress
   always_ff @(posedge clk_i) open_q <= rst_ni && (init_i || (open_q && !ready_i));
 
-  // ppmc_pace asserts home_i only in the first initialisation. An initialisation ends after it has begun.
-  `FV_ASSUME(home_in_the_first, !home_i || !initialised_o)
+  // ppmc_proc_time asserts phase_init_i only in the first initialisation. An initialisation ends after it has
+  // begun.
+  `FV_ASSUME(home_in_the_first, !phase_init_i || !initialised_o)
   `FV_ASSUME(ready_behind_init, !ready_i || open_q)
   `FV_ASSUME(one_at_a_time, !(off_i && (init_i || open_q)) && !(init_i && open_q))
 
   logic homed_q;
-  always_ff @(posedge clk_i) homed_q <= rst_ni && (homed_q || home_i);
+  always_ff @(posedge clk_i) homed_q <= rst_ni && (homed_q || phase_init_i);
 
   `FV_ASSERT(p104_ini_06_motor_frozen, !($past(rst_ni && initialised_o && !off_i)
              && initialised_o) || {setup_o.motor, setup_o.half, setup_o.positive} == $past

@@ -42,17 +42,17 @@ module ppmc_single_fv
   logic on;  // the part is out of reset
   action_t act;
   logic busy, building, init_open_q;
-  logic [31:0] asked;  // numbers of the ramp that is being built
+  logic [31:0] ramp_data;  // numbers of the ramp that is being built
   logic [15:0] rates;  // rates of the active ramp
   decoded_t decoded;
 
-  assign on       = dut.rst;
-  assign act      = dut.u_single.act_o;
-  assign busy     = dut.u_single.motion_o.busy;
-  assign building = dut.u_single.building;
-  assign asked    = dut.u_single.verdict_i.setup;
-  assign rates    = {dut.u_single.slow, dut.u_single.fast};
-  assign decoded  = dut.u_single.meaning_i.decoded;
+  assign on        = dut.rst_core_n;
+  assign act       = dut.u_single.act_o;
+  assign busy      = dut.u_single.motion_o.busy;
+  assign building  = dut.u_single.building;
+  assign ramp_data = dut.u_single.check_result_i.setup;
+  assign rates     = {dut.u_single.slow, dut.u_single.fast};
+  assign decoded   = dut.u_single.decoded_byte_i.decoded;
 
   always_ff @(posedge clk_i) init_open_q <= on && (act.init || (init_open_q && !dut.u_single.ready_init));
 
@@ -60,18 +60,18 @@ module ppmc_single_fv
   `FV_ASSERT(start_at_rest, !on || !act.start || !(busy || dut.u_single.event_now.done || building))
   `FV_ASSERT(table_once, !on || !(act.init && building))
   `FV_ASSERT(ramp_stands, !$past(on) || !busy || rates == $past(rates))
-  `FV_ASSERT(ramp_stands_while_built, !($past(on && building) && building) || asked == $past(asked))
-  `FV_ASSERT(home_in_the_first, !on || !dut.u_single.home || !dut.u_single.initialised)
+  `FV_ASSERT(ramp_stands_while_built, !($past(on && building) && building) || ramp_data == $past(ramp_data))
+  `FV_ASSERT(home_in_the_first, !on || !dut.u_single.phase_init || !dut.u_single.initialised)
   `FV_ASSERT(ready_behind_init, !on || !dut.u_single.ready_init || init_open_q)
   `FV_ASSERT(init_alone, !on || !(act.exc_off && (act.init || init_open_q)) && !(act.init && init_open_q))
   `FV_ASSERT(take_when_ready, !on || !dut.u_single.take || dut.u_single.ready)
-  `FV_ASSERT(known_kind, decoded.kind <= KindAuxOff && decoded.params <= 3'd4)
+  `FV_ASSERT(known_kind, decoded.kind <= CmdAuxOff && decoded.params <= 3'd4)
   `FV_ASSERT(params_fit_the_kind,
-             decoded.params == '0 || decoded.kind inside {KindInit, KindOperation, KindSwitching, KindAuxOut})
+             decoded.params == '0 || decoded.kind inside {CmdInit, CmdOperation, CmdSwitching, CmdAuxOut})
 
-  `FV_ASSERT(p104_sta_04_error_stands, !$past(on) || $past(dut.u_single.take)
-             || dut.u_single.judgement == $past(dut.u_single.judgement))
-  `FV_COVER(seen_error, dut.u_single.judgement[3] && dut.u_single.ready)
+  `FV_ASSERT(p104_sta_04_error_stands, !$past(on) || $past(dut.u_single.take) || dut.u_single.status == $past
+             (dut.u_single.status))
+  `FV_COVER(seen_error, dut.u_single.status[3] && dut.u_single.ready)
   `FV_COVER(seen_init, building)
 
 endmodule

@@ -5,7 +5,7 @@
 
 module ppmc_bank_engine
   import ppmc_bank_pkg::*;
-  import ppmc_code_pkg::error_e;
+  import ppmc_code_pkg::cmd_error_e;
   import ppmc_code_pkg::decoded_t;
   import ppmc_code_pkg::init_code_t;
 #(

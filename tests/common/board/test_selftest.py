@@ -28,8 +28,8 @@ OTHERS = [row.name for row in parts.having("selftest") if row.name != "ppmc104"]
 FAULTS = {
     "pulse one clk longer": (
         "rtl/motion/ppmc_pulse_shaper.sv",
-        "(WidthClk - 2, Width)",
-        "(WidthClk - 1, Width)",
+        "(WidthCycles - 2, Width)",
+        "(WidthCycles - 1, Width)",
         "s",
     ),
     "limit pin turned over": (

@@ -80,9 +80,9 @@ def test_one_alone() -> None:
 
 def test_proofs_of_a_file() -> None:
     """The proofs of a file's block are separate from those of the blocks that contain it."""
-    own, others = proofs_of("rtl/motion/ppmc_stop_guard.sv")
-    assert {one.block for one in own} == {"ppmc_stop_guard"}
-    assert {"ppmc_axis", "ppmc_pace"} & {one.block for one in others}
+    own, others = proofs_of("rtl/motion/ppmc_stop_monitor.sv")
+    assert {one.block for one in own} == {"ppmc_stop_monitor"}
+    assert {"ppmc_axis", "ppmc_proc_time"} & {one.block for one in others}
     assert "ppmc_uart_rx" not in {one.block for one in others}
     assert proofs_of("rtl/common/ppmc_lfsr_pkg.sv")[0] == []
     assert proofs_of("rtl/pmc006/pmc006.sv") == ([], [])
@@ -91,7 +91,7 @@ def test_proofs_of_a_file() -> None:
 @pytest.mark.parametrize(
     "proof, group, wanted",
     [
-        ("ppmc_stop_guard", None, ["own"]),
+        ("ppmc_stop_monitor", None, ["own"]),
         (None, "a", ["own", "a"]),
         (None, "b", ["own", "a", "b"]),
         ("ppmc_axis_stop", None, ["own", "a", "b", "others"]),
@@ -102,7 +102,7 @@ def test_order_of_what_a_mutant_meets(
     monkeypatch: pytest.MonkeyPatch, proof: str | None, group: str | None, wanted: list[str]
 ) -> None:
     """After the first failure of a mutant, no further check runs, and the result names that failure."""
-    file, tried = "rtl/motion/ppmc_stop_guard.sv", []
+    file, tried = "rtl/motion/ppmc_stop_monitor.sv", []
     own = proofs_of(file)[0]
 
     def failing(_file: str, _fault: object, chosen: list[object]) -> str:

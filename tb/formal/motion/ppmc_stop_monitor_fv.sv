@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_guard_fv: proves that every immediate cause ends the motion in the same cycle, that only such
+// ppmc_stop_monitor_fv: proves that every immediate cause ends the motion in the same cycle, that only such
 // causes end it, and that the causes are recorded.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_stop_guard_fv
+module ppmc_stop_monitor_fv
   import ppmc_motion_pkg::*;
 (
     input wire logic      clk_i,
@@ -14,7 +14,7 @@ module ppmc_stop_guard_fv
     input wire op_t       op_i,
     input wire switches_t switches_i,
     input wire logic      top_i,
-    input wire logic      crawl_i,
+    input wire logic      at_start_rate_i,
     input wire logic      dec_i,
     input wire logic      halt_i,
     input wire logic      decel_i,
@@ -23,13 +23,13 @@ module ppmc_stop_guard_fv
 
   logic slow_seen_o, stop_o, forced_o, flagged_o;
   logic stmc_seen, stmc_stop, stmc_forced, stmc_flagged;
-  cause_t cause_o, stmc_cause;
+  stop_cause_t cause_o, stmc_cause;
 
   `FV_RESET
 
-  ppmc_stop_guard dut (.*);
+  ppmc_stop_monitor dut (.*);
 
-  ppmc_stop_guard #(
+  ppmc_stop_monitor #(
       .StopAtSlow(1'b1),
       .SlowOrigin(1'b1)
   ) u_stmc (
@@ -49,9 +49,9 @@ module ppmc_stop_guard_fv
 
   `FV_ASSERT(p104_lim_03_every_cause, !(armed_i && immediate) || (stop_o && stmc_stop))
   `FV_ASSERT(p104_end_05_only_causes, !stop_o || (armed_i && immediate))
-  `FV_ASSERT(
-      stmc_in_03_only_causes,
-      !stmc_stop || (armed_i && (immediate || (op_i.origin && slow) || (crawl_i && (slow_i || decel_i)))))
+  logic only_causes;
+  assign only_causes = immediate || (op_i.origin && slow) || (at_start_rate_i && (slow_i || decel_i));
+  `FV_ASSERT(stmc_in_03_only_causes, !stmc_stop || (armed_i && only_causes))
   `FV_ASSERT(p104_fdc_01_asked_for,
              !(armed_i && op_i.ramp && !immediate && !dec_i && (decel_i || slow_i)) || forced_o)
   `FV_ASSERT(p104_fdc_04_not_withdrawn, !$past(rst_ni && forced_o && !stop_o && !clear_i && !complete_i)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace: determines when an accepted byte takes effect in a single-axis device: immediately (FAST) or
-//         after the processing times of the old chip (DATASHEET).
+// ppmc_proc_time: determines when an accepted byte takes effect in a single-axis device: immediately (FAST)
+//         or after the processing times of the old chip (DATASHEET).
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
 // Timing: DATASHEET times start at the C-event (2 cycles after the write event) or at the pulse or decision
 //         that they belong to. The event that a time releases occurs one cycle after the nominal time.
 // How:    two timers: one for the current command (mailbox closed), one for the motion (pulse 1, end).
 `default_nettype none
 
-module ppmc_pace
+module ppmc_proc_time
   import ppmc_code_pkg::*;
   import ppmc_op_pkg::*;
 #(
@@ -38,7 +38,7 @@ module ppmc_pace
     input  wire logic                   initialised_i,  // an initialisation has been completed
     input  wire logic                   building_i,     // the ramp table is being built
     input  wire logic    [StepBits-1:0] steps_i,        // active PA
-    output logic                        home_o,         // set the phases to index 0: first initialisation
+    output logic                        phase_init_o,   // set the phases to index 0: first initialisation
     output logic                        ready_o,        // the initialisation is complete
     // motion
     input  wire logic                   ramp_i,         // the running operation has a ramp
@@ -48,22 +48,22 @@ module ppmc_pace
     input  wire logic                   last_i,         // with pulse_i: last pulse
     input  wire logic                   final_i,        // with pulse_i: the count is complete
     output logic                        go_o,           // pulse 1 may occur
-    output logic                        linger_o        // the motion must not end yet
+    output logic                        end_delay_o     // the motion must not end yet
 );
 
   // Times in crystal cycles: microseconds times 16.
-  localparam int unsigned INIT_PHASES = 44 * 16;
-  localparam int unsigned BUSY_CONSTANT = 27 * 16;
-  localparam int unsigned BUSY_RAMP = 112 * 16;
-  localparam int unsigned FLAG_COMMAND = 17 * 16;
-  localparam int unsigned AUX = 14 * 16;
-  localparam int unsigned EXC_OFF = 18 * 16;
+  localparam int unsigned InitPhasesXtal = 44 * 16;
+  localparam int unsigned BusyConstantXtal = 27 * 16;
+  localparam int unsigned BusyRampXtal = 112 * 16;
+  localparam int unsigned FlagCommandXtal = 17 * 16;
+  localparam int unsigned AuxXtal = 14 * 16;
+  localparam int unsigned ExcOffXtal = 18 * 16;
 
-  localparam int unsigned CmdBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BUSY_RAMP, ClkHz, XtalHz) - 1);
+  localparam int unsigned CommandBits = ppmc_lfsr_pkg::width(ppmc_pkg::cyc(BusyRampXtal, ClkHz, XtalHz) - 1);
 
   // State of the counter before the tick that ends a time of xtal_cycles.
-  function automatic logic [CmdBits-1:0] last(int unsigned xtal_cycles);
-    return CmdBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CmdBits));
+  function automatic logic [CommandBits-1:0] last_state(int unsigned xtal_cycles);
+    return CommandBits'(ppmc_lfsr_pkg::after(ppmc_pkg::cyc(xtal_cycles, ClkHz, XtalHz) - 1, CommandBits));
   endfunction
 
   if (!Datasheet) begin : g_fast
@@ -80,10 +80,10 @@ module ppmc_pace
     assign params_o = params_i;
     assign base_o = base_i;
     assign open_o = !building_i && !built_q;
-    assign home_o = act_i.init && !initialised_i;
+    assign phase_init_o = act_i.init && !initialised_i;
     assign ready_o = built_q && !building_i;
     assign go_o = 1'b1;
-    assign linger_o = 1'b0;
+    assign end_delay_o = 1'b0;
     assign unused_bits = &{1'b0, code_held_i, params_held_i, steps_i, ramp_i, single_i, stop_i, pulse_i,
                            last_i, final_i};
   end else begin : g_datasheet
@@ -108,14 +108,14 @@ module ppmc_pace
 
     // ---- current command -----------------------------------------------------------------------------
 
-    action_t now, late, held_q;
-    logic cmd_busy_q, cmd_past, home_past, homed_q, cmd_start, past;
+    action_t immediate, delayed, delayed_q;
+    logic cmd_busy_q, cmd_past, phase_init_past, phase_init_done_q, cmd_start, past;
     logic init_past, closed;
-    logic [CmdBits-1:0] cmd_last;
+    logic [CommandBits-1:0] cmd_last;
 
     // A deceleration stop that acts as an immediate stop has no separate processing time (P104-DS-14).
     always_comb begin
-      now = '{
+      immediate = '{
           init: act_i.init,
           halt: act_i.halt,
           switching: act_i.switching,
@@ -123,44 +123,44 @@ module ppmc_pace
           decel: act_i.decel && !(RampTimes && ramp_i),
           default: 1'b0
       };
-      late = act_i & ~now;
-      late.init = act_i.init;
-      cmd_start = late != '0;
+      delayed = act_i & ~immediate;
+      delayed.init = act_i.init;
+      cmd_start = delayed != '0;
     end
 
-    localparam logic [CmdBits-1:0] LastAux = last(AUX);
-    localparam logic [CmdBits-1:0] LastExcOff = last(EXC_OFF);
-    localparam logic [CmdBits-1:0] LastDecel = last(FLAG_COMMAND);
-    localparam logic [CmdBits-1:0] LastRamp = last(BUSY_RAMP);
-    localparam logic [CmdBits-1:0] LastConstant = last(BUSY_CONSTANT);
-    localparam logic [CmdBits-1:0] LastPhases = last(INIT_PHASES);
+    localparam logic [CommandBits-1:0] LastAux = last_state(AuxXtal);
+    localparam logic [CommandBits-1:0] LastExcOff = last_state(ExcOffXtal);
+    localparam logic [CommandBits-1:0] LastDecel = last_state(FlagCommandXtal);
+    localparam logic [CommandBits-1:0] LastRamp = last_state(BusyRampXtal);
+    localparam logic [CommandBits-1:0] LastConstant = last_state(BusyConstantXtal);
+    localparam logic [CommandBits-1:0] LastPhases = last_state(InitPhasesXtal);
 
     // The mailbox is closed during this time, so the code does not change.
     always_comb begin
       cmd_last = LastAux;
-      if (held_q.exc_off) cmd_last = LastExcOff;
-      if (held_q.decel) cmd_last = LastDecel;
-      if (held_q.start) cmd_last = (op_held.pout_only || ramp) ? LastRamp : LastConstant;
-      if (held_q.init) cmd_last = LastPhases;
+      if (delayed_q.exc_off) cmd_last = LastExcOff;
+      if (delayed_q.decel) cmd_last = LastDecel;
+      if (delayed_q.start) cmd_last = (op_held.pout_only || ramp) ? LastRamp : LastConstant;
+      if (delayed_q.init) cmd_last = LastPhases;
     end
 
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
-        held_q     <= '0;
-        cmd_busy_q <= 1'b0;
-        homed_q    <= 1'b1;
+        delayed_q         <= '0;
+        cmd_busy_q        <= 1'b0;
+        phase_init_done_q <= 1'b1;
       end else if (cmd_start) begin
-        held_q     <= late;
-        cmd_busy_q <= 1'b1;
-        homed_q    <= !act_i.init;
+        delayed_q         <= delayed;
+        cmd_busy_q        <= 1'b1;
+        phase_init_done_q <= !act_i.init;
       end else begin
         if (cmd_past) cmd_busy_q <= 1'b0;
-        if (home_past) homed_q <= 1'b1;
+        if (phase_init_past) phase_init_done_q <= 1'b1;
       end
     end
 
     ppmc_timer #(
-        .Width(CmdBits)
+        .Width(CommandBits)
     ) u_command (
         .clk_i,
         .restart_i(cmd_start),
@@ -169,27 +169,27 @@ module ppmc_pace
         .past_o   (past)
     );
 
-    assign home_past = past && !homed_q;
-    assign cmd_past  = cmd_busy_q && (held_q.init ? init_past : past);
-    assign home_o    = home_past && !initialised_i;
+    assign phase_init_past = past && !phase_init_done_q;
+    assign cmd_past  = cmd_busy_q && (delayed_q.init ? init_past : past);
+    assign phase_init_o    = phase_init_past && !initialised_i;
     assign ready_o   = init_past;
 
     always_comb begin
-      act_o = now;
-      if (cmd_past) act_o = act_o | held_q;
-      act_o.init = now.init;
+      act_o = immediate;
+      if (cmd_past) act_o = act_o | delayed_q;
+      act_o.init = immediate.init;
     end
 
     // ---- initialisation, motion ----------------------------------------------------------------------
 
-    logic triangle;
+    logic triangular;
 
     // triangle: the number of pulses minus 1 (P104-DS-05: D) is below 2 * PA.
-    assign triangle = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
+    assign triangular = RampTimes && op_code.op == OP_ACC_DEC && params_i[31:23] == '0 && ppmc_pkg::less(
         32'(params_i[22:8]), 32'({steps_i, 1'b0})
     );
 
-    ppmc_pace_motion #(
+    ppmc_proc_time_motion #(
         .ClkHz    (ClkHz),
         .XtalHz   (XtalHz),
         .StepsMin (StepsMin),
@@ -198,20 +198,20 @@ module ppmc_pace
     ) u_motion (
         .clk_i,
         .rst_ni,
-        .init_i    (act_i.init),
-        .start_i   (act_i.start),
-        .triangle_i(triangle),
-        .number_i  (params_i[23:8]),
+        .init_i      (act_i.init),
+        .start_i     (act_i.start),
+        .triangular_i(triangular),
+        .number_i    (params_i[23:8]),
         .ramp_i,
         .single_i,
         .stop_i,
         .pulse_i,
         .last_i,
         .final_i,
-        .ready_o   (init_past),
+        .ready_o     (init_past),
         .go_o,
-        .linger_o,
-        .closed_o  (closed)
+        .end_delay_o,
+        .closed_o    (closed)
     );
 
     assign open_o = !cmd_busy_q && !closed && !building_i;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_pace_fv: with DATASHEET times, proves that each action takes effect once and in order, and that the
+// ppmc_proc_time_fv: with DATASHEET times, proves that each action takes effect once and in order, and that
+//         the
 // mailbox opens again. The ratio of the clocks shortens the times to 1/64.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_pace_fv
+module ppmc_proc_time_fv
   import ppmc_code_pkg::*;
 (
     input wire logic       clk_i,
@@ -18,11 +19,11 @@ module ppmc_pace_fv
   logic [ 7:0] code_o;
   logic [31:0] params_o;
   logic [ 2:0] base_o;
-  logic open_o, home_o, ready_o, go_o, linger_o;
+  logic open_o, phase_init_o, ready_o, go_o, end_delay_o;
 
   `FV_RESET
 
-  ppmc_pace #(
+  ppmc_proc_time #(
       .Datasheet(1'b1),
       .ClkHz    (1_000_000),
       .XtalHz   (3_000_000)

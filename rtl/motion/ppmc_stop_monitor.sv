@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_stop_guard: detects the causes that end or decelerate a motion and records them in the finish status.
+// ppmc_stop_monitor: detects the causes that end or decelerate a motion and records them in the finish
+//         status.
 // Rules:  P104-LIM-01..10, P104-STP-01/03/05, P104-FDC-01/04, P104-END-02/04/05; P2104-FDC-02, P2104-OPR-09;
 //         STMC-IN-03/04, STMC-DEC-03..06, STMC-FIN-02/03.
 // Timing: stop_o and forced_o are combinational, so that a cause present in a cycle also acts on a pulse at
@@ -7,7 +8,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc_stop_guard
+module ppmc_stop_monitor
   import ppmc_motion_pkg::*;
 #(
     parameter bit StopAtSlow = 1'b0,  // 1: deceleration request at start-up rate ends the motion immediately
@@ -16,43 +17,43 @@ module ppmc_stop_guard
 ) (
     input  wire logic      clk_i,
     input  wire logic      rst_ni,
-    input  wire logic      clear_i,      // a new operation starts: clear the causes
-    input  wire logic      complete_i,   // the last pulse of the count is output: clear the causes
-    input  wire logic      armed_i,      // before the first pulse or between pulses
-    input  wire op_t       op_i,         // the running operation
-    input  wire switches_t switches_i,   // synchronous levels
-    input  wire logic      top_i,        // the running interval is on the plateau
-    input  wire logic      crawl_i,      // the running interval has the start-up rate
-    input  wire logic      dec_i,        // natural deceleration has begun
-    input  wire logic      halt_i,       // immediate stop command
-    input  wire logic      decel_i,      // deceleration stop command
-    input  wire logic      slow_i,       // act on the slow-down limit; slow_seen_o, delayed or not
-    output logic           slow_seen_o,  // an effective slow-down limit is active; not valid with stop_o
-    output logic           stop_o,       // end the motion now, no further pulse
-    output logic           forced_o,     // forced deceleration is requested; not valid with stop_o
-    output logic           flagged_o,    // forced deceleration was requested (registered)
-    output cause_t         cause_o       // causes of the end of the motion, until clear_i
+    input  wire logic      clear_i,          // a new operation starts: clear the causes
+    input  wire logic      complete_i,       // the last pulse of the count is output: clear the causes
+    input  wire logic      armed_i,          // before the first pulse or between pulses
+    input  wire op_t       op_i,             // the running operation
+    input  wire switches_t switches_i,       // synchronous levels
+    input  wire logic      top_i,            // the running interval is on the plateau
+    input  wire logic      at_start_rate_i,  // the running interval has the start-up rate
+    input  wire logic      dec_i,            // natural deceleration has begun
+    input  wire logic      halt_i,           // immediate stop command
+    input  wire logic      decel_i,          // deceleration stop command
+    input  wire logic      slow_i,           // act on the slow-down limit; slow_seen_o, delayed or not
+    output logic           slow_seen_o,      // an effective slow-down limit is active; not valid with stop_o
+    output logic           stop_o,           // end the motion now, no further pulse
+    output logic           forced_o,         // forced deceleration is requested; not valid with stop_o
+    output logic           flagged_o,        // forced deceleration was requested (registered)
+    output stop_cause_t    cause_o           // causes of the end of the motion, until clear_i
 );
 
-  logic limit, slow, halt, block, hard, slow_now, decel_now, free;
+  logic limit, slow, halt, block, hard, slow_now, decel_now, can_request;
   logic unused_bits;
 
-  assign unused_bits = &{1'b0, op_i.single, op_i.pout_only, top_i, crawl_i};
+  assign unused_bits = &{1'b0, op_i.single, op_i.pout_only, top_i, at_start_rate_i};
 
   assign limit = op_i.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
   assign slow = op_i.ccw ? switches_i.slow_ccw : switches_i.slow_cw;
   assign halt = halt_i || (decel_i && !op_i.ramp);
   assign block = SlowOrigin && op_i.origin && slow;
   assign hard = armed_i && (limit || switches_i.alarm || halt || block || (switches_i.origin && op_i.origin));
-  assign stop_o = hard || (StopAtSlow && crawl_i && (slow_now || decel_now));
+  assign stop_o = hard || (StopAtSlow && at_start_rate_i && (slow_now || decel_now));
 
   // Deceleration can be requested once. An immediate end at the same edge has priority over the request, but
   // slow_seen_o and forced_o do not include this priority. Their user evaluates them with a pulse, and no
   // pulse occurs at an immediate end.
-  assign free = armed_i && op_i.ramp && !flagged_o && !dec_i;
-  assign slow_seen_o = free && slow && (SlowAlways || top_i || !op_i.pout_only);
-  assign slow_now = free && slow_i;
-  assign decel_now = free && decel_i;
+  assign can_request = armed_i && op_i.ramp && !flagged_o && !dec_i;
+  assign slow_seen_o = can_request && slow && (SlowAlways || top_i || !op_i.pout_only);
+  assign slow_now = can_request && slow_i;
+  assign decel_now = can_request && decel_i;
   assign forced_o = flagged_o || slow_now || decel_now;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_ext_lag_fv: proves to the cycle that two times add up to the extra time: the time before the first
+// ppmc_ext_extra_time_fv: proves to the cycle that two times add up to the extra time: the time before the
+//         first
 // base edge of an interval, and the time after the last one. If the first time alone is at least as long as
 // the extra time, the interval ends without more extra time.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_ext_lag_fv (
+module ppmc_ext_extra_time_fv (
     input wire logic clk_i,
     input wire logic restart_i,
     input wire logic edge_i,
-    input wire logic long_i,
+    input wire logic long_period_i,
     input wire logic hit_i
 );
 
@@ -19,8 +20,8 @@ module ppmc_ext_lag_fv (
 
   `FV_RESET
 
-  ppmc_ext_lag #(
-      .LagClk(Lag)
+  ppmc_ext_extra_time #(
+      .ExtraCycles(Lag)
   ) dut (
       .en_i(1'b1),
       .*
@@ -46,9 +47,10 @@ module ppmc_ext_lag_fv (
   `FV_ASSUME(hit_counts, !hit_i || (run_q && edge_i && counting_q && !hit_q))
 
   `FV_ASSERT(edges_count_behind_the_first, !run_q || count_o == counting_q)
-  `FV_ASSERT(p104_int_03_long_has_no_lag, !(hit_i && long_i) || fire_o)
-  `FV_ASSERT(p104_int_03_whole_extra,
-             !(run_q && fire_o && !(hit_i && long_i)) || before_q >= 4'(Lag) || before_q + after_q == 4'(Lag))
+  `FV_ASSERT(p104_int_03_long_has_no_lag, !(hit_i && long_period_i) || fire_o)
+  `FV_ASSERT(
+      p104_int_03_whole_extra,
+      !(run_q && fire_o && !(hit_i && long_period_i)) || before_q >= 4'(Lag) || before_q + after_q == 4'(Lag))
   `FV_ASSERT(none_without_a_hit, !(run_q && fire_o) || hit_i || hit_q)
   `FV_ASSERT(in_time, !(run_q && hit_q) || after_q <= 4'(Lag))
   `FV_COVER(seen_both_sides, run_q && fire_o && before_q == 4'd2 && after_q == 4'd3)

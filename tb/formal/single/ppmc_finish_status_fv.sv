@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish_fv: proves that each motion which is not silent sets the interrupt until the finish status is
+// ppmc_finish_status_fv: proves that each motion which is not silent sets the interrupt until the finish
+//         status is
 // read, and that no other event changes the interrupt.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_finish_fv
+module ppmc_finish_status_fv
   import ppmc_code_pkg::*;
 (
     input wire logic            clk_i,
@@ -25,7 +26,7 @@ module ppmc_finish_fv
 
   `FV_RESET
 
-  ppmc_finish dut (.*);
+  ppmc_finish_status dut (.*);
 
   logic fresh_q, silent_q, pending_q;
   logic [2:0] op_q;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_panel: reset and LEDs of a board.
+// ppmc_board_leds: reset and LEDs of a board.
 // Rules:  docs/boards.md, LEDs.
-// Timing: see ppmc_board_reset and ppmc_board_lamp.
+// Timing: see ppmc_board_reset and ppmc_board_led_stretch.
 `default_nettype none
 
-module ppmc_board_panel #(
+module ppmc_board_leds #(
     parameter int unsigned ClkHz = 24_000_000
 ) (
     input  wire logic       clk_i,
@@ -14,10 +14,10 @@ module ppmc_board_panel #(
     input  wire logic       link_i,
     input  wire logic       moving_i,
     input  wire logic       switch_i,  // 1: at least one switch is active
-    output logic      [3:0] lamps_o    // 1 = on; bits 3..0: out of reset, switch, motor moves, link
+    output logic      [3:0] leds_o     // 1 = on; bits 3..0: out of reset, switch, motor moves, link
 );
 
-  logic lamp_link;
+  logic led_link;
 
   ppmc_board_reset #(
       .ClkHz(ClkHz)
@@ -28,16 +28,16 @@ module ppmc_board_panel #(
       .rst_no
   );
 
-  ppmc_board_lamp #(
+  ppmc_board_led_stretch #(
       .ClkHz(ClkHz)
-  ) u_lamp (
+  ) u_led_link (
       .clk_i,
       .rst_ni(rst_no),
       .on_i  (link_i),
-      .lamp_o(lamp_link)
+      .led_o (led_link)
   );
 
-  assign lamps_o = {rst_no, switch_i, moving_i, lamp_link};
+  assign leds_o = {rst_no, switch_i, moving_i, led_link};
 
 endmodule
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_board_lamp: stretches a short event so that it is visible on an LED.
+// ppmc_board_led_stretch: stretches a short event so that it is visible on an LED.
 // Rules:  docs/boards.md, LEDs.
-// Timing: lamp_o rises one cycle after on_i. It falls 2^n cycles (1/32 .. 1/16 s) after the last cycle with
+// Timing: led_o rises one cycle after on_i. It falls 2^n cycles (1/32 .. 1/16 s) after the last cycle with
 //         on_i = 1.
 `default_nettype none
 
-module ppmc_board_lamp #(
+module ppmc_board_led_stretch #(
     parameter int unsigned ClkHz = 24_000_000
 ) (
     input  wire logic clk_i,
     input  wire logic rst_ni,
     input  wire logic on_i,
-    output logic      lamp_o
+    output logic      led_o
 );
 
   localparam int unsigned Bits = $clog2(ClkHz / 32);
@@ -20,13 +20,13 @@ module ppmc_board_lamp #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      lamp_o <= 1'b0;
+      led_o  <= 1'b0;
       left_q <= '0;
     end else if (on_i) begin
-      lamp_o <= 1'b1;
+      led_o  <= 1'b1;
       left_q <= '1;
     end else begin
-      lamp_o <= left_q != '0;
+      led_o <= left_q != '0;
       if (left_q != '0) left_q <= left_q - 1'b1;
     end
   end

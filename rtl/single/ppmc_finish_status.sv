@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_finish: finish status and interrupt of a motion, and the data of the read commands, in a
+// ppmc_finish_status: finish status and interrupt of a motion, and the data of the read commands, in a
 //         single-axis device.
 // Rules:  P104-RD-01..08, P104-END-01/04/07, P104-STP-07; STMC-FIN-01/04/05, STMC-MOT-09/10, STMC-INP-01,
 //         STMC-OUT-01, STMC-REM-01.
@@ -7,10 +7,10 @@
 //         combinational.
 `default_nettype none
 
-module ppmc_finish
+module ppmc_finish_status
   import ppmc_code_pkg::*;
 #(
-    parameter bit Fresh = 1'b1  // finish status bit 7: 1 = not read yet, 0 = always 1
+    parameter bit UnreadFlag = 1'b1  // finish status bit 7: 1 = not read yet, 0 = always 1
 ) (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
@@ -28,7 +28,7 @@ module ppmc_finish
     output logic                 int_no        // L: a motion has ended
 );
 
-  logic fresh_q, silent_q;  // fresh_q: not read yet; silent_q: no interrupt requested
+  logic unread_q, silent_q;  // unread_q: not read yet; silent_q: no interrupt requested
   logic [2:0] op_q;
   logic unused_bits;
 
@@ -37,7 +37,7 @@ module ppmc_finish
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       int_no   <= 1'b1;
-      fresh_q  <= 1'b0;
+      unread_q <= 1'b0;
       silent_q <= 1'b0;
       op_q     <= '0;
     end else begin
@@ -46,12 +46,12 @@ module ppmc_finish
         op_q     <= op_code_i.op;
       end
       if (done_i) begin
-        fresh_q <= 1'b1;
+        unread_q <= 1'b1;
         if (!silent_q) int_no <= 1'b0;
       end
       if (read_i && select_i == SEL_FINISH) begin
-        fresh_q <= 1'b0;
-        int_no  <= 1'b1;
+        unread_q <= 1'b0;
+        int_no   <= 1'b1;
       end
     end
   end
@@ -61,7 +61,7 @@ module ppmc_finish
   always_comb begin
     answer_o = remaining_i;  // only SEL_REMAINING uses the bytes after the first one
     unique case (select_i)
-      SEL_FINISH:  answer_o[7:0] = {fresh_q || !Fresh, cause_i, op_q};
+      SEL_FINISH:  answer_o[7:0] = {unread_q || !UnreadFlag, cause_i, op_q};
       SEL_INPUTS:  answer_o[7:0] = inputs_i;
       SEL_OUTPUTS: answer_o[7:0] = outputs_i;
       SEL_AUX_IN:  answer_o[7:0] = {4'b0000, auxi_i};

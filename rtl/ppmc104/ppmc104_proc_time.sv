@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc104_pace: processing times that only PPMC-104 has (Datasheet = 1): delays slow-down limits and allows
-//         only stop commands during a fast motion. ppmc_pace implements the other processing times.
+// ppmc104_proc_time: processing times that only PPMC-104 has (Datasheet = 1): delays slow-down limits and
+//         allows only stop commands during a fast motion. ppmc_proc_time implements the other processing
+//         times.
 // Rules:  P104-DS-10/12, P104-LIM-01 (the limits are monitored without gaps).
 // Timing: slow_o is asserted one cycle after the nominal time. With Datasheet = 0 slow_o = slow_seen_i.
 `default_nettype none
 
-module ppmc104_pace
+module ppmc104_proc_time
   import ppmc_motion_pkg::*;
   import ppmc104_pkg::FAST_QUANTA;
   import ppmc104_pkg::SLOW_QUANTA;
@@ -25,18 +26,18 @@ module ppmc104_pace
 );
 
   // Crystal periods: microseconds times 16.
-  localparam int unsigned FLAG_LIMIT = 12 * 16;
-  localparam int unsigned FLAG_LIMIT_TOP = 17 * 16;
+  localparam int unsigned FlagLimitXtal = 12 * 16;
+  localparam int unsigned FlagLimitTopXtal = 17 * 16;
   // Intervals in quanta: during a shorter one, only stop commands are accepted.
-  localparam int unsigned BRISK_POUT = 100;
-  localparam int unsigned BRISK_PHASE = 148;
+  localparam int unsigned FastIntervalPoutQuanta = 100;
+  localparam int unsigned FastIntervalPhaseQuanta = 148;
 
   // Number of rates r for which (r + 1) * period + extra time is below this limit.
-  function automatic int unsigned brisk_rates(bit pout_only, bit slow, bit extra);
-    int unsigned room, period;
-    room   = (pout_only ? BRISK_POUT : BRISK_PHASE) - (extra ? EXTRA_QUANTA : 0);
+  function automatic int unsigned fast_interval_rates(bit pout_only, bit slow, bit extra);
+    int unsigned limit, period;
+    limit  = (pout_only ? FastIntervalPoutQuanta : FastIntervalPhaseQuanta) - (extra ? EXTRA_QUANTA : 0);
     period = slow ? SLOW_QUANTA : FAST_QUANTA;
-    return (room - 1) / period;
+    return (limit - 1) / period;
   endfunction
 
   if (!Datasheet) begin : g_fast
@@ -63,11 +64,11 @@ module ppmc104_pace
       end
     end
 
-    localparam int unsigned Plain = ppmc_pkg::cyc(FLAG_LIMIT, ClkHz, XtalHz);
-    localparam int unsigned Top = ppmc_pkg::cyc(FLAG_LIMIT_TOP, ClkHz, XtalHz);
-    localparam int unsigned Width = ppmc_lfsr_pkg::width(Top - 1);
-    localparam logic [Width-1:0] LastPlain = Width'(ppmc_lfsr_pkg::after(Plain - 1, Width));
-    localparam logic [Width-1:0] LastTop = Width'(ppmc_lfsr_pkg::after(Top - 1, Width));
+    localparam int unsigned FlagCycles = ppmc_pkg::cyc(FlagLimitXtal, ClkHz, XtalHz);
+    localparam int unsigned FlagTopCycles = ppmc_pkg::cyc(FlagLimitTopXtal, ClkHz, XtalHz);
+    localparam int unsigned Width = ppmc_lfsr_pkg::width(FlagTopCycles - 1);
+    localparam logic [Width-1:0] FlagLast = Width'(ppmc_lfsr_pkg::after(FlagCycles - 1, Width));
+    localparam logic [Width-1:0] FlagTopLast = Width'(ppmc_lfsr_pkg::after(FlagTopCycles - 1, Width));
 
     ppmc_timer #(
         .Width(Width)
@@ -75,18 +76,18 @@ module ppmc104_pace
         .clk_i,
         .restart_i(!slow_busy_q),
         .tick_i   (1'b1),
-        .last_i   (slow_top_q ? LastTop : LastPlain),
+        .last_i   (slow_top_q ? FlagTopLast : FlagLast),
         .past_o   (slow_past)
     );
 
     assign slow_o = slow_busy_q && slow_past;
 
     // Lowest rate value at which all commands are accepted, by pout_only, slow and extra.
-    function automatic logic [7:0] brisk(logic pout_only, logic slow, logic extra);
+    function automatic logic [7:0] fast_interval_rate(logic pout_only, logic slow, logic extra);
       logic [7:0] found;
       found = '0;
       for (int unsigned n = 0; n < 8; n++) begin
-        if (n[2:0] == {pout_only, slow, extra}) found = 8'(brisk_rates(n[2], n[1], n[0]));
+        if (n[2:0] == {pout_only, slow, extra}) found = 8'(fast_interval_rates(n[2], n[1], n[0]));
       end
       return found;
     endfunction
@@ -95,7 +96,7 @@ module ppmc104_pace
 
     assign unused_bits = &{1'b0, motion_i};
     assign stops_only_o = motion_i.running && !motion_i.base.external && ppmc_pkg::less(
-        32'(rate_i), 32'(brisk(motion_i.op.pout_only, motion_i.base.slow, motion_i.base.extra))
+        32'(rate_i), 32'(fast_interval_rate(motion_i.op.pout_only, motion_i.base.slow, motion_i.base.extra))
     );
   end
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_ext_extra_time: fixed extra time of an interval with an external base clock.
+// Rules:  P104-INT-03, P104-INT-04. The extra time has two parts. The first part runs from a pulse to the
+//         first base edge at or after it. The rest runs after the edge that ends the count. So an interval
+//         lasts (rate + 1) periods plus the extra time, and no frequency has to be measured.
+// Timing: fire_o is combinational: it is high in the cycle of hit_i, or when the rest of the extra time has
+//         passed.
+`default_nettype none
+
+module ppmc_ext_extra_time #(
+    parameter int unsigned ExtraCycles = 120  // extra time of an interval in cycles; at least 2
+) (
+    input  wire logic clk_i,
+    input  wire logic rst_ni,
+    input  wire logic en_i,           // 0: no extra time, hit_i passes to fire_o
+    input  wire logic restart_i,      // a pulse
+    input  wire logic edge_i,         // a base edge
+    input  wire logic long_period_i,  // edge_i ends a period that is too long for the extra time
+    input  wire logic hit_i,          // this base edge ends the count
+    output logic      count_o,        // base edges are counted
+    output logic      fire_o          // the interval ends
+);
+
+  localparam int unsigned Width = ppmc_lfsr_pkg::width(ExtraCycles - 1);
+  localparam logic [Width-1:0] Before = Width'(ppmc_lfsr_pkg::after(ExtraCycles - 2, Width));
+
+  logic [Width-1:0] elapsed_q;  // elapsed part of the extra time
+  logic last_q, over_q;  // last_q: one cycle of the extra time is left; over_q: no cycle is left
+  logic before_q;  // no base edge since the pulse
+  logic after_q;  // the count has ended, the rest of the extra time runs
+  logic counts;
+
+  assign count_o = !(en_i && before_q);
+  assign counts  = (before_q || after_q) && !over_q;
+  assign fire_o  = (after_q && last_q) || (hit_i && (!en_i || long_period_i || over_q));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      last_q   <= 1'b0;
+      over_q   <= 1'b1;
+      before_q <= 1'b0;
+      after_q  <= 1'b0;
+    end else if (restart_i) begin
+      last_q   <= 1'b0;
+      over_q   <= 1'b0;
+      before_q <= !edge_i;
+      after_q  <= 1'b0;
+    end else begin
+      if (counts) {last_q, over_q} <= {elapsed_q == Before, last_q};
+      if (edge_i) before_q <= 1'b0;
+      if (hit_i && !fire_o) after_q <= 1'b1;
+    end
+  end
+
+  // No reset, because the first pulse restarts elapsed_q.
+  always_ff @(posedge clk_i) begin
+    if (restart_i) elapsed_q <= Width'(1);
+    else if (counts) elapsed_q <= Width'(ppmc_lfsr_pkg::step(31'(elapsed_q), Width));
+  end
+
+endmodule
+
+`default_nettype wire
