@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_drive: electrical angle, idle timer, current references and both bridges.
-// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; others in pmc006_refs and pmc006_bridge.
+// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; others in pmc006_refs and pmc006_hbridge.
 // Timing: the angle changes at the edge of step_i. The references follow 25 to 56 cycles later (pmc006_refs),
 //         the bridge enables one cycle after BOOT or FREE.
 `default_nettype none
@@ -85,7 +85,7 @@ module pmc006_drive
       .b_sign_o(phase_b_sign_o)
   );
 
-  pmc006_bridge #(
+  pmc006_hbridge #(
       .OffClk  (OffClk),
       .BlankClk(BlankClk),
       .FastClk (FastClk)
@@ -102,7 +102,7 @@ module pmc006_drive
       .high1_o(m11_o)
   );
 
-  pmc006_bridge #(
+  pmc006_hbridge #(
       .OffClk  (OffClk),
       .BlankClk(BlankClk),
       .FastClk (FastClk)

@@ -145,7 +145,7 @@ module pmc006_control
   assign save = act && order.op == I_SAVE && free;
   assign burn = act && order.op == I_BURN && free;
 
-  pmc006_key #(
+  pmc006_debounce #(
       .LowTicks (20_001),
       .HighTicks(0),
       .Armed    (1'b1)
@@ -195,7 +195,7 @@ module pmc006_control
 
   // ---- motion ---------------------------------------------------------------------------------------------
 
-  pmc006_accept u_accept (
+  pmc006_start_check u_accept (
       .clk_i,
       .rst_ni,
       .order_i   (order),
@@ -228,7 +228,7 @@ module pmc006_control
 
   // ---- guards, ports, answer ------------------------------------------------------------------------------
 
-  pmc006_guard u_guard (
+  pmc006_ext_stop u_guard (
       .clk_i,
       .rst_ni,
       .ext_i,
@@ -267,7 +267,7 @@ module pmc006_control
 
   assign took = program_took || save || burn || launch_o.start;
 
-  pmc006_answer #(
+  pmc006_reply #(
       .Echo(Echo),
       .Version(Version)
   ) u_answer (

@@ -78,7 +78,7 @@ module pmc006_exec
       word_i[7:0]
   ) : load_i ? load_op_i : frame_i.code[7] ? I_NONE : frame_i.code;
 
-  pmc006_range u_range (
+  pmc006_data_check u_range (
       .clk_i,
       .take_i   (state_q inside {StIdle, StDecode}),
       .program_i(state_q == StDecode),

@@ -79,7 +79,7 @@ module pmc006_program
 
   // ---- keys -----------------------------------------------------------------------------------------------
 
-  pmc006_key u_key_reset (
+  pmc006_debounce u_key_reset (
       .clk_i,
       .rst_ni,
       .us_i,
@@ -88,7 +88,7 @@ module pmc006_program
       .armed_o(reset_armed)
   );
 
-  pmc006_key u_key_pause (
+  pmc006_debounce u_key_pause (
       .clk_i,
       .rst_ni,
       .us_i,

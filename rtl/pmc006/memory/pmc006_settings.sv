@@ -32,7 +32,7 @@ module pmc006_settings
     if (order_i.op == I_EXTEN && order_i.source != FromFrame) data[1] = data[0];
   end
 
-  pmc006_values u_values (
+  pmc006_reply_ram u_values (
       .clk_i,
       .rst_ni,
       .write_i(write),

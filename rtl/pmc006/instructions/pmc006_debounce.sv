@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_key: debounce filter of one input: asserts hit_o when the input has been low for LowTicks, and
+// pmc006_debounce: debounce filter of one input: asserts hit_o when the input has been low for LowTicks, and
 // re-arms when it has been high for HighTicks (0: immediately).
 // Rules:  P006-PRG-30, P006-EEP-20.
 // Timing: hit_o and armed_o are combinational, in the cycle of the µs tick that completes the number of ticks
 //         without interruption.
 `default_nettype none
 
-module pmc006_key #(
+module pmc006_debounce #(
     parameter int unsigned LowTicks  = 1001,
     parameter int unsigned HighTicks = 1001,  // to re-arm: equal to LowTicks, or 0: immediately
     parameter bit          Armed     = 1'b0   // armed after reset
@@ -20,7 +20,7 @@ module pmc006_key #(
 );
 
   if (HighTicks != 0 && HighTicks != LowTicks) begin : g_check
-    $fatal(1, "pmc006_key: HighTicks must be 0 or LowTicks");
+    $fatal(1, "pmc006_debounce: HighTicks must be 0 or LowTicks");
   end
 
   logic armed_q, begun_q, nearly, done;

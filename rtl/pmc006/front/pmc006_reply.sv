@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_answer: data of a reply: the value that is active after the instruction.
+// pmc006_reply: data of a reply: the value that is active after the instruction.
 // Rules:  section 3.1 (reply data), sections 3.2, 3.3, 7.4 (words), P006-CMD-50/52/55/56, P006-FRM-09.
 // Timing: registered at take_i, one cycle after the instruction has taken effect.
 `default_nettype none
 
-module pmc006_answer
+module pmc006_reply
   import pmc006_pkg::*;
 #(
     parameter bit          Echo    = 1'b0,          // 1: s returns its data

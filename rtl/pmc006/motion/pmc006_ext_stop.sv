@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_guard: emergency stops: detects edges of EXT1 and EXT2 and stores their flags.
+// pmc006_ext_stop: emergency stops: detects edges of EXT1 and EXT2 and stores their flags.
 // Rules:  section 7.1, P006-STA-14/17, P006-BAD-21/26.
 // Timing: event_o is high in the cycle in which the synchronised level differs from that of the cycle before.
 //         The flag is valid from the end of this cycle.
 `default_nettype none
 
-module pmc006_guard (
+module pmc006_ext_stop (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
     input  wire logic [1:0] ext_i,     // synchronised; bit 0 EXT1

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_bridge_fv: proves that the two high sides are never on in the same cycle or in adjacent cycles, and
+// pmc006_hbridge_fv: proves that the two high sides are never on in the same cycle or in adjacent cycles, and
 // proves the off and blanking times.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module pmc006_bridge_fv (
+module pmc006_hbridge_fv (
     input wire logic       clk_i,
     input wire logic       on_i,
     input wire logic [7:0] ref_i,
@@ -18,7 +18,7 @@ module pmc006_bridge_fv (
 
   `FV_RESET
 
-  pmc006_bridge #(
+  pmc006_hbridge #(
       .OffClk  (Off),
       .BlankClk(Blank),
       .FastClk (Fast)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_bridge: one motor phase: reference bit stream and chopper with fixed off time, slow and fast decay.
+// pmc006_hbridge: one motor phase: reference bit stream and chopper with fixed off time, slow and fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
 // Timing: en_o and the half bridges change at the rising edge after on_i. A change of the sign puts the
 //         bridge into OFF at the next edge. A comparator level sampled at edge t takes effect at edge t + 2.
@@ -7,7 +7,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module pmc006_bridge #(
+module pmc006_hbridge #(
     parameter int unsigned OffClk   = 320,  // TOFF, cycles
     parameter int unsigned BlankClk = 16,   // BL, cycles
     parameter int unsigned FastClk  = 160   // TF, cycles; at least BL

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_values: copy of the parameter registers in a block RAM, for the replies.
+// pmc006_reply_ram: copy of the parameter registers in a block RAM, for the replies.
 // Rules:  section 3.1 (reply data), section 3.0 (factory values).
 // Timing: a written value can be read in the next cycle. value_o is valid from the end of take_i until the
 //         next take_i. The 32 cycles after a reset fill the RAM with the factory values.
@@ -7,7 +7,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module pmc006_values
+module pmc006_reply_ram
   import pmc006_pkg::*;
 (
     input  wire logic             clk_i,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_range: checks which data each instruction accepts, regardless of the state of the motor, and selects
+// pmc006_data_check: checks which data each instruction accepts, regardless of the state of the motor, and selects
 // its register.
 // Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57,
 //         P006-BAD-08/09.
@@ -7,7 +7,7 @@
 //         take_i.
 `default_nettype none
 
-module pmc006_range
+module pmc006_data_check
   import pmc006_pkg::*;
 (
     input  wire logic         clk_i,

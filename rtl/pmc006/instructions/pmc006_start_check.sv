@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_accept: decides which motion is started, resumed or stopped, by instructions and by other causes.
+// pmc006_start_check: decides which motion is started, resumed or stopped, by instructions and by other causes.
 // Rules:  sections 4.1..4.3, P006-STA-01..04/10/11/13/14/16/18/19, P006-CMD-55, P006-EXT-11.
 // Timing: start_o, run_o and halt_o are combinational, in the cycle before the edge on which BUSY changes. At
 //         most one is high in a cycle. speed_o already includes N = 1 of its cycle: this resumes a motion
@@ -7,7 +7,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module pmc006_accept
+module pmc006_start_check
   import pmc006_pkg::*;
 (
     input  wire logic      clk_i,
