@@ -42,7 +42,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 
 
 @directed("P006-BAD-24", "P006-CMD-15")
-@inside("u_control.u_settings.u_values.count_q")
+@inside("u_control.u_settings.u_reply_ram.count_q")
 async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
     """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)
@@ -50,7 +50,7 @@ async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
         for state in range(64):
             await host.pins(rst_n=0)
             await host.pause(4)
-            dut.u_control.u_settings.u_values.count_q.value = state
+            dut.u_control.u_settings.u_reply_ram.count_q.value = state
             await host.pause(4)
             await host.pins(rst_n=1)
     await host.pause(4)

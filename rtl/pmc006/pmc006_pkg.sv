@@ -74,7 +74,7 @@ package pmc006_pkg;
   localparam logic [7:0] P_PAUSE_EN = 8'h94;
 
   // Instruction for an opcode of the user program: that of a frame, or one that only the program has.
-  function automatic logic [7:0] op_of(logic [7:0] opcode);
+  function automatic logic [7:0] program_op(logic [7:0] opcode);
     unique case (opcode)
       8'h01:   return I_STEP;
       8'h02:   return I_MSTEP;
@@ -96,15 +96,15 @@ package pmc006_pkg;
     FromProgram,
     FromTry,      // one instruction of the program, by instruction E
     FromBoot      // a parameter from the EEPROM
-  } source_e;
+  } instr_source_e;
 
   // Instruction being executed.
   typedef struct packed {
-    logic [7:0]  op;
-    logic [3:0]  option;  // option of a program instruction; 15: above 14
-    source_e     source;
-    logic [31:0] data;
-  } order_t;
+    logic [7:0]    op;
+    logic [3:0]    option;  // option of a program instruction; 15: above 14
+    instr_source_e source;
+    logic [31:0]   data;
+  } exec_cmd_t;
 
   // ---- registers that an instruction writes; the value is the address of their copy for replies ---------
 
@@ -135,9 +135,9 @@ package pmc006_pkg;
 
   // Register access of an instruction.
   typedef struct packed {
-    logic      write;  // 1: writes the register; 0: only reads it for the reply
-    register_e which;
-  } access_t;
+    logic      write;   // 1: writes the register; 0: only reads it for the reply
+    register_e reg_id;
+  } reg_access_t;
 
   // ---- between line, control, motion and drive ------------------------------------------------------------
 
@@ -154,21 +154,21 @@ package pmc006_pkg;
     logic [30:0] count;  // with start: at least 1
     logic        run;    // N = 1 at rest: run until the stop request
     logic        speed;  // SPEED_MODE; 0: stop request for a speed run
-  } launch_t;
+  } motion_start_t;
 
   // State of the motion.
   typedef struct packed {
     logic busy;     // a motion is in progress
     logic forward;  // direction of the current or the last motion
     logic steady;   // constant speed, not 0
-  } motion_t;
+  } motion_status_t;
 
   // Values from the motion for the drive.
   typedef struct packed {
-    logic [7:0]  increment;  // angle of a step
-    logic [10:0] bump;       // B
-    logic [6:0]  lead;       // W
-  } thrust_t;
+    logic [7:0]  increment;     // angle of a step
+    logic [10:0] current_comp;  // B
+    logic [6:0]  lead_angle;    // W
+  } drive_cmd_t;
 
   // Sample of a converter.
   typedef struct packed {
@@ -176,8 +176,8 @@ package pmc006_pkg;
     logic [9:0] level;
   } sample_t;
 
-  localparam logic [6:0] LAST_LINE = 7'd99;
-  localparam logic [7:0] WORDS = 8'd200;
+  localparam logic [6:0] PROGRAM_LAST_LINE = 7'd99;
+  localparam logic [7:0] PROGRAM_WORDS = 8'd200;
 
   // ---- registers ------------------------------------------------------------------------------------------
 
@@ -197,9 +197,9 @@ package pmc006_pkg;
     logic        dir;       // 1 = forward
     logic        regulate;
     logic        free;
-  } settings_t;
+  } motor_settings_t;
 
-  localparam settings_t SETTINGS_RESET = '{
+  localparam motor_settings_t SETTINGS_RESET = '{
       mstep: 8'd16,
       cur: 12'd800,
       acc: 3'd0,
@@ -225,9 +225,9 @@ package pmc006_pkg;
     logic [6:0] stlen;    // 0 .. 64
     logic [2:0] stcfg;
     logic [8:0] stlvl;
-  } control_t;
+  } control_settings_t;
 
-  localparam control_t CONTROL_RESET = '{
+  localparam control_settings_t CONTROL_RESET = '{
       addr: 8'hff,
       trigm: 2'b00,
       exten: 2'b00,

@@ -92,7 +92,7 @@ module eeprom_24c32 #(
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];
       log_address[writes] = address;
-      log_count[writes] = count > 32 ? 6'd32 : 6'(count);
+      log_count[writes]   = count > 32 ? 6'd32 : 6'(count);
       for (int i = 0; i < 32; i++) log_data[32*writes+i] = page[5'(32'(address[4:0])+i)];
       if (writes != Log - 1) writes++;
       address = {address[11:5], 5'(32'(address[4:0]) + count)};

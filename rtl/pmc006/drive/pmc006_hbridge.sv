@@ -8,9 +8,9 @@
 `default_nettype none
 
 module pmc006_hbridge #(
-    parameter int unsigned OffClk   = 320,  // TOFF, cycles
-    parameter int unsigned BlankClk = 16,   // BL, cycles
-    parameter int unsigned FastClk  = 160   // TF, cycles; at least BL
+    parameter int unsigned OffCycles   = 320,  // TOFF, cycles
+    parameter int unsigned BlankCycles = 16,   // BL, cycles
+    parameter int unsigned FastCycles  = 160   // TF, cycles; at least BL
 ) (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
@@ -24,8 +24,8 @@ module pmc006_hbridge #(
     output logic            high1_o   // high side of m11, m21
 );
 
-  localparam int unsigned Longest = (OffClk > FastClk) ? OffClk : FastClk;
-  localparam int unsigned Width = ppmc_pkg::cnt_width(Longest);
+  localparam int unsigned MaxCycles = (OffCycles > FastCycles) ? OffCycles : FastCycles;
+  localparam int unsigned Width = ppmc_pkg::cnt_width(MaxCycles);
 
   typedef enum logic [1:0] {
     StOff,
@@ -34,9 +34,9 @@ module pmc006_hbridge #(
   } state_e;
 
   state_e state_q;
-  logic [Width-1:0] left_q;
+  logic [Width-1:0] cycles_left_q;
   logic [7:0] stream_q;
-  logic cmp, unused_q1, sign_q, rest, blanked, over;
+  logic cmp, unused_q1, sign_q, restart_off, blanking_over, phase_done;
 
   ppmc_sync #(
       .Width   (1),
@@ -49,43 +49,43 @@ module pmc006_hbridge #(
       .q2_o(cmp)
   );
 
-  assign rest    = !on_i || !en_o || sign_i != sign_q;
-  assign blanked = left_q <= Width'(FastClk - BlankClk);
+  assign restart_off   = !on_i || !en_o || sign_i != sign_q;
+  assign blanking_over = cycles_left_q <= Width'(FastCycles - BlankCycles);
 
   always_comb begin
     unique case (state_q)
-      StOn:    over = blanked && cmp;
-      StFast:  over = (blanked && !cmp) || left_q == '0;
-      default: over = left_q == '0;
+      StOn:    phase_done = blanking_over && cmp;
+      StFast:  phase_done = (blanking_over && !cmp) || cycles_left_q == '0;
+      default: phase_done = cycles_left_q == '0;
     endcase
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q  <= StOff;
-      left_q   <= Width'(OffClk - 1);
-      sign_q   <= 1'b0;
-      en_o     <= 1'b0;
-      high0_o  <= 1'b0;
-      high1_o  <= 1'b0;
-      stream_q <= '0;
-      pwm_o    <= 1'b0;
+      state_q       <= StOff;
+      cycles_left_q <= Width'(OffCycles - 1);
+      sign_q        <= 1'b0;
+      en_o          <= 1'b0;
+      high0_o       <= 1'b0;
+      high1_o       <= 1'b0;
+      stream_q      <= '0;
+      pwm_o         <= 1'b0;
     end else begin
       sign_q <= sign_i;
       en_o <= on_i;
       {pwm_o, stream_q} <= {1'b0, stream_q} + {1'b0, ref_i};
-      if (rest || (over && (state_q != StOff || (!cmp && ref_i == '0)))) begin
+      if (restart_off || (phase_done && (state_q != StOff || (!cmp && ref_i == '0)))) begin
         state_q <= StOff;
-        left_q  <= Width'(OffClk - 1);
+        cycles_left_q <= Width'(OffCycles - 1);
         high0_o <= 1'b0;
         high1_o <= 1'b0;
-      end else if (over) begin
+      end else if (phase_done) begin
         state_q <= cmp ? StFast : StOn;
-        left_q  <= Width'(FastClk - 1);
+        cycles_left_q <= Width'(FastCycles - 1);
         high0_o <= cmp == sign_i;
         high1_o <= cmp != sign_i;
-      end else if (left_q != '0) begin
-        left_q <= left_q - 1'b1;
+      end else if (cycles_left_q != '0) begin
+        cycles_left_q <= cycles_left_q - 1'b1;
       end
     end
   end

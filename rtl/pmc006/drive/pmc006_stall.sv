@@ -23,13 +23,13 @@ module pmc006_stall
     output logic               stall_o    // register STALL
 );
 
-  logic sample_q, low_q, counts;
+  logic sample_q, low_q, low_counted;
   logic [6:0] count_q;
-  logic [7:0] up;
+  logic [7:0] count_next;
 
-  assign up = {1'b0, count_q} + 1'b1;
-  assign counts = low_q && config_i[0] && !stall_o && busy_i && steady_i;
-  assign mark_o = sample_q && counts && up >= {1'b0, length_i};
+  assign count_next = {1'b0, count_q} + 1'b1;
+  assign low_counted = low_q && config_i[0] && !stall_o && busy_i && steady_i;
+  assign mark_o = sample_q && low_counted && count_next >= {1'b0, length_i};
   assign stop_o = config_i[1] && busy_i && (stall_o || mark_o);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -45,7 +45,7 @@ module pmc006_stall
   always_ff @(posedge clk_i) begin
     if (sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};
     if (!busy_i) count_q <= '0;  // each motion begins with 0
-    else if (sample_q) count_q <= counts ? up[6:0] : '0;
+    else if (sample_q) count_q <= low_counted ? count_next[6:0] : '0;
   end
 
   logic unused_config;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_reply: data of a reply: the value that is active after the instruction.
 // Rules:  section 3.1 (reply data), sections 3.2, 3.3, 7.4 (words), P006-CMD-50/52/55/56, P006-FRM-09.
-// Timing: registered at take_i, one cycle after the instruction has taken effect.
+// Timing: registered at sample_i, one cycle after the instruction has taken effect.
 `default_nettype none
 
 module pmc006_reply
@@ -11,64 +11,65 @@ module pmc006_reply
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
     input wire logic clk_i,
-    input wire logic take_i,  // sample the reply
-    input wire order_t order_i,  // the instruction
-    input wire logic took_i,  // s, t, B, E, W, G or z was accepted
+    input wire logic sample_i,  // sample the reply
+    input wire exec_cmd_t cmd_i,  // the instruction
+    input wire logic accepted_i,  // s, t, B, E, W, G or z was accepted
     input wire logic [13:0] value_i,  // register of the instruction, else 0; valid with reply_o
-    input wire settings_t settings_i,  // parameter registers
-    input wire control_t control_i,  // registers of the control
-    input wire logic speed_i,  // SPEED_MODE
+    input wire motor_settings_t settings_i,  // parameter registers
+    input wire control_settings_t control_i,  // registers of the control
+    input wire logic speed_mode_i,  // SPEED_MODE
     input wire logic busy_i,  // a motion is in progress
     input wire logic stall_i,  // register STALL
     input wire logic [1:0] flags_i,  // EXT1, EXT2
     input wire logic [1:0] ext_i,  // pins
     input wire logic [4:0] gpi_i,  // general inputs, synchronised
     input wire logic [4:0] gpo_i,  // pins of the general outputs
-    input wire logic [4:0] out_i,  // register GPO
+    input wire logic [4:0] gpo_reg_i,  // register GPO
     input wire logic [7:0] pp_i,  // pointer of the user program
     input wire logic [31:0] pos_i,  // position
     input wire logic [31:0] stpos_i,  // position of the last stall
     input wire logic [31:0] word_i,  // word of the program
-    input wire logic free_i,  // EEPROM: idle
-    input wire logic failed_i,  // EEPROM: the last operation failed
+    input wire logic ee_idle_i,  // EEPROM: idle
+    input wire logic ee_failed_i,  // EEPROM: the last operation failed
     output logic [31:0] reply_o  // data of the reply
 );
 
-  logic [31:0] whole, reply_q;
-  logic [13:0] part;
+  logic [31:0] wide, reply_q;
+  logic [13:0] narrow;
   logic unused_bits;
 
-  assign unused_bits = &{1'b0, order_i, settings_i, control_i};
+  assign unused_bits = &{1'b0, cmd_i, settings_i, control_i};
 
   // Few replies have more than 14 bits.
   always_comb begin
-    unique case (order_i.op)
-      I_ABORT, I_POS_SET: whole = order_i.data;
-      I_STEP: whole = !took_i ? 32'd0 : Echo ? order_i.data : 32'd3;
-      I_PUT: whole = took_i ? order_i.data : 32'd0;
-      I_GET: whole = took_i ? word_i : 32'd0;
-      I_POS: whole = pos_i;
-      I_STPOS: whole = stpos_i;
-      I_VERSION: whole = Version;
-      default: whole = 32'd0;
+    unique case (cmd_i.op)
+      I_ABORT, I_POS_SET: wide = cmd_i.data;
+      I_STEP: wide = !accepted_i ? 32'd0 : Echo ? cmd_i.data : 32'd3;
+      I_PUT: wide = accepted_i ? cmd_i.data : 32'd0;
+      I_GET: wide = accepted_i ? word_i : 32'd0;
+      I_POS: wide = pos_i;
+      I_STPOS: wide = stpos_i;
+      I_VERSION: wide = Version;
+      default: wide = 32'd0;
     endcase
   end
 
   always_comb begin
-    unique case (order_i.op)
-      I_POINTER: part = 14'(pp_i);
-      I_BURN, I_TRY, I_SAVE, I_START: part = 14'(took_i);
-      I_STORED: part = 14'({failed_i && free_i, !free_i});
-      I_RUN: part = 14'(speed_i);
-      I_STATUS2: part = 14'({control_i.offline, settings_i.dir, speed_i, control_i.exten, settings_i.free});
-      I_STATUS1: part = 14'({stall_i, settings_i.autodec, flags_i, busy_i});
-      I_PORTS: part = 14'({ext_i, gpi_i[4:3], gpo_i, gpi_i[2:0]});
-      I_OUT: part = 14'({out_i, 3'd0});
-      default: part = 14'd0;
+    unique case (cmd_i.op)
+      I_POINTER: narrow = 14'(pp_i);
+      I_BURN, I_TRY, I_SAVE, I_START: narrow = 14'(accepted_i);
+      I_STORED: narrow = 14'({ee_failed_i && ee_idle_i, !ee_idle_i});
+      I_RUN: narrow = 14'(speed_mode_i);
+      I_STATUS2:
+      narrow = 14'({control_i.offline, settings_i.dir, speed_mode_i, control_i.exten, settings_i.free});
+      I_STATUS1: narrow = 14'({stall_i, settings_i.autodec, flags_i, busy_i});
+      I_PORTS: narrow = 14'({ext_i, gpi_i[4:3], gpo_i, gpi_i[2:0]});
+      I_OUT: narrow = 14'({gpo_reg_i, 3'd0});
+      default: narrow = 14'd0;
     endcase
   end
 
-  always_ff @(posedge clk_i) if (take_i) reply_q <= whole | 32'(part);
+  always_ff @(posedge clk_i) if (sample_i) reply_q <= wide | 32'(narrow);
 
   // A reply uses reply_q or value_i; the other one is 0.
   assign reply_o = reply_q | 32'(value_i);

@@ -10,42 +10,42 @@
 module pmc006_start_check
   import pmc006_pkg::*;
 (
-    input  wire logic      clk_i,
-    input  wire logic      rst_ni,
-    input  wire order_t    order_i,     // instruction
-    input  wire logic      legal_i,     // the data of order_i are in range
-    input  wire logic      act_i,       // order_i is executed in this cycle
-    input  wire settings_t settings_i,  // parameter registers
-    input  wire logic      busy_i,      // a motion is in progress
-    input  wire logic      locked_i,    // an EXT flag is set
-    input  wire logic      ext_i,       // an EXT flag is being set
-    input  wire logic      stall_i,     // stop caused by a stall
-    input  wire logic      key_i,       // RESET key
-    output logic           start_o,     // a motion of counted steps begins
-    output logic           run_o,       // a run at constant speed begins
-    output logic           halt_o,      // the motion stops immediately
-    output logic           speed_o,     // 0: stop request for a speed run
-    output logic           mode_o       // register SPEED_MODE
+    input  wire logic            clk_i,
+    input  wire logic            rst_ni,
+    input  wire exec_cmd_t       cmd_i,         // instruction
+    input  wire logic            legal_i,       // the data of cmd_i are in range
+    input  wire logic            exec_i,        // cmd_i is executed in this cycle
+    input  wire motor_settings_t settings_i,    // parameter registers
+    input  wire logic            busy_i,        // a motion is in progress
+    input  wire logic            locked_i,      // an EXT flag is set
+    input  wire logic            ext_event_i,   // an EXT flag is being set
+    input  wire logic            stall_stop_i,  // stop caused by a stall
+    input  wire logic            key_stop_i,    // RESET key
+    output logic                 start_o,       // a motion of counted steps begins
+    output logic                 run_o,         // a run at constant speed begins
+    output logic                 halt_o,        // the motion stops immediately
+    output logic                 speed_o,       // 0: stop request for a speed run
+    output logic                 speed_mode_o   // register SPEED_MODE
 );
 
-  logic limits_q, endless_q, good, free, begins;
+  logic limits_q, endless_q, exec_ok, can_start, run_req;
 
   // A stall only stops a running motion, so it does not prevent a start.
-  assign good = act_i && legal_i && !ext_i && !key_i;
-  assign free = !busy_i && !settings_i.free && !locked_i;
+  assign exec_ok = exec_i && legal_i && !ext_event_i && !key_stop_i;
+  assign can_start = !busy_i && !settings_i.free && !locked_i;
 
-  assign start_o = good && order_i.op == I_STEP && free && limits_q;
-  assign begins = good && order_i.op == I_RUN && order_i.data[0];
-  assign run_o = begins && free && settings_i.vmax != '0;
-  assign halt_o = ext_i || stall_i || key_i || (act_i && order_i.op == I_ABORT) ||
-      (act_i && legal_i && order_i.op == I_FREE && order_i.data[0]);
-  assign speed_o = mode_o || (begins && busy_i && endless_q);
+  assign start_o = exec_ok && cmd_i.op == I_STEP && can_start && limits_q;
+  assign run_req = exec_ok && cmd_i.op == I_RUN && cmd_i.data[0];
+  assign run_o = run_req && can_start && settings_i.vmax != '0;
+  assign halt_o = ext_event_i || stall_stop_i || key_stop_i || (exec_i && cmd_i.op == I_ABORT) ||
+      (exec_i && legal_i && cmd_i.op == I_FREE && cmd_i.data[0]);
+  assign speed_o = speed_mode_o || (run_req && busy_i && endless_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) mode_o <= 1'b0;
-    else if (halt_o) mode_o <= 1'b0;
-    else if (act_i && legal_i && order_i.op == I_RUN && !order_i.data[0]) mode_o <= 1'b0;
-    else mode_o <= run_o || speed_o;
+    if (!rst_ni) speed_mode_o <= 1'b0;
+    else if (halt_o) speed_mode_o <= 1'b0;
+    else if (exec_i && legal_i && cmd_i.op == I_RUN && !cmd_i.data[0]) speed_mode_o <= 1'b0;
+    else speed_mode_o <= run_o || speed_o;
   end
 
   // limits_q: VSTART and VSTOP are at most VMAX. It is one cycle late; no instruction can change them in
@@ -56,11 +56,11 @@ module pmc006_start_check
   end
 
   logic unused_bits;
-  assign unused_bits = &{1'b0, order_i, settings_i};
+  assign unused_bits = &{1'b0, cmd_i, settings_i};
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p006_sta_14, !((start_o || run_o) && halt_o))
-  `PPMC_ASSERT(p006_sta_16, !mode_o || busy_i)
+  `PPMC_ASSERT(p006_sta_16, !speed_mode_o || busy_i)
 `endif
 
 endmodule

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_reply_ram: copy of the parameter registers in a block RAM, for the replies.
 // Rules:  section 3.1 (reply data), section 3.0 (factory values).
-// Timing: a written value can be read in the next cycle. value_o is valid from the end of take_i until the
-//         next take_i. The 32 cycles after a reset fill the RAM with the factory values.
-// Assumes: write_i and take_i are low during these cycles.
+// Timing: a written value can be read in the next cycle. value_o is valid from the end of sample_i until the
+//         next sample_i. The 32 cycles after a reset fill the RAM with the factory values.
+// Assumes: write_i and sample_i are low during these cycles.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -12,15 +12,15 @@ module pmc006_reply_ram
 (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             write_i,  // write data_i to which_i
-    input  wire register_e        which_i,  // a register
-    input  wire logic      [13:0] data_i,   // data of write_i
-    input  wire logic             take_i,   // read which_i into value_o
-    output logic           [13:0] value_o   // value of which_i at take_i; 0 for RegNone
+    input  wire logic             write_i,   // write data_i to reg_id_i
+    input  wire register_e        reg_id_i,  // a register
+    input  wire logic      [13:0] data_i,    // data of write_i
+    input  wire logic             sample_i,  // read reg_id_i into value_o
+    output logic           [13:0] value_o    // value of reg_id_i at sample_i; 0 for RegNone
 );
 
-  function automatic logic [13:0] factory(logic [4:0] which);
-    unique case (which)
+  function automatic logic [13:0] factory_value(logic [4:0] reg_id);
+    unique case (reg_id)
       RegMstep:   return 14'(SETTINGS_RESET.mstep);
       RegCurrent: return 14'(SETTINGS_RESET.cur);
       RegAcc:     return 14'(SETTINGS_RESET.acc);
@@ -47,21 +47,21 @@ module pmc006_reply_ram
 
   // The upper half is never written; it holds the factory values. Each value is stored one address before
   // that of its register, because it is written to the lower half one cycle after it was read.
-  function automatic logic [63:0][13:0] every_word();
-    logic [63:0][13:0] words_of_all;
-    words_of_all = '0;
-    for (int unsigned i = 0; i < 31; i++) words_of_all[6'(32+i)] = factory(5'(i + 1));
-    return words_of_all;
+  function automatic logic [63:0][13:0] init_words();
+    logic [63:0][13:0] table_words;
+    table_words = '0;
+    for (int unsigned i = 0; i < 31; i++) table_words[6'(32+i)] = factory_value(5'(i + 1));
+    return table_words;
   endfunction
 
-  localparam logic [63:0][13:0] Words = every_word();
+  localparam logic [63:0][13:0] InitWords = init_words();
 
   (* ram_style = "block", no_rw_check *)
   logic [13:0] words[64];
   logic [5:0] count_q;
   logic filling;
 
-  initial for (int unsigned i = 0; i < 64; i++) words[i] = Words[6'(i)];
+  initial for (int unsigned i = 0; i < 64; i++) words[i] = InitWords[6'(i)];
 
   assign filling = !count_q[5];
 
@@ -72,12 +72,12 @@ module pmc006_reply_ram
   end
 
   always_ff @(posedge clk_i) begin
-    if (filling || write_i) words[{1'b0, filling?count_q[4:0] : which_i}] <= filling ? value_o : data_i;
-    if (filling || take_i) value_o <= words[{filling, filling?count_q[4:0] : which_i}];
+    if (filling || write_i) words[{1'b0, filling?count_q[4:0] : reg_id_i}] <= filling ? value_o : data_i;
+    if (filling || sample_i) value_o <= words[{filling, filling?count_q[4:0] : reg_id_i}];
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(values_filled_in_time, !filling || !(write_i || take_i))
+  `PPMC_ASSERT(values_filled_in_time, !filling || !(write_i || sample_i))
 `endif
 
 endmodule

@@ -364,8 +364,8 @@ Compensate:
         store MT
         load.lo MX
         mul.16 MT
-        out Bump                ; Bn = speed * RB * CCOMP / 2^22
+        out CurrentComp         ; Bn = speed * RB * CCOMP / 2^22
         load.lo MX
         mul.16 RScomp
-        out Lead                ; Wn = speed * SCOMP / 2^16, at most 64
+        out LeadAngle           ; Wn = speed * SCOMP / 2^16, at most 64
         halt

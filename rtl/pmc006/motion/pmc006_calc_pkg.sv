@@ -22,33 +22,33 @@ package pmc006_calc_pkg;
     OpOut,    // output = hi, or increment a coefficient
     OpSet,    // phase and shape of the ramp
     OpJump
-  } op_e;
+  } calc_op_e;
 
   // aux of a load, sum or division.
   typedef enum logic [3:0] {
-    Plain,
-    Dec,    // RWay with nd
-    Low,    // result to lo, hi = 0
-    LowDec
-  } where_e;
+    OperandPlain,
+    OperandDec,    // RWay with nd
+    OperandLow,    // result to lo, hi = 0
+    OperandLowDec
+  } operand_mode_e;
 
   // aux of a multiplication: number of steps.
   typedef enum logic [3:0] {
-    N1,
-    N2,
-    N16 = 4'd3,
-    N32
-  } steps_e;
+    Steps1,
+    Steps2,
+    Steps16 = 4'd3,
+    Steps32
+  } mul_steps_e;
 
   // aux of an output.
   typedef enum logic [3:0] {
     OutNext,   // Vn
     OutSpeed,  // V and Vn
-    OutBump,   // Bn = hi >> 6
-    OutLead,   // Wn = min(64, hi)
+    OutCurrentComp,   // Bn = hi >> 6
+    OutLeadAngle,   // Wn = min(64, hi)
     OutAcc,    // na = na + 1
     OutDec     // nd = nd + 1
-  } out_e;
+  } output_sel_e;
 
   // Bits 6, 5: 00 a word of pmc006_calc_words, 01 a table there, 10 a register.
   typedef enum logic [6:0] {
@@ -96,22 +96,22 @@ package pmc006_calc_pkg;
   } operand_e;
 
   typedef enum logic [3:0] {
-    Always,
-    IfCarry,
-    IfNotCarry,
-    IfZero,      // hi = 0
-    IfShort,     // kind L
-    IfSpeed,     // kind V
-    IfStop,      // speed mode was switched off
-    IfAnalog,
-    IfPlan,      // before t = 0
-    IfEnding,    // phase STOP or END
-    IfRamp,      // phase RAMP, DEC or STOP
-    IfLive,      // phase CRUISE or RAMP
-    IfUp,        // the ramp rises
-    IfSmooth,    // the ramp is an S
-    IfAcc5,      // na = 5
-    IfDec5       // nd = 5
+    CondAlways,
+    CondCarry,
+    CondNotCarry,
+    CondZero,      // hi = 0
+    CondShort,     // kind L
+    CondSpeed,     // kind V
+    CondStop,      // speed mode was switched off
+    CondAnalog,
+    CondPlan,      // before t = 0
+    CondEnding,    // phase STOP or END
+    CondRamp,      // phase RAMP, DEC or STOP
+    CondLive,      // phase CRUISE or RAMP
+    CondUp,        // the ramp rises
+    CondSmooth,    // the ramp is an S
+    CondAcc5,      // na = 5
+    CondDec5       // nd = 5
   } cond_e;
 
   // Bit 2: a ramp; without bit 2: the phase after the ramp.
@@ -126,16 +126,16 @@ package pmc006_calc_pkg;
 
   // Of OpSet: bit 3 of aux ends the ramp; bits 2..0 select which of phase, up and smooth are set.
   typedef struct packed {
-    op_e op;
-    logic [3:0] aux;  // where_e, steps_e, out_e or cond_e
+    calc_op_e   op;
+    logic [3:0] aux;  // operand_mode_e, mul_steps_e, output_sel_e or cond_e
     logic [8:0] low;  // operand, jump target or {phase_e, up, smooth}
   } instr_t;
 
   // ---- written by `make rom` from pmc006_calc.asm: entry points and length of the program -----------------
 
-  localparam logic [8:0] EntryPlan = 9'd0;
-  localparam logic [8:0] EntryTick = 9'd1;
-  localparam int unsigned ProgramWords = 272;
+  localparam logic [8:0] ENTRY_PLAN = 9'd0;
+  localparam logic [8:0] ENTRY_TICK = 9'd1;
+  localparam int unsigned CALC_ROM_WORDS = 272;
 
   // ---- end of the generated lines -------------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ module pmc006_calc_rom
   instr_t rom[512];
 
   initial begin
-    for (int unsigned i = ProgramWords; i < 512; i++) rom[i] = 17'h00010;  // halt
+    for (int unsigned i = CALC_ROM_WORDS; i < 512; i++) rom[i] = 17'h00010;  // halt
     rom[0]   = 17'h14002;  // EntryPlan: jump Plan
     rom[1]   = 17'h140c3;  // EntryTick: jump Advance
     rom[2]   = 17'h02042;  // Plan: load RLeft
@@ -286,10 +286,10 @@ module pmc006_calc_rom
     rom[264] = 17'h08006;  // store MT
     rom[265] = 17'h02407;  // load.lo MX
     rom[266] = 17'h0a606;  // mul.16 MT
-    rom[267] = 17'h10410;  // out Bump
+    rom[267] = 17'h10410;  // out CurrentComp
     rom[268] = 17'h02407;  // load.lo MX
     rom[269] = 17'h0a648;  // mul.16 RScomp
-    rom[270] = 17'h10610;  // out Lead
+    rom[270] = 17'h10610;  // out LeadAngle
     rom[271] = 17'h00010;  // halt
   end
 

@@ -16,18 +16,18 @@ module pmc006_ext_stop (
     output logic      [1:0] flags_o    // flags of EXT1, EXT2
 );
 
-  logic [1:0] before_q, hit;
+  logic [1:0] ext_prev_q, hit;
 
-  assign hit = enable_i & (ext_i ^ before_q) & ~(ext_i ^ rising_i);
+  assign hit = enable_i & (ext_i ^ ext_prev_q) & ~(ext_i ^ rising_i);
   assign event_o = |hit;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      before_q <= '1;
-      flags_o  <= '0;
+      ext_prev_q <= '1;
+      flags_o <= '0;
     end else begin
-      before_q <= ext_i;
-      flags_o  <= hit | (flags_o & ~clear_i);
+      ext_prev_q <= ext_i;
+      flags_o <= hit | (flags_o & ~clear_i);
     end
   end
 

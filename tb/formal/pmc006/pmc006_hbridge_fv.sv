@@ -12,16 +12,16 @@ module pmc006_hbridge_fv (
     input wire logic       cmp_i
 );
 
-  localparam int unsigned Off = 7, Blank = 3, Fast = 5;  // cycles
+  localparam int unsigned OffCycles = 7, BlankCycles = 3, FastCycles = 5;  // cycles
 
   logic pwm_o, en_o, high0_o, high1_o, high;
 
   `FV_RESET
 
   pmc006_hbridge #(
-      .OffClk  (Off),
-      .BlankClk(Blank),
-      .FastClk (Fast)
+      .OffCycles  (OffCycles),
+      .BlankCycles(BlankCycles),
+      .FastCycles (FastCycles)
   ) dut (
       .*
   );
@@ -43,13 +43,13 @@ module pmc006_hbridge_fv (
   `FV_ASSERT(p006_chp_01_never_both, !(high0_o && high1_o))
   `FV_ASSERT(p006_chp_01_not_one_behind_the_other, !((high0_o && $past(high1_o)) || (high1_o && $past
              (high0_o))))
-  `FV_ASSERT(p006_chp_03_off_time, !(high && $past(rst_ni && !high)) || off_q >= 4'(Off))
-  `FV_ASSERT(p006_chp_04_blanking, !($past(rst_ni && high) && !high) || on_q >= 4'(Blank) || $past
+  `FV_ASSERT(p006_chp_03_off_time, !(high && $past(rst_ni && !high)) || off_q >= 4'(OffCycles))
+  `FV_ASSERT(p006_chp_04_blanking, !($past(rst_ni && high) && !high) || on_q >= 4'(BlankCycles) || $past
              (!on_i || !en_o || sign_i != dut.sign_q))
   `FV_ASSERT(off_at_once, !$past(rst_ni && !on_i) || (!high && !en_o))
   `FV_ASSERT(p006_chp_06_sign_switches_off, !($past(rst_ni && sign_i != dut.sign_q)) || !high)
-  `FV_COVER(seen_fast_decay, high && dut.state_q == 2 && on_q == 4'(Blank))
-  `FV_COVER(seen_slow_decay, !high && off_q == 4'(Off) && drove_q)
+  `FV_COVER(seen_fast_decay, high && dut.state_q == 2 && on_q == 4'(BlankCycles))
+  `FV_COVER(seen_slow_decay, !high && off_q == 4'(OffCycles) && drove_q)
 
 endmodule
 
