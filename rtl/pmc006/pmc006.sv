@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006: integrated microstepping controller with a serial line; replacement for the PMC006B4.
-// Rules:  sections 1.1, 1.2, 4; all others through its blocks.
-// Timing: an input takes effect two cycles after the pin. All outputs are registered. From reset to the end
-//         of the boot, the device neither receives frames nor drives the motor.
+// Rules:  P006-PORT-01..04, all others through its blocks; pins, parameters: docs/pmc006/README.md, 2.
+// Timing: the input synchronisers have a latency of two cycles. All outputs are registered. From reset to the
+//         end of the boot, the device neither receives frames nor drives the motor.
 `default_nettype none
 
 module pmc006
@@ -16,8 +16,8 @@ module pmc006
     parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3
     parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 0 .. 127
     parameter int unsigned T_OFF_NS   = 20_000,        // off time of the chopper in ns, 1_000 .. 100_000
-    parameter int unsigned T_BLANK_NS = 1_000,         // blanking of its comparator in ns, 100 .. 10_000
-    parameter int unsigned FW_VERSION = 32'h0000_0123  // answer to the version command, 32 bits
+    parameter int unsigned T_BLANK_NS = 1_000,         // blanking time in ns, 100 .. 10_000
+    parameter int unsigned FW_VERSION = 32'h0000_0123  // reply to instruction R, 32 bits
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,

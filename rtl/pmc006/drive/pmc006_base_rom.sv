@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_base_rom: base code RB of a current setting: (416 + 153 * k) / 16 with k = (current - 325 mA) / 150 mA.
+// pmc006_base_rom: table of the base code RB: (416 + 153 * k) / 16 with k = (current - 325 mA) / 150 mA, both
+// rounded down.
 // Rules:  P006-EXC-20.
 // Timing: base_o follows current_i by one cycle.
 `default_nettype none
@@ -10,13 +11,13 @@ module pmc006_base_rom (
     output logic      [ 7:0] base_o      // 26 .. 255
 );
 
-  localparam int unsigned MinMilliamps = 325;
-  localparam int unsigned MaxMilliamps = 4000;
+  localparam int unsigned MinMa = 325;
+  localparam int unsigned MaxMa = 4000;
 
   function automatic logic [4095:0][7:0] base_table();
     logic [4095:0][7:0] words;
     for (int unsigned i = 0; i < 4096; i++) begin
-      words[12'(i)] = (i < MinMilliamps || i > MaxMilliamps) ? '0 : 8'((416 + 153 * ((i - MinMilliamps) / 150)) / 16);
+      words[12'(i)] = (i < MinMa || i > MaxMa) ? '0 : 8'((416 + 153 * ((i - MinMa) / 150)) / 16);
     end
     return words;
   endfunction

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_hbridge: one motor phase: reference bit stream and chopper with fixed off time, slow and fast decay.
+// pmc006_hbridge: H-bridge of one motor phase: reference bit stream, chopper with fixed off time, slow and
+// fast decay.
 // Rules:  P006-EXC-40, P006-CHP-01..06.
-// Timing: en_o and the half bridges change at the rising edge after on_i. A change of the sign puts the
-//         bridge into OFF at the next edge. A comparator level sampled at edge t takes effect at edge t + 2.
-//         With a reference of 0, OFF is repeated.
+// Timing: when on_i changes, en_o follows at the next rising edge. on_i = 0 or a change of sign_i switches
+//         both high sides off at the next rising edge, and the off time restarts. A comparator level sampled
+//         at edge t takes effect at edge t + 2. With a reference of 0 and the comparator low, OFF is
+//         repeated.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,7 +19,7 @@ module pmc006_hbridge #(
     input  wire logic       on_i,     // 0: the bridge is off
     input  wire logic [7:0] ref_i,    // current reference
     input  wire logic       sign_i,   // direction of the current
-    input  wire logic       cmp_i,    // raw pin
+    input  wire logic       cmp_i,    // comparator, raw pin
     output logic            pwm_o,    // bit stream of the reference
     output logic            en_o,     // 1: the bridge is enabled
     output logic            high0_o,  // high side of m10, m20

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_refs: current references of both phases from angle, current setting, compensation and decay.
 // Rules:  P006-EXC-10..13, P006-EXC-20, P006-EXC-30, P006-STA-12.
-// Timing: every 32 cycles, beginning with the first one after reset, all inputs are sampled at one edge. The
-//         four outputs change together 24 cycles later.
-// How:    the peak code is reduced by the decay. Then each of two products takes 8 steps of one bit. The
-//         first step also adds the rounding.
+// Timing: every 32 cycles, the first time in the first cycle after reset, all inputs except base_i are
+//         sampled at one edge, and base_i one cycle later. The four outputs change together 24 cycles later.
+// How:    the peak code is shifted right by the attenuation. Then a serial multiplier computes the two
+//         products with the sine, 8 cycles each. The first cycle also adds the rounding constant.
 `default_nettype none
 
 module pmc006_refs (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
     input  wire logic        off_i,           // BOOT or FREE
-    input  wire logic        decay_i,         // 1: the idle time is over, reduce the current
-    input  wire logic [ 2:0] att_i,           // 1 .. 4
-    input  wire logic [ 7:0] base_i,          // RB, one cycle after the other inputs
+    input  wire logic        decay_i,         // 1: reduce the current (standstill)
+    input  wire logic [ 2:0] att_i,           // attenuation coefficient, 1 .. 4
+    input  wire logic [ 7:0] base_i,          // RB, valid one cycle after the other inputs
     input  wire logic [10:0] current_comp_i,  // B
     input  wire logic [ 6:0] lead_angle_i,    // W
     input  wire logic        forward_i,       // direction of the motion
-    input  wire logic [ 8:0] angle_i,         // TH
+    input  wire logic [ 8:0] angle_i,         // TH, 512 per electrical turn
     output logic      [ 7:0] a_ref_o,         // current reference of phase A
     output logic             a_sign_o,        // sign of a_ref_o
     output logic      [ 7:0] b_ref_o,         // current reference of phase B
@@ -42,11 +42,12 @@ module pmc006_refs (
 
   // ---- sine and product -----------------------------------------------------------------------------------
 
-  // Phase A leads by a quarter turn. Cycles 8 to 15 compute its product, cycles 16 to 23 that of phase B.
+  // Phase A leads by a quarter turn. Cycles 8 to 15 compute the product of phase A, 16 to 23 that of phase B.
   assign angle_a = {angle_q[8:7] + 2'd1, angle_q[6:0]};
   assign angle = cycle_d[4] ? angle_q[7:0] : angle_a[7:0];
   assign index = angle[7] ? 8'd128 - 8'(angle[6:0]) : 8'(angle[6:0]);
-  assign sum     = ((cycle_q[2:0] == '0) ? 10'd128 : 10'(product_q)) + (reduced_q[cycle_q[2:0]] ? 10'(sine) : 10'd0);
+  assign sum     = ((cycle_q[2:0] == '0) ? 10'd128 : 10'(product_q)) +
+      (reduced_q[cycle_q[2:0]] ? 10'(sine) : 10'd0);
 
   pmc006_sine_rom u_sine (
       .clk_i,

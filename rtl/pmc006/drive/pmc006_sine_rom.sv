@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_sine_rom: quarter wave, floor(256 * sin(pi * i / 256) + 0.5).
+// pmc006_sine_rom: table of a quarter wave, floor(256 * sin(pi * i / 256) + 0.5) for i = index_i.
 // Rules:  P006-EXC-10 (the values are binding).
 // Timing: sine_o follows index_i by one cycle.
 `default_nettype none

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_frame: assembles the bytes from the host into frames of eight bytes and checks the frames.
+// pmc006_frame: assembles bytes from the line into frames of eight bytes and checks address and sum.
 // Rules:  P006-FRM-01/02/04/06/08, P006-UART-03, P006-BAD-01..05.
-// Timing: frame_o.go is high in the cycle of the last byte; code and data are valid from then until the next
-//         frame.
+// Timing: frame_o.go is combinational, in the cycle of valid_i of the last byte. code and data are valid in
+//         this cycle and stable until a byte of the next frame.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,8 +14,8 @@ module pmc006_frame
     input  wire logic [7:0] addr_i,     // address of the device
     input  wire logic [7:0] byte_i,     // byte from the line
     input  wire logic       valid_i,    // strobe: byte_i is a received byte
-    input  wire logic       error_i,    // strobe: a byte without a stop bit
-    input  wire logic       timeout_i,  // the previous byte was too long ago
+    input  wire logic       error_i,    // strobe: framing error
+    input  wire logic       timeout_i,  // 1: the next byte begins a new frame (silence on the line)
     output frame_t          frame_o     // valid frame for this device
 );
 

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_reply: data of a reply: the value that is active after the instruction.
-// Rules:  section 3.1 (reply data), sections 3.2, 3.3, 7.4 (words), P006-CMD-50/52/55/56, P006-FRM-09.
-// Timing: registered at sample_i, one cycle after the instruction has taken effect.
+// pmc006_reply: data of a reply: the values that are active after the instruction.
+// Rules:  P006-CMD-01..57, P006-FRM-09; reply data: docs/pmc006/README.md, 4; status words: 5, 12.
+// Timing: reply_o follows sample_i by one cycle. The instruction takes effect one cycle before sample_i.
 `default_nettype none
 
 module pmc006_reply
   import pmc006_pkg::*;
 #(
-    parameter bit          Echo    = 1'b0,          // 1: s returns its data
+    parameter bit          Echo    = 1'b0,          // 1: s replies its data
     parameter logic [31:0] Version = 32'h0000_0123
 ) (
     input wire logic clk_i,
-    input wire logic sample_i,  // sample the reply
+    input wire logic sample_i,  // strobe: sample the reply data
     input wire exec_cmd_t cmd_i,  // the instruction
-    input wire logic accepted_i,  // s, t, B, E, W, G or z was accepted
-    input wire logic [13:0] value_i,  // register of the instruction, else 0; valid with reply_o
+    input wire logic accepted_i,  // the instruction (s, t, B, E, W, G, z) was accepted
+    input wire logic [13:0] value_i,  // register of cmd_i, else 0; valid after sample_i
     input wire motor_settings_t settings_i,  // parameter registers
     input wire control_settings_t control_i,  // registers of the control
     input wire logic speed_mode_i,  // SPEED_MODE
     input wire logic busy_i,  // a motion is in progress
     input wire logic stall_i,  // register STALL
-    input wire logic [1:0] flags_i,  // EXT1, EXT2
-    input wire logic [1:0] ext_i,  // pins
+    input wire logic [1:0] flags_i,  // EXT flags; bit 0 EXT1
+    input wire logic [1:0] ext_i,  // pins EXT1, EXT2, synchronised
     input wire logic [4:0] gpi_i,  // general inputs, synchronised
     input wire logic [4:0] gpo_i,  // pins of the general outputs
     input wire logic [4:0] gpo_reg_i,  // register GPO
-    input wire logic [7:0] pp_i,  // pointer of the user program
+    input wire logic [7:0] pp_i,  // pointer PP of the user program
     input wire logic [31:0] pos_i,  // position
     input wire logic [31:0] stpos_i,  // position of the last stall
     input wire logic [31:0] word_i,  // word of the program
-    input wire logic ee_idle_i,  // EEPROM: idle
+    input wire logic ee_idle_i,  // EEPROM: no operation in progress
     input wire logic ee_failed_i,  // EEPROM: the last operation failed
     output logic [31:0] reply_o  // data of the reply
 );

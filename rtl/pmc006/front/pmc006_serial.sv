@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_serial: serial line to the host: receives frames, sends one reply for each frame that is executed.
-// Rules:  sections 2.1..2.4, P006-FRM-03/04/07/10, P006-BAD-05/06.
-// Timing: e = the edge of the last stop-bit sample. frame_o.go is high in the cycle after e; de_o rises
-//         ceil(1 bit) after e; bit edge n occurs ceil((2 + n) bits) after e; de_o falls ceil(82 bits) after
-//         e. The receiver is off from e + 1 until ceil(81.5 bits) after e. This is the middle of the last
-//         stop bit, when a host has received the complete reply.
-// How:    each bit lasts one full turn of an accumulator with an exact modulus.
+// pmc006_serial: serial line to the host: receives frames, sends one reply for each valid frame.
+// Rules:  P006-UART-01..05, P006-FRM-03/04/07/10, P006-BAD-05/06.
+// Timing: e = edge of the sample of the last stop bit of a frame. frame_o.go is high in the cycle after e.
+//         de_o rises ceil(1 bit) after e; bit edge n occurs ceil((2 + n) bits) after e; de_o falls ceil(82
+//         bits) after e. The receiver is off from e + 1 until ceil(81.5 bits) after e: this is the middle of
+//         the last stop bit, when a host has received the complete reply.
+// How:    a bit is one full turn of an accumulator with an exact modulus, so bit edges have no drift.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,17 +17,17 @@ module pmc006_serial
 ) (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        ready_i,  // 0: the receiver is off
+    input  wire logic        ready_i,  // 0: switch the receiver off
     input  wire logic [ 7:0] addr_i,   // address of the device
     input  wire logic        rxd_i,    // raw pin
     output logic             txd_o,    // to the host, idle high
-    output logic             de_o,     // the line driver is on
-    output frame_t           frame_o,  // frame to be executed
+    output logic             de_o,     // 1: the line driver is on
+    output frame_t           frame_o,  // valid frame for this device
     input  wire logic [31:0] reply_i   // stable from half a bit after frame_o.go
 );
 
   localparam longint unsigned ClkBaudGcd = ppmc_pkg::gcd(64'(ClkHz), 64'(Baud));
-  // Even, so that the middle of a bit is exact.
+  // Factor that makes the modulus even, so that the middle of a bit is exact.
   localparam longint unsigned EvenFactor = ((64'(ClkHz) / ClkBaudGcd) % 2 == 0) ? 64'd1 : 64'd2;
   localparam longint unsigned Modulus = EvenFactor * 64'(ClkHz) / ClkBaudGcd;
   localparam longint unsigned BitUnits = EvenFactor * 64'(Baud) / ClkBaudGcd;
@@ -36,7 +36,8 @@ module pmc006_serial
   localparam logic [Width-1:0] Step = Width'(BitUnits);
   localparam logic [Width-1:0] Wrap = Width'(BitUnits + WrapOffset);
   localparam logic [Width-1:0] WrapHalf = Width'(BitUnits + WrapOffset + Modulus / 64'd2);
-  // Phases after a sample. Bits are counted from the sample, whose result is available two cycles later.
+  // Initial phases in the cycle of valid, two cycles after the sample: a bit ends one bit after the sample
+  // (PhaseZero) or half a bit after it (PhaseHalf).
   localparam logic [Width-1:0] PhaseZero = Width'(WrapOffset + 64'd2 * BitUnits);
   localparam logic [Width-1:0] PhaseHalf = Width'(WrapOffset + 64'd2 * BitUnits + Modulus / 64'd2);
   // 192 bits to the next start bit, then 9.5 bits to the middle of the stop bit of this byte.
@@ -50,8 +51,8 @@ module pmc006_serial
 
   // ---- receiver -------------------------------------------------------------------------------------------
 
-  // After the receiver was off, the line must be high once before a byte is received. Otherwise the rest of a
-  // byte could be mistaken for a start bit.
+  // After the receiver was off, it ignores the line until the line is high. Otherwise the rest of a byte
+  // could be mistaken for a start bit.
   ppmc_sync u_line (
       .clk_i,
       .rst_ni,

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_buffer: image of the first kilobyte of the EEPROM: parameters (bytes 0..31), program (200 words from 32 on).
-// Rules:  P006-PRG-01/02, section 13.1.
-// Timing: word_o follows the address by two cycles. The address is word_addr_i while claim_i is high, else that
-//         of byte_addr_i. byte_o and pair_o are selected from word_o by the lowest bits of byte_addr_i.
+// pmc006_buffer: RAM image of the first kilobyte of the EEPROM: parameters (bytes 0 .. 31) and program (200
+// words from byte 32 on).
+// Rules:  P006-PRG-01/02; memory map: docs/pmc006/README.md, 14.
+// Timing: word_o follows the address by two cycles. The address is word_addr_i while claim_i is high, else
+//         byte_addr_i / 4. byte_o and pair_o are selected from word_o by the current bits 1..0 of
+//         byte_addr_i.
 `default_nettype none
 
 module pmc006_buffer (
     input  wire logic        clk_i,
     // executor: words of the program
     input  wire logic        claim_i,      // 1: the address is word_addr_i
-    input  wire logic [ 7:0] word_addr_i,  // 0 .. 199; 200 has no effect
-    input  wire logic        put_i,        // write data_i to word_addr_i
+    input  wire logic [ 7:0] word_addr_i,  // word of the program, 0 .. 199; 200: word_o is not used
+    input  wire logic        put_i,        // strobe: write data_i to word_addr_i
     input  wire logic [31:0] data_i,       // data of put_i
     output logic      [31:0] word_o,       // word of the program
     // EEPROM: bytes
     input  wire logic [ 9:0] byte_addr_i,  // byte address in the image
-    input  wire logic        we_i,         // write byte_i to byte_addr_i
+    input  wire logic        we_i,         // strobe: write byte_i to byte_addr_i
     input  wire logic [ 7:0] byte_i,       // data of we_i
     output logic      [ 7:0] byte_o,       // byte at byte_addr_i
-    output logic      [15:0] pair_o        // pair at an even byte_addr_i
+    output logic      [15:0] pair_o        // {byte at byte_addr_i + 1, byte_o}; byte_addr_i even
 );
 
   logic [7:0] word_addr, raddr, waddr;

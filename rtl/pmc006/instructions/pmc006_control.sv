@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_control: all logic between the line to the host and the motor: executor, registers, user program,
-// EEPROM, stop conditions.
-// Rules:  sections 3, 4, 7, 12 and 13, through its blocks.
+// pmc006_control: logic between the serial line and the motion: executor, registers, user program, EEPROM,
+// stop conditions.
+// Rules:  P006-CMD, P006-STA, P006-EXT, P006-STL, P006-IO, P006-PRG, P006-EEP, through its blocks.
 // Timing: motion_start_o and halt_o are combinational, in the cycle before the edge on which BUSY changes.
 `default_nettype none
 
@@ -19,20 +19,20 @@ module pmc006_control
     input  wire logic                  us_i,            // strobe every microsecond
     output logic                       boot_o,          // the device is booting
     // host
-    input  wire frame_t                frame_i,         // frame to be executed
+    input  wire frame_t                frame_i,         // valid frame from the host
     output logic                [31:0] reply_o,         // data of the reply
     output logic                [ 7:0] addr_o,          // address of the device
     // pins, inputs synchronised
-    input  wire logic                  fset_ni,         // factory settings
-    input  wire logic           [ 1:0] ext_i,           // EXT1, EXT2
+    input  wire logic                  fset_ni,         // pin FSET, low: factory settings
+    input  wire logic           [ 1:0] ext_i,           // bit 0 EXT1, bit 1 EXT2
     input  wire logic           [ 4:0] gpi_i,           // general inputs
     output logic                [ 1:0] pull_up_o,       // pull-ups of EXT1, EXT2
     output logic                [ 4:0] gpo_o,           // general outputs
-    input  wire sample_t               bemf_i,          // back EMF
-    input  wire logic                  scl_i,           // clock of the EEPROM bus
-    input  wire logic                  sda_i,           // data of the EEPROM bus
-    output logic                       scl_oe_o,        // 1: pull the clock low
-    output logic                       sda_oe_o,        // 1: pull the data low
+    input  wire sample_t               bemf_i,          // sample of the back EMF
+    input  wire logic                  scl_i,           // SCL of the EEPROM bus
+    input  wire logic                  sda_i,           // SDA of the EEPROM bus
+    output logic                       scl_oe_o,        // 1: drive SCL low
+    output logic                       sda_oe_o,        // 1: drive SDA low
     // motion
     output motor_settings_t            settings_o,      // settings used by motion and drive
     output motion_start_t              motion_start_o,  // start of a motion
@@ -226,7 +226,7 @@ module pmc006_control
       .stall_o(stall_position)
   );
 
-  // ---- guards, ports, answer ------------------------------------------------------------------------------
+  // ---- stop conditions, outputs, reply --------------------------------------------------------------------
 
   pmc006_ext_stop u_ext_stop (
       .clk_i,

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_data_check: checks which data each instruction accepts, regardless of the state of the motor, and selects
-// its register.
-// Rules:  section 3.1 (accepted D), sections 12.3 and 13.2 (user program, EEPROM), P006-CMD-51/57,
-//         P006-BAD-08/09.
-// Timing: ok_o belongs to cmd_i of the cycle before. The limits are read from a block RAM, one cycle after
-//         read_i.
+// pmc006_data_check: checks the data of an instruction against its limits, regardless of the state of the
+// motor, and selects its register.
+// Rules:  P006-CMD-51/57, P006-BAD-08/09/14/17; accepted data: docs/pmc006/README.md, 4 and 13.
+// Timing: access_o is valid one cycle after read_i, from a block RAM. ok_o is registered: it refers to cmd_i
+//         and the limits of the cycle before.
 `default_nettype none
 
 module pmc006_data_check
   import pmc006_pkg::*;
 (
     input  wire logic            clk_i,
-    input  wire logic            read_i,     // read the limits of op_i
-    input  wire logic            program_i,  // with read_i: instruction of the user program
+    input  wire logic            read_i,     // 1: read limits and register of op_i
+    input  wire logic            program_i,  // with read_i: 1: instruction of the user program
     input  wire logic      [7:0] op_i,       // with read_i: instruction code
-    input  wire exec_cmd_t       cmd_i,      // instruction op_i, from the next cycle on
-    output reg_access_t          access_o,   // register of the instruction
-    output logic                 ok_o        // the data are accepted
+    input  wire exec_cmd_t       cmd_i,      // instruction op_i, from the cycle after read_i on
+    output reg_access_t          access_o,   // register of the instruction read last
+    output logic                 ok_o        // 1: the data of cmd_i are accepted
 );
 
   typedef struct packed {
@@ -125,8 +124,8 @@ module pmc006_data_check
   data_limits_t limits_q;
   logic [31:0] data;
   logic other_ok, always_ok;
-  // above_q: data >= low; below_q: data <= high; other_ok_q: the other conditions are met; always_ok_q: legal regardless
-  // of these three
+  // above_q: data >= low; below_q: data <= high; other_ok_q: the other conditions are met; always_ok_q:
+  // accepted regardless of these three
   logic above_q, below_q, other_ok_q, always_ok_q;
 
   initial for (int unsigned i = 0; i < 512; i++) rom[i] = LimitsTable[9'(i)];
@@ -136,7 +135,7 @@ module pmc006_data_check
   assign access_o = limits_q.access;
   assign data = cmd_i.data;
 
-  // If an instruction has no limits, low and high pass any value of the lowest 14 bits.
+  // The limits of an instruction without limits accept any value of the lowest 14 bits.
   always_comb begin
     other_ok  = !limits_q.has_limits || data[31:14] == '0;
     always_ok = 1'b0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_exec: executes instructions, one at a time: from a frame, from the user program, from the EEPROM at
-// boot.
+// pmc006_exec: sequencer that executes one instruction at a time, from a frame, from the user program, or
+// from the EEPROM during the boot.
 // Rules:  P006-FRM-03, P006-CMD-52/53, P006-PRG-15/16, P006-STA-15.
-// Timing: a frame takes effect 4 cycles after its last sample if no instruction is in progress, a program
-//         instruction 5 cycles after its start. Both take effect on the edge that ends the cycle of exec_o.
-//         reply_sample_o follows one cycle later.
+// Timing: an instruction takes effect on the edge that ends the cycle of exec_o. This edge is 4 cycles after
+//         the last sample of a frame if no instruction is in progress, and 5 cycles after the edge that
+//         ends the cycle of instr_ack_o. For a frame, reply_sample_o is high in the next cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,29 +14,29 @@ module pmc006_exec
     input  wire logic          clk_i,
     input  wire logic          rst_ni,
     // frames
-    input  wire frame_t        frame_i,         // instruction of the host
+    input  wire frame_t        frame_i,         // valid frame from the host
     // user program
-    input  wire logic          instr_req_i,     // the next program instruction is scheduled
+    input  wire logic          instr_req_i,     // request: execute the next program instruction
     input  wire logic          cancel_i,        // discard the program instruction in progress
-    output logic               instr_ack_o,     // the program instruction begins
-    output logic               claim_o,         // the executor owns the address of the buffer
-    output logic               word1_o,         // word W1 instead of W0
-    output logic               use_pp_o,        // the address is that of the instruction at PP
+    output logic               instr_ack_o,     // strobe: the program instruction begins
+    output logic               claim_o,         // the executor drives the address of the buffer
+    output logic               word1_o,         // address: 1: word W1; 0: word W0
+    output logic               use_pp_o,        // address: 1: of the instruction at PP
     input  wire logic   [31:0] word_i,          // word of the buffer, two cycles after the address
     // EEPROM
-    input  wire logic          load_i,          // a parameter is available, during the boot
+    input  wire logic          load_i,          // strobe: execute or check load_op_i (boot)
     input  wire logic   [ 7:0] load_op_i,       // instruction that loads the parameter
     input  wire logic   [15:0] load_data_i,     // data of the parameter
-    input  wire logic          store_i,         // 1: execute; 0: only check the data
+    input  wire logic          store_i,         // with load_i: 1: execute; 0: only check the data
     // instruction in progress
     output exec_cmd_t          cmd_o,           // instruction
-    output reg_access_t        access_o,        // register of the instruction
-    output logic               legal_o,         // the data of cmd_o are in range
-    output logic               exec_o,          // cmd_o is executed in this cycle
-    output logic               set_position_o,  // the position is set in this cycle
+    output reg_access_t        access_o,        // register of cmd_o
+    output logic               legal_o,         // 1: the data of cmd_o are accepted
+    output logic               exec_o,          // strobe: cmd_o is executed in this cycle
+    output logic               set_position_o,  // strobe: set the position
     input  wire logic          step_i,          // a step is counted in this cycle
-    input  wire logic          try_accept_i,    // E was accepted
-    output logic               reply_sample_o   // sample the reply
+    input  wire logic          try_accept_i,    // E is accepted in this cycle of exec_o
+    output logic               reply_sample_o   // strobe: sample the reply data
 );
 
   typedef enum logic [2:0] {
@@ -56,8 +56,8 @@ module pmc006_exec
   logic [3:0] option_q;
 
   assign is_program = source_q == FromProgram || source_q == FromTry;
-  // The position is set in a cycle in which no step is counted. exec_o stays low, because an act can stop the
-  // motor and so suppress the step.
+  // The position is set in a cycle in which no step is counted. exec_o stays low for this instruction: step_i
+  // depends on exec_o, because an executed instruction can stop the motor and so suppress the step.
   assign set_position = state_q == StExec && op_q == I_POS_SET;
   assign set_position_o = set_position && !step_i;
 

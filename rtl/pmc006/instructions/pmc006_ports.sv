@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_ports: the general outputs.
-// Rules:  section 7.4, P006-CMD-46, P006-IO-02/03, P006-STL-03, section 12.3 (OUT).
-// Timing: gpo_o follows the register by one cycle.
+// pmc006_ports: register and pins of the general outputs.
+// Rules:  P006-CMD-46, P006-IO-02/03, P006-STL-03; instruction OUT: docs/pmc006/README.md, 13.
+// Timing: gpo_reg_o changes at the edge that ends the cycle of write_i; gpo_o follows one cycle later.
 `default_nettype none
 
 module pmc006_ports
@@ -9,11 +9,11 @@ module pmc006_ports
 (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
-    input  wire exec_cmd_t       cmd_i,        // instruction
-    input  wire logic            write_i,      // cmd_i is executed, with data in range
-    input  wire logic            stall_pin_i,  // a stall drives GPO5
+    input  wire exec_cmd_t       cmd_i,        // instruction in progress
+    input  wire logic            write_i,      // strobe: cmd_i is executed, its data are accepted
+    input  wire logic            stall_pin_i,  // 1: drive GPO5 high (stall)
     output logic           [4:0] gpo_reg_o,    // register GPO
-    output logic           [4:0] gpo_o         // pins
+    output logic           [4:0] gpo_o         // pins of the general outputs
 );
 
   logic unused_bits;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_program: processor of the user program: its current line, counter and flag, WAIT, the two keys.
-// Rules:  sections 12.3..12.7, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
-// Timing: instructions start at least 48 cycles apart. WAIT ends on the edge after the cycle in which its
+// pmc006_program: sequencer of the user program: line, counter and compare flag, WAIT, RESET and PAUSE keys.
+// Rules:  P006-PRG-02/10..17/20/30..33, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
+// Timing: instructions start at least 48 cycles apart. WAIT ends on the edge that ends the cycle in which the
 //         source has the requested level.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -11,29 +11,29 @@ module pmc006_program
 (
     input  wire logic            clk_i,
     input  wire logic            rst_ni,
-    input  wire logic            autostart_i,   // strobe: the program starts without a command
+    input  wire logic            autostart_i,   // strobe: start the program at line 0
     // executor
-    input  wire exec_cmd_t       cmd_i,         // instruction
-    input  wire logic            legal_i,       // the data of cmd_i are in range
+    input  wire exec_cmd_t       cmd_i,         // instruction in progress
+    input  wire logic            legal_i,       // 1: the data of cmd_i are accepted
     input  wire logic            exec_i,        // cmd_i is executed in this cycle
-    input  wire logic            instr_ack_i,   // instr_req_o was accepted
-    output logic                 instr_req_o,   // the next program instruction is scheduled
+    input  wire logic            instr_ack_i,   // strobe: the requested instruction begins
+    output logic                 instr_req_o,   // request: execute the instruction of the current line
     output logic                 cancel_o,      // discard the program instruction in progress
-    input  wire logic            word1_i,       // address of W1
-    input  wire logic            use_pp_i,      // the address is that of the instruction at PP
+    input  wire logic            word1_i,       // word_addr_o: 1: word W1; 0: word W0
+    input  wire logic            use_pp_i,      // word_addr_o: 1: of the instruction at PP
     output logic           [7:0] word_addr_o,   // address of a word in the buffer
-    output logic                 try_accept_o,  // E is accepted
-    output logic                 put_o,         // a word is written
-    output logic                 accepted_o,    // a word instruction, z or E is accepted
+    output logic                 try_accept_o,  // strobe: E is accepted
+    output logic                 put_o,         // strobe: write a word of the buffer
+    output logic                 accepted_o,    // strobe: W, G, z or E is accepted
     input  wire logic            burning_i,     // the program is written to the EEPROM: no word may change
-    output logic           [7:0] pp_o,          // pointer PP, a word address
+    output logic           [7:0] pp_o,          // pointer PP, word address 0 .. 200
     // sources
     input  wire logic            us_i,          // strobe every microsecond
     input  wire logic      [4:0] gpi_i,         // general inputs, synchronised
-    input  wire logic      [1:0] flags_i,       // flags of EXT1, EXT2
+    input  wire logic      [1:0] flags_i,       // EXT flags; bit 0 EXT1
     input  wire logic            busy_i,        // a motion is in progress
     input  wire logic            stall_i,       // register STALL
-    output logic                 stop_o         // the RESET key stops the motion
+    output logic                 stop_o         // strobe: the RESET key stops the motion
 );
 
   localparam int unsigned InstrCycles = 48;
@@ -74,8 +74,7 @@ module pmc006_program
 
   // ---- sources --------------------------------------------------------------------------------------------
 
-  // During WAIT the option of the WAIT instruction is used, because the executor may process another
-  // instruction.
+  // During WAIT the stored option is used, because the executor may execute instructions of frames.
   assign option = (state_q == StWait) ? option_q : cmd_i.option;
   assign bits = {stall_i, busy_i, flags_i, gpi_i};
 

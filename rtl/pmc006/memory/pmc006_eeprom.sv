@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_eeprom: boot, save, burn and factory restore: transfers over the EEPROM bus and into the registers.
-// Rules:  section 13, P006-CMD-02/41, P006-BAD-12..15/22/24.
-// Timing: the bus runs on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte is sampled on the tick that begins
-//         its first bit. At boot the page is checked, then executed, eight cycles per byte. If the page is
-//         invalid, its copy is used.
+// Rules:  P006-EEP-01/10/11/20..23, P006-CMD-02/41, P006-BAD-12..15/22/24.
+// Timing: the bus runs on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is sampled on the
+//         tick that begins its first bit. During the boot the parameter page is checked, then executed, each
+//         with eight cycles per byte. If the page is invalid, the copy is read and used instead.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,42 +11,42 @@ module pmc006_eeprom
   import pmc006_pkg::*;
   import ppmc_i2c_pkg::*;
 #(
-    parameter int unsigned ClkHz = 16_000_000,
-    parameter int unsigned I2cHz = 400_000,
-    parameter logic [6:0] Device = 7'h50
+    parameter int unsigned       ClkHz  = 16_000_000,
+    parameter int unsigned       I2cHz  = 400_000,
+    parameter logic        [6:0] Device = 7'h50
 ) (
-    input wire logic clk_i,
-    input wire logic rst_ni,
-    input wire logic fset_ni,  // synchronised
-    input wire logic restore_i,  // fset_ni was low for its filter time
+    input  wire logic                    clk_i,
+    input  wire logic                    rst_ni,
+    input  wire logic                    fset_ni,          // synchronised
+    input  wire logic                    restore_i,        // strobe: fset_ni was low for its filter time
     // requests
-    input wire logic save_i,  // write the parameters
-    input wire logic burn_i,  // write the program
-    output logic idle_o,  // a request can be accepted
-    output logic failed_o,  // last request or restore failed; valid while idle_o
-    output logic burning_o,  // the program is being written
-    output logic boot_o,  // registers and program are not loaded yet
-    output logic autostart_o,  // strobe: the program starts without a command
-    output logic rst_settings_no,  // reset of the parameter registers by a restore at boot
+    input  wire logic                    save_i,           // strobe: write the parameters
+    input  wire logic                    burn_i,           // strobe: write the program
+    output logic                         idle_o,           // save_i or burn_i is accepted in this cycle
+    output logic                         failed_o,         // save, burn or restore failed; valid with idle_o
+    output logic                         burning_o,        // the program is being written
+    output logic                         boot_o,           // 1: boot in progress
+    output logic                         autostart_o,      // strobe: start the user program
+    output logic                         rst_settings_no,  // 0: reset the registers (restore at boot)
     // registers
-    input wire motor_settings_t settings_i,  // parameter registers
-    input wire control_settings_t control_i,  // registers of the control
-    output logic load_o,  // execute load_op_o with the byte or pair of the buffer
-    output logic [7:0] load_op_o,  // instruction that loads a parameter
-    output logic load_wide_o,  // load_op_o uses a pair
-    output logic store_o,  // 1: execute; 0: only check the data
-    input wire logic legal_i,  // the data are in range
+    input  wire motor_settings_t         settings_i,       // parameter registers
+    input  wire control_settings_t       control_i,        // registers of the control
+    output logic                         load_o,           // strobe: check or execute load_op_o
+    output logic                   [7:0] load_op_o,        // instruction that loads a parameter
+    output logic                         load_wide_o,      // 1: load_op_o uses a pair; 0: a byte
+    output logic                         store_o,          // 1: execute load_op_o; 0: check the data
+    input  wire logic                    legal_i,          // 1: the data of load_op_o are accepted
     // buffer
-    input wire logic claim_i,  // the executor reads the buffer
-    output logic [9:0] byte_addr_o,  // address of the byte
-    output logic we_o,  // write byte_o to the buffer
-    output logic [7:0] byte_o,  // byte from the EEPROM
-    input wire logic [7:0] byte_i,  // byte of the buffer at byte_addr_o
+    input  wire logic                    claim_i,          // 1: the executor addresses the buffer
+    output logic                   [9:0] byte_addr_o,      // address of the byte
+    output logic                         we_o,             // strobe: write byte_o to the buffer
+    output logic                   [7:0] byte_o,           // byte from the EEPROM
+    input  wire logic              [7:0] byte_i,           // byte of the buffer at byte_addr_o
     // bus, synchronised
-    input wire logic scl_i,  // clock of the bus
-    input wire logic sda_i,  // data of the bus
-    output logic scl_oe_o,  // 1: pull the clock low
-    output logic sda_oe_o  // 1: pull the data low
+    input  wire logic                    scl_i,            // SCL
+    input  wire logic                    sda_i,            // SDA
+    output logic                         scl_oe_o,         // 1: drive SCL low
+    output logic                         sda_oe_o          // 1: drive SDA low
 );
 
   localparam int unsigned PollTicks = 4 * I2cHz / 100;
@@ -60,9 +60,9 @@ module pmc006_eeprom
     StFree,
     StStart,
     StDevice,
-    StHigh,    // address
+    StHigh,    // high byte of the address
     StLow,
-    StAgain,   // START of a read
+    StAgain,   // repeated START of a read
     StSource,  // device address for the read
     StData,
     StStop,
@@ -166,7 +166,8 @@ module pmc006_eeprom
   assign we_o = byte_received || (state_q == StWipe && program_bad_q);
   assign byte_o = (state_q == StWipe) ? 8'd0 : received;
 
-  // The executor has priority for the buffer. The time between two bytes is long enough for both.
+  // The executor has priority for the buffer. The time between two bytes is long enough for both, so
+  // prefetch_q is valid before it is sent.
   always_ff @(posedge clk_i) begin
     prefetch_valid_q <= {prefetch_valid_q[0], !claim_i};
     if (prefetch_valid_q[1]) prefetch_q <= byte_i;
@@ -184,7 +185,7 @@ module pmc006_eeprom
 
   // ---- sequence -------------------------------------------------------------------------------------------
 
-  // If a boot finds an invalid page, the copy is tried once.
+  // If the page is invalid during the boot, the copy is read once.
   assign try_copy = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
   assign idle_o = state_q == StIdle && !restore_q;
   assign failed_o = fail_q;

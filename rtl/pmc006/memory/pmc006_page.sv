@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_page: memory map of the EEPROM. Outputs the byte to be sent, or the byte that a check expects, sums
-//         the bytes, and outputs the instruction that loads a parameter.
-// Rules:  section 13.1 (map, factory page), P006-EEP-10/11/22, P006-BAD-14/15.
-// Timing: byte_o and mismatch_o are combinational. The high byte of a pair is stored when the low byte is sent,
-//         so that both bytes are of the same register value.
+// pmc006_page: memory map of the EEPROM: outputs the byte to be sent or expected, the check sum, and the
+// instruction that loads a parameter.
+// Rules:  P006-EEP-10/11/22, P006-BAD-14/15; memory map, factory page: docs/pmc006/README.md, 14.
+// Timing: byte_o and mismatch_o are combinational. The high byte of a pair is stored when the low byte is
+//         sent, so that both bytes are of the same register value.
 `default_nettype none
 
 module pmc006_page
@@ -12,20 +12,20 @@ module pmc006_page
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [9:0] addr_i,  // address in the EEPROM
-    input wire logic byte_sent_i,  // byte_o is sent
-    input wire logic byte_received_i,  // received_i is valid
+    input wire logic byte_sent_i,  // strobe: byte_o is sent
+    input wire logic byte_received_i,  // strobe: received_i is valid
     input wire logic [7:0] received_i,  // received byte
-    input wire logic clear_i,  // clear the sum
+    input wire logic clear_i,  // clear the check sum
     input wire logic burn_i,  // 1: the program is written; 0: the parameters
-    input wire logic mark_i,  // the program is about to be written
-    input wire logic [7:0] prefetch_i,  // byte of the program
-    input wire logic factory_i,  // factory values instead of the registers
+    input wire logic mark_i,  // 1: byte_o of the program mark is 00 (invalid)
+    input wire logic [7:0] prefetch_i,  // prefetched byte of the program
+    input wire logic factory_i,  // 1: factory values instead of the registers
     input wire motor_settings_t settings_i,  // parameter registers
     input wire control_settings_t control_i,  // registers of the control
     output logic [7:0] byte_o,  // byte to be sent, or expected
-    output logic mismatch_o,  // the received byte differs from the expected one
+    output logic mismatch_o,  // strobe: received_i differs from byte_o, at a checked address
     output logic [7:0] op_o,  // instruction that loads the byte or pair, or I_NONE
-    output logic wide_o  // op_o uses a pair
+    output logic wide_o  // data of op_o: 1: pair; 0: byte
 );
 
   typedef struct packed {
@@ -33,7 +33,7 @@ module pmc006_page
     logic [7:0]  single;  // the byte, if it is not part of a pair
   } page_field_t;
 
-  // Content of the page at this address.
+  // Content of the parameter page at this offset.
   function automatic page_field_t page_field(motor_settings_t set, control_settings_t ctl,
                                              logic [4:0] offset);
     page_field_t f;

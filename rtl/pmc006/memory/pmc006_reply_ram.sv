@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_reply_ram: copy of the parameter registers in a block RAM, for the replies.
-// Rules:  section 3.1 (reply data), section 3.0 (factory values).
-// Timing: a written value can be read in the next cycle. value_o is valid from the end of sample_i until the
-//         next sample_i. The 32 cycles after a reset fill the RAM with the factory values.
-// Assumes: write_i and sample_i are low during these cycles.
+// Rules:  P006-CMD-50/52, P006-BAD-08; factory values: docs/pmc006/README.md, 4.
+// Timing: a written value can be read in the next cycle. value_o follows sample_i by one cycle and is stable
+//         until the next sample_i. In the 32 cycles after a reset, the RAM is filled with the factory values.
+// Assumes: write_i and sample_i are low during these 32 cycles.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -12,10 +12,10 @@ module pmc006_reply_ram
 (
     input  wire logic             clk_i,
     input  wire logic             rst_ni,
-    input  wire logic             write_i,   // write data_i to reg_id_i
-    input  wire register_e        reg_id_i,  // a register
+    input  wire logic             write_i,   // strobe: write data_i to reg_id_i
+    input  wire register_e        reg_id_i,  // register to be written or read
     input  wire logic      [13:0] data_i,    // data of write_i
-    input  wire logic             sample_i,  // read reg_id_i into value_o
+    input  wire logic             sample_i,  // strobe: read reg_id_i into value_o
     output logic           [13:0] value_o    // value of reg_id_i at sample_i; 0 for RegNone
 );
 
@@ -45,8 +45,8 @@ module pmc006_reply_ram
     endcase
   endfunction
 
-  // The upper half is never written; it holds the factory values. Each value is stored one address before
-  // that of its register, because it is written to the lower half one cycle after it was read.
+  // The upper half is never written; it stores the factory values. The value of register n is stored at
+  // address 32 + n - 1, because it is written to the lower half one cycle after it was read.
   function automatic logic [63:0][13:0] init_words();
     logic [63:0][13:0] table_words;
     table_words = '0;

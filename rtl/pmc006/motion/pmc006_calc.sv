@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc: calculator of the planner: one adder that multiplies and divides step by step, a small memory
-// and the program of pmc006_calc_rom (pmc006_calc.asm).
-// Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
-// Timing: an instruction takes 2 cycles without operand, 3 with one, n + 2 with n steps. A planning ends
-//         within 785 cycles of plan_i, an update tick within 590 of advance_i. Either strobe may occur during
-//         a run and then ends this run.
+// pmc006_calc: sequential processor of the motion planner: one adder, which multiplies and divides one bit
+// per cycle, a small memory, and the program of pmc006_calc_rom (pmc006_calc.asm).
+// Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
+// Timing: an instruction takes 2 cycles without operand, 3 with an operand, n + 2 with n steps. A run ends
+//         within 785 cycles of plan_i and within 590 cycles of advance_i. plan_i during a run aborts this
+//         run: a motion can be halted and the next one started while a run is in progress.
+// Assumes: advance_i is low while busy_o is high (two update ticks are at least 800 cycles apart).
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,10 +14,10 @@ module pmc006_calc
 (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        plan_i,          // a motion begins: plan it
-    input  wire logic        advance_i,       // an update tick
+    input  wire logic        plan_i,          // strobe: start a run that plans a motion
+    input  wire logic        advance_i,       // strobe: start the run of an update tick
     output logic             busy_o,          // a run is in progress
-    // motion; stable while busy_o
+    // motion; stable while busy_o is high, except left_i
     input  wire logic        short_i,         // kind L
     input  wire logic        speed_i,         // kind V
     input  wire logic        stop_i,          // stop request
@@ -25,9 +26,9 @@ module pmc006_calc
     input  wire logic [ 2:0] dec_i,           // deceleration coefficient, sampled with plan_i
     input  wire logic [13:0] v_i,             // V
     input  wire logic [11:0] ve_i,            // VSTOP
-    input  wire logic [30:0] left_i,          // R; valid until 6 cycles after the start
+    input  wire logic [30:0] left_i,          // R; stable only until 6 cycles after the strobe
     input  wire logic [ 7:0] mstep_i,         // 1, 2, 4, .. 128
-    // sampled settings
+    // sampled settings; stable while busy_o is high
     input  wire logic [13:0] vmax_i,          // VMAX
     input  wire logic [ 9:0] adc_i,           // h
     input  wire logic [ 7:0] base_i,          // base code RB of the current
@@ -42,7 +43,7 @@ module pmc006_calc
 );
 
 
-  instr_t instr, ir_q;  // instr: fetched; ir_q: delayed, for operand and execution
+  instr_t instr, ir_q;  // instr: fetched; ir_q: one cycle later, for operand and execution
   logic run_q, read_q, no_operand, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] steps_left_q, steps;
@@ -50,7 +51,7 @@ module pmc006_calc
   logic [2:0] acc_q, dec_q;
 
   logic [31:0] hi_q, lo_q, operand_q, a, b;
-  logic [31:0] word, register;  // the word or the register is 0
+  logic [31:0] word, register;
   logic [32:0] sum;
   logic mul, div, root, shift_only;
   logic [2:0] coefficient;
@@ -114,7 +115,7 @@ module pmc006_calc
     else if (done && ir_q.op == OpHalt) run_q <= 1'b0;
   end
 
-  // No reset: a start sets the following registers.
+  // No reset: plan_i or advance_i sets the following registers.
   always_ff @(posedge clk_i) begin
     if (fetch) pc_q <= pc_d;
     ir_q   <= instr;
@@ -161,12 +162,12 @@ module pmc006_calc
 
   always_ff @(posedge clk_i) operand_q <= word | (ir_q.low[6] ? register : '0);
 
-  // ---- the adder ------------------------------------------------------------------------------------------
+  // ---- adder ----------------------------------------------------------------------------------------------
 
   assign mul = ir_q.op == OpMul;
   assign root = ir_q.op == OpRoot;
   assign div = ir_q.op == OpDiv || root;
-  assign shift_only = root && steps_left_q[0];  // one digit of a root uses two bits of its square
+  assign shift_only = root && steps_left_q[0];  // one bit of the root consumes two bits of the square
   assign zero = hi_q == '0;
 
   always_comb begin

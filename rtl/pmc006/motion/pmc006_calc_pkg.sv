@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_pkg: instruction set of the planner: instructions of pmc006_calc, operands and conditions.
+// pmc006_calc_pkg: instruction set of the motion planner: operations of pmc006_calc, operands, conditions.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23 (computed by the program in pmc006_calc.asm).
-// How:    an instruction is {operation, aux, operand} or {jump, condition, target}. hi and lo are the
-//         accumulator pair of the one adder; only hi takes part in sums.
+// How:    an instruction is {operation, aux, operand} or {jump, condition, target}. {hi, lo} is the 64-bit
+//         accumulator of the only adder; load, add and sub use only hi as input.
 `default_nettype none
 
 package pmc006_calc_pkg;
@@ -13,22 +13,22 @@ package pmc006_calc_pkg;
   typedef enum logic [3:0] {
     OpHalt,
     OpLoad,   // hi = operand
-    OpAdd,    // hi = hi + operand; carry
-    OpSub,    // hi = hi - operand; carry = operand was not greater
+    OpAdd,    // hi = hi + operand; carry = overflow
+    OpSub,    // hi = hi - operand; carry = (operand <= hi)
     OpStore,  // word = hi
-    OpMul,    // {hi, lo} = (hi + operand * low n bits of lo), rest of lo rotated right by n
+    OpMul,    // {hi, lo} = ((hi + operand * (lowest n bits of lo)) << (32 - n)) + (lo >> n)
     OpDiv,    // lo = {hi, lo} / operand, hi = remainder
-    OpRoot,   // hi = 0: square root of lo to output VN, which must be 0
-    OpOut,    // output = hi, or increment a coefficient
-    OpSet,    // phase and shape of the ramp
+    OpRoot,   // VN = square root of lo; hi and VN must be 0 before
+    OpOut,    // an output = hi, or increment a coefficient
+    OpSet,    // set phase and shape of the ramp, see instr_t
     OpJump
   } calc_op_e;
 
   // aux of a load, sum or division.
   typedef enum logic [3:0] {
     OperandPlain,
-    OperandDec,    // RWay with nd
-    OperandLow,    // result to lo, hi = 0
+    OperandDec,    // RWay uses nd instead of na
+    OperandLow,    // result in lo, hi = 0
     OperandLowDec
   } operand_mode_e;
 
@@ -42,15 +42,15 @@ package pmc006_calc_pkg;
 
   // aux of an output.
   typedef enum logic [3:0] {
-    OutNext,   // Vn
-    OutSpeed,  // V and Vn
+    OutNext,   // Vn = hi
+    OutSpeed,  // V = Vn = hi
     OutCurrentComp,   // Bn = hi >> 6
     OutLeadAngle,   // Wn = min(64, hi)
     OutAcc,    // na = na + 1
     OutDec     // nd = nd + 1
   } output_sel_e;
 
-  // Bits 6, 5: 00 a word of pmc006_calc_words, 01 a table there, 10 a register.
+  // Bits 6..5: 00 word of pmc006_calc_words, 01 table of pmc006_calc_words, 10 register.
   typedef enum logic [6:0] {
     // writable words
     MLt     = 7'h00,  // live target used last
@@ -75,8 +75,8 @@ package pmc006_calc_pkg;
     K3x2p16 = 7'h17,  // 196608
     K2p31   = 7'h18,
     // tables, indexed by a coefficient in the lowest three bits
-    RRate   = 7'h20,  // 17 << na; for a falling ramp 17 << nd
-    RWay    = 7'h28,  // 3400 << na; with Dec nd
+    RRate   = 7'h20,  // 17 << na; for a ramp downwards 17 << nd
+    RWay    = 7'h28,  // 3400 << na; with OperandDec 3400 << nd
     // registers of the motion and sampled settings
     RV      = 7'h40,
     RVe     = 7'h41,
@@ -88,7 +88,7 @@ package pmc006_calc_pkg;
     RCcomp  = 7'h47,
     RScomp  = 7'h48,
     RMstep  = 7'h49,  // 1, 2, 4, .. 128
-    // registers of the calculator
+    // registers of pmc006_calc
     RLo     = 7'h4c,
     RMid    = 7'h4d,  // {hi, lo} >> 16
     RMargin = 7'h4e,  // margin(hi): (hi >> 12) + 4
@@ -102,9 +102,9 @@ package pmc006_calc_pkg;
     CondZero,      // hi = 0
     CondShort,     // kind L
     CondSpeed,     // kind V
-    CondStop,      // speed mode was switched off
+    CondStop,      // kind V, and the stop request is active
     CondAnalog,
-    CondPlan,      // before t = 0
+    CondPlan,      // run of plan_i, before t = 0
     CondEnding,    // phase STOP or END
     CondRamp,      // phase RAMP, DEC or STOP
     CondLive,      // phase CRUISE or RAMP
@@ -124,7 +124,8 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
-  // Of OpSet: bit 3 of aux ends the ramp; bits 2..0 select which of phase, up and smooth are set.
+  // OpSet: aux bit 3 ends the ramp (phase bit 2 = 0). Otherwise aux bits 2, 1, 0 enable the setting of phase,
+  // up, smooth.
   typedef struct packed {
     calc_op_e   op;
     logic [3:0] aux;  // operand_mode_e, mul_steps_e, output_sel_e or cond_e

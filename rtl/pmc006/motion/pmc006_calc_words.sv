@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_words: memory of the planner's calculator: words written by its program, constants, tables.
+// pmc006_calc_words: memory of pmc006_calc: words written by the program, constants, tables.
 // Rules:  P006-MOT-10..23 (the constants are binding).
 // Timing: word_o follows raddr_i by one cycle.
-// Assumes: a word is not read in the cycle in which it is written.
+// Assumes: the address that is being written is not read in the same cycle.
 `default_nettype none
 
 module pmc006_calc_words
@@ -10,10 +10,10 @@ module pmc006_calc_words
 (
     input  wire logic        clk_i,
     input  wire logic        we_i,     // write data_i to waddr_i
-    input  wire logic [ 3:0] waddr_i,  // a writable word
+    input  wire logic [ 3:0] waddr_i,  // address of a writable word, M… of operand_e
     input  wire logic [31:0] data_i,   // data of we_i
-    input  wire logic [ 6:0] raddr_i,  // operand_e; tables have a coefficient in bits 2..0
-    output logic      [31:0] word_o    // 0 for a register
+    input  wire logic [ 6:0] raddr_i,  // operand_e; table: bits 2..0 are the coefficient
+    output logic      [31:0] word_o    // 0 if raddr_i is a register
 );
 
   function automatic logic [31:0] init_word(logic [6:0] addr);

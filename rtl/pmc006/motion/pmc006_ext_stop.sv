@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_ext_stop: emergency stops: detects edges of EXT1 and EXT2 and stores their flags.
-// Rules:  section 7.1, P006-STA-14/17, P006-BAD-21/26.
+// pmc006_ext_stop: emergency switches: detects the enabled edges of EXT1 and EXT2 and stores the EXT flags.
+// Rules:  P006-EXT-01..11, P006-STA-14/17, P006-BAD-21/26.
 // Timing: event_o is high in the cycle in which the synchronised level differs from that of the cycle before.
-//         The flag is valid from the end of this cycle.
+//         flags_o follows event_o by one cycle. An edge has priority over clear_i in the same cycle.
 `default_nettype none
 
 module pmc006_ext_stop (
@@ -11,9 +11,9 @@ module pmc006_ext_stop (
     input  wire logic [1:0] ext_i,     // synchronised; bit 0 EXT1
     input  wire logic [1:0] rising_i,  // TRIGM; 1 = rising edge
     input  wire logic [1:0] enable_i,  // EXTEN; 1 = enabled
-    input  wire logic [1:0] clear_i,   // clear the flag
-    output logic            event_o,   // a flag is being set
-    output logic      [1:0] flags_o    // flags of EXT1, EXT2
+    input  wire logic [1:0] clear_i,   // strobe: clear the flag
+    output logic            event_o,   // strobe: a flag is set at the next rising edge
+    output logic      [1:0] flags_o    // EXT flags; bit 0 EXT1
 );
 
   logic [1:0] ext_prev_q, hit;

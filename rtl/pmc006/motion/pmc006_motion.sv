@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_motion: a motion from its acceptance to its end: latched settings, planning, steps, live target,
-// compensation.
+// pmc006_motion: executes a motion from its acceptance to its end: latches the settings, plans the ramps,
+// generates the steps, follows changes of the target speed, computes the current compensation.
 // Rules:  P006-STA-10, P006-CMD-54, P006-MOT-01..05, P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42,
 //         P006-MOT-50..52, P006-EXC-21..24.
-// Timing: motion_o.busy rises at the edge s of start or run. t = 0 is the first us tick at or after s + 800.
-//         A step scheduled at t is made two cycles after its us tick. step_o is combinational: it is high in
-//         the cycle whose edge makes the step.
+// Timing: motion_o.busy rises at the edge s that ends the cycle of start or run. t = 0 is the first µs tick
+//         at or after s + 800. A step scheduled at t is made two cycles after the µs tick t. step_o is
+//         combinational: it is high in the cycle before the edge at which the step is made.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,21 +13,22 @@ module pmc006_motion
   import pmc006_pkg::*;
   import pmc006_calc_pkg::*;
 (
-    input wire logic clk_i,
-    input wire logic rst_ni,
-    input wire logic us_i,  // strobe every microsecond
-    input wire motor_settings_t settings_i,  // parameter registers
-    input wire logic [7:0] base_i,  // base code of the current, one cycle after settings_i
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic                  us_i,            // strobe every microsecond
+    input  wire motor_settings_t       settings_i,      // parameter registers
+    input  wire logic            [7:0] base_i,          // base code RB, one cycle after settings_i
     // accepted instructions
-    input wire motion_start_t motion_start_i,  // start of a motion
-    input wire logic halt_i,  // stop immediately; no step in this cycle
-    input wire sample_t adc_i,  // h of the analog target
-    output motion_status_t motion_o,  // state of the motion
-    output logic step_o,  // a step is made at the next rising edge
-    output drive_cmd_t drive_cmd_o  // values for the drive
+    input  wire motion_start_t         motion_start_i,  // start of a motion
+    input  wire logic                  halt_i,          // stop immediately; step_o is low
+    input  wire sample_t               adc_i,           // sample h of the analog speed
+    output motion_status_t             motion_o,        // state of the motion
+    output logic                       step_o,          // a step is made at the next rising edge
+    output drive_cmd_t                 drive_cmd_o      // values for the drive
 );
 
-  logic start, start_q, t0, update, load_settings, load_base, sample, advance, motion_end, load_v, calc_busy;
+  logic
+      start, start_q, t0, update, load_settings, load_base_q, sample, advance, motion_end, load_v, calc_busy;
   logic short_q, speed_q, stop_q, analog_q, end_run, busy_q, forward_q, steady_q;
   logic [11:0] ve_q;
   logic [ 7:0] base_q;
@@ -42,7 +43,7 @@ module pmc006_motion
   phase_e phase;
 
   assign start = motion_start_i.start || motion_start_i.run;
-  // Until a motion is accepted, the registers follow the inputs, because load is timing-critical.
+  // While no motion is in progress, the registers follow the inputs, because start is timing-critical.
   assign load_settings = !busy_q || t0 || update;
   assign end_run = speed_q && phase == PhEnd && !motion_start_i.speed;
   assign drive_cmd_o = '{
@@ -82,8 +83,8 @@ module pmc006_motion
       for (int unsigned i = 1; i < 8; i++) increment_q[7-i] <= settings_i.mstep[i];
       increment_q[7] <= settings_i.mstep == '0;
     end
-    load_base <= load_settings;
-    if (load_base) base_q <= base_i;
+    load_base_q <= load_settings;
+    if (load_base_q) base_q <= base_i;
     if (load_settings) begin
       vmax_q   <= settings_i.vmax;
       analog_q <= settings_i.regulate;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_rate: time and steps of the running motion: update ticks, current speed, rate accumulator, steps
-// left.
-// Rules:  P006-MOT-01..05, section 5.3.
-// Timing: E = edge of a us tick. At E, the count of ticks, V, B and W change, or the motion ends. A scheduled
-//         step is made at E + 2 (step_o is high in the cycle before that edge); advance_o follows in the
-//         cycle after it. busy_i falls on the edge of motion_end_o.
+// pmc006_rate: step generator of the motion in progress: update ticks, current speed, rate accumulator,
+// counter of the steps left.
+// Rules:  P006-MOT-01..05.
+// Timing: E = edge that ends the cycle of a µs tick. At E, the tick counter, V, B and W change, or the motion
+//         ends. A scheduled step is made at E + 2: step_o is high in the cycle before this edge. advance_o is
+//         high in the cycle after this edge. busy_i falls on the edge that ends the cycle of motion_end_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,31 +14,31 @@ module pmc006_rate (
     input  wire logic        us_i,            // strobe every microsecond
     input  wire logic [30:0] count_i,         // steps, sampled in the cycle before busy_i rises
     input  wire logic [11:0] vstart_i,        // VSTART, the first V, sampled with count_i
-    input  wire logic        endless_i,       // kind V
+    input  wire logic        endless_i,       // kind V: left_o does not end the motion
     input  wire logic        busy_i,          // the motion is in progress
     input  wire logic        halt_i,          // stop immediately
-    input  wire logic        end_run_i,       // end at this update tick
-    input  wire logic        load_v_i,        // load Vn into V
+    input  wire logic        end_run_i,       // end the motion at the next update tick
+    input  wire logic        load_v_i,        // strobe: load Vn into V
     input  wire logic [13:0] next_v_i,        // Vn
     input  wire logic [10:0] current_comp_i,  // Bn
     input  wire logic [ 6:0] lead_angle_i,    // Wn
-    output logic             t0_o,            // t = 0
-    output logic             update_o,        // update tick
-    output logic             sample_o,        // every 100th update tick
-    output logic             advance_o,       // start of advance()
+    output logic             t0_o,            // strobe: t = 0
+    output logic             update_o,        // strobe: update tick, every 100 µs
+    output logic             sample_o,        // strobe: every 100th update tick
+    output logic             advance_o,       // strobe: start the computation of an update tick
     output logic             step_o,          // combinational: a step is made
-    output logic             motion_end_o,    // combinational: the motion ends, halted or completed
+    output logic             motion_end_o,    // combinational: the motion ends, halted or complete
     output logic      [13:0] v_o,             // V
     output logic      [30:0] left_o,          // R
     output logic      [10:0] current_comp_o,  // B
     output logic      [ 6:0] lead_angle_o     // W
 );
 
-  // Cycles between acceptance and t = 0: more than the planner needs.
+  // From the acceptance to t = 0 at least. The planner needs less, see pmc006_calc.
   localparam int unsigned PlanCycles = 800;
   localparam logic [6:0] UpdateTicks = 7'd100;
 
-  // The accumulator holds ACCU + 2^20 - 10^6, so that a carry is a step.
+  // The register stores the accumulator of the rules + 2^20 - 10^6, so that a carry is a step.
   localparam logic [19:0] AccuStart = 20'd48_576;
 
   logic [6:0] ticks_q, updates_q;

@@ -82,7 +82,7 @@ module line_node #(
   );
 
   eeprom_24c32 #(
-      .WriteClk(CLK_HZ / 200)  // 5 ms
+      .WriteCycles(CLK_HZ / 200)  // 5 ms
   ) u_eeprom (
       .clk_i   (clk),
       .on_i    (1'b1),
