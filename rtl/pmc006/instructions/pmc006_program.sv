@@ -47,20 +47,8 @@ module pmc006_program
   } state_e;
 
   state_e state_q;
-  logic
-      paused_q,
-      flag_q,
-      rsten_q,
-      pauen_q,
-      wait_level_q,
-      cond_met,
-      equal,
-      advance,
-      jump,
-      halt,
-      start,
-      pp_in_range,
-      program_exec;
+  logic paused_q, flag_q, rsten_q, pauen_q, wait_level_q, cond_met, equal, advance, jump, halt;
+  logic start, pp_in_range, program_exec;
   logic reset_hit, reset_rearm, pause_hit, unused_rearm;
   logic [3:0] option_q, option;
   logic [6:0] line_q, target_q;

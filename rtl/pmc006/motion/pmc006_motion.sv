@@ -27,8 +27,8 @@ module pmc006_motion
     output drive_cmd_t                 drive_cmd_o      // values for the drive
 );
 
-  logic
-      start, start_q, t0, update, load_settings, load_base_q, sample, advance, motion_end, load_v, calc_busy;
+  logic start, start_q, t0, update, load_settings, load_base_q, sample, advance, motion_end;
+  logic load_v, calc_busy;
   logic short_q, speed_q, stop_q, analog_q, end_run, busy_q, forward_q, steady_q;
   logic [11:0] ve_q;
   logic [ 7:0] base_q;

@@ -36,7 +36,8 @@ module pmc006_rate (
 
   // From the acceptance to t = 0 at least. The planner needs less, see pmc006_calc.
   localparam int unsigned PlanCycles = 800;
-  localparam logic [6:0] UpdateTicks = 7'd100;
+  localparam logic [6:0] UpdateTicks = 7'd100;  // µs ticks of an update tick
+  localparam logic [6:0] SampleUpdates = 7'd100;  // update ticks between two samples
 
   // The register stores the accumulator of the rules + 2^20 - 10^6, so that a carry is a step.
   localparam logic [19:0] AccuStart = 20'd48_576;
@@ -64,7 +65,7 @@ module pmc006_rate (
   assign tick         = run_q && busy_i && us_i;
   assign last_tick    = ticks_q == UpdateTicks - 1'b1;
   assign update_o     = tick && last_tick;
-  assign sample_o     = update_o && updates_q == UpdateTicks - 1'b1;
+  assign sample_o     = update_o && updates_q == SampleUpdates - 1'b1;
   assign step_o       = step_pending_q && busy_i && !halt_i;
   assign motion_end_o = halt_i || (update_o && end_run_i) || (step_pending_q && last_step_q && !endless_i);
   assign sum          = {1'b0, accu_q} + {1'b0, step_pending_q ? AccuStart : 20'(v_o)};
