@@ -77,11 +77,11 @@ def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
     Args:
         device: address that the part uses.
     """
-    wanted = device ^ chip.other
+    address = device ^ chip.other
     if isinstance(side, ModelBench):
-        return _OnModel(side, chip, clk_hz, wanted)
+        return _OnModel(side, chip, clk_hz, address)
     assert isinstance(side, Bench)
-    return _OnBench(side, chip, clk_hz, wanted)
+    return _OnBench(side, chip, clk_hz, address)
 
 
 class _Bussed:
