@@ -93,8 +93,8 @@ module pmc006_hbridge #(
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(bridge_never_both, !(high0_o && high1_o))
-  `PPMC_ASSERT(bridge_off_between, !((high0_o && $past(high1_o)) || (high1_o && $past(high0_o))))
+  `PPMC_ASSERT(hbridge_never_both, !(high0_o && high1_o))
+  `PPMC_ASSERT(hbridge_off_between, !((high0_o && $past(high1_o)) || (high1_o && $past(high0_o))))
 `endif
 
 endmodule

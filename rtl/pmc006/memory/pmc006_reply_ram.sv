@@ -77,7 +77,7 @@ module pmc006_reply_ram
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(values_filled_in_time, !filling || !(write_i || sample_i))
+  `PPMC_ASSERT(reply_ram_filled_in_time, !filling || !(write_i || sample_i))
 `endif
 
 endmodule

@@ -235,7 +235,7 @@ module pmc006_calc
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(calc_not_overtaken, !(advance_i && busy_o))
+  `PPMC_ASSERT(calc_advance_while_idle, !(advance_i && busy_o))
   `PPMC_ASSERT(calc_coefficients, !busy_o || (acc_q <= 3'd5 && dec_q <= 3'd5))
 `endif
 

@@ -156,7 +156,7 @@ module pmc006_motion
   };
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(motion_start_at_rest, !(start && busy_q))
+  `PPMC_ASSERT(motion_start_when_idle, !(start && busy_q))
   `PPMC_ASSERT(motion_planned_in_time, !(t0 && calc_busy))
 `endif
 

@@ -117,7 +117,7 @@ module pmc006_rate (
   assign lead_angle_o   = lead_angle_q & {7{busy_i}};
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(rate_pulse_apart, !(step_o && $past(step_o)))
+  `PPMC_ASSERT(rate_steps_apart, !(step_o && $past(step_o)))
 `endif
 
 endmodule

@@ -12,7 +12,7 @@ module pmc006_hbridge_fv (
     input wire logic       cmp_i
 );
 
-  localparam int unsigned OffCycles = 7, BlankCycles = 3, FastCycles = 5;  // cycles
+  localparam int unsigned OffCycles = 7, BlankCycles = 3, FastCycles = 5;
 
   logic pwm_o, en_o, high0_o, high1_o, high;
 
@@ -37,19 +37,18 @@ module pmc006_hbridge_fv (
       on_q  <= !high ? '0 : (on_q == '1) ? '1 : on_q + 1'b1;
     end
 
-  logic drove_q;  // an ON phase has occurred
-  always_ff @(posedge clk_i) drove_q <= rst_ni && (drove_q || dut.state_q == 1);
+  logic was_on_q;  // an ON phase has occurred
+  always_ff @(posedge clk_i) was_on_q <= rst_ni && (was_on_q || dut.state_q == 1);
 
   `FV_ASSERT(p006_chp_01_never_both, !(high0_o && high1_o))
-  `FV_ASSERT(p006_chp_01_not_one_behind_the_other, !((high0_o && $past(high1_o)) || (high1_o && $past
-             (high0_o))))
+  `FV_ASSERT(p006_chp_01_not_adjacent, !((high0_o && $past(high1_o)) || (high1_o && $past(high0_o))))
   `FV_ASSERT(p006_chp_03_off_time, !(high && $past(rst_ni && !high)) || off_q >= 4'(OffCycles))
   `FV_ASSERT(p006_chp_04_blanking, !($past(rst_ni && high) && !high) || on_q >= 4'(BlankCycles) || $past
              (!on_i || !en_o || sign_i != dut.sign_q))
-  `FV_ASSERT(off_at_once, !$past(rst_ni && !on_i) || (!high && !en_o))
+  `FV_ASSERT(off_in_next_cycle, !$past(rst_ni && !on_i) || (!high && !en_o))
   `FV_ASSERT(p006_chp_06_sign_switches_off, !($past(rst_ni && sign_i != dut.sign_q)) || !high)
   `FV_COVER(seen_fast_decay, high && dut.state_q == 2 && on_q == 4'(BlankCycles))
-  `FV_COVER(seen_slow_decay, !high && off_q == 4'(OffCycles) && drove_q)
+  `FV_COVER(seen_slow_decay, !high && off_q == 4'(OffCycles) && was_on_q)
 
 endmodule
 
