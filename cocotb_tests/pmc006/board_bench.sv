@@ -30,7 +30,7 @@ module pmc006_board_bench (
   assign sda = !(sda_part || sda_device);
 
   eeprom_24c32 #(
-      .WriteClk(8_000)
+      .WriteCycles(8_000)
   ) u_eeprom (
       .clk_i   (clk),
       .on_i    (1'b1),
@@ -45,39 +45,39 @@ module pmc006_board_bench (
       .BAUD  (115_200)
   ) u_board (
       .clk,
-      .lock       (1'b1),
-      .req_n      (btn_n),
+      .lock     (1'b1),
+      .req_n    (btn_n),
       .uart_rxd,
       .uart_txd,
       .rs485_rxd,
       .rs485_txd,
       .rs485_de,
-      .m10        (),
-      .m11        (),
+      .m10      (),
+      .m11      (),
       .bridge_a_en,
-      .m20        (),
-      .m21        (),
+      .m20      (),
+      .m21      (),
       .bridge_b_en,
-      .pwm_a_ref  (),
-      .pwm_b_ref  (),
-      .cmp_a      (cmp),
-      .cmp_b      (cmp),
+      .pwm_a_ref(),
+      .pwm_b_ref(),
+      .cmp_a    (cmp),
+      .cmp_b    (cmp),
       .ext1,
       .ext2,
-      .ext1_pu    (),
-      .ext2_pu    (),
-      .fset_n     (1'b1),
+      .ext1_pu  (),
+      .ext2_pu  (),
+      .fset_n   (1'b1),
       .gpi,
       .gpo,
       .conv,
       .adc_stb,
       .bemf_stb,
-      .scl_i      (scl),
-      .scl_oe     (scl_part),
-      .sda_i      (sda),
-      .sda_oe     (sda_part),
+      .scl_i    (scl),
+      .scl_oe   (scl_part),
+      .sda_i    (sda),
+      .sda_oe   (sda_part),
       .mon_step,
-      .mon_dir    (),
+      .mon_dir  (),
       .lamps
   );
 

@@ -77,11 +77,11 @@ def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
     Args:
         device: address that the part uses.
     """
-    wanted = device ^ chip.other
+    address = device ^ chip.other
     if isinstance(side, ModelBench):
-        return _OnModel(side, chip, clk_hz, wanted)
+        return _OnModel(side, chip, clk_hz, address)
     assert isinstance(side, Bench)
-    return _OnBench(side, chip, clk_hz, wanted)
+    return _OnBench(side, chip, clk_hz, address)
 
 
 class _Bussed:
@@ -151,7 +151,7 @@ class _OnBench(Eeprom):
         for place, byte in enumerate(chip.content):
             self._device.memory[place].value = byte
         self._set(
-            device=device, write_clk=clk(chip.write_us), writing=clk(chip.busy_us), missing=chip.missing
+            device=device, write_cycles=clk(chip.write_us), writing=clk(chip.busy_us), missing=chip.missing
         )
         self._set(stuck_scl=chip.stuck == "scl", stuck_sda=chip.stuck == "sda")
         self.stretch(clk(chip.stretch_us))
@@ -186,4 +186,4 @@ class _OnBench(Eeprom):
 
     def stretch(self, clk: int) -> None:
         """Set for how many cycles the device holds SCL low after each acknowledge."""
-        self._set(stretch_clk=clk)
+        self._set(stretch_cycles=clk)

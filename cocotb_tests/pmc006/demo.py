@@ -10,7 +10,7 @@ from cocotb_tests.harness import Bench
 from cocotb_tests.harness.sessions import Story
 
 from .stepping import MotorHost
-from .story import tell
+from .story import run_story
 
 
 @cocotb.test()
@@ -19,5 +19,5 @@ async def demo_program(dut: Any) -> None:
     host = await MotorHost.start(dut)
     assert isinstance(host.side, Bench)
     story = Story(host.side)
-    await tell(host, story)
+    await run_story(host, story)
     story.save()

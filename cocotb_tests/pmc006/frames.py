@@ -1,4 +1,4 @@
-"""Frames of the PMC006 (chapters 2.2, 2.3) as sent and received by the host of the tests."""
+"""Frames of the PMC006 (docs/pmc006/README.md, 3) as sent and received by the host of the tests."""
 
 from __future__ import annotations
 

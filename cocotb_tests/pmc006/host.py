@@ -1,7 +1,7 @@
 """Host on the link of a PMC006, which acts on the replies of the part.
 
 It has its own UART model: replies are decoded from the levels of txd and de, and every edge is
-checked (chapter 2.4).
+checked (docs/pmc006/README.md, 3).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ SYNC = 2
 """Cycles from a level of a pin to its effect in the part."""
 STARTS = tuple(b"szN")
 NEAR = 8
-"""Tolerance of chapter 2.4 in cycles."""
+"""Tolerance of the edges of de and txd in cycles."""
 ACT = 4
 """Cycles from e to the effect of a frame if no other instruction is in progress."""
 EXECUTE = 64
@@ -40,7 +40,7 @@ class Host(View, SerialLine):
 
     `t` is the next free edge; every method advances it. Codes are letters or numbers. Data and answers are
     numbers; an answer is the 32-bit reply data, unsigned. `wire` is the last reply as received from the line,
-    `said` the edge at which the last frame began.
+    `frame_start` the edge at which the last frame began.
 
     Attributes:
         params: parameters of the part.
@@ -53,7 +53,7 @@ class Host(View, SerialLine):
         self.echo = self.params["STEP_ACK"] == "ECHO"
         self.address = address
         self.t = side.now
-        self.mark = self.said = self._heard = 0
+        self.mark = self.frame_start = self._reply_end = 0
         self.wire = b""
         self.plugged: Eeprom | None = None
         self.open_line(Fraction(self.clk_hz, self.baud), error)
@@ -138,7 +138,7 @@ class Host(View, SerialLine):
         await self.pins(rst_n=0)
         await self.pause(clk)
         await self.pins(rst_n=1, **levels)
-        self._heard = self.t
+        self._reply_end = self.t
         self.mark = self.t
 
     # ------------------------------------------------------------------ pins
@@ -162,7 +162,7 @@ class Host(View, SerialLine):
 
     # ------------------------------------------------------------------ frames
 
-    async def say(self, code: str | int, data: int = 0, address: int | None = None) -> None:
+    async def send_frame(self, code: str | int, data: int = 0, address: int | None = None) -> None:
         """Send a valid frame. Steps are counted from an s, N 1 or z on."""
         self._begin(number(code), data)
         address = self.address if address is None else address
@@ -170,25 +170,25 @@ class Host(View, SerialLine):
         await self.send(command(address, code, data))
 
     def _begin(self, code: int, data: int) -> None:
-        self.said = self.t
+        self.frame_start = self.t
         if code in STARTS and (data == 1 or code != STARTS[-1]):
             self.mark = self.t
 
     @property
     def e(self) -> int:
-        """Edge of the stop-bit sample of the last byte sent (chapter 2.4), to the nearest cycle."""
+        """Edge of the stop-bit sample of the last byte sent, to the nearest cycle."""
         return round(self.middle) + SYNC
 
-    async def rise(self) -> int | None:
-        """Return the edge of the next rise of de that `hear` has not used, None if there is no such edge."""
+    async def next_de_rise(self) -> int | None:
+        """Return the edge of the next rise of de after the last reply, None if there is no such edge."""
         await self.sync()
-        return next((t for t, level in self.edges("de", self._heard) if level), None)
+        return next((t for t, level in self.edges("de", self._reply_end) if level), None)
 
-    async def hear(self) -> int:
+    async def receive_reply(self) -> int:
         """Return the data of the reply to the frame that was just sent. Every edge is checked."""
         e, bit = self.e, self.bit
         await self.go(max(self.t, e + ceil(bit) + NEAR + 1))
-        rise = await self.rise()
+        rise = await self.next_de_rise()
         assert rise is not None, "no reply"
         assert abs(rise - e - bit) <= NEAR, f"de rises {rise - e} clk after the frame"
         await self.go(max(self.t, e + ceil(82 * bit) + NEAR + 1))
@@ -196,7 +196,7 @@ class Host(View, SerialLine):
         assert fall is not None and abs(fall - e - 82 * bit) <= NEAR, f"de falls {fall}, the frame ended {e}"
         edges = [edge for edge in self.edges("txd", rise) if edge[0] <= fall]
         assert edges and abs(edges[0][0] - e - 2 * bit) <= NEAR, "the start bit is not where it belongs"
-        self._heard = fall + 1
+        self._reply_end = fall + 1
         self.wire = characters(edges, Fraction(edges[0][0]), bit, 8, within=1)
         address, data = of_reply(self.wire)
         self.side.accesses.append(Access(rise, f"reply of {address:02X}, data", 0, data))
@@ -205,31 +205,31 @@ class Host(View, SerialLine):
 
     async def ask(self, code: str | int, data: int = 0) -> int:
         """Send a frame to this part and return its reply data."""
-        await self.say(code, data)
-        answer = await self.hear()
+        await self.send_frame(code, data)
+        answer = await self.receive_reply()
         if code in ("w", 0x77):
             self.address = self.replied
         assert self.replied == self.address, f"{self.replied} answers for {self.address}"
         return answer
 
-    async def swap(self, text: str) -> str:
+    async def exchange(self, text: str) -> str:
         """Send a whole frame and return the whole reply, as texts of hexadecimal bytes."""
         frame = bytes.fromhex(text)
         self._begin(frame[2], frame[3])
         await self.send(frame)
-        await self.hear()
+        await self.receive_reply()
         return self.wire.hex(" ").upper()
 
-    async def silent(self, clk: int) -> bool:
+    async def is_silent(self, clk: int) -> bool:
         """Return whether nothing is sent for this number of cycles: de = 0 and txd = 1."""
         await self.pause(clk)
-        return await self.rise() is None and not await self.out("de") and bool(await self.out("txd"))
+        return await self.next_de_rise() is None and not await self.out("de") and bool(await self.out("txd"))
 
-    async def forget(self) -> None:
+    async def ignore_replies(self) -> None:
         """Ignore all replies up to now; a reply in progress is waited for."""
         await self.sync()
         self.t = max(self.t, await self.side.level_is("de", 0))
-        self._heard = self.t
+        self._reply_end = self.t
 
     def accepted(self, count: int) -> int:
         """Return the reply data of an accepted s."""

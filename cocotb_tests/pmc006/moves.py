@@ -1,4 +1,4 @@
-"""Common beginnings of PMC006 tests: SETUP of chapter 11, motions, programs."""
+"""Common beginnings of PMC006 tests: SETUP, motions, programs."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ async def setup(host: Host) -> Host:
     return host
 
 
-async def ready(dut: Any, **given: Any) -> Host:
+async def ready(dut: Any, **options: Any) -> Host:
     """Return a host after SETUP."""
-    return await setup(await Host.start(dut, **given))
+    return await setup(await Host.start(dut, **options))
 
 
-async def brisk(host: Host, speed: int = 3000, **settings: int) -> Host:
+async def set_constant_speed(host: Host, speed: int = 3000, **settings: int) -> Host:
     """Set a constant speed from the first step to the last."""
     await host.ok(v=speed, L=speed, S=speed, **settings)
     return host
 
 
-async def quick(dut: Any, speed: int = 3000, **given: Any) -> Host:
-    """Return a host whose motions are `brisk`."""
-    return await brisk(await Host.start(dut, **given), speed)
+async def constant_speed_host(dut: Any, speed: int = 3000, **options: Any) -> Host:
+    """Return a host whose motions have a constant speed (`set_constant_speed`)."""
+    return await set_constant_speed(await Host.start(dut, **options), speed)
 
 
 async def start(host: Host, count: int) -> None:
@@ -47,7 +47,7 @@ async def run(host: Host, on: int = 1) -> None:
     assert await host.ask("N", on) == on
 
 
-async def rest(host: Host, limit_us: float = 10_000_000) -> int:
+async def wait_stopped(host: Host, limit_us: float = 10_000_000) -> int:
     """Run to the end of motion; return its edge."""
     return await host.until("mon_busy", 0, limit_us)
 
@@ -55,7 +55,7 @@ async def rest(host: Host, limit_us: float = 10_000_000) -> int:
 async def move(host: Host, count: int) -> list[int]:
     """Make a whole move and check its number of steps; return its intervals in us."""
     await start(host, count)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == count, f"{len(host.steps())} steps instead of {count}"
     return host.intervals()
 
@@ -63,7 +63,7 @@ async def move(host: Host, count: int) -> list[int]:
 async def after_steps(host: Host, count: int, limit_us: float = 5_000_000) -> int:
     """Run until `count` steps have been made since `mark`; return the edge of the last of them."""
     end = host.t + host.us(limit_us)
-    made = host.made()
+    made = host.step_count()
     while made < count:
         made += len(await host.next_steps(end))
     return host.steps()[count - 1]
@@ -79,7 +79,7 @@ async def cruise(host: Host, interval: float, limit_us: float = 1_000_000) -> No
         last = [host.in_us(b - a) for a, b in pairwise(steps)]
 
 
-async def still(host: Host, clk: int | None = None) -> bool:
+async def is_stopped(host: Host, clk: int | None = None) -> bool:
     """Return whether no step is made for this number of cycles (10 ms)."""
     await host.sync()
     since = host.t

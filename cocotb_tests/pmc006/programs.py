@@ -1,4 +1,4 @@
-"""User programs of the PMC006, and the content of its EEPROM (chapters 12 and 13.1)."""
+"""User programs of the PMC006, and the content of its EEPROM (docs/pmc006/README.md, 13 and 14)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ FACTORY_PAGE = bytes.fromhex("503601FF1000000001010000580258022C01E2042003") + b
 
 
 class Op(NamedTuple):
-    """Instruction of a user program: opcode, option, operand (12.2)."""
+    """Instruction of a user program: opcode, option, operand."""
 
     code: int
     option: int = 0
@@ -61,7 +61,7 @@ def words(program: Iterable[Op]) -> list[int]:
 
 
 def image(page: bytes = FACTORY_PAGE, program: Iterable[Op] = (), mark: int = 0x5A) -> bytes:
-    """Return the content of an EEPROM with a parameter page and a program (13.1)."""
+    """Return the content of an EEPROM with a parameter page and a program."""
     code = b"".join(word.to_bytes(4, "little") for word in words(program)).ljust(800, b"\0")
     return page + code + (sum(code) & 0xFFFF).to_bytes(2, "little") + bytes([mark])
 

@@ -46,10 +46,10 @@ class Faults(Frames):
         """Send another frame while the reply to a frame is in progress."""
         rng, host = self.rng, self.host
         self.left -= 2
-        await host.say(rng.choice("cjy"), 0)
+        await host.send_frame(rng.choice("cjy"), 0)
         host.back_to(host.e + rng.choice((0, 1, 30, 60, 100, 400, 4_000)))
         await self.put(command(host.address, rng.choice("yj"), 0xF8))
-        await host.forget()
+        await host.ignore_replies()
         if rng.random() < 0.7:
             await host.pause(ceil(200 * host.bit))
 
@@ -70,11 +70,11 @@ class Faults(Frames):
         """Reset the part with rst_n at any time."""
         rng, host = self.rng, self.host
         if rng.random() < 0.5:
-            await host.say("s", 100)
+            await host.send_frame("s", 100)
             await host.pause(rng.choice((0, 10, 500, 3_000)))
         await host.reset(rng.choice((3, 12, 300)))
         await host.boot()
-        await host.forget()
+        await host.ignore_replies()
         self.left -= 2
         for code in "LSv":
             await self.frame(code, 3000)

@@ -55,7 +55,9 @@ class Frames(RandomHost):
         self.left -= 1
         if rng.random() < 0.5:
             await host.pause(rng.choice((1, 3, 20, 100, 700, 3_000)))
-        await host.say(code, data) if not self.noisy else await self.put(command(host.address, code, data))
+        await host.send_frame(code, data) if not self.noisy else await self.put(
+            command(host.address, code, data)
+        )
         self.seen[f"code {code}"] += 1
         await self.await_reply()
 
@@ -77,7 +79,7 @@ class Frames(RandomHost):
         if await host.out("de"):
             self.seen["reply"] += 1
         if self.rng.random() < 0.97:
-            await host.forget()
+            await host.ignore_replies()
         host.address = self.model.desk.settings.addr
 
     async def setting(self) -> None:

@@ -18,7 +18,7 @@ from .programs import image, page
 from .random_faults import Faults
 from .random_meeting import Meetings
 from .random_pins import Pins
-from .random_program import some_program
+from .random_program import random_program
 
 build = Builds("p006", ((F8B, 80), (ODD, 12), (D8E, 8)))
 
@@ -69,7 +69,7 @@ class Talker(Meetings, Pins, Faults):
         """Return a content of the EEPROM: programs that start automatically, damaged pages."""
         rng = self.rng
         params = page(a0B=rng.getrandbits(1), a04=rng.choice((4, 16, 3)), a0A=rng.randrange(4), a06=5, a07=5)
-        content = bytearray(image(params, some_program(rng), mark=rng.choice((0x5A, 0x5A, 0x5A, 0))))
+        content = bytearray(image(params, random_program(rng), mark=rng.choice((0x5A, 0x5A, 0x5A, 0))))
         if rng.random() < 0.2:
             content[rng.randrange(len(content))] ^= 1 << rng.randrange(8)
         return bytes(content)
@@ -87,8 +87,8 @@ class Talker(Meetings, Pins, Faults):
         actions = (
             (self.setting, 12),
             (self.start, 22),
-            (self.meeting, 11),
-            (self.meddle, 14),
+            (self.collision, 11),
+            (self.frame_in_motion, 14),
             (self.read, 6),
             (self.ext, 8),
             (self.stall, 4),
@@ -121,13 +121,13 @@ class Talker(Meetings, Pins, Faults):
         host.error *= 0
         await host.pause(1)
         await host.pause(ceil(215 * host.bit))
-        await host.forget()
+        await host.ignore_replies()
         for code in "FI":
-            await host.say(code)
+            await host.send_frame(code)
             await self.await_reply()
-            await host.forget()
+            await host.ignore_replies()
         assert await host.ask("R") == 0x123 and not await host.busy()
-        self.seen["steps"] += host.made(0)
+        self.seen["steps"] += host.step_count(0)
         self.seen["halts"] += sum(not level for _, level in host.edges("mon_busy"))
         for pin in ("gpo", "bridge_a_en", "mon_dir", "m11", "ext1_pu", "phase_a_sign"):
             self.seen[pin] += len(host.edges(pin))

@@ -25,7 +25,7 @@ Course = tuple[tuple[str, int], ...]
 class Meetings(Motions):
     """Random host that makes two things coincide."""
 
-    async def meeting(self) -> None:
+    async def collision(self) -> None:
         """Make a short motion, then repeat it with a frame or pin edge near an edge of the first one."""
         rng, host = self.rng, self.host
         course: Course = (("s", rng.choice((5, 6, 8, 12))),)
@@ -34,10 +34,10 @@ class Meetings(Motions):
         for code, data in (*EASY, *(MOVE if len(course) == 1 else RUN)):
             if rng.random() < 0.9:
                 await self.frame(code, data)
-        await host.forget()
+        await host.ignore_replies()
         begin, e = await self._start(course)
         # A whole frame must fit in after the reply.
-        least = e + ceil(82 * host.bit) + e - host.said + 2 * NEAR
+        least = e + ceil(82 * host.bit) + e - host.frame_start + 2 * NEAR
         with suppress(TimeoutError):
             await host.until("mon_busy", 0, LIMIT_US)
         await host.go(max(host.t, host.side.now))
@@ -49,21 +49,21 @@ class Meetings(Motions):
             await host.pause(rng.choice((1, 2, 500)))
             await host.go(host.t + (begin - host.t) % period)
             times = found[rng.choice(SIGNALS)] or found["mon_busy"]
-            await self._meet(course, rng.choice(times))
+            await self._collide(course, rng.choice(times))
 
-    async def _meet(self, course: Course, after: int) -> None:
+    async def _collide(self, course: Course, after: int) -> None:
         """Repeat the motion with a frame about `after` cycles after the end of its last frame."""
         rng, host = self.rng, self.host
         _, e = await self._start(course)
         at = e + after + rng.randint(-NEAR, NEAR)
         if rng.random() < 0.3:
             self._pins(at - 2 + rng.randint(-NEAR, NEAR))
-        await host.go(max(host.t, at - ACT - (e - host.said)))
+        await host.go(max(host.t, at - ACT - (e - host.frame_start)))
         code = rng.choice("ssssNNNvvIgdicjmufbp")
-        await host.say(code, 8 if code == "s" else rng.choice(DATA.get(code, (1, 1, 0))))
+        await host.send_frame(code, 8 if code == "s" else rng.choice(DATA.get(code, (1, 1, 0))))
         await self.await_reply()
-        await host.forget()
-        self.seen["met"] += 1
+        await host.ignore_replies()
+        self.seen["collisions"] += 1
         self.left -= 1
         if await host.busy():
             await self.host.pause(rng.choice((0, 1_000, 4_000)))
@@ -74,9 +74,9 @@ class Meetings(Motions):
         host, begin = self.host, self.host.t
         for place, (code, data) in enumerate(course):
             await host.go(begin + place * ceil(175 * host.bit))
-            await host.say(code, data)
+            await host.send_frame(code, data)
             await host.go(max(host.t, host.e + ceil(host.bit) + 9))
-            await host.forget()
+            await host.ignore_replies()
         return begin, host.e
 
     def _pins(self, t: int) -> None:

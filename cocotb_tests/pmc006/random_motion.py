@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .programs import words
 from .random_frames import DATA, Frames
-from .random_program import some_op, some_program
+from .random_program import random_op, random_program
 
 COUNTS = (1, 2, 3, 5, 12, 60, 255, 256, 260, 300, 1000, 0x7FFFFFFF, 0, -1)
 
@@ -22,7 +22,7 @@ class Motions(Frames):
         if rng.random() < 0.4:
             await self.host.pause(rng.choice((500, 4_000, 12_000)))
 
-    async def meddle(self) -> None:
+    async def frame_in_motion(self) -> None:
         """Send an instruction that a host may send during a motion."""
         rng = self.rng
         code = rng.choice("vvvvINNNgissecbbllpmdu")
@@ -36,7 +36,7 @@ class Motions(Frames):
         rng = self.rng
         place = rng.randrange(100)
         await self.frame("A", 2 * place)
-        for word in some_op(rng, 100).words:
+        for word in random_op(rng, 100).words:
             await self.frame("W", word)
         await self.frame("A", 2 * place)
         for _ in range(rng.randint(1, 2)):
@@ -46,7 +46,7 @@ class Motions(Frames):
     async def program(self) -> None:
         """Load and start a program, in some cases from instruction 1 on."""
         rng = self.rng
-        program = some_program(rng)[: rng.choice((3, 5))]
+        program = random_program(rng)[: rng.choice((3, 5))]
         await self.frame("A", 0)
         for word in words(program):
             await self.frame("W", word)

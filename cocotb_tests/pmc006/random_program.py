@@ -10,7 +10,7 @@ COUNTS = (0, 1, 2, 3, 5, 9, 30, 255, 256, 300, 1000, 0x7FFFFFFF, -1)
 SPEEDS = (3000, 3000, 2999, 5000, 9000, 16_000, 1, 0, 500, 16_001, -5)
 
 
-def some_op(rng: random.Random, size: int) -> Op:
+def random_op(rng: random.Random, size: int) -> Op:
     """Return one instruction of a program of `size`; one in ten has an illegal part."""
     target = rng.randrange(size) if rng.random() < 0.9 else rng.choice((99, 100, -1, 200))
     bit = rng.choice((0, 1, 1, 0, rng.randrange(-3, 9)))
@@ -40,11 +40,11 @@ def some_op(rng: random.Random, size: int) -> Op:
     return make()
 
 
-def some_program(rng: random.Random) -> list[Op]:
+def random_program(rng: random.Random) -> list[Op]:
     """Return a program of three to ten instructions; most end with a jump back or END."""
     size = rng.randint(3, 10)
-    program = [some_op(rng, size) for _ in range(size - 1)]
+    program = [random_op(rng, size) for _ in range(size - 1)]
     if rng.random() < 0.4:
         # A loop that ends after a few turns, as in the programs of the manual.
         program[-2:] = [Op(0x0B), Op(0x12, 8, rng.randint(1, 3)), goto(rng.randrange(size), 0x0E)]
-    return [*program, rng.choice((END, goto(0), goto(rng.randrange(size)), some_op(rng, size)))]
+    return [*program, rng.choice((END, goto(0), goto(rng.randrange(size)), random_op(rng, size)))]

@@ -1,4 +1,4 @@
-"""Phase currents according to the rules of chapter 6, calculated from the sine; tests compare with them."""
+"""Phase currents according to P006-EXC-10 to 23, calculated from the sine, for comparison."""
 
 from __future__ import annotations
 

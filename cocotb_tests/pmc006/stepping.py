@@ -36,7 +36,7 @@ class Stepping(Host):
         return max((t for t, _ in self.edges(signal)[-1:]), default=0)
 
 
-class _Seen:
+class _PartView:
     """The part as seen by the motor: its outputs, and when they may change."""
 
     def __init__(self, side: Side) -> None:
@@ -81,7 +81,7 @@ class MotorHost(Stepping):
 
     def attach(self, motor: Motor | None = None) -> Plant:
         """Connect a motor from now on."""
-        self.plant = Plant(_Seen(self.side), self.clk_hz, motor)
+        self.plant = Plant(_PartView(self.side), self.clk_hz, motor)
         return self.plant
 
     def detach(self) -> None:

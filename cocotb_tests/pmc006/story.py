@@ -56,7 +56,7 @@ again:  ROT   {50 * FINE}
 """
 
 
-async def tell(host: MotorHost, story: Story) -> None:
+async def run_story(host: MotorHost, story: Story) -> None:
     """Run the whole program on a part that has just booted."""
     host.attach(MOTOR)
     with story.chapter("set", "settings"):

@@ -13,14 +13,14 @@ from .moves import (
     EXT2,
     STALL,
     after_steps,
-    brisk,
     cruise,
+    is_stopped,
     move,
     ready,
-    rest,
     run,
+    set_constant_speed,
     start,
-    still,
+    wait_stopped,
 )
 
 STOP = 5
@@ -29,7 +29,7 @@ STOP = 5
 
 async def stopped(host: Host, edge: int) -> bool:
     """Return whether no step is made later than 5 cycles after this edge."""
-    return await still(host, host.us(5_000)) and not host.steps(edge + STOP + 1)
+    return await is_stopped(host, host.us(5_000)) and not host.steps(edge + STOP + 1)
 
 
 async def fall(host: Host, pin: str = "ext1") -> int:
@@ -41,19 +41,19 @@ async def fall(host: Host, pin: str = "ext1") -> int:
 @directed("P006-AC-22", "P006-EXT-02", "P006-EXT-03", "P006-CMD-23", "P006-CMD-27", "P006-EXT-08")
 async def p006_ac_22(dut: Any) -> None:
     host = await ready(dut)
-    assert await host.swap("A5 FF 66 03 00 00 00 0D") == "A5 7A FF 03 00 00 00 21"
+    assert await host.exchange("A5 FF 66 03 00 00 00 0D") == "A5 7A FF 03 00 00 00 21"
     await start(host, 10_000)
     await after_steps(host, 25)
     edge = await fall(host)
     assert await stopped(host, edge) and await host.status() == DECAY | EXT1
     assert await host.ask("s", 1) == 0
-    assert await host.swap("A5 FF 62 00 00 00 00 06") == "A5 7A FF 00 00 00 00 1E"
+    assert await host.exchange("A5 FF 62 00 00 00 00 06") == "A5 7A FF 00 00 00 00 1E"
     assert await host.status() == DECAY
     await start(host, 1)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 1
     await host.pins(ext1=1)
-    assert await still(host) and await host.status() == DECAY
+    assert await is_stopped(host) and await host.status() == DECAY
 
 
 @directed("P006-AC-23", "P006-EXT-04")
@@ -64,7 +64,7 @@ async def p006_ac_23(dut: Any) -> None:
     await start(host, count)
     await after_steps(host, 10)
     await host.pins(ext1=0, ext2=0)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == count and await host.status() == DECAY
     await host.ok(f=3)
     assert await host.status() == DECAY
@@ -109,7 +109,7 @@ async def to_cruise(host: Host, y: int) -> None:
     """Write Z 256, T 5, N 1, and wait until the speed is constant."""
     await host.ok(Z=256, T=5, Y=y)
     if not host.literal:
-        await brisk(host, 2900)
+        await set_constant_speed(host, 2900)
     await run(host)
     await cruise(host, 312.5 if host.literal else 345)
     # The end of an S-curve is flat.
@@ -139,7 +139,7 @@ async def p006_ac_31(dut: Any) -> None:
     assert not await host.out("gpo")
     await start(host, 1)
     assert not await host.status() & STALL
-    await rest(host)
+    await wait_stopped(host)
 
 
 @directed("P006-AC-32", "P006-STL-03", "P006-STL-04", "P006-CMD-37", "P006-CMD-20")
@@ -177,13 +177,13 @@ async def p006_ac_34(dut: Any) -> None:
 @directed("P006-AC-55", "P006-EXT-07", "P006-BAD-26")
 async def p006_ac_55(dut: Any) -> None:
     host = await ready(dut, levels={"sda_i": 0, "ext1": 0})
-    assert await host.swap("A5 FF 66 01 00 00 00 0B") == "A5 7A FF 01 00 00 00 1F"
+    assert await host.exchange("A5 FF 66 01 00 00 00 0B") == "A5 7A FF 01 00 00 00 1F"
     await host.ok(d=0)
     count = host.pick(300, 20)
     await move(host, count)
     assert await host.status() == DECAY and await host.position() == -count
     await host.pins(ext1=1)
-    assert await still(host, host.us(1_000)) and await host.status() == DECAY
+    assert await is_stopped(host, host.us(1_000)) and await host.status() == DECAY
     await start(host, 10_000)
     await after_steps(host, 20)
     edge = await fall(host)
@@ -192,10 +192,10 @@ async def p006_ac_55(dut: Any) -> None:
 
 async def towards_the_switch(host: Host, count: int) -> int:
     """Run AC-56 up to the second b; return the number of steps."""
-    await brisk(host, 2500, f=1, d=0)
-    assert (await host.swap("A5 FF 73 FF FF FF 7F 93"))[9:20] == f"{host.accepted(0x7FFFFFFF) & 255:02X}" + (
-        " FF FF 7F" if host.echo else " 00 00 00"
-    )
+    await set_constant_speed(host, 2500, f=1, d=0)
+    assert (await host.exchange("A5 FF 73 FF FF FF 7F 93"))[
+        9:20
+    ] == f"{host.accepted(0x7FFFFFFF) & 255:02X}" + (" FF FF 7F" if host.echo else " 00 00 00")
     await after_steps(host, count)
     edge = await fall(host)
     assert await stopped(host, edge) and set(host.intervals()) == {400}
@@ -217,7 +217,7 @@ async def p006_ac_56_and_57(dut: Any) -> None:
     mark = host.mark
     await after_steps(host, count // 2)
     await host.pins(ext1=1)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(mark)) == count and set(host.intervals(mark)) == {400}
     assert await host.status() == DECAY and await host.ask("x") >> 10 & 1
     await host.ok(i=0)
@@ -232,7 +232,7 @@ async def p006_ac_58(dut: Any) -> None:
     await start(host, count)
     mark = host.mark
     assert await host.ask("l") == 0 and await host.ask("b") == 0
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(mark)) == count and await host.status() == DECAY
 
 
@@ -248,4 +248,4 @@ async def p006_ac_64(dut: Any) -> None:
     assert await host.ask("s", 1) == 0 and await host.ask("N", 1) == 0
     assert not await host.ask("O") & EXT1_EN and await host.status() & EXT1
     assert await host.ask("b") == 0 and await host.ask("s", 1) == host.accepted(1)
-    await rest(host)
+    await wait_stopped(host)

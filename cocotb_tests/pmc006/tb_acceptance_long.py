@@ -13,15 +13,15 @@ from .moves import (
     FORWARD,
     SPEED_MODE,
     after_steps,
-    brisk,
     cruise,
+    is_stopped,
     load,
     move,
     ready,
-    rest,
     run,
+    set_constant_speed,
     start,
-    still,
+    wait_stopped,
 )
 from .programs import END, P1, Op, rot
 from .reference import sines
@@ -30,7 +30,7 @@ F12 = Config("f12m", clk_hz=12_000_000)
 
 
 def hexed(frame: bytes) -> str:
-    """Return the text of a frame in the format of `Host.swap`."""
+    """Return the text of a frame in the format of `Host.exchange`."""
     return frame.hex(" ").upper()
 
 
@@ -38,8 +38,8 @@ def hexed(frame: bytes) -> str:
 async def p006_ac_14(dut: Any) -> None:
     host = await ready(dut)
     assert set(await move(host, 255)) == {1666, 1667}
-    assert await host.swap("A5 FF 73 00 01 00 00 18") == hexed(reply(0xFF, host.accepted(256)))
-    await rest(host)
+    assert await host.exchange("A5 FF 73 00 01 00 00 18") == hexed(reply(0xFF, host.accepted(256)))
+    await wait_stopped(host)
     gaps = host.intervals()
     assert len(gaps) == 255 and gaps[:3] == [1613, 1534, 1439] and gaps[-3:] == [1667, 1667, 1666]
     assert await host.position() == 511
@@ -48,7 +48,7 @@ async def p006_ac_14(dut: Any) -> None:
 @directed("P006-AC-17", "P006-MOT-17", builds=(F16,))
 async def p006_ac_17(dut: Any) -> None:
     host = await ready(dut)
-    assert await host.swap("A5 FF 76 80 3E 00 00 D8") == "A5 7A FF 80 3E 00 00 DC"
+    assert await host.exchange("A5 FF 76 80 3E 00 00 D8") == "A5 7A FF 80 3E 00 00 DC"
     gaps = await move(host, 4000)
     assert sum(gaps) == 523_965 - 1666 and gaps[-1] == 1666 and min(gaps) in (67, 68)
 
@@ -64,7 +64,7 @@ async def p006_ac_18(dut: Any) -> None:
     before = host.t
     await host.ok(i=0x100)
     loaded = (before, host.e + EXECUTE)
-    await rest(host)
+    await wait_stopped(host)
     steps = host.steps(mark)
     assert len(steps) == 10_000 and await host.out("mon_dir") == 1
     least, most = (sum(t > at for t in steps) for at in reversed(loaded))
@@ -89,7 +89,7 @@ async def p006_ac_19(dut: Any) -> None:
     assert await host.ask("N", 0) == 0
     off = host.e
     assert await host.ask("O") & SPEED_MODE == 0 and await host.status() & 1
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     assert host.us(191_200) <= fall - off <= host.us(191_400) + EXECUTE
     late = [b for a, b in zip(host.steps(mark), host.intervals(mark), strict=False) if a > off]
     assert all(b >= a - 1 for a, b in zip(late, late[1:], strict=False)) and 1600 <= late[-1] <= 1667
@@ -122,8 +122,8 @@ async def p006_ac_46(dut: Any) -> None:
 @directed("P006-AC-50", "P006-MOT-20", builds=(F16,))
 async def p006_ac_50(dut: Any) -> None:
     host = await Host.start(dut)
-    assert await host.swap("A5 FF 73 1F 01 00 00 37") == hexed(reply(0xFF, host.accepted(287)))
-    await rest(host)
+    assert await host.exchange("A5 FF 73 1F 01 00 00 37") == hexed(reply(0xFF, host.accepted(287)))
+    await wait_stopped(host)
     gaps = host.intervals()
     assert gaps[:7] == [1665, 1663, 1659, 1654, 1648, 1641, 1633] and sum(gaps) == 336_484 - 1667
     assert gaps[-7:] == [1659, 1663, 1664, 1667, 1667, 1666, 1667] and await host.position() == 287
@@ -140,9 +140,9 @@ async def p006_ac_63(dut: Any) -> None:
 
 @directed("P006-AC-18", "P006-BAD-10", builds=(F16,))
 async def p006_signed_position_after_a_long_run(dut: Any) -> None:
-    host = await brisk(await ready(dut), 2500, d=0, f=1)
+    host = await set_constant_speed(await ready(dut), 2500, d=0, f=1)
     await start(host, 300)
-    await rest(host)
+    await wait_stopped(host)
     assert signed(await host.ask("c")) == -300 and not await host.status() & EXT1
 
 
@@ -178,8 +178,8 @@ async def p006_ac_43(dut: Any) -> None:
     assert abs(host.in_us(steps[-1] - steps[first - 1]) - 1_000_000) <= 250
     await host.strobe(adc_data=0)
     await host.ms(1_000)
-    assert await still(host, host.us(100_000)) and await host.busy()
+    assert await is_stopped(host, host.us(100_000)) and await host.busy()
     await host.strobe(adc_data=1023)
     await cruise(host, 125, 3_000_000)
-    await rest(host, 20_000_000)
+    await wait_stopped(host, 20_000_000)
     assert len(host.steps(mark)) == 100_000

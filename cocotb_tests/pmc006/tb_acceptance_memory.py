@@ -11,10 +11,10 @@ from .moves import (
     DECAY,
     OFFLINE,
     download,
-    rest,
+    is_stopped,
     setup,
     start,
-    still,
+    wait_stopped,
 )
 from .programs import FACTORY_PAGE, P1, Op, image, page
 
@@ -107,7 +107,7 @@ async def p006_ac_41(dut: Any) -> None:
     await host.ms(20)
     await host.reset()
     await host.boot()
-    assert await still(host)
+    assert await is_stopped(host)
     assert not await host.busy()
     assert await host.ask("q") == 1000
     assert await host.ask("G") == P1[0].words[0]
@@ -127,10 +127,10 @@ async def p006_ac_66(dut: Any) -> None:
     await host.pins(rst_n=0)
     await host.ms(8)
     await host.pins(rst_n=1)
-    await host.forget()
+    await host.ignore_replies()
     await host.boot()
     assert host.eeprom.memory[0x342] == 0 and host.eeprom.memory[:32] == saved
-    assert await still(host) and not await host.busy() and await host.ask("O") & OFFLINE
+    assert await is_stopped(host) and not await host.busy() and await host.ask("O") & OFFLINE
     assert await host.ask("A", 0) == 0
     count = host.pick(200, 24)
     assert not any([await host.ask("G") for _ in range(count)])
@@ -150,4 +150,4 @@ async def p006_a_program_that_never_rests_blocks_nothing(dut: Any) -> None:
     await host.boot()
     assert await host.ask("W", 5) == 5
     await start(host, 1)
-    await rest(host)
+    await wait_stopped(host)

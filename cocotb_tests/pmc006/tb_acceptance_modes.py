@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 from .builds import D8E, directed
-from .moves import ready, rest
+from .moves import ready, wait_stopped
 
 
 @directed("P006-AC-53", "P006-CMD-55", builds=(D8E,))
 async def p006_ac_53(dut: Any) -> None:
     host = await ready(dut)
-    assert await host.swap("A5 FF 73 1F 01 00 00 37") == "A5 7A FF 1F 01 00 00 3E"
+    assert await host.exchange("A5 FF 73 1F 01 00 00 37") == "A5 7A FF 1F 01 00 00 3E"
     mark = host.mark
     assert await host.ask("s", 5) == 0
-    await rest(host)
+    await wait_stopped(host)
     gaps = host.intervals(mark)
     assert len(gaps) == 286 and gaps[:3] == [1613, 1534, 1439] and sum(gaps) == 132_476 - 1659
     assert await host.ask("s", 0) == 0

@@ -11,20 +11,20 @@ from .moves import (
     DECAY,
     SPEED_MODE,
     after_steps,
-    brisk,
     cruise,
+    is_stopped,
     move,
     ready,
-    rest,
     run,
+    set_constant_speed,
     start,
-    still,
+    wait_stopped,
 )
 from .reference import sines
 
 
 def hexed(frame: bytes) -> str:
-    """Return the text of a frame in the format of `Host.swap`."""
+    """Return the text of a frame in the format of `Host.exchange`."""
     return frame.hex(" ").upper()
 
 
@@ -32,23 +32,23 @@ def hexed(frame: bytes) -> str:
 async def p006_ac_03(dut: Any) -> None:
     host = await ready(dut)
     assert await host.ask("w", 1) == 1
-    assert await host.swap("A5 01 73 1F 01 00 00 39") == hexed(reply(1, host.accepted(287)))
-    await rest(host)
+    assert await host.exchange("A5 01 73 1F 01 00 00 39") == hexed(reply(1, host.accepted(287)))
+    await wait_stopped(host)
     steps = host.steps()
     gaps = host.intervals()
     assert len(steps) == 287 and gaps[:3] == [1613, 1534, 1439] and gaps[-3:] == [1666, 1667, 1667]
     assert host.in_us(steps[-1] - steps[0]) == 132_476 - 1659
-    assert await host.swap("A5 01 63 00 00 00 00 09") == "A5 7A 01 1F 01 00 00 40"
+    assert await host.exchange("A5 01 63 00 00 00 00 09") == "A5 7A 01 1F 01 00 00 40"
 
 
 @directed("P006-AC-13", "P006-MOT-03", "P006-MOT-04", "P006-MOT-05", "P006-STA-18")
 async def p006_ac_13(dut: Any) -> None:
     host = await ready(dut)
-    assert await host.swap("A5 FF 73 01 00 00 00 18") == hexed(reply(0xFF, host.accepted(1)))
+    assert await host.exchange("A5 FF 73 01 00 00 00 18") == hexed(reply(0xFF, host.accepted(1)))
     e = host.e
     assert e <= host.edges("mon_busy")[0][0] <= e + EXECUTE
     assert host.baud < 100_000 or await host.status() == DECAY | 1
-    await rest(host)
+    await wait_stopped(host)
     (step,) = host.steps(e)
     assert 0 <= step - e - host.us(1667) <= EXECUTE + START + host.us(1)
     assert 0 <= host.edges("mon_busy")[-1][0] - step <= 2
@@ -59,14 +59,14 @@ async def p006_ac_13(dut: Any) -> None:
 async def p006_ac_15(dut: Any) -> None:
     host = await ready(dut)
     assert await host.ask("s", 0) == 0 and await host.ask("s", -1) == 0
-    assert await still(host) and not host.steps(0) and await host.status() == DECAY
+    assert await is_stopped(host) and not host.steps(0) and await host.status() == DECAY
 
 
 @directed("P006-AC-16", "P006-STA-02", "P006-MOT-40")
 async def p006_ac_16(dut: Any) -> None:
     host = await ready(dut)
-    assert await host.swap("A5 FF 76 64 00 00 00 7E") == "A5 7A FF 64 00 00 00 82"
-    assert await host.ask("s", 10) == 0 and await still(host)
+    assert await host.exchange("A5 FF 76 64 00 00 00 7E") == "A5 7A FF 64 00 00 00 82"
+    assert await host.ask("s", 10) == 0 and await is_stopped(host)
     await run(host)
     await after_steps(host, host.pick(6, 3))
     assert set(host.intervals()) == {10_000}
@@ -77,10 +77,10 @@ async def p006_ac_20(dut: Any) -> None:
     host = await ready(dut)
     await run(host)
     await host.ms(20)
-    assert await host.swap("A5 FF 49 00 00 00 00 ED") == "A5 7A FF 00 00 00 00 1E"
+    assert await host.exchange("A5 FF 49 00 00 00 00 ED") == "A5 7A FF 00 00 00 00 1E"
     assert not host.steps(host.e + EXECUTE + 6) and not await host.busy()
     await start(host, 1)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 1
 
 
@@ -99,7 +99,7 @@ async def p006_ac_21(dut: Any) -> None:
     assert await host.out("bridge_a_en") and await host.out("bridge_b_en")
     held = await host.refs()
     assert await host.ask("s", 1) == host.accepted(1)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 1 and len(host.steps(0)) == count + 1
     assert held == sines(64 + 8 * count, 64)
 
@@ -126,7 +126,7 @@ async def p006_ac_27(dut: Any) -> None:
     host = await ready(dut)
     await host.ok(a=0)
     assert await host.ask("e", 1074) == 1074 and await host.refs() == (45, 0, 45, 0)
-    assert await host.swap("A5 FF 65 33 04 00 00 40") == "A5 7A FF 33 04 00 00 55"
+    assert await host.exchange("A5 FF 65 33 04 00 00 40") == "A5 7A FF 33 04 00 00 55"
     assert await host.refs() == (52, 0, 52, 0) and await host.ask("n") == 1075
     assert await host.ask("e", 399) == 1075 and await host.ask("e", 4001) == 1075
     assert await host.ask("e", 400) == 400 and await host.refs() == (18, 0, 18, 0)
@@ -161,20 +161,20 @@ async def p006_ac_59(dut: Any) -> None:
     assert not host.steps(host.e + EXECUTE + 6) and not await host.ask("O") & SPEED_MODE
     assert await host.ask("N", 0) == 0
     await start(host, 1)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 1
 
 
 @directed("P006-AC-60", "P006-MOT-41")
 async def p006_ac_60(dut: Any) -> None:
     host = await ready(dut)
-    await brisk(host, 2500, d=0)
+    await set_constant_speed(host, 2500, d=0)
     await run(host)
     mark = host.mark
     await host.ms(host.pick(510, 40))
     assert await host.ask("N", 0) == 0
     off = host.e
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     assert 0 <= fall - off <= host.us(200) + EXECUTE
     assert set(host.intervals(mark)) == {400} and await host.position() == -len(host.steps(mark))
 

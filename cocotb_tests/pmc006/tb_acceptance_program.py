@@ -7,11 +7,11 @@ from typing import Any
 from .builds import directed
 from .moves import (
     after_steps,
-    brisk,
     download,
+    is_stopped,
     load,
     ready,
-    still,
+    set_constant_speed,
 )
 from .programs import END, P1, WAIT_REST, Op, out, page, rot, words
 
@@ -30,7 +30,7 @@ async def p006_ac_40(dut: Any) -> None:
 @directed("P006-AC-42", "P006-PRG-30", "P006-PRG-31", "P006-PRG-32")
 async def p006_ac_42(dut: Any) -> None:
     host = await ready(dut)
-    await brisk(host, 2000)
+    await set_constant_speed(host, 2000)
     await load(host, Op(0x13, 1, 5), Op(0x14, 1), rot(100_000), WAIT_REST, END, out(1, 1), END)
     mark = host.mark
     await after_steps(host, 10)
@@ -55,9 +55,9 @@ async def p006_ac_42(dut: Any) -> None:
 @directed("P006-AC-44", "P006-CMD-21", "P006-CMD-47", "P006-PRG-12")
 async def p006_ac_44(dut: Any) -> None:
     host = await ready(dut)
-    assert await host.swap("A5 FF 5A 00 01 00 00 FF") == "A5 7A FF 00 01 00 00 1F"
-    assert await host.swap("A5 FF 7A 00 00 00 00 1E") == "A5 7A FF 01 00 00 00 1F"
-    assert await still(host) and not await host.busy()
+    assert await host.exchange("A5 FF 5A 00 01 00 00 FF") == "A5 7A FF 00 01 00 00 1F"
+    assert await host.exchange("A5 FF 7A 00 00 00 00 1E") == "A5 7A FF 01 00 00 00 1F"
+    assert await is_stopped(host) and not await host.busy()
     assert await host.ask("z") == 1
 
 
@@ -67,7 +67,7 @@ async def p006_ac_65(dut: Any) -> None:
     for disarmed in (False, True):
         host = await ready(dut)
         if not host.literal:
-            await brisk(host, 2500)
+            await set_constant_speed(host, 2500)
         await load(host, *program)
         await after_steps(host, 10)
         if disarmed:
@@ -82,4 +82,4 @@ async def p006_ac_65(dut: Any) -> None:
         else:
             (halt, level), *more = host.edges("mon_busy", edge)
             assert not level and not more and host.us(1_000) <= halt - edge <= host.us(1_002) + 8
-        assert not await host.busy() and await still(host)
+        assert not await host.busy() and await is_stopped(host)

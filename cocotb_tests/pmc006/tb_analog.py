@@ -8,13 +8,23 @@ import cocotb
 
 from .builds import directed
 from .host import Host
-from .moves import after_steps, cruise, download, load, quick, rest, run, start, still
+from .moves import (
+    after_steps,
+    constant_speed_host,
+    cruise,
+    download,
+    is_stopped,
+    load,
+    run,
+    start,
+    wait_stopped,
+)
 from .programs import END, Op, rot
 
 
 async def regulated(dut: Any, full: int, value: int) -> Host:
     """Return a host of a part with ANALOG = 1, set by E; `value` is the last sample."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(u=5, o=5)
     await download(host, [Op(0x08, 1, full)])
     assert await host.ask("E") == 1 and await host.ask("q") == full
@@ -50,8 +60,8 @@ async def p006_move_below_its_start_speed(dut: Any) -> None:
     host = await regulated(dut, 3000, 990)
     await start(host, 256)
     mark = host.mark
-    await rest(host)
-    assert host.made(mark) == 256 and set(host.intervals(mark)) == {344, 345}
+    await wait_stopped(host)
+    assert host.step_count(mark) == 256 and set(host.intervals(mark)) == {344, 345}
     await host.ok(L=2000)
     await download(host, [Op(0x08, 1, 2999)])
     assert await host.ask("E") == 1 and await host.ask("s", 256) == 0
@@ -66,7 +76,7 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     host = await regulated(dut, 3000, 0)
     await start(host, 400)
     mark = host.mark
-    assert await still(host, host.us(4_000)) and await host.busy()
+    assert await is_stopped(host, host.us(4_000)) and await host.busy()
     await host.strobe(adc_data=800)
     await cruise(host, 1_000_000 / target(3000, 800), 90_000)
     begun = host.steps(mark)[0] - host.edges("mon_busy", mark)[0][0]
@@ -74,22 +84,22 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     assert host.us(15_500) < begun < host.us(17_500)
     await host.strobe(adc_data=0)
     await host.ms(12)
-    count = host.made(mark)
+    count = host.step_count(mark)
     assert count and await host.busy()
     await host.ms(45)
-    assert await still(host, host.us(2_000))
+    assert await is_stopped(host, host.us(2_000))
     assert await host.busy()
     assert await host.ask("I") == 0
     assert not await host.busy()
     # A short move does not use the voltage, and without samples since the reset there is no voltage.
     await start(host, 5)
-    await rest(host)
-    assert host.made() == 5
+    await wait_stopped(host)
+    assert host.step_count() == 5
 
 
 @directed("P006-MOT-52", "P006-MOT-51", "P006-MOT-50", "P006-CMD-43", "P006-PRG-14")
 async def p006_regulation_survives_the_program_and_v_ends_it(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(u=5, o=5)
     await host.strobe(adc_data=600)
     await load(host, Op(0x08, 1, 4000), rot(1_000_000), END)

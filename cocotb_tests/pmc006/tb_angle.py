@@ -8,7 +8,7 @@ import cocotb
 
 from .builds import directed
 from .host import EXECUTE, Host
-from .moves import after_steps, brisk, move, quick, rest, run, start
+from .moves import after_steps, constant_speed_host, move, run, set_constant_speed, start, wait_stopped
 from .reference import HOME, boost, code, increment, lead, sines
 
 REFS = 64
@@ -30,21 +30,23 @@ async def p006_angle_of_every_step(dut: Any, m: int) -> None:
 
     At least a full step is made in both directions.
     """
-    host = await brisk(await Host.start(dut), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300)
+    host = await set_constant_speed(
+        await Host.start(dut), 1000 if m > 1 else 600, m=m, a=0, e=4000, M=100, P=300
+    )
     angle = HOME
     for direction in (1, 0):
         await host.ok(d=direction)
         await start(host, 9)
         mark = host.mark
-        await rest(host)
+        await wait_stopped(host)
         await host.pause(REFS)
         for edge in host.steps(mark):
             angle += increment(m) if direction else -increment(m)
             ahead = lead(1000 if m > 1 else 600, m, 300) * (1 if direction else -1)
             after = edge + REFS
             raised = min(255, 255 + boost(4000, 1000, m, 100))
-            wanted = {sines(angle, 255), sines(angle + ahead, raised)}
-            assert shown(host, after) in wanted, f"angle {angle}"
+            expected = {sines(angle, 255), sines(angle + ahead, raised)}
+            assert shown(host, after) in expected, f"angle {angle}"
             assert len({t for name in NAMES for t, _ in host.edges(name, edge) if t <= after}) <= 1
         assert await host.refs() == sines(angle, 255)
 
@@ -64,7 +66,7 @@ async def p006_table_of_angles(dut: Any) -> None:
         (320, 255): (180, 1, 180, 1),
     }
     assert all(sines(angle, peak) == row for (angle, peak), row in table.items())
-    host = await brisk(await Host.start(dut), 3000, m=4, a=0)
+    host = await set_constant_speed(await Host.start(dut), 3000, m=4, a=0)
     for current, peak in ((1000, 64), (4000, 255)):
         await host.ok(e=current)
         for number in range(16):
@@ -78,7 +80,7 @@ async def p006_table_of_angles(dut: Any) -> None:
 @directed("P006-EXC-03", "P006-CMD-54")
 async def p006_nothing_but_steps_moves_the_angle(dut: Any) -> None:
     """Only steps move the angle: it keeps its grid with a coarser MSTEP, and settings and stops keep it."""
-    host = await brisk(await Host.start(dut), 3000, m=128, a=0)
+    host = await set_constant_speed(await Host.start(dut), 3000, m=128, a=0)
     await move(host, 5)
     await host.pause(REFS)
     held = await host.refs()
@@ -124,7 +126,7 @@ async def p006_currents(dut: Any) -> None:
 async def p006_compensation(dut: Any, case: Any) -> None:
     """Compensation is 0 up to the first update tick, then that of the active speed, 0 at standstill."""
     m, e, ccomp, scomp, speed, forward = case
-    host = await brisk(await Host.start(dut), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
+    host = await set_constant_speed(await Host.start(dut), speed, m=m, e=e, M=ccomp, P=scomp, d=forward, a=0)
     await run(host)
     mark = host.mark
     await after_steps(host, 9)
@@ -138,21 +140,21 @@ async def p006_compensation(dut: Any, case: Any) -> None:
     assert shown(host, first + host.us(50)) == sines(HOME, code(e))
     assert await host.ask("I") == 0
     await host.pause(REFS)
-    assert await host.refs() == sines(HOME + sign * increment(m) * host.made(mark), code(e))
+    assert await host.refs() == sines(HOME + sign * increment(m) * host.step_count(mark), code(e))
 
 
 @directed("P006-EXC-22", "P006-EXC-23", "P006-CMD-54", "P006-CMD-10", "P006-CMD-13")
 async def p006_factors_act_at_once(dut: Any) -> None:
     """CCOMP, SCOMP and CUR act on a running motion; MSTEP does not."""
-    host = await brisk(await Host.start(dut), 2000, m=0, a=0, e=1000)
+    host = await set_constant_speed(await Host.start(dut), 2000, m=0, a=0, e=1000)
     await run(host)
     mark = host.mark
     for settings in ({"M": 1200}, {"P": 300}, {"e": 2500}, {"m": 128}):
         await host.ok(**settings)
     await host.wait_us(400)
-    await after_steps(host, host.made(mark) + 1)
+    await after_steps(host, host.step_count(mark) + 1)
     await host.pause(REFS)
-    angle = HOME + 128 * host.made(mark)
+    angle = HOME + 128 * host.step_count(mark)
     assert await host.refs() == sines(
         angle + lead(2000, 0, 300), min(255, code(2500) + boost(2500, 2000, 0, 1200))
     )
@@ -165,9 +167,9 @@ async def p006_decay(dut: Any) -> None:
 
     a, Q and an accepted motion act immediately, a rejected s has no effect.
     """
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await start(host, 1)
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     await host.ok(g=1)
     await host.ok(g=0)
     await host.go(fall + host.us(99_990))
@@ -180,13 +182,13 @@ async def p006_decay(dut: Any) -> None:
     await host.ok(a=0)
     assert await host.refs() == sines(HOME + 8, code(800))
     await host.ok(a=1)
-    change = host.edges("phase_a_ref", host.said)[0][0]
+    change = host.edges("phase_a_ref", host.frame_start)[0][0]
     assert host.e <= change <= host.e + EXECUTE + REFS
     assert await host.ask("s", 0) == 0 and await host.refs() == sines(HOME + 8, code(800) >> 1)
     await host.ok(v=100)
     assert await host.ask("s", 3) == 0 and await host.refs() == sines(HOME + 8, code(800) >> 1)
     await run(host)
-    change = host.edges("phase_a_ref", host.said)[0][0]
+    change = host.edges("phase_a_ref", host.frame_start)[0][0]
     assert host.e <= change <= host.e + EXECUTE + REFS and await host.refs() == sines(HOME + 8, code(800))
     await host.ask("I")
     assert await host.refs() == sines(HOME + 8, code(800))
@@ -195,13 +197,13 @@ async def p006_decay(dut: Any) -> None:
 @directed("P006-STA-12", "P006-EXC-30", "P006-CMD-28")
 async def p006_free(dut: Any) -> None:
     """g 1 switches everything off immediately; g 0 restores the hold current at the kept angle."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(e=2000)
     await start(host, 500)
     await after_steps(host, 11)
     await host.ok(g=1)
-    made = host.made(0)
-    off = host.edges("bridge_a_en", host.said)[0]
+    made = host.step_count(0)
+    off = host.edges("bridge_a_en", host.frame_start)[0]
     assert host.e <= off[0] <= host.e + EXECUTE + 5 and not off[1] and await host.refs() == (0, 0, 0, 0)
     assert not host.steps(off[0] + 5) and await host.position() == made
     await host.ok(g=0)

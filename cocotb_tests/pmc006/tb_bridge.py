@@ -9,13 +9,13 @@ from typing import Any
 
 from .builds import BLANK, F8B, ODD, directed
 from .host import Host
-from .moves import after_steps, brisk, rest, run, start
+from .moves import after_steps, run, set_constant_speed, start, wait_stopped
 
 BUILDS = (F8B, ODD, BLANK)
 
 
 class Times:
-    """TOFF, BL and TF of chapter 6.6 in cycles."""
+    """TOFF, BL and TF of the chopper in cycles (P006-CHP-03)."""
 
     def __init__(self, host: Host) -> None:
         params = host.params
@@ -122,12 +122,12 @@ async def p006_reversals(dut: Any) -> None:
     With a reference of 0 nothing is switched on.
     """
     host, times = await ready(dut)
-    await brisk(host, 500, m=2, P=300)
+    await set_constant_speed(host, 500, m=2, P=300)
     for direction in (1, 0):
         await host.ok(d=direction)
         await start(host, 9)
         mark = host.mark
-        await rest(host)
+        await wait_stopped(host)
         await host.pause(times.off + 64)
         for phase, pair in (("a", ("m10", "m11")), ("b", ("m20", "m21"))):
             turned = [edge for edge, _ in host.edges(f"phase_{phase}_sign", mark)]
@@ -150,9 +150,9 @@ async def p006_reference_of_0(dut: Any) -> None:
     Then OFF follows OFF, exact to the cycle, until the reference is not 0.
     """
     host, times = await ready(dut)
-    await brisk(host, 500, m=2)
+    await set_constant_speed(host, 500, m=2)
     await start(host, 3)
-    await rest(host)
+    await wait_stopped(host)
     await host.pause(64)
     assert not await host.out("phase_b_ref") and not await host.out("phase_b_sign")
     # The previous ON ends with the comparator, which falls in the middle of the second FAST.
@@ -191,7 +191,7 @@ async def p006_bridges_off(dut: Any) -> None:
     await host.pause(5 * times.off)
     assert not any(host.edges(name, mark) for name in ("m10", "m11", "m20", "m21"))
     await host.ok(g=0)
-    up = host.edges("bridge_b_en", host.said)[0][0]
+    up = host.edges("bridge_b_en", host.frame_start)[0][0]
     rise = next(t for t, level in host.edges("m20", up) if level)
     assert (rise - up) % times.off == 0
 
@@ -200,7 +200,7 @@ async def p006_bridges_off(dut: Any) -> None:
 async def p006_restless_comparators(dut: Any) -> None:
     """With comparator edges at any time during a motion, the outputs equal the model and never overlap."""
     host, times = await ready(dut)
-    await brisk(host, 2500, m=4)
+    await set_constant_speed(host, 2500, m=4)
     await run(host)
     rng = random.Random(6)
     for _ in range(250):

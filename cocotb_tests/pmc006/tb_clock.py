@@ -6,7 +6,7 @@ from typing import Any
 
 from .builds import ODD, directed
 from .host import Host
-from .moves import after_steps, load, quick, rest, run, start
+from .moves import after_steps, constant_speed_host, load, run, start, wait_stopped
 from .programs import Op
 from .reference import HOME, code, sines
 
@@ -19,7 +19,7 @@ async def p006_intervals(dut: Any) -> None:
     host = await Host.start(dut)
     await host.ok(u=3, o=3, v=3200)
     await start(host, 256)
-    await rest(host)
+    await wait_stopped(host)
     gaps = host.intervals()
     assert gaps[:3] == [1613, 1534, 1439] and gaps[-3:] == [1667, 1667, 1666]
     steps = host.steps()
@@ -28,7 +28,7 @@ async def p006_intervals(dut: Any) -> None:
 
 @directed("P006-PAR-01", "P006-MOT-40", "P006-PRG-30", "P006-PRG-31", builds=BUILDS)
 async def p006_speed_mode_and_keys(dut: Any) -> None:
-    host = await quick(dut, 2500)
+    host = await constant_speed_host(dut, 2500)
     await run(host)
     await after_steps(host, 30)
     steps = host.steps()
@@ -44,9 +44,9 @@ async def p006_speed_mode_and_keys(dut: Any) -> None:
 
 @directed("P006-PAR-01", "P006-EXC-31", "P006-EXC-30", builds=BUILDS)
 async def p006_idle_time(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await start(host, 1)
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     await host.go(fall + host.us(99_998))
     assert await host.refs() == sines(HOME + 8, code(800))
     await host.go(fall + host.us(100_002) + 64)

@@ -16,13 +16,13 @@ from .moves import (
     OFFLINE,
     SPEED_MODE,
     after_steps,
+    constant_speed_host,
     download,
+    is_stopped,
     load,
-    quick,
-    rest,
     run,
     start,
-    still,
+    wait_stopped,
 )
 from .programs import END, Op, out, rot
 
@@ -133,7 +133,7 @@ async def p006_outputs(dut: Any) -> None:
     for data in (0x08, 0xF8, 0x07, -1, 0x150, 0xFFFFFF07, 0, 0xA8):
         assert await host.ask("y", data) == data & 0xF8
         assert await host.out("gpo") == (data & 0xF8) >> 3
-    change = host.edges("gpo", host.said)[0][0]
+    change = host.edges("gpo", host.frame_start)[0][0]
     assert host.e <= change <= host.e + EXECUTE
 
 
@@ -148,13 +148,13 @@ async def p006_clearing_what_is_not_set(dut: Any) -> None:
 
 @directed("P006-CMD-40", "P006-CMD-55", "P006-CMD-51", "P006-STA-01", "P006-BAD-10")
 async def p006_step_command(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     for data in (0, -1, -0x80000000):
         assert await host.ask("s", data) == 0
     await start(host, 1)
-    await rest(host)
+    await wait_stopped(host)
     await start(host, 3)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(0)) == 4
     await host.ok(v=2999)
     assert await host.ask("s", 5) == 0
@@ -171,12 +171,12 @@ async def p006_step_command(dut: Any) -> None:
     assert await host.ask("s", 1) == 0
     await host.ok(g=0)
     await start(host, 1)
-    await rest(host)
+    await wait_stopped(host)
 
 
 @directed("P006-CMD-11", "P006-CMD-12", "P006-STA-02", "P006-STA-16", "P006-BAD-25")
 async def p006_speed_mode(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     for data in (2, -1, 0x101, 0x7FFFFFFF):
         assert await host.ask("N", data) == 0 and not await host.busy()
     assert await host.ask("N", 0) == 0 and not await host.busy()
@@ -185,19 +185,19 @@ async def p006_speed_mode(dut: Any) -> None:
     assert await host.ask("O") & SPEED_MODE and await host.ask("N", 1) == 1 and await host.ask("N", 2) == 1
     assert await host.ask("s", 10) == 0 and await host.busy()
     assert await host.ask("N", 0) == 0 and not await host.ask("O") & SPEED_MODE
-    await rest(host)
+    await wait_stopped(host)
     assert set(host.intervals(mark)) <= {333, 334}
     # A displacement is not the speed mode: N 1 is rejected, N 0 has no effect.
     await start(host, 40)
     mark = host.mark
     assert await host.ask("N", 1) == 0 and await host.ask("N", 0) == 0
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(mark)) == 40
 
 
 @directed("P006-CMD-06", "P006-STA-10", "P006-STA-11")
 async def p006_abort(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await start(host, 1000)
     await after_steps(host, 5)
     assert await host.ask("I", 0xBEEF) == 0xBEEF
@@ -205,7 +205,7 @@ async def p006_abort(dut: Any) -> None:
     assert not host.steps(host.e + EXECUTE + 6) and not await host.busy()
     assert await host.position() == count and await host.status() == DECAY
     await start(host, 2)
-    await rest(host)
+    await wait_stopped(host)
     assert await host.position() == count + 2
 
 
@@ -225,7 +225,7 @@ async def p006_program_words(dut: Any) -> None:
 
 @directed("P006-CMD-03", "P006-CMD-47", "P006-CMD-04", "P006-PRG-12", "P006-PRG-20", "P006-BAD-11")
 async def p006_program_codes(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await download(host, (out(1, 1), Op(0x0D, 0, 1)))
     assert await host.ask("E") == 1 and await host.out("gpo") == 1
     assert await host.ask("z", 99) == 1
@@ -244,14 +244,14 @@ async def p006_program_codes(dut: Any) -> None:
 
 @directed("P006-CMD-52", "P006-CMD-24", "P006-CMD-30", "P006-STA-15")
 async def p006_position(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     for value in (5, -1, 0x7FFFFFFF, -0x80000000):
         await host.ok(i=value)
     await start(host, 60)
     await after_steps(host, 10)
     assert await host.ask("i", 1000) == 1000
     loaded = host.e
-    await rest(host)
+    await wait_stopped(host)
     left = 60 - sum(t <= loaded for t in host.steps(0))
     assert abs(await host.position() - 1000 - left) <= 1 and len(host.steps(0)) == 60
     await host.ok(g=1, i=-7)
@@ -265,15 +265,15 @@ async def p006_position(dut: Any) -> None:
 @directed("P006-CMD-54", "P006-CMD-34", "P006-CMD-25", "P006-STA-04")
 async def p006_values_of_the_next_motion(dut: Any) -> None:
     """MSTEP, DIR, VSTART and VSTOP do not change during a motion; a short motion does not use VMAX."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await start(host, 60)
     mark = host.mark
     await host.ok(m=4, d=0, L=100, S=100, u=5, o=5, v=200)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(mark)) == 60 and set(host.intervals(mark)) <= {333, 334}
     assert await host.out("mon_dir") == 1 and await host.position() == 60
     await start(host, 2)
-    await rest(host)
+    await wait_stopped(host)
     assert await host.out("mon_dir") == 0 and host.intervals() == [10_000] and await host.position() == 58
 
 
@@ -281,6 +281,6 @@ async def p006_values_of_the_next_motion(dut: Any) -> None:
 async def p006_offline_flag(dut: Any) -> None:
     host = await Host.start(dut)
     await host.ok(F=1)
-    assert await host.ask("O") == FORWARD | OFFLINE and await still(host, 1_000)
+    assert await host.ask("O") == FORWARD | OFFLINE and await is_stopped(host, 1_000)
     await load(host, rot(1), END)
     assert await host.ask("F", 0) == 0 and await host.ask("O") == FORWARD

@@ -8,7 +8,7 @@ from typing import Any
 from openppmc.model.pmc006.bench.motor import Motor, Plant
 
 from .builds import directed
-from .moves import brisk, run, start
+from .moves import run, set_constant_speed, start
 from .stepping import MotorHost
 
 
@@ -48,7 +48,7 @@ async def p006_regulated_at_rest_and_after_a_fall(dut: Any) -> None:
 async def p006_regulated_in_motion(dut: Any) -> None:
     """In half steps with back EMF, forward and backward, the currents reach their references."""
     host, plant = await ready(dut, e=1000, m=2)
-    await brisk(host, 2000)
+    await set_constant_speed(host, 2000)
     plant.spin(4.0, 250, 1.0)
     for direction in (1, 0):
         await host.ok(d=direction)
@@ -67,7 +67,7 @@ async def p006_regulated_in_motion(dut: Any) -> None:
 async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
     """Fast decay removes the current when the reference falls from 71 % to 0 without a new sign."""
     host, plant = await ready(dut, e=2000, m=2, P=300)
-    await brisk(host, 1000)
+    await set_constant_speed(host, 1000)
     await start(host, 3)
     await host.until("mon_busy", 0)
     await host.ms(0.7)
@@ -80,7 +80,7 @@ async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
 async def p006_released_and_taken_back(dut: Any) -> None:
     """With the bridges off the current decays in the diodes; it returns in the next cycle."""
     host, plant = await ready(dut, Motor(2.0, 1e-3, 12.0), e=3000)
-    await brisk(host, 3000)
+    await set_constant_speed(host, 3000)
     await run(host)
     await host.ms(2)
     await host.ok(g=1)

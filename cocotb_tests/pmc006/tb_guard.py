@@ -15,12 +15,12 @@ from .moves import (
     EXT2,
     SPEED_MODE,
     after_steps,
+    constant_speed_host,
+    is_stopped,
     move,
-    quick,
-    rest,
     run,
     start,
-    still,
+    wait_stopped,
 )
 
 STOP = 5
@@ -36,7 +36,7 @@ CLEAR = {"ext1": "b", "ext2": "l"}
 async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
     """The selected edge stops any motion within 5 cycles; the other edge and the other pin have no effect."""
     other = "ext2" if pin == "ext1" else "ext1"
-    host = await quick(dut, levels={"sda_i": 0, pin: 1 - rising})
+    host = await constant_speed_host(dut, levels={"sda_i": 0, pin: 1 - rising})
     mask = 1 if pin == "ext1" else 2
     await host.ok(f=mask, J=mask if rising else 3 - mask)
     assert await host.out(f"{pin}_pu") == 1 - rising
@@ -57,14 +57,18 @@ async def p006_emergency_stop(dut: Any, pin: str, rising: int) -> None:
         await host.pins(**{pin: 1 - rising})
         assert await host.ask(CLEAR[other]) == 0 and await host.status() == DECAY | FLAGS[pin]
         assert await host.ask(CLEAR[pin]) == 0 and await host.status() == DECAY
-        assert await host.position() == host.made(0) and await still(host, 2_000) and host.made(mark) > 3
+        assert (
+            await host.position() == host.step_count(0)
+            and await is_stopped(host, 2_000)
+            and host.step_count(mark) > 3
+        )
 
 
 @directed("P006-EXT-02", "P006-EXT-03", "P006-EXT-04", "P006-EXT-07", "P006-EXT-09", "P006-BAD-26")
 async def p006_levels_never_stop(dut: Any) -> None:
     """A switch that is active when it is enabled or when the mode changes sets no flag and stops nothing."""
     for level in (0, 1):
-        host = await quick(dut, levels={"sda_i": 0, "ext1": level, "ext2": level})
+        host = await constant_speed_host(dut, levels={"sda_i": 0, "ext1": level, "ext2": level})
         await start(host, 2_000)
         for mode in (3, 1, 0):
             await host.ok(J=mode, f=3)
@@ -76,7 +80,7 @@ async def p006_levels_never_stop(dut: Any) -> None:
 
 @directed("P006-EXT-04", "P006-EXT-09")
 async def p006_edges_with_the_enable_off_are_forgotten(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.pins(ext1=0)
     await host.pause(10)
     await host.ok(f=1)
@@ -93,7 +97,7 @@ async def p006_edges_with_the_enable_off_are_forgotten(dut: Any) -> None:
 
 @directed("P006-EXT-05", "P006-EXT-02", "P006-BAD-21", "P006-STA-17")
 async def p006_both_inputs_and_chatter(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=3)
     await start(host, 3_000)
     await after_steps(host, 3)
@@ -108,7 +112,7 @@ async def p006_both_inputs_and_chatter(dut: Any) -> None:
 
 @directed("P006-EXT-11", "P006-STA-11", "P006-EXT-10")
 async def p006_locked_part_answers_everything_else(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=1)
     await host.pins(ext1=0)
     await host.ok(m=32, d=0, u=2, y=0x50, e=1500, i=-9, T=3, Y=1, Z=40, F=1)
@@ -123,20 +127,20 @@ async def p006_locked_part_answers_everything_else(dut: Any) -> None:
 @directed("P006-EXT-10", "P006-EXT-08", "P006-EXT-07")
 async def p006_homing(dut: Any) -> None:
     """After homing to the switch and a fixed count off it, settings and position are exact."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=1, d=0)
     await start(host, 0x7FFFFFFF)
     await after_steps(host, 12)
     await host.pins(ext1=0)
     await host.pause(20)
-    made = host.made()
+    made = host.step_count()
     assert await host.position() == -made and await host.ask("b") == 0
     await host.ok(d=1)
     await start(host, 20)
     await after_steps(host, 6)
     await host.pins(ext1=1)
-    await rest(host)
-    assert host.made() == 20 and await host.position() == 20 - made and await host.status() == DECAY
+    await wait_stopped(host)
+    assert host.step_count() == 20 and await host.position() == 20 - made and await host.status() == DECAY
     assert [await host.ask(code) for code in "qLS"] == [3000] * 3
 
 
@@ -144,31 +148,31 @@ async def p006_homing(dut: Any) -> None:
 async def p006_ext_around_the_last_step(dut: Any) -> None:
     """An edge of EXT near the last step always sets the flag; the position is the number of steps made."""
     for offset in range(-5, 4):
-        host = await quick(dut)
+        host = await constant_speed_host(dut)
         await host.ok(f=1)
         await start(host, 3)
         edge = await after_steps(host, 2) + host.us(1000) // 3 + offset
         await host.go(max(host.t, edge))
         await host.pins(ext1=0)
         await host.pause(host.us(400))
-        assert not await host.busy() and 2 <= host.made() <= 3
-        assert await host.status() == DECAY | EXT1 and await host.position() == host.made()
+        assert not await host.busy() and 2 <= host.step_count() <= 3
+        assert await host.status() == DECAY | EXT1 and await host.position() == host.step_count()
 
 
 @directed("P006-STA-14", "P006-STA-17", "P006-EXT-02")
 async def p006_flag_set_and_cleared_in_one_clk(dut: Any) -> None:
     """If the flag is set and cleared in the same cycle, it is set; a b that is executed later clears it."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=1)
     outcomes = set()
     for offset in range(-4, 8):
         await host.pins(ext1=1)
         await host.pause(20)
-        await host.say("b")
+        await host.send_frame("b")
         answer_end = host.e
         await host.go(answer_end + offset)
         await host.pins(ext1=0)
-        assert await host.hear() == 0
+        assert await host.receive_reply() == 0
         flag = await host.status() & EXT1
         outcomes.add((offset, bool(flag)))
         assert await host.ask("b") == 0
@@ -201,7 +205,7 @@ async def p006_frames_executed_around_a_step(dut: Any) -> None:
     """i, I and g near a step neither lose nor double a step, and no step follows a stop."""
     for code, data in (("i", 500), ("I", 0), ("g", 1)):
         for offset in range(-2, 5):
-            host = await quick(dut)
+            host = await constant_speed_host(dut)
             await start(host, 12)
             mark = host.mark
             first = await after_steps(host, 1)
@@ -209,9 +213,9 @@ async def p006_frames_executed_around_a_step(dut: Any) -> None:
             await host.go(target - int(79.5 * host.bit) - 2)
             assert await host.ask(code, data) == data
             if code == "i":
-                await rest(host)
+                await wait_stopped(host)
                 left = sum(t > target - 2 for t in host.steps(mark))
-                assert host.made(mark) == 12 and 0 <= left - (await host.position() - 500) <= 1
+                assert host.step_count(mark) == 12 and 0 <= left - (await host.position() - 500) <= 1
             else:
                 assert not await host.busy() and not host.steps(host.e + EXECUTE + STOP)
-                assert await host.position() == host.made(mark)
+                assert await host.position() == host.step_count(mark)

@@ -1,4 +1,4 @@
-"""The keys of a user program on GPI1 and GPI2, their filters, their effect in each state (12.7)."""
+"""The keys of a user program on GPI1 and GPI2, their filters, their effect in each state."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import cocotb
 
 from .builds import directed
 from .host import Host
-from .moves import after_steps, load, quick, rest, start, still
+from .moves import after_steps, constant_speed_host, is_stopped, load, start, wait_stopped
 from .programs import END, Op, out, rot
 
 RESET_TO = 3
@@ -43,9 +43,9 @@ async def press(host: Host, gpi: int, us: int = FILTER + 10) -> int:
     return edge
 
 
-async def armed(dut: Any, **given: Any) -> Host:
+async def armed(dut: Any, **options: Any) -> Host:
     """Return a host whose keys are armed."""
-    host = await quick(dut, 2500, **given)
+    host = await constant_speed_host(dut, 2500, **options)
     await host.wait_us(FILTER + 10)
     return host
 
@@ -79,7 +79,7 @@ async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
     await after_steps(host, 3)
     edge = await level(host, KEY1)
     await host.wait_us(5 * FILTER)
-    assert not await host.busy() and await still(host, 100) and not await host.out("gpo")
+    assert not await host.busy() and await is_stopped(host, 100) and not await host.out("gpo")
     # The key bounces while it is released.
     for us in (300, FILTER - 1):
         await level(host, HIGH)
@@ -91,7 +91,7 @@ async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
     await host.wait_us(FILTER + 100)
     up = host.edges("gpo", release)[0][0]
     assert host.us(FILTER) <= up - release <= host.us(FILTER + 2) + LATE
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(up)) == 5 and await host.ask("z") == 1
 
 
@@ -125,7 +125,7 @@ async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
 @directed("P006-PRG-30")
 async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> None:
     """A key that is held at reset or when it is enabled has no effect until it has been released."""
-    host = await quick(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
+    host = await constant_speed_host(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
     await host.wait_us(3 * FILTER)
     await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)
     await host.wait_us(3 * FILTER)
@@ -159,7 +159,7 @@ async def p006_pause(dut: Any) -> None:
     host = await armed(dut)
     await load(host, PAUSE_EN, rot(30), Op(0x10, 8, 0), out(1, 1), Op(0x10, 3, 0), out(2, 1), END)
     edge = await press(host, KEY2)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 30
     await host.wait_us(FILTER)
     assert not await host.out("gpo")

@@ -11,7 +11,7 @@ import cocotb
 from .builds import F8B, ODD, directed
 from .frames import checked, command, reply
 from .host import Host
-from .moves import DECAY, quick
+from .moves import DECAY, constant_speed_host
 
 BUILDS = (F8B, ODD)
 
@@ -51,7 +51,7 @@ async def p006_gaps_between_bytes(dut: Any) -> None:
     for gap in (0, 0.3, 1, 7.77, 100):
         await host.send(command(0xFF, "i", 0x12345678), gap)
         await host.pause(ceil(gap * host.bit))
-        assert await host.hear() == 0x12345678
+        assert await host.receive_reply() == 0x12345678
 
 
 @directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
@@ -71,7 +71,7 @@ async def p006_spikes_on_an_idle_line(dut: Any) -> None:
     await host.pins(rxd=1)
     await host.pause(ceil(host.bit))
     await host.send(J[3:])
-    assert await host.hear() == DECAY
+    assert await host.receive_reply() == DECAY
 
 
 @directed("P006-UART-02", "P006-BAD-05", builds=BUILDS)
@@ -82,7 +82,7 @@ async def p006_noise_away_from_the_samples(dut: Any) -> None:
     for byte in command(0xFF, "i", 0x0FF0A55A):
         spikes = [(bit + place, clk) for bit in range(10) for place in (0.1, 0.7) if 0.5 < bit + place < 9.4]
         await host.character(byte, spikes=spikes)
-    assert await host.hear() == 0x0FF0A55A
+    assert await host.receive_reply() == 0x0FF0A55A
 
 
 @cocotb.parametrize(place=range(8))
@@ -92,7 +92,7 @@ async def p006_framing_error_in_each_byte(dut: Any, place: int) -> None:
     host = await Host.start(dut)
     for number, byte in enumerate(command(0xFF, "i", 0xA5A5)):
         await host.character(byte, stop=int(number != place))
-    assert await host.silent(ceil(90 * host.bit))
+    assert await host.is_silent(ceil(90 * host.bit))
     await host.pause(ceil(200 * host.bit))
     assert await host.ask("c") == 0
 
@@ -107,7 +107,7 @@ async def p006_breaks(dut: Any, bits: float) -> None:
     if bits < 9.5:
         # If byte 0 is valid, the frame continues.
         await host.send(J[5:])
-        assert await host.hear() == DECAY
+        assert await host.receive_reply() == DECAY
     assert await host.ask("j") == DECAY
 
 
@@ -143,7 +143,7 @@ async def p006_every_wrong_bit_of_a_frame(dut: Any) -> None:
             frame = bytearray(good)
             frame[place] ^= 1 << bit
             await host.send(frame)
-    assert await host.silent(ceil(10 * host.bit)) and not host.edges("de")
+    assert await host.is_silent(ceil(10 * host.bit)) and not host.edges("de")
     assert not await host.out("gpo") and await host.ask("y", 0xF8) == 0xF8
 
 
@@ -151,11 +151,11 @@ async def p006_every_wrong_bit_of_a_frame(dut: Any) -> None:
 async def p006_own_address_only(dut: Any) -> None:
     host = await Host.start(dut)
     for address in (0, 1, 0x78, 0x79, 0x7A, 0xA5, 0xFE):
-        await host.say("y", 0xF8, address)
+        await host.send_frame("y", 0xF8, address)
     assert await host.ask("w", 0x78) == 0x78
     for address in (0, 0x77, 0x79, 0xFF):
-        await host.say("y", 0xF8, address)
-    assert await host.silent(ceil(10 * host.bit)) and not await host.out("gpo")
+        await host.send_frame("y", 0xF8, address)
+    assert await host.is_silent(ceil(10 * host.bit)) and not await host.out("gpo")
     assert await host.ask("j") == DECAY
 
 
@@ -183,7 +183,7 @@ async def p006_start_bits_about_the_middle_of_a_stop_bit(dut: Any) -> None:
             host.back_to(begin + ceil(Fraction(19, 2) * host.bit) + late)
         await host.character(last)
         await host.pause(ceil(300 * host.bit))
-        await host.forget()
+        await host.ignore_replies()
         heard.append(await host.ask("c") == data)
         assert await host.ask("i", 0) == 0
     assert heard == sorted(heard) and set(heard) == {False, True}
@@ -203,9 +203,9 @@ async def p006_silence_within_a_frame(dut: Any) -> None:
         await host.pause(gap)
         await host.send(command(0xFF, "i", 0x77)[4:])
         if answered:
-            assert await host.hear() == 0x77
+            assert await host.receive_reply() == 0x77
         else:
-            assert await host.silent(ceil(20 * host.bit))
+            assert await host.is_silent(ceil(20 * host.bit))
             await host.pause(ceil(200 * host.bit))
     assert await host.ask("j") == DECAY
 
@@ -219,7 +219,7 @@ async def p006_the_very_end_of_the_silence(dut: Any) -> None:
         await host.pause(ceil(192 * host.bit) - int(host.bit / 2) + after)
         await host.send(J[4:])
         await host.pause(ceil(6 * host.bit))
-        await host.forget()
+        await host.ignore_replies()
         await host.pause(ceil(200 * host.bit))
     assert await host.ask("j") == DECAY
 
@@ -238,12 +238,12 @@ async def p006_talking_while_the_reply_is_sent(dut: Any) -> None:
     """A frame sent during a reply is ignored, also its rest after the reply."""
     for start in (0, 0.4, 1.2, 5, 40):
         host = await Host.start(dut)
-        await host.say("c")
+        await host.send_frame("c")
         host.back_to(host.e + ceil(start * host.bit))
         await host.send(command(0xFF, "y", 0xF8))
         host.middle -= 80 * host.bit + ceil(start * host.bit) - 0.5 * host.bit
-        await host.forget()
-        assert await host.silent(ceil(12 * host.bit)) and not await host.out("gpo")
+        await host.ignore_replies()
+        assert await host.is_silent(ceil(12 * host.bit)) and not await host.out("gpo")
         await host.pause(ceil(200 * host.bit))
         assert await host.ask("j") == DECAY
         assert len(host.edges("de")) == 4
@@ -254,12 +254,12 @@ async def p006_line_that_is_low_when_the_reply_ends(dut: Any) -> None:
     """After a reply no byte begins before the line has been high; a frame soon afterwards is received."""
     for gap in (2, 4, 8):
         host = await Host.start(dut)
-        await host.say("c")
+        await host.send_frame("c")
         await host.go(host.e + ceil(81 * host.bit))
         await host.pins(rxd=0)
         await host.pause(ceil(3.5 * host.bit))
         await host.pins(rxd=1)
-        await host.forget()
+        await host.ignore_replies()
         host.back_to(host.t + ceil(gap * host.bit))
         assert await host.ask("j") == DECAY
 
@@ -269,14 +269,14 @@ async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
     """A frame that begins in or after the middle of the last stop bit of a reply is received."""
     for late in (-1, 0, 1, 9, 25, 33):
         host = await Host.start(dut)
-        await host.say("c")
+        await host.send_frame("c")
         await host.pause(ceil(3 * host.bit))
-        rise = await host.rise()
+        rise = await host.next_de_rise()
         assert rise is not None
         middle = rise - ceil(host.bit) + ceil(Fraction(163, 2) * host.bit)
         await host.go(middle + late)
         assert await host.out("de")
-        await host.say("y", 0xF8)
+        await host.send_frame("y", 0xF8)
         await host.pause(ceil(90 * host.bit))
         heard = late >= 0
         assert await host.out("gpo") == (0x1F if heard else 0), f"{late} clk after the middle"
@@ -287,18 +287,18 @@ async def p006_frame_in_the_last_half_of_the_stop_bit(dut: Any) -> None:
 async def p006_line_that_echoes(dut: Any) -> None:
     """A node that receives the echo of its own reply answers the next frame."""
     host = await Host.start(dut)
-    await host.say("c")
+    await host.send_frame("c")
     start = host.e + ceil(2 * host.bit)
     host.back_to(start + 1)
     await host.send(reply(0xFF, 0))
-    await host.forget()
+    await host.ignore_replies()
     assert await host.ask("j") == DECAY
 
 
 @directed("P006-FRM-03", "P006-CMD-52", "P006-CMD-53", builds=BUILDS)
 async def p006_reply_shows_the_moment_of_execution(dut: Any) -> None:
     """The reply returns the position at the time of execution; steps continue while it is sent."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ask("s", 200)
     await host.wait_us(3_000)
     value = await host.ask("c")
@@ -309,15 +309,15 @@ async def p006_reply_shows_the_moment_of_execution(dut: Any) -> None:
 
 @directed("P006-FRM-09", "P006-CMD-40", builds=BUILDS)
 async def p006_worked_frames(dut: Any) -> None:
-    """Frames F1..F6 of chapter 2.5 have the replies stated there."""
+    """The six frames of the old manual have the replies stated there (P006-FRM-09)."""
     host = await Host.start(dut)
     assert await host.ask("w", 1) == 1
     await host.ok(v=3000, L=3000, S=3000)
-    assert await host.swap("A5 01 73 1F 01 00 00 39") == reply(1, host.accepted(287)).hex(" ").upper()
+    assert await host.exchange("A5 01 73 1F 01 00 00 39") == reply(1, host.accepted(287)).hex(" ").upper()
     await host.ask("I")
     assert await host.ask("w", 2) == 2
-    assert await host.swap("A5 02 6D 04 00 00 00 18") == "A5 7A 02 04 00 00 00 25"
-    assert await host.swap("A5 02 79 08 00 00 00 28") == "A5 7A 02 08 00 00 00 29"
+    assert await host.exchange("A5 02 6D 04 00 00 00 18") == "A5 7A 02 04 00 00 00 25"
+    assert await host.exchange("A5 02 79 08 00 00 00 28") == "A5 7A 02 08 00 00 00 29"
 
 
 @directed("P006-UART-03", "P006-FRM-02", "P006-BAD-24", builds=BUILDS)
@@ -325,12 +325,12 @@ async def p006_reset_in_the_middle_of_a_reply(dut: Any) -> None:
     """A reset during a reply sets the outputs to their reset levels at once; the next frame is answered."""
     for bits in (0.5, 1.5, 2.5, 30):
         host = await Host.start(dut)
-        await host.say("j")
+        await host.send_frame("j")
         await host.pause(ceil(bits * host.bit))
         await host.reset()
         assert await host.out("txd") == 1 and await host.out("de") == 0
         await host.boot()
-        assert await host.silent(ceil(5 * host.bit))
+        assert await host.is_silent(ceil(5 * host.bit))
         assert await host.ask("j") == DECAY
 
 

@@ -8,7 +8,17 @@ from typing import Any
 from .builds import directed
 from .frames import command
 from .host import ACT, EXECUTE, Host
-from .moves import DECAY, EXT1, after_steps, brisk, download, load, quick, run, start
+from .moves import (
+    DECAY,
+    EXT1,
+    after_steps,
+    constant_speed_host,
+    download,
+    load,
+    run,
+    set_constant_speed,
+    start,
+)
 from .programs import Op, goto, out
 
 NEAR = range(-3, 4)
@@ -21,9 +31,9 @@ HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
 async def meet(host: Host, code: str, data: int, shift: int, **levels: int) -> int:
     """Send a frame; the pins take effect inside `shift` cycles after the frame. Return the reply."""
     begin = host.t
-    await host.say(code, data)
+    await host.send_frame(code, data)
     await host.at(begin + frame_clk(host) + ACT + shift - 2, **levels)
-    return await host.hear()
+    return await host.receive_reply()
 
 
 def frame_clk(host: Host) -> int:
@@ -34,8 +44,8 @@ def frame_clk(host: Host) -> int:
 async def say_at(host: Host, t: int, code: str, data: int = 0) -> int:
     """Send a frame that takes effect at edge t if nothing is in progress. Return the reply."""
     await host.go(t - ACT - frame_clk(host))
-    await host.say(code, data)
-    return await host.hear()
+    await host.send_frame(code, data)
+    return await host.receive_reply()
 
 
 def key_event(host: Host, edge: int) -> int:
@@ -50,7 +60,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
 
     The reply is 0 or that of an accepted start.
     """
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=1)
     replies = []
     for code, data, good in (("s", 100, host.accepted(100)), ("N", 1, 1)):
@@ -83,7 +93,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         await host.pins(ext1=1)
         assert await host.ask("b") == 0
     assert left == [0] * 3 + [EXT1] * 4
-    for code, data, back, wanted in (("f", 1, 0, 3), ("J", 1, 0, 3)):
+    for code, data, back, expected in (("f", 1, 0, 3), ("J", 1, 0, 3)):
         await host.ok(f=int(code == "J"), J=0)
         seen = []
         for shift in NEAR:
@@ -94,13 +104,13 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
             await host.pins(ext1=1)
             assert await host.ask("b") == 0
             await host.ok(f=int(code == "J"), J=back)
-        assert sum(seen) in (wanted, wanted + 1) and len(set(seen)) == 2
+        assert sum(seen) in (expected, expected + 1) and len(set(seen)) == 2
 
 
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-52")
 async def p006_position_and_step(dut: Any) -> None:
     """No step is lost if the position is set a few cycles before, at or after a step."""
-    host = await quick(dut, 2500)
+    host = await constant_speed_host(dut, 2500)
     await run(host)
     await after_steps(host, 3)
     period = host.us(400)
@@ -144,7 +154,7 @@ async def ready_for_reset(host: Host) -> int:
 @directed("P006-PRG-31", "P006-STA-14", "P006-PRG-15", "P006-BAD-23")
 async def p006_reset_key_and_frames(dut: Any) -> None:
     """Starts, F 0 and z near the event of the RESET key have valid replies, and RESET is executed."""
-    host = await quick(dut, 2500)
+    host = await constant_speed_host(dut, 2500)
     await host.wait_us(1_010)
     await download(host, [Op(0x13, 1, 3), Op(0x10, 3, 0), goto(1), out(1, 1), goto(4)])
     for code, data in (("s", 50), ("N", 1), ("F", 0), ("I", 0), ("i", 9)):
@@ -164,7 +174,7 @@ async def p006_reset_key_and_frames(dut: Any) -> None:
 @directed("P006-PRG-31", "P006-PRG-15", "P006-PRG-16", "P006-PRG-32")
 async def p006_keys_in_every_clk_of_an_instruction(dut: Any) -> None:
     """RESET cancels the instruction in progress or follows it; PAUSE lets it end."""
-    host = await quick(dut, 2500)
+    host = await constant_speed_host(dut, 2500)
     await host.wait_us(1_010)
     loop = (Op(0x13, 1, 5), Op(0x14, 1, 0), out(1, 1), out(1, 0), goto(2), goto(5))
     await download(host, loop)
@@ -200,7 +210,7 @@ async def p006_frames_in_every_clk_of_the_program(dut: Any) -> None:
 @directed("P006-PRG-20", "P006-CMD-03", "P006-STA-14")
 async def p006_single_try_and_emergency_stop(dut: Any) -> None:
     """A stop before the ROT of E rejects it, a stop after it ends it: no step is made."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=1)
     await download(host, [Op(1, 0, 50)])
     for shift in range(-1, 10):
@@ -237,7 +247,7 @@ async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
     host = await Host.start(dut)
     heard = []
     for shift in range(-4, 9):
-        await host.say("j")
+        await host.send_frame("j")
         middle = host.e + -(-(163 * host.clk_hz) // (2 * host.baud))
         await host.go(middle - 30)
         host.back_to(middle + shift)
@@ -246,7 +256,7 @@ async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
         edges = [t for t, level in host.edges("de", host.e) if level]
         heard.append(len(edges))
         await host.pause(int(host.bit * 220))
-        await host.forget()
+        await host.ignore_replies()
         assert await host.ask("k") == 16
     assert set(heard) <= {0, 1} and heard[-1] == 1 and heard[0] == 0
 
@@ -255,7 +265,7 @@ async def p006_bytes_about_the_end_of_a_reply(dut: Any) -> None:
 async def p006_emergency_stop_and_step(dut: Any) -> None:
     """An emergency stop some cycles before or after a step, also the last one, keeps the position exact."""
     host = await Host.start(dut)
-    await brisk(host, 3000, f=1)
+    await set_constant_speed(host, 3000, f=1)
     for count in (1, 3):
         for shift in NEAR:
             await start(host, count)

@@ -9,7 +9,7 @@ from typing import Any
 from .builds import F8B, ODD, directed
 from .chip import Chip
 from .host import Host
-from .moves import DECAY, brisk, rest, start
+from .moves import DECAY, set_constant_speed, start, wait_stopped
 from .programs import image, page
 
 
@@ -25,9 +25,11 @@ async def p006_frames_before_the_end_of_the_boot(dut: Any) -> None:
         host = await Host.start(dut, chip=chip, boot=False)
         for begin in (host.us(500), up // 2, up - ceil(40 * host.bit)):
             await host.go(begin)
-            await host.say("y", 0xF8)
+            await host.send_frame("y", 0xF8)
         assert host.t > await host.boot() and up <= host.us(longest)
-        assert await host.silent(ceil(30 * host.bit)) and not await host.out("gpo") and not host.edges("de")
+        assert (
+            await host.is_silent(ceil(30 * host.bit)) and not await host.out("gpo") and not host.edges("de")
+        )
         await host.pause(ceil(200 * host.bit))
         assert await host.ask("y", 0x08) == 0x08 and await host.ask("j") == DECAY
 
@@ -43,9 +45,9 @@ async def p006_eeprom_codes(dut: Any) -> None:
     assert await host.ask("B") == 0
     assert await host.ask("W", 1) == 0
     assert await host.ask("A", 0) == 0 and await host.ask("G") == 0
-    await brisk(host, 3000)
+    await set_constant_speed(host, 3000)
     await start(host, 2)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.eeprom.writes) < 28
     await host.reset()
     await host.boot()
@@ -62,7 +64,7 @@ async def p006_eeprom_at_another_rate_and_address(dut: Any) -> None:
     await host.ms(3)
     assert host.eeprom.memory[4] == 64
     period = host.clk_hz / hz
-    edges = host.edges("scl_oe", host.said)
+    edges = host.edges("scl_oe", host.frame_start)
     falls = [t for t, level in edges if level]
     # START and STOP are longer than a bit.
     assert {abs(b - a - period) <= 1 for a, b in pairwise(falls) if b - a < 1.2 * period} == {True}

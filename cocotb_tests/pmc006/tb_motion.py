@@ -8,11 +8,22 @@ import cocotb
 
 from .builds import directed
 from .host import EXECUTE, START, Host
-from .moves import DECAY, after_steps, brisk, cruise, move, quick, rest, run, start, still
+from .moves import (
+    DECAY,
+    after_steps,
+    constant_speed_host,
+    cruise,
+    is_stopped,
+    move,
+    run,
+    set_constant_speed,
+    start,
+    wait_stopped,
+)
 
 
 class Move(NamedTuple):
-    """Row of chapter 14.2: count, settings, time of the last step, first and last intervals in us."""
+    """Move with known intervals: count, settings, time of the last step, first and last intervals in us."""
 
     count: int
     settings: tuple[int, int, int, int, int]
@@ -42,7 +53,7 @@ async def p006_moves_of_the_table(dut: Any, row: Move) -> None:
     await host.ok(L=low, S=high, v=limit, u=acc, o=dec)
     await start(host, row.count)
     e = host.e
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     steps = host.steps()
     gaps = (row.head[0], *host.intervals())
     assert len(steps) == row.count
@@ -70,7 +81,7 @@ async def p006_when_a_motion_begins(dut: Any) -> None:
 async def p006_constant_speeds_have_no_jitter(dut: Any) -> None:
     """At a constant speed, each step is at the next whole us after its exact time."""
     for speed in (2999, 1601, 700):
-        host = await quick(dut, speed)
+        host = await constant_speed_host(dut, speed)
         await run(host)
         await after_steps(host, 21)
         whole = [-(-number * 1_000_000 // speed) for number in range(1, 22)]
@@ -88,7 +99,7 @@ async def p006_the_highest_speed(dut: Any) -> None:
     gaps = host.intervals(mark)
     assert gaps[-4:] in ([63, 62, 63, 62], [62, 63, 62, 63])
     assert all(b <= a + 1 for a, b in zip(gaps, gaps[1:], strict=False)), "the speed falls"
-    assert await host.ask("I") == 0 and await host.position() == host.made(mark)
+    assert await host.ask("I") == 0 and await host.position() == host.step_count(mark)
 
 
 @directed("P006-MOT-40", "P006-MOT-41", "P006-MOT-15", "P006-STA-13")
@@ -103,7 +114,7 @@ async def p006_stop_in_the_middle_of_the_ramp(dut: Any) -> None:
     await host.go(origin + host.us(99_950) - int(80 * host.bit))
     assert await host.ask("N", 0) == 0
     assert origin + host.us(99_900) < host.e < origin + host.us(99_999)
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     gaps = host.intervals(mark)
     assert len(gaps) == 243 and gaps[:4] == [1663, 1657, 1647, 1636] and gaps[-3:] == [1633, 1649, 1660]
     assert abs(fall - origin - host.us(202_300)) <= host.us(2) + 8
@@ -119,7 +130,7 @@ async def p006_stop_when_already_slow(dut: Any) -> None:
         mark = host.mark
         await after_steps(host, 2)
         assert await host.ask("N", 0) == 0
-        fall = await rest(host)
+        fall = await wait_stopped(host)
         assert fall - host.e <= host.us(200) + EXECUTE
         assert set(host.intervals(mark)) == {1_000_000 // speed}
 
@@ -133,15 +144,15 @@ async def p006_retargets(dut: Any) -> None:
     mark = host.mark
     await cruise(host, 1_000_000 / 2200)
     await host.ok(v=2400)
-    await after_steps(host, host.made() + 2)
+    await after_steps(host, host.step_count() + 2)
     await host.ok(v=2100)
     await cruise(host, 1_000_000 / 2100)
     await host.ms(3)
     await host.ok(v=2500)
     await cruise(host, 400)
     assert await host.ask("N", 0) == 0
-    await rest(host)
-    assert await host.position() == host.made(mark)
+    await wait_stopped(host)
+    assert await host.position() == host.step_count(mark)
 
 
 @directed("P006-MOT-30", "P006-MOT-15", "P006-MOT-20")
@@ -156,38 +167,38 @@ async def p006_retargets_of_a_move(dut: Any) -> None:
     mark = host.mark
     await after_steps(host, 30)
     await host.ok(v=3000)
-    await after_steps(host, host.made() + 20)
+    await after_steps(host, host.step_count() + 20)
     await host.ok(v=2300)
-    await rest(host)
+    await wait_stopped(host)
     gaps = host.intervals(mark)
-    assert host.made(mark) == 300 and max(gaps) <= 500 and gaps[-1] >= 490
+    assert host.step_count(mark) == 300 and max(gaps) <= 500 and gaps[-1] >= 490
     await host.ok(L=3000, S=3000, v=3000)
     await start(host, 256)
     mark = host.mark
     await after_steps(host, 150)
     await host.ok(v=2500)
-    await rest(host)
+    await wait_stopped(host)
     gaps = host.intervals(mark)
-    assert host.made(mark) == 256 and set(gaps[-5:]) == {400}
+    assert host.step_count(mark) == 256 and set(gaps[-5:]) == {400}
 
 
 @directed("P006-MOT-30", "P006-MOT-23")
 async def p006_motions_that_ignore_a_retarget(dut: Any) -> None:
     """A short move and the last deceleration of a long one ignore a new VMAX."""
-    host = await quick(dut, 2500)
+    host = await constant_speed_host(dut, 2500)
     await start(host, 60)
     mark = host.mark
     await host.ok(v=16_000)
-    await rest(host)
+    await wait_stopped(host)
     assert set(host.intervals(mark)) == {400}
     await host.ok(L=2500, S=1500, v=2600, u=5, o=5)
     await start(host, 256)
     mark = host.mark
     await after_steps(host, 256 - 12)
     await host.ok(v=10_000)
-    await rest(host)
+    await wait_stopped(host)
     gaps = host.intervals(mark)[-11:]
-    assert host.made(mark) == 256 and gaps[-1] in (666, 667)
+    assert host.step_count(mark) == 256 and gaps[-1] in (666, 667)
     assert all(b >= a - 1 for a, b in zip(gaps, gaps[1:], strict=False))
 
 
@@ -215,7 +226,7 @@ async def p006_speed_mode_switched_on_again(dut: Any) -> None:
 
 @directed("P006-MOT-05", "P006-STA-19", "P006-CMD-40")
 async def p006_position_wraps_and_long_moves(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(i=0x7FFFFFFE, d=1)
     assert len(await move(host, 3)) == 2 and await host.ask("c") == 0x80000001
     await host.ok(d=0)
@@ -237,26 +248,26 @@ async def p006_the_border_of_short_moves(dut: Any) -> None:
     await after_steps(host, 40)
     assert set(host.intervals(mark)) == {333, 334}
     await host.ask("I")
-    made = host.made(mark)
+    made = host.step_count(mark)
     await start(host, 256)
     mark = host.mark
-    await rest(host)
-    assert min(host.intervals(mark)) == 303 and host.made(mark) == 256
+    await wait_stopped(host)
+    assert min(host.intervals(mark)) == 303 and host.step_count(mark) == 256
     assert await host.position() == 256 + made and await host.status() == DECAY
 
 
 @directed("P006-STA-14", "P006-STA-10", "P006-MOT-04")
 async def p006_stop_before_the_first_step(dut: Any) -> None:
     """A stop between acceptance and t = 0 or in the first interval cancels the motion without a step."""
-    host = await brisk(await Host.start(dut), 3000, f=1)
+    host = await set_constant_speed(await Host.start(dut), 3000, f=1)
     for after in (1, 20, 300, 1000, 2000):
-        await host.say("s", 1000)
+        await host.send_frame("s", 1000)
         await host.go(host.e + EXECUTE + after)
         await host.pins(ext1=0)
-        assert await host.hear() == host.accepted(1000)
-        assert host.made() == 0 and not await host.busy() and await still(host, 3000)
+        assert await host.receive_reply() == host.accepted(1000)
+        assert host.step_count() == 0 and not await host.busy() and await is_stopped(host, 3000)
         await host.pins(ext1=1)
         assert await host.ask("b") == 0
     await start(host, 2)
-    await rest(host)
+    await wait_stopped(host)
     assert await host.position() == 2

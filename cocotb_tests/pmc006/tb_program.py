@@ -1,4 +1,4 @@
-"""The user program: download, every opcode with legal and illegal operands, jumps, E (chapter 12)."""
+"""The user program: download, every opcode with legal and illegal operands, jumps, E (P006-PRG)."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import cocotb
 
 from .builds import directed
 from .host import Host
-from .moves import DECAY, EXT1, EXT2, OFFLINE, download, load, quick, rest
+from .moves import DECAY, EXT1, EXT2, OFFLINE, constant_speed_host, download, load, wait_stopped
 from .programs import END, WAIT_REST, Op, goto, out, rot
 
 JMP, JNE, JEQ, WAIT, OUT, CMP = 0x0D, 0x0E, 0x0F, 0x10, 0x11, 0x12
@@ -129,7 +129,7 @@ async def p006_jumps(dut: Any) -> None:
 @directed("P006-BAD-16", "P006-PRG-14")
 async def p006_bad_targets(dut: Any, code: int) -> None:
     """A jump to an illegal target halts the program if it is taken; a motion continues."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     flag = Op(CMP, 8, int(code == JNE))
     against = Op(CMP, 8, int(code == JEQ))
     for target in (100, 128, -1):
@@ -143,7 +143,7 @@ async def p006_bad_targets(dut: Any, code: int) -> None:
 @cocotb.parametrize(opcode=[0x15, 0x73, 0x80, 0x91, 0xFF])
 @directed("P006-BAD-16", "P006-PRG-20")
 async def p006_bad_opcodes(dut: Any, opcode: int) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     assert await go(host, rot(100_000), Op(opcode, 1, 1), out(1, 1)) == 0
     assert await host.busy() and await host.ask("z") == 1
     await download(host, [Op(opcode, 1, 1)])
@@ -219,11 +219,11 @@ async def p006_counter_and_flag_between_single_tries(dut: Any) -> None:
 
 @directed("P006-PRG-20", "P006-CMD-03", "P006-STA-01", "P006-PRG-17")
 async def p006_single_tries_of_the_rest(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     program = (rot(7), Op(0x04, 0, 1), Op(0x07), Op(0x06), out(3, 1), out(3, 0), Op(0x08, 1, 5))
     await download(host, program)
     assert await host.ask("E") == 1
-    await rest(host)
+    await wait_stopped(host)
     assert await host.position() == 7
     await host.ok(A=2)
     assert await host.ask("E") == 1

@@ -8,7 +8,7 @@ from cocotb_tests.harness import inside
 
 from .builds import directed
 from .host import Host
-from .moves import DECAY, quick, start
+from .moves import DECAY, constant_speed_host, start
 from .programs import FACTORY_PAGE
 from .tb_boot import FACTORY, values
 from .tb_save import FSET_US
@@ -17,22 +17,22 @@ from .tb_save import FSET_US
 @directed("P006-BAD-24", "P006-PORT-01", "P006-PRG-01", "P006-IO-03")
 async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
     """A reset sets all outputs to their reset levels immediately and restores registers, flags and words."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=3, y=0xF8)
     await host.ok(A=0)
     assert await host.ask("W", 77) == 77
     await start(host, 100_000)
     await host.pins(ext2=0)
     await host.pause(30)
-    await host.say("c")
+    await host.send_frame("c")
     await host.pause(int(host.bit * 20))
     await host.pins(rst_n=0)
     await host.sync()
-    wanted = host.side.part.reset_levels()
-    assert {pin: host.side.level(pin) for pin in wanted} == wanted
+    expected = host.side.part.reset_levels()
+    assert {pin: host.side.level(pin) for pin in expected} == expected
     await host.pause(10)
     await host.pins(rst_n=1, ext2=1)
-    await host.forget()
+    await host.ignore_replies()
     await host.boot()
     assert await values(host) == FACTORY and await host.status() == DECAY and await host.ask("O") == 0x10
     assert await host.ask("G") == 0
@@ -42,7 +42,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 
 
 @directed("P006-BAD-24", "P006-CMD-15")
-@inside("u_control.u_settings.u_values.count_q")
+@inside("u_control.u_settings.u_reply_ram.count_q")
 async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
     """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)
@@ -50,11 +50,11 @@ async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
         for state in range(64):
             await host.pins(rst_n=0)
             await host.pause(4)
-            dut.u_control.u_settings.u_values.count_q.value = state
+            dut.u_control.u_settings.u_reply_ram.count_q.value = state
             await host.pause(4)
             await host.pins(rst_n=1)
     await host.pause(4)
-    await host.forget()
+    await host.ignore_replies()
     await host.boot()
     assert await host.ask("R") == 0x123 and not await host.busy()
     assert await values(host) == FACTORY
@@ -68,7 +68,7 @@ async def p006_restore_without_a_device(dut: Any) -> None:
     assert host.us(FSET_US) <= host.t <= host.us(FSET_US + 2_500)
     await host.pins(fset_n=1)
     assert await values(host) == FACTORY and await host.status() == DECAY
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     # Now the level of the line is no acknowledge.
     await host.pins(fset_n=0, sda_i=1)
     await host.wait_us(FSET_US + 100)

@@ -1,4 +1,4 @@
-"""Writes to the EEPROM: save, burn, factory restore; and their rejection (13.3..13.5)."""
+"""Writes to the EEPROM: save, burn, factory restore; and their rejection (P006-EEP-10 to 23)."""
 
 from __future__ import annotations
 
@@ -117,8 +117,8 @@ async def p006_lines_that_stick_while_saving(dut: Any) -> None:
     chip = host.eeprom
     for line, jobs in (("scl", "tB"), ("sda", "t")):
         for job in jobs:
-            await host.say(job)
-            assert await host.hear() == 1
+            await host.send_frame(job)
+            assert await host.receive_reply() == 1
             chip.stuck(line, True)
             await host.ms(3)
             assert await host.ask("V") == (2 if line == "scl" else 0)
@@ -182,10 +182,10 @@ PLACES = 7
 async def answering(host: Host) -> int:
     """Return the address of the part after a boot."""
     for address in (120, 5, 0xFF):
-        await host.say("k", address=address)
+        await host.send_frame("k", address=address)
         await host.pause(int(3 * host.bit))
-        if await host.rise() is not None:
-            await host.hear()
+        if await host.next_de_rise() is not None:
+            await host.receive_reply()
             return address
     raise AssertionError("nobody answers")
 
@@ -201,7 +201,7 @@ async def p006_reset_while_settings_are_saved(dut: Any) -> None:
         host = await booted(dut, image(SAVED) + bytes(0x1D) + SAVED, 120)
         await host.ok(**{name: value for name, value in NEW.items() if name != "w"})
         assert await host.ask("w", 5) == 5
-        await host.say("t")
+        await host.send_frame("t")
         await host.go(host.e + host.us(30 + 500 * number) + 7 * number)
         await host.reset()
         await host.boot()

@@ -12,11 +12,11 @@ from .moves import (
     DECAY,
     SPEED_MODE,
     STALL,
+    constant_speed_host,
     cruise,
-    quick,
-    rest,
     run,
     start,
+    wait_stopped,
 )
 
 STOP = 5
@@ -25,7 +25,7 @@ STOP = 5
 
 async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> Host:
     """Return a host of a part in speed mode at constant speed, with the stall detector on."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(Z=level, T=length, Y=y)
     await run(host)
     await cruise(host, 1_000_000 / 3000)
@@ -47,14 +47,14 @@ async def p006_stall_length(dut: Any, case: Any) -> None:
     await samples(host, *[9] * (needed - 1), 10, *[9] * (needed - 1))
     assert not await host.status() & STALL
     await samples(host, *[0] * needed)
-    assert await host.status() == DECAY | STALL | 1 and 0 < await host.ask("X") <= host.made()
+    assert await host.status() == DECAY | STALL | 1 and 0 < await host.ask("X") <= host.step_count()
     await host.ask("I")
 
 
 @directed("P006-STL-06", "P006-STL-05", "P006-STL-01", "P006-CMD-20", "P006-CMD-21")
 async def p006_stall_after_reset_and_level_0(dut: Any) -> None:
     """The length is 64 after reset; at level 0 no sample is below it; without Y bit 0 samples are ignored."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(Z=511, Y=1)
     await run(host)
     await cruise(host, 1_000_000 / 3000)
@@ -104,7 +104,7 @@ async def p006_samples_off_constant_speed(dut: Any) -> None:
 @directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
 async def p006_the_count_of_low_samples_begins_anew(dut: Any) -> None:
     """The count restarts with each start, also without samples in between, and with any idle sample."""
-    host = await quick(dut, 2500)
+    host = await constant_speed_host(dut, 2500)
     await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)
     for between in ((), (1,)):
         await run(host)
@@ -146,7 +146,7 @@ async def p006_what_a_stall_does(dut: Any) -> None:
     assert not await host.status() & STALL
     assert await host.out("gpo") == 2
     assert await host.ask("X") == stalled_at
-    await rest(host)
+    await wait_stopped(host)
     await host.reset()
     await host.boot()
     assert await host.ask("X") == 0 and await host.ask("T", 64) == 64
@@ -161,7 +161,7 @@ async def p006_stall_stops_at_once(dut: Any) -> None:
     await host.pause(STOP + 1)
     assert not await host.out("mon_busy") and not host.steps(edge + STOP + 1)
     assert await host.status() == DECAY | STALL
-    assert await host.ask("X") == await host.position() == host.made(mark)
+    assert await host.ask("X") == await host.position() == host.step_count(mark)
     assert not await host.ask("O") & SPEED_MODE
     await run(host)
     assert not await host.status() & STALL and await host.ask("I") == 0

@@ -1,4 +1,4 @@
-"""The acceptance of each instruction in each state, and its effect on the motion (4.1, 4.2, 4.3)."""
+"""The acceptance of each instruction in each state, and its effect on the motion (P006-STA)."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .moves import (
     FREE_RUN,
     SPEED_MODE,
     after_steps,
-    brisk,
+    constant_speed_host,
     download,
-    quick,
-    rest,
+    is_stopped,
     run,
+    set_constant_speed,
     start,
-    still,
+    wait_stopped,
 )
 from .programs import Op, rot
 
@@ -112,7 +112,7 @@ BAD_RULES = ("P006-BAD-10", "P006-BAD-25")
 @directed(*TABLE_RULES, *STATE_RULES, *BAD_RULES, "P006-CMD-25", "P006-CMD-31", "P006-EXT-05")
 async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
     host = await Host.start(dut)
-    await brisk(host, 3000, f=3)
+    await set_constant_speed(host, 3000, f=3)
     await host.ok(S=65)
     state = STATES[name]
     after = None
@@ -120,12 +120,12 @@ async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
         if after != state:
             await enter(host, state)
         reply, after = outcome(code, data, state, host.accepted(data))
-        before = host.made(0)
+        before = host.step_count(0)
         assert await host.ask(code, data) == reply, f"{code} {data} in {name}"
         assert await seen(host) == shown(after), f"{code} {data} in {name}"
-        moves = not await still(host, host.us(700))
+        moves = not await is_stopped(host, host.us(700))
         assert moves == bool(after.motion), f"{code} {data} in {name}"
-        assert moves or state.motion or host.made(0) == before
+        assert moves or state.motion or host.step_count(0) == before
     position = await host.position()
     assert position == sum(t <= host.e + ACT for t in host.steps(0))
 
@@ -135,12 +135,12 @@ async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
 async def p006_rot_is_accepted_like_s(dut: Any, name: str) -> None:
     """A ROT by E is accepted in the same states as s; the reply is 1 in any case."""
     host = await Host.start(dut)
-    await brisk(host, 3000, f=3)
+    await set_constant_speed(host, 3000, f=3)
     await download(host, [rot(LONG)])
     await enter(host, STATES[name])
     assert await host.ask("E") == 1
     assert await host.busy() == (name in ("idle", "move"))
-    assert await still(host, host.us(700)) == (name not in ("idle", "move"))
+    assert await is_stopped(host, host.us(700)) == (name not in ("idle", "move"))
 
 
 @directed("P006-STA-01", "P006-STA-02", "P006-BAD-10", "P006-CMD-43")
@@ -179,35 +179,35 @@ async def p006_analog_speed_does_not_refuse(dut: Any) -> None:
     assert await host.ask("s", 5) == 0 and await host.ask("N", 1) == 0 and not await host.busy()
     await host.ok(v=600)
     await start(host, 5)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 5
 
 
 @directed("P006-STA-10", "P006-STA-12", "P006-STA-14", "P006-CMD-28", "P006-PRG-16")
 async def p006_a_stop_while_planning(dut: Any) -> None:
     """A stop between acceptance and t = 0 cancels the motion without a step."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=3)
     await download(host, [rot(5), Op(0x05, 0, 1)])
     assert await host.ask("z") == 1
-    assert await still(host)
+    assert await is_stopped(host)
     assert not await host.busy()
     assert await host.ask("O") & FREE_RUN
     assert await host.ask("g", 0) == 0
-    await host.say("s", 5)
+    await host.send_frame("s", 5)
     await host.pins(ext2=0)
-    assert await host.hear() == host.accepted(5)
-    assert await still(host) and await host.status() == DECAY | EXT2 and await host.position() == 0
+    assert await host.receive_reply() == host.accepted(5)
+    assert await is_stopped(host) and await host.status() == DECAY | EXT2 and await host.position() == 0
     assert not host.steps(0) and [level for _, level in host.edges("mon_busy")] == [1, 0, 1, 0]
     assert await host.ask("l") == 0
     await start(host, 3)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps(0)) == 3
 
 
 @directed("P006-STA-10", "P006-STA-13", "P006-CMD-06")
 async def p006_abort_stops_within_its_window(dut: Any) -> None:
-    host = await quick(dut, 3000)
+    host = await constant_speed_host(dut, 3000)
     for begin in (partial(start, count=LONG), run):
         await begin(host)
         await after_steps(host, 7)
@@ -220,7 +220,7 @@ async def p006_abort_stops_within_its_window(dut: Any) -> None:
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-24", "P006-CMD-52")
 async def p006_position_set_on_the_run(dut: Any) -> None:
     """A position set at any time during an interval loses or doubles no step."""
-    host = await quick(dut, 3000)
+    host = await constant_speed_host(dut, 3000)
     await run(host)
     await after_steps(host, 3)
     for shift in range(24):
@@ -235,13 +235,13 @@ async def p006_position_set_on_the_run(dut: Any) -> None:
 
 @directed("P006-CMD-53", "P006-STA-18", "P006-CMD-31")
 async def p006_busy_is_up_before_the_reply(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     for count in (1, 300):
         await start(host, count)
         rise = host.edges("mon_busy", host.mark)[0]
         assert rise[1] == 1 and rise[0] - host.e <= EXECUTE
         assert (await host.status() & 1) == int(await host.busy()) or count == 1
-        await rest(host)
+        await wait_stopped(host)
 
 
 @directed("P006-CMD-25", "P006-CMD-12", "P006-EXT-11", "P006-CMD-27")
@@ -258,5 +258,5 @@ async def p006_everything_else_works_while_locked(dut: Any) -> None:
     assert await host.ask("b") == 0 and await host.ask("N", 1) == 0
     assert await host.ask("l") == 0
     await start(host, 2)
-    await rest(host)
+    await wait_stopped(host)
     assert await host.position() == -11 and await host.ask("O") & FORWARD == 0

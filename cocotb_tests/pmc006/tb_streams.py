@@ -9,7 +9,7 @@ from cocotb_tests.harness import Bench, rtl_only
 from .bench import PMC006
 from .builds import directed
 from .host import Host
-from .moves import after_steps, brisk, run
+from .moves import after_steps, run, set_constant_speed
 
 
 def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
@@ -43,7 +43,7 @@ async def p006_streams(dut: Any) -> None:
         host.side.watch(name)
     await host.boot()
     await host.ok(e=4000)
-    await brisk(host, 2000, m=8)
+    await set_constant_speed(host, 2000, m=8)
     await run(host)
     await after_steps(host, 40)
     await host.ok(e=400, g=1)

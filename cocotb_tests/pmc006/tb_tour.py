@@ -10,7 +10,7 @@ from cocotb_tests.harness import F16
 from .builds import D8E, F8B, directed
 from .frames import command
 from .host import Host
-from .moves import DECAY, EXT1, after_steps, brisk, load, rest, start
+from .moves import DECAY, EXT1, after_steps, load, set_constant_speed, start, wait_stopped
 from .programs import END, Op, out, rot
 
 BUILDS = (F8B, F16, D8E)
@@ -27,10 +27,10 @@ async def p006_tour(dut: Any) -> None:
     host = await Host.start(dut)
     assert await host.ask("R") == 0x123 and await host.ask("n") == 800
     await host.raw("A5 FF 6A 00 00 00 00 0F")
-    assert await host.silent(ceil(4 * host.bit))
-    await brisk(host, 3000, m=4, f=1)
+    assert await host.is_silent(ceil(4 * host.bit))
+    await set_constant_speed(host, 3000, m=4, f=1)
     await start(host, 7)
-    await rest(host)
+    await wait_stopped(host)
     assert len(host.steps()) == 7 and set(host.intervals()) <= {333, 334}
     await host.ok(d=0, e=2000)
     await start(host, 0x7FFFFFFF)

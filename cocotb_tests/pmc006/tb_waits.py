@@ -8,7 +8,7 @@ import cocotb
 
 from .builds import directed
 from .host import Host
-from .moves import DECAY, FREE_RUN, after_steps, load, quick, rest, start, still
+from .moves import DECAY, FREE_RUN, after_steps, constant_speed_host, is_stopped, load, start, wait_stopped
 from .programs import END, WAIT_REST, Op, goto, out, rot
 from .tb_program import CMP, JEQ, JNE, SLOT, WAIT, go
 
@@ -18,11 +18,11 @@ HIGH = 0x1F
 @directed("P006-PRG-16", "P006-PRG-15", "P006-PRG-17")
 async def p006_time_of_instructions(dut: Any) -> None:
     """An instruction takes at most 64 cycles; ROT sets BUSY before the next one; a second ROT is ignored."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     assert await go(host, out(1, 1), out(2, 1), rot(5), rot(100), out(3, 1), WAIT_REST, out(4, 1)) == 0b111
     times = [t for t, _ in host.edges("gpo")]
     assert times[1] - times[0] <= SLOT and times[2] - times[1] <= 3 * SLOT
-    fall = await rest(host)
+    fall = await wait_stopped(host)
     await host.pause(2 * SLOT)
     assert host.edges("gpo")[-1][0] - fall <= 2 * SLOT and len(host.steps()) == 5
 
@@ -58,7 +58,7 @@ async def p006_wait_for_pins(dut: Any) -> None:
 
 @directed("P006-PRG-16", "P006-BAD-19", "P006-CMD-04")
 async def p006_wait_for_flags_and_the_motor(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(f=3)
     for option, pin, clear in ((6, "ext1", "b"), (7, "ext2", "l")):
         await load(host, Op(WAIT, option, 1), out(1, 1), Op(WAIT, option, 0), out(2, 1))
@@ -73,7 +73,7 @@ async def p006_wait_for_flags_and_the_motor(dut: Any) -> None:
     assert not await host.out("gpo")
     await start(host, 2)
     assert await host.out("gpo") == 0b01
-    await rest(host)
+    await wait_stopped(host)
     await host.pause(2 * SLOT)
     assert await host.out("gpo") == 0b11
     await load(host, Op(WAIT, 8, 1), END)
@@ -83,7 +83,7 @@ async def p006_wait_for_flags_and_the_motor(dut: Any) -> None:
 
 @directed("P006-PRG-16", "P006-STL-02", "P006-STL-04")
 async def p006_wait_for_a_stall(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await host.ok(Y=1, Z=511, T=2)
     await load(host, rot(100_000), Op(WAIT, 9, 1), out(1, 1), Op(WAIT, 9, 0), out(2, 1))
     await after_steps(host, 5)
@@ -132,22 +132,22 @@ async def p006_compare(dut: Any, case: Any) -> None:
 @directed("P006-PRG-10", "P006-PRG-15", "P006-CMD-06", "P006-STA-10")
 async def p006_abort_beside_a_program(dut: Any) -> None:
     """I ends the motion, and the program continues after its WAIT."""
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await load(host, rot(100_000), WAIT_REST, out(1, 1), rot(3), WAIT_REST, out(2, 1))
     await after_steps(host, 5)
     assert await host.ask("I") == 0
-    await rest(host)
+    await wait_stopped(host)
     await host.pause(3 * SLOT)
     assert await host.out("gpo") == 0b11 and len(host.steps(host.edges("gpo")[0][0])) == 3
 
 
 @directed("P006-PRG-14", "P006-CMD-04", "P006-MOT-52", "P006-CMD-43")
 async def p006_offline_0_leaves_everything_else(dut: Any) -> None:
-    host = await quick(dut)
+    host = await constant_speed_host(dut)
     await load(host, out(1, 1), Op(0x08, 1, 3000), Op(0x08, 0, 3000), rot(100_000), goto(4))
     await after_steps(host, 4)
     await host.ok(F=0)
-    assert not await still(host, host.us(2_000))
+    assert not await is_stopped(host, host.us(2_000))
     assert await host.busy()
     assert await host.out("gpo") == 1
     assert await host.ask("q") == 3000

@@ -17,17 +17,17 @@ RANGES = {
 
 @verifies("P006-PORT-01", "P006-PORT-02", "P006-PORT-03", "P006-PORT-04")
 def test_p006_ports() -> None:
-    """The top has exactly the ports of chapter 1.1.
+    """The top has exactly the ports of docs/pmc006/README.md, 2.
 
     There is no port for supply or CAN; mon_* are additional to those of the original.
     """
     found = ports(part_design("pmc006", F8B))
-    wanted = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
-    wanted |= {name: ("output", PMC006.width(name) - 1, 0) for name in PMC006.outputs}
-    assert found == wanted
+    expected = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
+    expected |= {name: ("output", PMC006.width(name) - 1, 0) for name in PMC006.outputs}
+    assert found == expected
 
 
 @verifies("P006-PAR-01")
 def test_p006_parameter_ranges() -> None:
-    """Values outside of the ranges of chapter 1.2 do not elaborate."""
+    """Values outside of the ranges of docs/pmc006/README.md, 2 do not elaborate."""
     check_ranges("P006-PAR-01", part_design("pmc006", F8B), RANGES)

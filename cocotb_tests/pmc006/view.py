@@ -79,7 +79,7 @@ class View(ABC):
         """Return the edges with mon_step since `mark`."""
         return self.side.rises("mon_step", self.mark if since is None else since)
 
-    def made(self, since: int | None = None) -> int:
+    def step_count(self, since: int | None = None) -> int:
         """Return the number of steps since `mark`."""
         return len(self.steps(since))
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006: integrated microstepping controller with a serial line; replacement for the PMC006B4.
-// Rules:  sections 1.1, 1.2, 4; all others through its blocks.
-// Timing: an input takes effect two cycles after the pin. All outputs are registered. From reset to the end
-//         of the boot, the device neither receives frames nor drives the motor.
+// Rules:  P006-PORT-01..04, all others through its blocks; pins, parameters: docs/pmc006/README.md, 2.
+// Timing: the input synchronisers have a latency of two cycles. All outputs are registered. From reset to the
+//         end of the boot, the device neither receives frames nor drives the motor.
 `default_nettype none
 
 module pmc006
@@ -16,8 +16,8 @@ module pmc006
     parameter int unsigned I2C_HZ     = 400_000,       // clock of the EEPROM in Hz, 10e3 .. 400e3
     parameter int unsigned EE_DEV     = 'h50,          // address of the EEPROM, 0 .. 127
     parameter int unsigned T_OFF_NS   = 20_000,        // off time of the chopper in ns, 1_000 .. 100_000
-    parameter int unsigned T_BLANK_NS = 1_000,         // blanking of its comparator in ns, 100 .. 10_000
-    parameter int unsigned FW_VERSION = 32'h0000_0123  // answer to the version command, 32 bits
+    parameter int unsigned T_BLANK_NS = 1_000,         // blanking time in ns, 100 .. 10_000
+    parameter int unsigned FW_VERSION = 32'h0000_0123  // reply to instruction R, 32 bits
 ) (
     input  wire logic       clk,
     input  wire logic       rst_n,
@@ -92,10 +92,10 @@ module pmc006
 
   // ---- reset, time, inputs --------------------------------------------------------------------------------
 
-  logic rst, us, unused_crystal;
-  logic fset_s, scl_s, sda_s;
-  logic [1:0] ext_s;
-  logic [4:0] gpi_s;
+  logic rst_core_n, us, unused_crystal;
+  logic fset_sync_n, scl_sync, sda_sync;
+  logic [1:0] ext_sync;
+  logic [4:0] gpi_sync;
   logic [9:0] unused_meta;
 
   assign unused_crystal = &{1'b0, XTAL_HZ};
@@ -103,7 +103,7 @@ module pmc006
   ppmc_reset u_reset (
       .clk_i (clk),
       .rst_ni(rst_n),
-      .rst_no(rst)
+      .rst_no(rst_core_n)
   );
 
   ppmc_tick_gen #(
@@ -112,7 +112,7 @@ module pmc006
       .TickXtal(1)
   ) u_us (
       .clk_i    (clk),
-      .rst_ni   (rst),
+      .rst_ni   (rst_core_n),
       .restart_i(1'b0),
       .tick_o   (us)
   );
@@ -121,10 +121,10 @@ module pmc006
       .Width(10)
   ) u_pins (
       .clk_i (clk),
-      .rst_ni(rst),
+      .rst_ni(rst_core_n),
       .d_i   ({fset_n, scl_i, sda_i, ext2, ext1, gpi}),
       .q1_o  (unused_meta),
-      .q2_o  ({fset_s, scl_s, sda_s, ext_s, gpi_s})
+      .q2_o  ({fset_sync_n, scl_sync, sda_sync, ext_sync, gpi_sync})
   );
 
   // ---- host -----------------------------------------------------------------------------------------------
@@ -139,7 +139,7 @@ module pmc006
       .Baud (BAUD)
   ) u_serial (
       .clk_i  (clk),
-      .rst_ni (rst),
+      .rst_ni (rst_core_n),
       .ready_i(!boot),
       .addr_i (addr),
       .rxd_i  (rxd),
@@ -151,10 +151,10 @@ module pmc006
 
   // ---- control, motion, drive -----------------------------------------------------------------------------
 
-  settings_t settings;
-  launch_t   launch;
-  motion_t   motion;
-  thrust_t   thrust;
+  motor_settings_t settings;
+  motion_start_t motion_start;
+  motion_status_t motion;
+  drive_cmd_t drive_cmd;
   logic halt, step;
   logic [7:0] base;
 
@@ -165,28 +165,28 @@ module pmc006
       .Echo   (128'(STEP_ACK) == "ECHO"),
       .Version(FW_VERSION)
   ) u_control (
-      .clk_i     (clk),
-      .rst_ni    (rst),
-      .us_i      (us),
-      .boot_o    (boot),
-      .frame_i   (frame),
-      .reply_o   (reply),
-      .addr_o    (addr),
-      .fset_ni   (fset_s),
-      .ext_i     (ext_s),
-      .gpi_i     (gpi_s),
-      .pull_up_o ({ext2_pu, ext1_pu}),
-      .gpo_o     (gpo),
-      .bemf_i    ({bemf_valid, bemf_level}),
-      .scl_i     (scl_s),
-      .sda_i     (sda_s),
-      .scl_oe_o  (scl_oe),
-      .sda_oe_o  (sda_oe),
-      .settings_o(settings),
-      .launch_o  (launch),
-      .halt_o    (halt),
-      .motion_i  (motion),
-      .step_i    (step)
+      .clk_i         (clk),
+      .rst_ni        (rst_core_n),
+      .us_i          (us),
+      .boot_o        (boot),
+      .frame_i       (frame),
+      .reply_o       (reply),
+      .addr_o        (addr),
+      .fset_ni       (fset_sync_n),
+      .ext_i         (ext_sync),
+      .gpi_i         (gpi_sync),
+      .pull_up_o     ({ext2_pu, ext1_pu}),
+      .gpo_o         (gpo),
+      .bemf_i        ({bemf_valid, bemf_level}),
+      .scl_i         (scl_sync),
+      .sda_i         (sda_sync),
+      .scl_oe_o      (scl_oe),
+      .sda_oe_o      (sda_oe),
+      .settings_o    (settings),
+      .motion_start_o(motion_start),
+      .halt_o        (halt),
+      .motion_i      (motion),
+      .step_i        (step)
   );
 
   pmc006_base_rom u_base (
@@ -196,17 +196,17 @@ module pmc006
   );
 
   pmc006_motion u_motion (
-      .clk_i     (clk),
-      .rst_ni    (rst),
-      .us_i      (us),
-      .settings_i(settings),
-      .base_i    (base),
-      .launch_i  (launch),
-      .halt_i    (halt),
-      .adc_i     ({adc_valid, adc_data}),
-      .motion_o  (motion),
-      .step_o    (step),
-      .thrust_o  (thrust)
+      .clk_i         (clk),
+      .rst_ni        (rst_core_n),
+      .us_i          (us),
+      .settings_i    (settings),
+      .base_i        (base),
+      .motion_start_i(motion_start),
+      .halt_i        (halt),
+      .adc_i         ({adc_valid, adc_data}),
+      .motion_o      (motion),
+      .step_o        (step),
+      .drive_cmd_o   (drive_cmd)
   );
 
   pmc006_drive #(
@@ -215,7 +215,7 @@ module pmc006
       .TBlankNs(T_BLANK_NS)
   ) u_drive (
       .clk_i         (clk),
-      .rst_ni        (rst),
+      .rst_ni        (rst_core_n),
       .us_i          (us),
       .boot_i        (boot),
       .settings_i    (settings),
@@ -223,9 +223,9 @@ module pmc006
       .busy_i        (motion.busy),
       .step_i        (step),
       .forward_i     (motion.forward),
-      .increment_i   (thrust.increment),
-      .bump_i        (thrust.bump),
-      .lead_i        (thrust.lead),
+      .increment_i   (drive_cmd.increment),
+      .current_comp_i(drive_cmd.current_comp),
+      .lead_angle_i  (drive_cmd.lead_angle),
       .cmp_a_i       (cmp_a),
       .cmp_b_i       (cmp_b),
       .phase_a_ref_o (phase_a_ref),
@@ -242,8 +242,8 @@ module pmc006
       .m21_o         (m21)
   );
 
-  always_ff @(posedge clk or negedge rst) begin
-    if (!rst) mon_step <= 1'b0;
+  always_ff @(posedge clk or negedge rst_core_n) begin
+    if (!rst_core_n) mon_step <= 1'b0;
     else mon_step <= step;
   end
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_carrier: all logic of a board with a PMC006B4 except the clock generator and the pads: the device
-// with its reset and LEDs, its line (USB or RS-485, whichever transmits) and the bus of a converter.
-// Rules:  section 1.1 of the PMC006B4 rules; LEDs, wiring: docs/boards.md.
+// pmc006_carrier: all logic of a board with a PMC006B4 except the clock generator and the pads: the core,
+// reset and LEDs, the serial line (USB and RS-485, wired-AND) and the bus of an A/D converter.
+// Rules:  P006-PORT-01..04; pins: docs/pmc006/README.md, 2; LEDs, wiring: docs/boards.md.
 // Timing: see pmc006 and ppmc_board_reset. The inputs need no external synchroniser.
-// Assumes: conv is stable from the rising edge of its strobe until 4 cycles later.
+// Assumes: conv is stable from the rising edge of adc_stb or bemf_stb until 4 cycles later.
 `default_nettype none
 
 module pmc006_carrier #(
@@ -63,7 +63,7 @@ module pmc006_carrier #(
   logic [7:0] a_ref, b_ref;
   logic a_sign, b_sign, scl_o, sda_o;
 
-  // Both lines idle high, and a host waits for its answer before it sends again.
+  // Both lines idle high. Assumes: only one host transmits at a time.
   assign rxd = uart_rxd && rs485_rxd;
   assign uart_txd = rs485_txd;
 

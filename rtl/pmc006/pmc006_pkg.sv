@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_pkg: instruction codes, registers and their factory values of the PMC006B4.
-// Rules:  sections 3.0 (registers), 3.1 (codes), 12.3 (opcodes of the user program).
+// Rules:  P006-CMD-01..57, P006-PRG-01/02/10..17/20/30..33; codes: docs/pmc006/README.md, 4, 13.
 `default_nettype none
 
 package pmc006_pkg;
@@ -8,7 +8,7 @@ package pmc006_pkg;
   // A design uses only some of these constants.
   // verilator lint_off UNUSEDPARAM
 
-  // ---- instructions: codes of the frames; with bit 7, codes that only the user program has ---------------
+  // ---- instruction codes: bit 7 = 0, code of a frame; bit 7 = 1, instruction only of the user program -----
 
   localparam logic [7:0] I_NONE = 8'h00;
   localparam logic [7:0] I_POINTER = 8'h41;  // A
@@ -73,8 +73,8 @@ package pmc006_pkg;
   localparam logic [7:0] P_RESET_EN = 8'h93;
   localparam logic [7:0] P_PAUSE_EN = 8'h94;
 
-  // Instruction for an opcode of the user program: that of a frame, or one that only the program has.
-  function automatic logic [7:0] op_of(logic [7:0] opcode);
+  // Instruction code of an opcode of the user program: a frame code (I_…) or a program code (P_…).
+  function automatic logic [7:0] program_op(logic [7:0] opcode);
     unique case (opcode)
       8'h01:   return I_STEP;
       8'h02:   return I_MSTEP;
@@ -94,21 +94,21 @@ package pmc006_pkg;
   typedef enum logic [1:0] {
     FromFrame,
     FromProgram,
-    FromTry,      // one instruction of the program, by instruction E
+    FromTry,      // instruction of the program, executed by E
     FromBoot      // a parameter from the EEPROM
-  } source_e;
+  } instr_source_e;
 
   // Instruction being executed.
   typedef struct packed {
-    logic [7:0]  op;
-    logic [3:0]  option;  // option of a program instruction; 15: above 14
-    source_e     source;
-    logic [31:0] data;
-  } order_t;
+    logic [7:0]    op;
+    logic [3:0]    option;  // of a program instruction; 15: 15 or more; 0 otherwise
+    instr_source_e source;
+    logic [31:0]   data;
+  } exec_cmd_t;
 
-  // ---- registers that an instruction writes; the value is the address of their copy for replies ---------
+  // ---- registers; the value is the address of the copy in pmc006_reply_ram --------------------------------
 
-  // A reset fills all addresses except the first two.
+  // A reset of pmc006_reply_ram fills the addresses from 2 on.
   typedef enum logic [4:0] {
     RegMstep   = 5'd2,
     RegCurrent,
@@ -135,71 +135,71 @@ package pmc006_pkg;
 
   // Register access of an instruction.
   typedef struct packed {
-    logic      write;  // 1: writes the register; 0: only reads it for the reply
-    register_e which;
-  } access_t;
+    logic      write;   // 1: write the register; 0: read it for the reply
+    register_e reg_id;
+  } reg_access_t;
 
   // ---- between line, control, motion and drive ------------------------------------------------------------
 
-  // Frame from the host; code and data are valid until the next one.
+  // Frame from the host. code and data are valid with go and stable until bytes of the next frame arrive.
   typedef struct packed {
-    logic        go;    // strobe: a frame has arrived
+    logic        go;    // strobe: a valid frame is complete
     logic [7:0]  code;  // instruction code
     logic [31:0] data;  // data of the instruction
   } frame_t;
 
-  // Start of a motion; start and run are never high in the same cycle.
+  // Start of a motion. Assumes: start and run are not high in the same cycle.
   typedef struct packed {
-    logic        start;  // s, ROT: make count steps
-    logic [30:0] count;  // with start: at least 1
-    logic        run;    // N = 1 at rest: run until the stop request
-    logic        speed;  // SPEED_MODE; 0: stop request for a speed run
-  } launch_t;
+    logic        start;  // strobe (s, ROT): make count steps
+    logic [30:0] count;  // steps, at least 1; valid with start
+    logic        run;    // strobe (N 1 at standstill): run until stopped
+    logic        speed;  // SPEED_MODE; 0: decelerate and end a speed run
+  } motion_start_t;
 
   // State of the motion.
   typedef struct packed {
     logic busy;     // a motion is in progress
     logic forward;  // direction of the current or the last motion
-    logic steady;   // constant speed, not 0
-  } motion_t;
+    logic steady;   // constant speed above 0
+  } motion_status_t;
 
   // Values from the motion for the drive.
   typedef struct packed {
-    logic [7:0]  increment;  // angle of a step
-    logic [10:0] bump;       // B
-    logic [6:0]  lead;       // W
-  } thrust_t;
+    logic [7:0]  increment;     // angle of a step, 512 per electrical turn
+    logic [10:0] current_comp;  // B, P006-EXC-22
+    logic [6:0]  lead_angle;    // W, P006-EXC-23
+  } drive_cmd_t;
 
-  // Sample of a converter.
+  // Sample of an A/D converter.
   typedef struct packed {
     logic       valid;  // strobe: level is new
-    logic [9:0] level;
+    logic [9:0] level;  // valid with valid
   } sample_t;
 
-  localparam logic [6:0] LAST_LINE = 7'd99;
-  localparam logic [7:0] WORDS = 8'd200;
+  localparam logic [6:0] PROGRAM_LAST_LINE = 7'd99;
+  localparam logic [7:0] PROGRAM_WORDS = 8'd200;
 
   // ---- registers ------------------------------------------------------------------------------------------
 
   // Settings used by motion and drive.
   typedef struct packed {
-    logic [7:0]  mstep;     // 0, 2, 4, .. 128
+    logic [7:0]  mstep;     // 0 (full step), 2, 4, 8, .. 128
     logic [11:0] cur;       // mA, 400 .. 4000
     logic [2:0]  acc;       // acceleration coefficient, 0 .. 5
     logic [2:0]  dec;       // deceleration coefficient, 0 .. 5
-    logic        autodec;
-    logic [2:0]  att;       // 1 .. 4
+    logic        autodec;   // 1: reduce the current at standstill
+    logic [2:0]  att;       // attenuation coefficient, 1 .. 4
     logic [11:0] vstart;    // pps, 65 .. 3000
     logic [11:0] vstop;     // pps, 65 .. 3000
     logic [10:0] ccomp;     // 100 .. 1200
     logic [10:0] scomp;     // 300 .. 2000
     logic [13:0] vmax;      // pps, 0 .. 16000
     logic        dir;       // 1 = forward
-    logic        regulate;
-    logic        free;
-  } settings_t;
+    logic        regulate;  // 1: analog speed (VMAX scaled by the converter)
+    logic        free;      // 1: motor released
+  } motor_settings_t;
 
-  localparam settings_t SETTINGS_RESET = '{
+  localparam motor_settings_t SETTINGS_RESET = '{
       mstep: 8'd16,
       cur: 12'd800,
       acc: 3'd0,
@@ -218,16 +218,16 @@ package pmc006_pkg;
 
   // Settings used only by the control.
   typedef struct packed {
-    logic [7:0] addr;     // 1 .. 120, 255
-    logic [1:0] trigm;    // 1 = rising edge; bit 0 EXT1
-    logic [1:0] exten;
-    logic       offline;
-    logic [6:0] stlen;    // 0 .. 64
-    logic [2:0] stcfg;
-    logic [8:0] stlvl;
-  } control_t;
+    logic [7:0] addr;     // address on the line, 1 .. 120, 255
+    logic [1:0] trigm;    // trigger edge, 1 = rising; bit 0: EXT1
+    logic [1:0] exten;    // 1 = emergency input enabled; bit 0: EXT1
+    logic       offline;  // 1: start the user program after the boot
+    logic [6:0] stlen;    // stall length, samples; 64 only after a reset
+    logic [2:0] stcfg;    // 0: detect a stall; 1: stop the motion; 2: drive GPO5
+    logic [8:0] stlvl;    // stall level, of bemf_level
+  } control_settings_t;
 
-  localparam control_t CONTROL_RESET = '{
+  localparam control_settings_t CONTROL_RESET = '{
       addr: 8'hff,
       trigm: 2'b00,
       exten: 2'b00,

@@ -23,8 +23,8 @@ MEMORIES = {
     "pmc006_sine_rom": "rom",
     "pmc006_base_rom": "rom",
     "pmc006_calc_words": "words",
-    "pmc006_values": "words",
-    "pmc006_range": "rom",
+    "pmc006_reply_ram": "words",
+    "pmc006_data_check": "rom",
     "pmc006_calc_rom": "rom",
     "ppmc_bank_times": "words",
 }

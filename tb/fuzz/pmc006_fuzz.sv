@@ -6,7 +6,7 @@
 module pmc006_fuzz (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic  [7:0] byte_i,     // a character
+    input  wire logic [ 7:0] byte_i,     // a character
     input  wire logic        valid_i,    // strobe: byte_i was received
     input  wire logic        error_i,    // strobe: byte_i has no stop bit
     input  wire logic        silence_i,  // 1 during a silence
@@ -15,16 +15,16 @@ module pmc006_fuzz (
 );
 
   pmc006_pkg::frame_t frame;
-  logic late_q;
+  logic timeout_q;
 
   pmc006_frame dut (
       .clk_i,
       .rst_ni,
-      .addr_i (8'd3),
+      .addr_i(8'd3),
       .byte_i,
       .valid_i,
       .error_i,
-      .late_i (late_q),
+      .timeout_i(timeout_q),
       .frame_o(frame)
   );
 
@@ -32,9 +32,9 @@ module pmc006_fuzz (
   assign what_o  = {8'd1, frame.code, 16'd0, frame.data};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) late_q <= 1'b0;
-    else if (silence_i) late_q <= 1'b1;
-    else if (valid_i || error_i) late_q <= 1'b0;
+    if (!rst_ni) timeout_q <= 1'b0;
+    else if (silence_i) timeout_q <= 1'b1;
+    else if (valid_i || error_i) timeout_q <= 1'b0;
   end
 
 endmodule

@@ -10,8 +10,8 @@
 
 module eeprom_24c32 #(
     parameter bit [6:0] Device = 7'h50,
-    parameter int unsigned WriteClk = 80_000,  // cycles of a write
-    parameter int unsigned StretchClk = 0,  // cycles with SCL held low after each acknowledge
+    parameter int unsigned WriteCycles = 80_000,  // cycles of a write
+    parameter int unsigned StretchCycles = 0,  // cycles with SCL held low after each acknowledge
     parameter bit Missing = 1'b0
 ) (
     input  wire logic clk_i,
@@ -38,8 +38,8 @@ module eeprom_24c32 #(
 
   // Options of this device.
   logic [6:0] device  /* verilator public_flat_rw */ = Device;
-  int unsigned write_clk  /* verilator public_flat_rw */ = WriteClk;
-  int unsigned stretch_clk  /* verilator public_flat_rw */ = StretchClk;
+  int unsigned write_cycles  /* verilator public_flat_rw */ = WriteCycles;
+  int unsigned stretch_cycles  /* verilator public_flat_rw */ = StretchCycles;
   logic missing  /* verilator public_flat_rw */ = Missing;
   logic stuck_scl  /* verilator public_flat_rw */ = 1'b0;  // 1: the clock line is held low
   logic stuck_sda  /* verilator public_flat_rw */ = 1'b0;  // 1: the data line is held low
@@ -92,11 +92,11 @@ module eeprom_24c32 #(
     if (state == StData && count != 0 && bits <= 4'd1) begin
       for (int i = 0; i < 32; i++) if (filled[i]) memory[{address[11:5], 5'(i)}] = page[i];
       log_address[writes] = address;
-      log_count[writes] = count > 32 ? 6'd32 : 6'(count);
+      log_count[writes]   = count > 32 ? 6'd32 : 6'(count);
       for (int i = 0; i < 32; i++) log_data[32*writes+i] = page[5'(32'(address[4:0])+i)];
       if (writes != Log - 1) writes++;
       address = {address[11:5], 5'(32'(address[4:0]) + count)};
-      writing = write_clk;
+      writing = write_cycles;
     end
     rest();
   endfunction
@@ -138,9 +138,9 @@ module eeprom_24c32 #(
       bits = '0;
       sda_pull = 1'b0;
       if (state == StSend) state = StRead;
-      if (stretch_clk != 0) begin
+      if (stretch_cycles != 0) begin
         scl_pull = 1'b1;
-        holding  = stretch_clk;
+        holding  = stretch_cycles;
       end
     end
     if (state == StRead && bits < 4'd8) begin

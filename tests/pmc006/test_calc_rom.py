@@ -10,16 +10,16 @@ from scripts.fpga.rom.calc_asm import WORDS, AsmError, Program, assemble, names_
 
 NAMES = names_of(calc_rom.PACKAGE.read_text())
 FORMS = [
-    ("load RLeft", "Load Plain RLeft"),
-    ("add.dec RWay", "Add Dec RWay"),
-    ("sub.lo K1", "Sub Low K1"),
-    ("div.lo.dec RWay", "Div LowDec RWay"),
-    ("store MWay1", "Store Plain MWay1"),
-    ("mul.16 RVe", "Mul N16 RVe"),
-    ("shift.2", "Mul N2 K0"),
-    ("root", "Root Plain RRoot"),
-    ("halt", "Halt Plain K0"),
-    ("out Lead", "Out OutLead K0"),
+    ("load RLeft", "Load OperandPlain RLeft"),
+    ("add.dec RWay", "Add OperandDec RWay"),
+    ("sub.lo K1", "Sub OperandLow K1"),
+    ("div.lo.dec RWay", "Div OperandLowDec RWay"),
+    ("store MWay1", "Store OperandPlain MWay1"),
+    ("mul.16 RVe", "Mul Steps16 RVe"),
+    ("shift.2", "Mul Steps2 K0"),
+    ("root", "Root OperandPlain RRoot"),
+    ("halt", "Halt OperandPlain K0"),
+    ("out LeadAngle", "Out OutLeadAngle K0"),
 ]
 MISTAKES = [
     ("lod RLeft", "lod is not an instruction"),
@@ -42,7 +42,7 @@ MISTAKES = [
     ("jump Here on Zero", "a jump is `jump Label` or `jump Label if Condition`"),
     ("jump There", "there is no label There"),
     ("jump Here if Zer", "there is no condition Zer, but Zero"),
-    ("Here:", "label Here stands twice"),
+    ("Here:", "label Here is defined twice"),
     ("2nd:", "'2nd' is not a valid label"),
     ("halt\nLoose:", "no instruction leads to label Loose"),
     ("halt\n" * WORDS, f"the program is too long: more than {WORDS} words"),
@@ -54,12 +54,12 @@ def program(*lines: str) -> Program:
     return assemble("\n".join(lines), NAMES)
 
 
-def code(told: str) -> int:
+def code(text: str) -> int:
     """Return the code of "operation aux operand" with the names of the package."""
-    op, aux, operand = told.split()
-    enums = ("where_e", "steps_e", "out_e")
+    op, aux, operand = text.split()
+    enums = ("operand_mode_e", "mul_steps_e", "output_sel_e")
     return (
-        NAMES["op_e"][f"Op{op}"] << 13
+        NAMES["calc_op_e"][f"Op{op}"] << 13
         | next(NAMES[enum][aux] for enum in enums if aux in NAMES[enum]) << 9
         | NAMES["operand_e"][operand]
     )
@@ -73,19 +73,19 @@ def test_enumerations() -> None:
 
 def test_package_without_enumeration() -> None:
     """A package that lacks an enumeration is reported."""
-    with pytest.raises(AsmError, match="the package has no op_e"):
+    with pytest.raises(AsmError, match="the package has no calc_op_e"):
         names_of("package p; endpackage")
 
 
-@pytest.mark.parametrize(("line", "told"), FORMS)
-def test_instructions(line: str, told: str) -> None:
+@pytest.mark.parametrize(("line", "word"), FORMS)
+def test_instructions(line: str, word: str) -> None:
     """The word of an instruction has the codes of the package; comments and spaces are ignored."""
-    words = program(f"   {line}   ; as told: here", "halt").words
-    assert (words[0].code, words[0].text, words[0].line) == (code(told), line, 1)
+    words = program(f"   {line}   ; a comment: here", "halt").words
+    assert (words[0].code, words[0].text, words[0].line) == (code(word), line, 1)
 
 
 @pytest.mark.parametrize(
-    ("line", "puts", "low"),
+    ("line", "selected", "low"),
     [
         ("set over", 0b1000, 0),
         ("set phase=Stop up=0 smooth=1", 0b0111, 6 << 2 | 1),
@@ -93,9 +93,9 @@ def test_instructions(line: str, told: str) -> None:
         ("set up=1", 0b0010, 0b10),
     ],
 )
-def test_shapes(line: str, puts: int, low: int) -> None:
+def test_shapes(line: str, selected: int, low: int) -> None:
     """In the word of a set, aux states which fields are set, and the operand states their values."""
-    assert program(line, "halt").words[0].code == NAMES["op_e"]["OpSet"] << 13 | puts << 9 | low
+    assert program(line, "halt").words[0].code == NAMES["calc_op_e"]["OpSet"] << 13 | selected << 9 | low
 
 
 def test_labels_and_jumps() -> None:
@@ -105,24 +105,24 @@ def test_labels_and_jumps() -> None:
     )
     assert made.labels == {"EntryA": 0, "Back": 1, "End": 3}
     assert made.entries() == {"EntryA": 0}
-    jump = NAMES["op_e"]["OpJump"] << 13
-    assert made.words[0].code == jump | NAMES["cond_e"]["IfNotCarry"] << 9 | 3
-    assert made.words[2].code == jump | NAMES["cond_e"]["Always"] << 9 | 1
+    jump = NAMES["calc_op_e"]["OpJump"] << 13
+    assert made.words[0].code == jump | NAMES["cond_e"]["CondNotCarry"] << 9 | 3
+    assert made.words[2].code == jump | NAMES["cond_e"]["CondAlways"] << 9 | 1
 
 
-@pytest.mark.parametrize(("line", "told"), MISTAKES)
-def test_mistakes(line: str, told: str) -> None:
+@pytest.mark.parametrize(("line", "message"), MISTAKES)
+def test_mistakes(line: str, message: str) -> None:
     """The error message of a wrong line is one line with its number and the error."""
     with pytest.raises(AsmError) as caught:
         program("EntryA:", "jump Here", "Here:", line, "halt")
     where, _, text = str(caught.value).partition(": ")
-    assert text == told
+    assert text == message
     assert int(where) >= 4
     assert "\n" not in text
 
 
 @pytest.mark.parametrize(
-    ("lines", "told"),
+    ("lines", "message"),
     [
         ((), "1: the program is empty"),
         (("load RV",), "1: the program continues after its last word"),
@@ -130,11 +130,11 @@ def test_mistakes(line: str, told: str) -> None:
         (("jump Out", "Out:"), "1: no instruction follows label Out"),
     ],
 )
-def test_ends(lines: tuple[str, ...], told: str) -> None:
+def test_ends(lines: tuple[str, ...], message: str) -> None:
     """A program that runs past its last word is rejected."""
     with pytest.raises(AsmError) as caught:
         program(*lines)
-    assert str(caught.value) == told
+    assert str(caught.value) == message
 
 
 def test_full_rom() -> None:
@@ -144,7 +144,7 @@ def test_full_rom() -> None:
 
 def test_files_are_fresh() -> None:
     """The files of the tree are those that `make rom` writes."""
-    for path, text in calc_rom.wanted().items():
+    for path, text in calc_rom.expected_files().items():
         assert path.read_text() == text, path
 
 
@@ -152,7 +152,7 @@ def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
     """The message of an error in the listing is one line with file, line and error."""
     monkeypatch.setattr(calc_rom, "ASM", calc_rom.PACKAGE)
     with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is not an instruction$"):
-        calc_rom.wanted()
+        calc_rom.expected_files()
 
 
 def test_package_without_marks() -> None:

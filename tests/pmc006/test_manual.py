@@ -42,34 +42,34 @@ class Session:
 
     async def reply(self, words: str) -> str:
         if not words:
-            assert await self.host.silent(self.host.us(2000)), "a reply"
+            assert await self.host.is_silent(self.host.us(2000)), "a reply"
             return words
-        await self.host.hear()
+        await self.host.receive_reply()
         return self.host.wire.hex(" ").upper()
 
     async def order(self, words: str) -> None:
         code, data = (*words.split(), "0")[:2]
-        await self.host.say(int(code, 16) if code.startswith("0x") else code, int(data, 0))
+        await self.host.send_frame(int(code, 16) if code.startswith("0x") else code, int(data, 0))
 
     async def data(self, words: str) -> str:
-        got = await self.host.hear()
+        got = await self.host.receive_reply()
         return words if got == int(words, 0) & 0xFFFF_FFFF else str(got)
 
     async def idle(self, words: str) -> None:
         await self.host.until("mon_busy", 0, LONG)
 
-    def made(self) -> int:
+    def step_count(self) -> int:
         """Return the steps since the last `=`."""
-        return self.host.made(self.since)
+        return self.host.step_count(self.since)
 
     async def at(self, words: str) -> None:
         await self.host.sync()
-        while self.made() < int(words):
+        while self.step_count() < int(words):
             await self.host.next_steps(self.host.t + self.host.us(LONG))
 
     async def count(self, words: str) -> str:
         await self.host.sync()
-        found = self.made()
+        found = self.step_count()
         self.since = self.host.t
         return str(found)
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_drive: electrical angle, idle timer, current references and both bridges.
-// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; others in pmc006_refs and pmc006_bridge.
-// Timing: the angle changes at the edge of step_i. The references follow 25 to 56 cycles later (pmc006_refs),
-//         the bridge enables one cycle after BOOT or FREE.
+// pmc006_drive: electrical angle, standstill timer, current references and both H-bridges.
+// Rules:  P006-EXC-01..03, P006-EXC-30..32, P006-STA-12; others in pmc006_refs and pmc006_hbridge.
+// Timing: the angle changes at the edge that ends the cycle of step_i. The references follow 25 to 56 cycles
+//         later (pmc006_refs). The bridge enables follow boot_i and settings_i.free by one cycle.
 `default_nettype none
 
 module pmc006_drive
@@ -12,40 +12,40 @@ module pmc006_drive
     parameter int unsigned TOffNs   = 20_000,
     parameter int unsigned TBlankNs = 1_000
 ) (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire logic             us_i,            // strobe every microsecond
-    input  wire logic             boot_i,          // the device is booting: no current
-    input  wire settings_t        settings_i,      // parameter registers
-    input  wire logic      [ 7:0] base_i,          // base code of the current, one cycle after settings_i
+    input  wire logic                   clk_i,
+    input  wire logic                   rst_ni,
+    input  wire logic                   us_i,            // strobe every microsecond
+    input  wire logic                   boot_i,          // the device is booting: no current
+    input  wire motor_settings_t        settings_i,      // parameter registers
+    input  wire logic            [ 7:0] base_i,          // base code RB, one cycle after settings_i
     // motion
-    input  wire logic             busy_i,          // a motion is in progress
-    input  wire logic             step_i,          // a step is made at the next rising edge
-    input  wire logic             forward_i,       // direction of the step
-    input  wire logic      [ 7:0] increment_i,     // angle of a step
-    input  wire logic      [10:0] bump_i,          // B
-    input  wire logic      [ 6:0] lead_i,          // W
+    input  wire logic                   busy_i,          // a motion is in progress
+    input  wire logic                   step_i,          // a step is made at the next rising edge
+    input  wire logic                   forward_i,       // direction of the step
+    input  wire logic            [ 7:0] increment_i,     // angle of a step
+    input  wire logic            [10:0] current_comp_i,  // B
+    input  wire logic            [ 6:0] lead_angle_i,    // W
     // pins
-    input  wire logic             cmp_a_i,         // comparator of phase A, raw pin
-    input  wire logic             cmp_b_i,         // comparator of phase B, raw pin
-    output logic           [ 7:0] phase_a_ref_o,   // current reference of phase A
-    output logic                  phase_a_sign_o,  // sign of phase_a_ref_o
-    output logic           [ 7:0] phase_b_ref_o,   // current reference of phase B
-    output logic                  phase_b_sign_o,  // sign of phase_b_ref_o
-    output logic                  pwm_a_ref_o,     // bit stream of phase_a_ref_o
-    output logic                  pwm_b_ref_o,     // bit stream of phase_b_ref_o
-    output logic                  bridge_a_en_o,   // the bridge of phase A is enabled
-    output logic                  bridge_b_en_o,   // the bridge of phase B is enabled
-    output logic                  m10_o,           // phase A, one half bridge: 1 = high side
-    output logic                  m11_o,           // phase A, other half bridge
-    output logic                  m20_o,           // phase B, one half bridge
-    output logic                  m21_o            // phase B, other half bridge
+    input  wire logic                   cmp_a_i,         // comparator of phase A, raw pin
+    input  wire logic                   cmp_b_i,         // comparator of phase B, raw pin
+    output logic                 [ 7:0] phase_a_ref_o,   // current reference of phase A
+    output logic                        phase_a_sign_o,  // sign of phase_a_ref_o
+    output logic                 [ 7:0] phase_b_ref_o,   // current reference of phase B
+    output logic                        phase_b_sign_o,  // sign of phase_b_ref_o
+    output logic                        pwm_a_ref_o,     // bit stream of phase_a_ref_o
+    output logic                        pwm_b_ref_o,     // bit stream of phase_b_ref_o
+    output logic                        bridge_a_en_o,   // the bridge of phase A is enabled
+    output logic                        bridge_b_en_o,   // the bridge of phase B is enabled
+    output logic                        m10_o,           // phase A, one half bridge: 1 = high side
+    output logic                        m11_o,           // phase A, other half bridge
+    output logic                        m20_o,           // phase B, one half bridge
+    output logic                        m21_o            // phase B, other half bridge
 );
 
   localparam int unsigned IdleUs = 100_000;
-  localparam int unsigned OffClk = ppmc_pkg::cyc(TOffNs, ClkHz, 1_000_000_000);
-  localparam int unsigned BlankClk = ppmc_pkg::cyc(TBlankNs, ClkHz, 1_000_000_000);
-  localparam int unsigned FastClk = (OffClk / 2 > BlankClk) ? OffClk / 2 : BlankClk;
+  localparam int unsigned OffCycles = ppmc_pkg::cyc(TOffNs, ClkHz, 1_000_000_000);
+  localparam int unsigned BlankCycles = ppmc_pkg::cyc(TBlankNs, ClkHz, 1_000_000_000);
+  localparam int unsigned FastCycles = (OffCycles / 2 > BlankCycles) ? OffCycles / 2 : BlankCycles;
 
   logic [8:0] angle_q;
   logic off, idle;
@@ -75,8 +75,8 @@ module pmc006_drive
       .decay_i (idle && !busy_i && settings_i.autodec),
       .att_i   (settings_i.att),
       .base_i,
-      .bump_i,
-      .lead_i,
+      .current_comp_i,
+      .lead_angle_i,
       .forward_i,
       .angle_i (angle_q),
       .a_ref_o (phase_a_ref_o),
@@ -85,10 +85,10 @@ module pmc006_drive
       .b_sign_o(phase_b_sign_o)
   );
 
-  pmc006_bridge #(
-      .OffClk  (OffClk),
-      .BlankClk(BlankClk),
-      .FastClk (FastClk)
+  pmc006_hbridge #(
+      .OffCycles  (OffCycles),
+      .BlankCycles(BlankCycles),
+      .FastCycles (FastCycles)
   ) u_bridge_a (
       .clk_i,
       .rst_ni,
@@ -102,10 +102,10 @@ module pmc006_drive
       .high1_o(m11_o)
   );
 
-  pmc006_bridge #(
-      .OffClk  (OffClk),
-      .BlankClk(BlankClk),
-      .FastClk (FastClk)
+  pmc006_hbridge #(
+      .OffCycles  (OffCycles),
+      .BlankCycles(BlankCycles),
+      .FastCycles (FastCycles)
   ) u_bridge_b (
       .clk_i,
       .rst_ni,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_sine_rom: quarter wave, floor(256 * sin(pi * i / 256) + 0.5).
+// pmc006_sine_rom: table of a quarter wave, floor(256 * sin(pi * i / 256) + 0.5) for i = index_i.
 // Rules:  P006-EXC-10 (the values are binding).
 // Timing: sine_o follows index_i by one cycle.
 `default_nettype none
@@ -10,7 +10,7 @@ module pmc006_sine_rom (
     output logic      [8:0] sine_o    // 0 .. 256
 );
 
-  localparam logic [128:0][8:0] Wave = {  // index 128 first
+  localparam logic [128:0][8:0] QuarterWave = {  // index 128 first
     9'd256,
     9'd256,
     9'd256,
@@ -145,7 +145,7 @@ module pmc006_sine_rom (
   (* rom_style = "block" *)
   logic [8:0] rom[256];
 
-  initial for (int unsigned i = 0; i < 256; i++) rom[i] = (i < 129) ? Wave[8'(i)] : '0;
+  initial for (int unsigned i = 0; i < 256; i++) rom[i] = (i < 129) ? QuarterWave[8'(i)] : '0;
 
   always_ff @(posedge clk_i) sine_o <= rom[index_i];
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_stall: detects a stall: the back EMF was too low for a number of samples at constant speed.
-// Rules:  section 7.2, P006-STA-03/14, P006-STL-01..06.
-// Timing: a sample is compared at its edge and counted in the next cycle; STALL is valid after that cycle.
-//         stop_o is already asserted in that cycle, so that no step follows the position of the stall.
+// pmc006_stall: stall detector: the back EMF was below the limit for length_i consecutive samples at constant
+// speed.
+// Rules:  P006-STA-03/14, P006-STL-01..06.
+// Timing: a sample is compared at the edge that ends the cycle of sample_i.valid and counted in the next
+//         cycle c. stall_o is set at the end of c. stop_o is combinational and already asserted in c, so that
+//         no step follows the stored position of the stall.
 `default_nettype none
 
 module pmc006_stall
@@ -11,25 +13,25 @@ module pmc006_stall
     input  wire logic          clk_i,
     input  wire logic          rst_ni,
     input  wire sample_t       sample_i,  // sample of the back EMF
-    input  wire logic    [2:0] config_i,  // STCFG
-    input  wire logic    [6:0] length_i,  // STLEN
-    input  wire logic    [8:0] limit_i,   // STLVL
+    input  wire logic    [2:0] config_i,  // STCFG: detect, stop, drive GPO5
+    input  wire logic    [6:0] length_i,  // STLEN, samples; 0 acts as 1
+    input  wire logic    [8:0] limit_i,   // STLVL: a sample below it is low
     input  wire logic          busy_i,    // a motion is in progress
     input  wire logic          steady_i,  // constant speed above 0
-    input  wire logic          start_i,   // a motion starts
-    input  wire logic          clear_i,   // clear STALL
-    output logic               stop_o,    // stop the motion
-    output logic               mark_o,    // store the position of the stall
+    input  wire logic          start_i,   // strobe: a motion starts
+    input  wire logic          clear_i,   // strobe: clear STALL
+    output logic               stop_o,    // stop the motion immediately
+    output logic               mark_o,    // strobe: store the position of the stall
     output logic               stall_o    // register STALL
 );
 
-  logic sample_q, low_q, counts;
+  logic sample_q, low_q, low_counted;
   logic [6:0] count_q;
-  logic [7:0] up;
+  logic [7:0] count_next;
 
-  assign up = {1'b0, count_q} + 1'b1;
-  assign counts = low_q && config_i[0] && !stall_o && busy_i && steady_i;
-  assign mark_o = sample_q && counts && up >= {1'b0, length_i};
+  assign count_next = {1'b0, count_q} + 1'b1;
+  assign low_counted = low_q && config_i[0] && !stall_o && busy_i && steady_i;
+  assign mark_o = sample_q && low_counted && count_next >= {1'b0, length_i};
   assign stop_o = config_i[1] && busy_i && (stall_o || mark_o);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -45,7 +47,7 @@ module pmc006_stall
   always_ff @(posedge clk_i) begin
     if (sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};
     if (!busy_i) count_q <= '0;  // each motion begins with 0
-    else if (sample_q) count_q <= counts ? up[6:0] : '0;
+    else if (sample_q) count_q <= low_counted ? count_next[6:0] : '0;
   end
 
   logic unused_config;

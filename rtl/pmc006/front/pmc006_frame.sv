@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_frame: assembles the bytes from the host into frames of eight bytes and checks the frames.
+// pmc006_frame: assembles bytes from the line into frames of eight bytes and checks address and sum.
 // Rules:  P006-FRM-01/02/04/06/08, P006-UART-03, P006-BAD-01..05.
-// Timing: frame_o.go is high in the cycle of the last byte; code and data are valid from then until the next
-//         frame.
+// Timing: frame_o.go is combinational, in the cycle of valid_i of the last byte. code and data are valid in
+//         this cycle and stable until a byte of the next frame.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,36 +11,40 @@ module pmc006_frame
 (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,
-    input  wire logic [7:0] addr_i,   // address of the device
-    input  wire logic [7:0] byte_i,   // byte from the line
-    input  wire logic       valid_i,  // strobe: byte_i is a received byte
-    input  wire logic       error_i,  // strobe: a byte without a stop bit
-    input  wire logic       late_i,   // the previous byte was too long ago
-    output frame_t          frame_o   // valid frame for this device
+    input  wire logic [7:0] addr_i,     // address of the device
+    input  wire logic [7:0] byte_i,     // byte from the line
+    input  wire logic       valid_i,    // strobe: byte_i is a received byte
+    input  wire logic       error_i,    // strobe: framing error
+    input  wire logic       timeout_i,  // 1: the next byte begins a new frame (silence on the line)
+    output frame_t          frame_o     // valid frame for this device
 );
 
-  localparam logic [7:0] Head = 8'ha5;
+  localparam logic [7:0] HeadByte = 8'ha5;
 
-  logic [2:0] at_q, at;
-  logic mine_q;
+  logic [2:0] index_q, index;
+  logic addr_match_q;
   logic [7:0] sum_q, code_q;
   logic [31:0] data_q;
 
-  assign at = late_i ? 3'd0 : at_q;
-  assign frame_o = '{go: valid_i && at == 3'd7 && mine_q && byte_i == sum_q, code: code_q, data: data_q};
+  assign index = timeout_i ? 3'd0 : index_q;
+  assign frame_o = '{
+          go: valid_i && index == 3'd7 && addr_match_q && byte_i == sum_q,
+          code: code_q,
+          data: data_q
+      };
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) at_q <= '0;
-    else if (error_i) at_q <= '0;
-    else if (valid_i) at_q <= (at == '0 && byte_i != Head) ? 3'd0 : at + 1'b1;
+    if (!rst_ni) index_q <= '0;
+    else if (error_i) index_q <= '0;
+    else if (valid_i) index_q <= (index == '0 && byte_i != HeadByte) ? 3'd0 : index + 1'b1;
   end
 
   always_ff @(posedge clk_i) begin
     if (valid_i) begin
-      sum_q <= byte_i + ((at == '0) ? 8'd0 : sum_q);
-      if (at == 3'd1) mine_q <= byte_i == addr_i;
-      if (at == 3'd2) code_q <= byte_i;
-      if (at inside {[3'd3 : 3'd6]}) data_q <= {byte_i, data_q[31:8]};
+      sum_q <= byte_i + ((index == '0) ? 8'd0 : sum_q);
+      if (index == 3'd1) addr_match_q <= byte_i == addr_i;
+      if (index == 3'd2) code_q <= byte_i;
+      if (index inside {[3'd3 : 3'd6]}) data_q <= {byte_i, data_q[31:8]};
     end
   end
 

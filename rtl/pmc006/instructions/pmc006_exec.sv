@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_exec: executes instructions, one at a time: from a frame, from the user program, from the EEPROM at
-// boot.
+// pmc006_exec: sequencer that executes one instruction at a time, from a frame, from the user program, or
+// from the EEPROM during the boot.
 // Rules:  P006-FRM-03, P006-CMD-52/53, P006-PRG-15/16, P006-STA-15.
-// Timing: a frame takes effect 4 cycles after its last sample if no instruction is in progress, a program
-//         instruction 5 cycles after its start. Both take effect on the edge that ends the cycle of act_o.
-//         reply_o follows one cycle later.
+// Timing: an instruction takes effect on the edge that ends the cycle of exec_o. This edge is 4 cycles after
+//         the last sample of a frame if no instruction is in progress, and 5 cycles after the edge that
+//         ends the cycle of instr_ack_o. For a frame, reply_sample_o is high in the next cycle.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -14,29 +14,29 @@ module pmc006_exec
     input  wire logic          clk_i,
     input  wire logic          rst_ni,
     // frames
-    input  wire frame_t        frame_i,      // instruction of the host
+    input  wire frame_t        frame_i,         // valid frame from the host
     // user program
-    input  wire logic          next_i,       // the next program instruction is scheduled
-    input  wire logic          cancel_i,     // discard the program instruction in progress
-    output logic               begin_o,      // the program instruction begins
-    output logic               claim_o,      // the executor owns the address of the buffer
-    output logic               second_o,     // word W1 instead of W0
-    output logic               trial_o,      // the address is that of the instruction at PP
-    input  wire logic   [31:0] word_i,       // word of the buffer, two cycles after the address
+    input  wire logic          instr_req_i,     // request: execute the next program instruction
+    input  wire logic          cancel_i,        // discard the program instruction in progress
+    output logic               instr_ack_o,     // strobe: the program instruction begins
+    output logic               claim_o,         // the executor drives the address of the buffer
+    output logic               word1_o,         // address: 1: word W1; 0: word W0
+    output logic               use_pp_o,        // address: 1: of the instruction at PP
+    input  wire logic   [31:0] word_i,          // word of the buffer, two cycles after the address
     // EEPROM
-    input  wire logic          load_i,       // a parameter is available, during the boot
-    input  wire logic   [ 7:0] load_op_i,    // instruction that loads the parameter
-    input  wire logic   [15:0] load_data_i,  // data of the parameter
-    input  wire logic          store_i,      // 1: execute; 0: only check the data
+    input  wire logic          load_i,          // strobe: execute or check load_op_i (boot)
+    input  wire logic   [ 7:0] load_op_i,       // instruction that loads the parameter
+    input  wire logic   [15:0] load_data_i,     // data of the parameter
+    input  wire logic          store_i,         // with load_i: 1: execute; 0: only check the data
     // instruction in progress
-    output order_t             order_o,      // instruction
-    output access_t            access_o,     // register of the instruction
-    output logic               legal_o,      // the data of order_o are in range
-    output logic               act_o,        // order_o is executed in this cycle
-    output logic               place_o,      // the position is set in this cycle
-    input  wire logic          step_i,       // a step is counted in this cycle
-    input  wire logic          try_i,        // E was accepted
-    output logic               reply_o       // sample the reply
+    output exec_cmd_t          cmd_o,           // instruction
+    output reg_access_t        access_o,        // register of cmd_o
+    output logic               legal_o,         // 1: the data of cmd_o are accepted
+    output logic               exec_o,          // strobe: cmd_o is executed in this cycle
+    output logic               set_position_o,  // strobe: set the position
+    input  wire logic          step_i,          // a step is counted in this cycle
+    input  wire logic          try_accept_i,    // E is accepted in this cycle of exec_o
+    output logic               reply_sample_o   // strobe: sample the reply data
 );
 
   typedef enum logic [2:0] {
@@ -44,46 +44,46 @@ module pmc006_exec
     StFirst,   // address of W0
     StSecond,  // address of W1
     StDecode,  // W0 is valid
-    StLook,
-    StAct,
+    StCheck,
+    StExec,
     StReply
   } state_e;
 
-  state_e  state_q;
-  source_e source_q;
-  logic ask_q, again_q, program_q, place;
+  state_e state_q;
+  instr_source_e source_q;
+  logic frame_pending_q, try_next_q, is_program, set_position;
   logic [7:0] op_d, op_q;
   logic [3:0] option_q;
 
-  assign program_q = source_q == FromProgram || source_q == FromTry;
-  // The position is set in a cycle in which no step is counted. act_o stays low, because an act can stop the
-  // motor and so suppress the step.
-  assign place = state_q == StAct && op_q == I_POS_SET;
-  assign place_o = place && !step_i;
+  assign is_program = source_q == FromProgram || source_q == FromTry;
+  // The position is set in a cycle in which no step is counted. exec_o stays low for this instruction: step_i
+  // depends on exec_o, because an executed instruction can stop the motor and so suppress the step.
+  assign set_position = state_q == StExec && op_q == I_POS_SET;
+  assign set_position_o = set_position && !step_i;
 
-  assign act_o = state_q == StAct && !place && !(cancel_i && source_q == FromProgram);
-  assign reply_o = state_q == StReply;
-  assign begin_o = state_q == StIdle && !ask_q && next_i;
-  assign trial_o = source_q == FromTry;
-  assign second_o = program_q && state_q != StFirst;
-  assign claim_o = source_q != FromBoot && state_q inside {StFirst, StSecond, StDecode, StLook, StAct};
+  assign exec_o = state_q == StExec && !set_position && !(cancel_i && source_q == FromProgram);
+  assign reply_sample_o = state_q == StReply;
+  assign instr_ack_o = state_q == StIdle && !frame_pending_q && instr_req_i;
+  assign use_pp_o = source_q == FromTry;
+  assign word1_o = is_program && state_q != StFirst;
+  assign claim_o = source_q != FromBoot && state_q inside {StFirst, StSecond, StDecode, StCheck, StExec};
 
   always_comb begin
-    order_o = '{op: op_q, option: option_q, source: source_q, data: frame_i.data};
-    if (program_q) order_o.data = word_i;
-    if (source_q == FromBoot) order_o.data = {16'd0, load_data_i};
+    cmd_o = '{op: op_q, option: option_q, source: source_q, data: frame_i.data};
+    if (is_program) cmd_o.data = word_i;
+    if (source_q == FromBoot) cmd_o.data = {16'd0, load_data_i};
   end
 
-  assign op_d = (state_q == StDecode) ? op_of(
+  assign op_d = (state_q == StDecode) ? program_op(
       word_i[7:0]
   ) : load_i ? load_op_i : frame_i.code[7] ? I_NONE : frame_i.code;
 
-  pmc006_range u_range (
+  pmc006_data_check u_data_check (
       .clk_i,
-      .take_i   (state_q inside {StIdle, StDecode}),
+      .read_i   (state_q inside {StIdle, StDecode}),
       .program_i(state_q == StDecode),
       .op_i     (op_d),
-      .order_i  (order_o),
+      .cmd_i    (cmd_o),
       .access_o,
       .ok_o     (legal_o)
   );
@@ -92,30 +92,30 @@ module pmc006_exec
     if (!rst_ni) begin
       state_q  <= StIdle;
       source_q <= FromBoot;
-      ask_q    <= 1'b0;
+      frame_pending_q    <= 1'b0;
     end else begin
-      if (frame_i.go) ask_q <= 1'b1;
+      if (frame_i.go) frame_pending_q <= 1'b1;
       unique case (state_q)
         StIdle:
-        if (ask_q) begin
-          ask_q    <= 1'b0;
+        if (frame_pending_q) begin
+          frame_pending_q    <= 1'b0;
           source_q <= FromFrame;
-          state_q  <= StLook;
+          state_q  <= StCheck;
         end else if (load_i) begin
           source_q <= FromBoot;
-          state_q  <= StLook;
-        end else if (next_i) begin
+          state_q  <= StCheck;
+        end else if (instr_req_i) begin
           source_q <= FromProgram;
           state_q  <= StFirst;
         end
-        StFirst: state_q <= StSecond;
+        StFirst:  state_q <= StSecond;
         StSecond: state_q <= StDecode;
-        StDecode: state_q <= StLook;
-        StLook: state_q <= (source_q == FromBoot && !store_i) ? StIdle : StAct;
-        StAct: if (!place || !step_i) state_q <= (source_q == FromFrame) ? StReply : StIdle;
+        StDecode: state_q <= StCheck;
+        StCheck:  state_q <= (source_q == FromBoot && !store_i) ? StIdle : StExec;
+        StExec:   if (!set_position || !step_i) state_q <= (source_q == FromFrame) ? StReply : StIdle;
         default: begin  // StReply
           state_q <= StIdle;
-          if (again_q) begin
+          if (try_next_q) begin
             source_q <= FromTry;
             state_q  <= StFirst;
           end
@@ -131,12 +131,12 @@ module pmc006_exec
     else if (state_q == StDecode) begin
       option_q <= (word_i[15:12] == '0) ? word_i[11:8] : 4'hf;
     end
-    again_q <= act_o && try_i;
+    try_next_q <= exec_o && try_accept_i;
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(p006_sta_15, !(place_o && step_i) && !(place_o && act_o))
-  `PPMC_ASSERT(p006_frm_07, !(frame_i.go && ask_q))
+  `PPMC_ASSERT(p006_sta_15, !(set_position_o && step_i) && !(set_position_o && exec_o))
+  `PPMC_ASSERT(p006_frm_07, !(frame_i.go && frame_pending_q))
 `endif
 
 endmodule

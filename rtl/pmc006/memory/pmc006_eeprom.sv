@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_eeprom: boot, save, burn and factory restore: transfers over the EEPROM bus and into the registers.
-// Rules:  section 13, P006-CMD-02/41, P006-BAD-12..15/22/24.
-// Timing: the bus runs on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte is sampled on the tick that begins
-//         its first bit. At boot the page is checked, then executed, eight cycles per byte. If the page is
-//         invalid, its copy is used.
+// Rules:  P006-EEP-01/10/11/20..23, P006-CMD-02/41, P006-BAD-12..15/22/24.
+// Timing: the bus runs on ticks of 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is sampled on the
+//         tick that begins its first bit. During the boot the parameter page is checked, then executed, each
+//         with eight cycles per byte. If the page is invalid, the copy is read and used instead.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -11,58 +11,58 @@ module pmc006_eeprom
   import pmc006_pkg::*;
   import ppmc_i2c_pkg::*;
 #(
-    parameter int unsigned ClkHz = 16_000_000,
-    parameter int unsigned I2cHz = 400_000,
-    parameter logic [6:0] Device = 7'h50
+    parameter int unsigned       ClkHz  = 16_000_000,
+    parameter int unsigned       I2cHz  = 400_000,
+    parameter logic        [6:0] Device = 7'h50
 ) (
-    input  wire logic            clk_i,
-    input  wire logic            rst_ni,
-    input  wire logic            fset_ni,      // synchronised
-    input  wire logic            restore_i,    // fset_ni was low for its filter time
+    input  wire logic                    clk_i,
+    input  wire logic                    rst_ni,
+    input  wire logic                    fset_ni,          // synchronised
+    input  wire logic                    restore_i,        // strobe: fset_ni was low for its filter time
     // requests
-    input  wire logic            save_i,       // write the parameters
-    input  wire logic            burn_i,       // write the program
-    output logic                 free_o,       // a request can be accepted
-    output logic                 failed_o,     // last request or restore failed; valid while free_o
-    output logic                 burning_o,    // the program is being written
-    output logic                 boot_o,       // registers and program are not loaded yet
-    output logic                 autostart_o,  // strobe: the program starts without a command
-    output logic                 rst_set_no,   // reset of the parameter registers by a restore at boot
+    input  wire logic                    save_i,           // strobe: write the parameters
+    input  wire logic                    burn_i,           // strobe: write the program
+    output logic                         idle_o,           // save_i or burn_i is accepted in this cycle
+    output logic                         failed_o,         // save, burn or restore failed; valid with idle_o
+    output logic                         burning_o,        // the program is being written
+    output logic                         boot_o,           // 1: boot in progress
+    output logic                         autostart_o,      // strobe: start the user program
+    output logic                         rst_settings_no,  // 0: reset the registers (restore at boot)
     // registers
-    input  wire settings_t       settings_i,   // parameter registers
-    input  wire control_t        control_i,    // registers of the control
-    output logic                 load_o,       // execute load_op_o with the byte or pair of the buffer
-    output logic           [7:0] load_op_o,    // instruction that loads a parameter
-    output logic                 load_wide_o,  // load_op_o uses a pair
-    output logic                 store_o,      // 1: execute; 0: only check the data
-    input  wire logic            legal_i,      // the data are in range
+    input  wire motor_settings_t         settings_i,       // parameter registers
+    input  wire control_settings_t       control_i,        // registers of the control
+    output logic                         load_o,           // strobe: check or execute load_op_o
+    output logic                   [7:0] load_op_o,        // instruction that loads a parameter
+    output logic                         load_wide_o,      // 1: load_op_o uses a pair; 0: a byte
+    output logic                         store_o,          // 1: execute load_op_o; 0: check the data
+    input  wire logic                    legal_i,          // 1: the data of load_op_o are accepted
     // buffer
-    input  wire logic            claim_i,      // the executor reads the buffer
-    output logic           [9:0] byte_at_o,    // address of the byte
-    output logic                 we_o,         // write byte_o to the buffer
-    output logic           [7:0] byte_o,       // byte from the EEPROM
-    input  wire logic      [7:0] byte_i,       // byte of the buffer at byte_at_o
+    input  wire logic                    claim_i,          // 1: the executor addresses the buffer
+    output logic                   [9:0] byte_addr_o,      // address of the byte
+    output logic                         we_o,             // strobe: write byte_o to the buffer
+    output logic                   [7:0] byte_o,           // byte from the EEPROM
+    input  wire logic              [7:0] byte_i,           // byte of the buffer at byte_addr_o
     // bus, synchronised
-    input  wire logic            scl_i,        // clock of the bus
-    input  wire logic            sda_i,        // data of the bus
-    output logic                 scl_oe_o,     // 1: pull the clock low
-    output logic                 sda_oe_o      // 1: pull the data low
+    input  wire logic                    scl_i,            // SCL
+    input  wire logic                    sda_i,            // SDA
+    output logic                         scl_oe_o,         // 1: drive SCL low
+    output logic                         sda_oe_o          // 1: drive SDA low
 );
 
   localparam int unsigned PollTicks = 4 * I2cHz / 100;
-  localparam logic [9:0] Program = 10'h020;
-  localparam logic [9:0] Mark = 10'h342;
-  localparam logic [4:0] FirstField = 5'h03;
-  localparam logic [4:0] LastField = 5'h15;
+  localparam logic [9:0] ProgramAddr = 10'h020;
+  localparam logic [9:0] MarkAddr = 10'h342;
+  localparam logic [4:0] FirstFieldAddr = 5'h03;
+  localparam logic [4:0] LastFieldAddr = 5'h15;
 
   typedef enum logic [3:0] {
     StReset,   // wait until FSET is high or a restore is requested
     StFree,
     StStart,
     StDevice,
-    StHigh,    // address
+    StHigh,    // high byte of the address
     StLow,
-    StAgain,   // START of a read
+    StAgain,   // repeated START of a read
     StSource,  // device address for the read
     StData,
     StStop,
@@ -75,13 +75,13 @@ module pmc006_eeprom
   (* fsm_encoding = "none" *)
   state_e state_q;
   logic tick, first, done, fail, nack;
-  logic
-      boot_q, restore_q, poll_q, read_q, burn_q, mark_q, copy_q, factory_q, fail_q, again_q, last_q, store_q;
-  logic page_bad_q, program_bad_q, last, over, sent, got, wrong, clear_sum, give_up, second;
-  logic [1:0] fresh_q;
+  logic boot_q, restore_q, poll_q, read_q, burn_q, mark_q, copy_q, factory_q, fail_q, retry_q;
+  logic last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout, byte_sent, byte_received;
+  logic mismatch, clear_sum, abort, try_copy;
+  logic [1:0] prefetch_valid_q;
   logic [2:0] phase_q;
-  logic [9:0] at_q;
-  logic [7:0] received, data, ahead_q, out;
+  logic [9:0] addr_q;
+  logic [7:0] received, data, prefetch_q, out;
   i2c_cmd_e cmd;
 
   // ---- bus ------------------------------------------------------------------------------------------------
@@ -94,8 +94,8 @@ module pmc006_eeprom
       StStart, StAgain: cmd = CmdStart;
       StStop:           cmd = CmdStop;
       StDevice:         out = {Device, 1'b0};
-      StHigh:           out = {6'd0, at_q[9:8] | {2{copy_q}}};
-      StLow:            out = at_q[7:0] | {1'b0, {2{copy_q}}, 5'd0};
+      StHigh:           out = {6'd0, addr_q[9:8] | {2{copy_q}}};
+      StLow:            out = addr_q[7:0] | {1'b0, {2{copy_q}}, 5'd0};
       StSource:         out = {Device, 1'b1};
       StData:           if (!read_q) out = data;
       default:          cmd = CmdNone;
@@ -125,41 +125,42 @@ module pmc006_eeprom
 
   // ---- bytes ----------------------------------------------------------------------------------------------
 
-  assign sent = first && state_q == StData && !read_q;
-  assign got  = done && state_q == StData && read_q;
-  assign last = at_q == Mark || (at_q[4:0] == '1 && !(read_q && at_q[9:5] != '0));
+  assign byte_sent = first && state_q == StData && !read_q;
+  assign byte_received = done && state_q == StData && read_q;
+  assign last = addr_q == MarkAddr || (addr_q[4:0] == '1 && !(read_q && addr_q[9:5] != '0));
 
   pmc006_page u_page (
       .clk_i,
       .rst_ni,
-      .at_i      (at_q),
-      .sent_i    (sent),
-      .got_i     (got),
-      .received_i(received),
-      .clear_i   (clear_sum),
-      .burn_i    (burn_q),
-      .mark_i    (mark_q),
-      .ahead_i   (ahead_q),
-      .factory_i (factory_q),
+      .addr_i         (addr_q),
+      .byte_sent_i    (byte_sent),
+      .byte_received_i(byte_received),
+      .received_i     (received),
+      .clear_i        (clear_sum),
+      .burn_i         (burn_q),
+      .mark_i         (mark_q),
+      .prefetch_i     (prefetch_q),
+      .factory_i      (factory_q),
       .settings_i,
       .control_i,
-      .byte_o    (data),
-      .wrong_o   (wrong),
-      .op_o      (load_op_o),
-      .wide_o    (load_wide_o)
+      .byte_o         (data),
+      .mismatch_o     (mismatch),
+      .op_o           (load_op_o),
+      .wide_o         (load_wide_o)
   );
 
   assign clear_sum = state_q == StSettle || state_q == StIdle ||
-      (done && state_q == StStop && !again_q && (read_q || (poll_q && (mark_q || copy_q))));
+      (done && state_q == StStop && !retry_q && (read_q || (poll_q && (mark_q || copy_q))));
 
-  assign byte_at_o = at_q;
-  assign we_o = got || (state_q == StWipe && program_bad_q);
+  assign byte_addr_o = addr_q;
+  assign we_o = byte_received || (state_q == StWipe && program_bad_q);
   assign byte_o = (state_q == StWipe) ? 8'd0 : received;
 
-  // The executor has priority for the buffer. The time between two bytes is long enough for both.
+  // The executor has priority for the buffer. The time between two bytes is long enough for both, so
+  // prefetch_q is valid before it is sent.
   always_ff @(posedge clk_i) begin
-    fresh_q <= {fresh_q[0], !claim_i};
-    if (fresh_q[1]) ahead_q <= byte_i;
+    prefetch_valid_q <= {prefetch_valid_q[0], !claim_i};
+    if (prefetch_valid_q[1]) prefetch_q <= byte_i;
     if (first) last_q <= last;
   end
 
@@ -168,21 +169,21 @@ module pmc006_eeprom
   // A restore at boot resets the parameter registers, because their reset values are the factory values. The
   // reset lasts until the boot is over.
   always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) rst_set_no <= 1'b0;
-    else rst_set_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));
+    if (!rst_ni) rst_settings_no <= 1'b0;
+    else rst_settings_no <= !(boot_q && ((restore_i && state_q != StSettle) || restore_q || factory_q));
   end
 
   // ---- sequence -------------------------------------------------------------------------------------------
 
-  // If a boot finds an invalid page, the copy is tried once.
-  assign second = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
-  assign free_o = state_q == StIdle && !restore_q;
+  // If the page is invalid during the boot, the copy is read once.
+  assign try_copy = boot_q && page_bad_q && !copy_q && !restore_q && !factory_q;
+  assign idle_o = state_q == StIdle && !restore_q;
   assign failed_o = fail_q;
   assign burning_o = burn_q;
   assign boot_o = boot_q;
   assign load_o = state_q == StLoad && phase_q == 3'd3;
   assign store_o = store_q;
-  assign give_up = fail || (done && state_q == StStop && (fail_q || (again_q && over)));
+  assign abort = fail || (done && state_q == StStop && (fail_q || (retry_q && poll_timeout)));
   assign autostart_o = state_q == StSettle && !restore_q && boot_q && control_i.offline && !program_bad_q;
 
   ppmc_delay #(
@@ -191,7 +192,7 @@ module pmc006_eeprom
       .clk_i,
       .restart_i(!poll_q),
       .tick_i   (tick),
-      .past_o   (over)
+      .past_o   (poll_timeout)
   );
 
   always_ff @(posedge clk_i) begin
@@ -210,15 +211,15 @@ module pmc006_eeprom
       copy_q        <= 1'b0;
       factory_q     <= 1'b0;
       fail_q        <= 1'b0;
-      again_q       <= 1'b0;
+      retry_q       <= 1'b0;
       store_q       <= 1'b0;
       page_bad_q    <= 1'b0;
       program_bad_q <= 1'b0;
-      at_q          <= '0;
+      addr_q        <= '0;
     end else begin
-      if (got || sent || state_q == StWipe) at_q <= at_q + 1'b1;
-      if (wrong) begin
-        if (at_q[9:5] != '0) program_bad_q <= 1'b1;
+      if (byte_received || byte_sent || state_q == StWipe) addr_q <= addr_q + 1'b1;
+      if (mismatch) begin
+        if (addr_q[9:5] != '0) program_bad_q <= 1'b1;
         else page_bad_q <= 1'b1;
       end
 
@@ -240,7 +241,7 @@ module pmc006_eeprom
           endcase
           if (nack) begin
             state_q <= StStop;
-            again_q <= poll_q;
+            retry_q <= poll_q;
             fail_q  <= !poll_q;
           end
         end
@@ -256,36 +257,36 @@ module pmc006_eeprom
         StStop:
         if (done) begin
           state_q <= StStart;
-          again_q <= 1'b0;
-          if (!again_q) begin
+          retry_q <= 1'b0;
+          if (!retry_q) begin
             poll_q <= !poll_q && !read_q;
             if (poll_q) begin
               if (boot_q && !factory_q) read_q <= 1'b1;
               else if (mark_q || copy_q) begin
                 mark_q <= 1'b0;
                 copy_q <= 1'b0;
-                at_q   <= mark_q ? Program : '0;
-              end else if (!burn_q || at_q > Mark) state_q <= StSettle;
+                addr_q <= mark_q ? ProgramAddr : '0;
+              end else if (!burn_q || addr_q > MarkAddr) state_q <= StSettle;
             end
-            if (read_q && (at_q > Mark || copy_q)) begin
+            if (read_q && (addr_q > MarkAddr || copy_q)) begin
               state_q <= StWipe;
               read_q  <= 1'b0;
-              at_q    <= Program;
+              addr_q  <= ProgramAddr;
             end
           end
         end
         StWipe: begin
-          if (!program_bad_q || at_q == 10'h33f) begin
+          if (!program_bad_q || addr_q == 10'h33f) begin
             state_q <= (page_bad_q || restore_q) ? StSettle : StLoad;
-            at_q    <= 10'(FirstField);
+            addr_q  <= 10'(FirstFieldAddr);
           end
         end
         StLoad: begin
           if (phase_q == 3'd5 && load_op_o != I_NONE && !legal_i) page_bad_q <= 1'b1;
           if (phase_q == 3'd7) begin
-            at_q <= at_q + 1'b1;
-            if (at_q[4:0] == LastField) begin
-              at_q    <= 10'(FirstField);
+            addr_q <= addr_q + 1'b1;
+            if (addr_q[4:0] == LastFieldAddr) begin
+              addr_q  <= 10'(FirstFieldAddr);
               store_q <= 1'b1;
               if (store_q || page_bad_q || restore_q) state_q <= StSettle;
             end
@@ -296,14 +297,14 @@ module pmc006_eeprom
           boot_q    <= 1'b0;
           burn_q    <= 1'b0;
           factory_q <= 1'b0;
-          at_q      <= '0;
-          again_q   <= 1'b0;
+          addr_q    <= '0;
+          retry_q   <= 1'b0;
           poll_q    <= 1'b0;
           mark_q    <= 1'b0;
           copy_q    <= 1'b0;
           store_q   <= 1'b0;
           if (boot_q && !factory_q) fail_q <= 1'b0;
-          if (second) begin
+          if (try_copy) begin
             state_q    <= StStart;
             boot_q     <= 1'b1;
             read_q     <= 1'b1;
@@ -318,17 +319,17 @@ module pmc006_eeprom
             mark_q    <= burn_i && !restore_q;
             copy_q    <= !burn_i || restore_q;
             fail_q    <= 1'b0;
-            if (burn_i && !restore_q) at_q <= Mark;
+            if (burn_i && !restore_q) addr_q <= MarkAddr;
           end
         end
       endcase
 
-      if (give_up) begin
+      if (abort) begin
         state_q <= StSettle;
         fail_q  <= 1'b1;
         if (boot_q && !factory_q) begin
           state_q       <= StWipe;
-          at_q          <= Program;
+          addr_q        <= ProgramAddr;
           page_bad_q    <= 1'b1;
           program_bad_q <= 1'b1;
           read_q        <= 1'b0;
@@ -341,7 +342,7 @@ module pmc006_eeprom
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p006_eep_22, !(save_i && burn_i))
-  `PPMC_ASSERT(p006_bad_12, free_o || !(save_i || burn_i))
+  `PPMC_ASSERT(p006_bad_12, idle_o || !(save_i || burn_i))
 `endif
 
 endmodule

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_page: memory map of the EEPROM. Outputs the byte to be sent, or the byte that a check expects, sums
-//         the bytes, and outputs the instruction that loads a parameter.
-// Rules:  section 13.1 (map, factory page), P006-EEP-10/11/22, P006-BAD-14/15.
-// Timing: byte_o and wrong_o are combinational. The high byte of a pair is stored when the low byte is sent,
-//         so that both bytes are of the same register value.
+// pmc006_page: memory map of the EEPROM: outputs the byte to be sent or expected, the check sum, and the
+// instruction that loads a parameter.
+// Rules:  P006-EEP-10/11/22, P006-BAD-14/15; memory map, factory page: docs/pmc006/README.md, 14.
+// Timing: byte_o and mismatch_o are combinational. The high byte of a pair is stored when the low byte is
+//         sent, so that both bytes are of the same register value.
 `default_nettype none
 
 module pmc006_page
@@ -11,34 +11,35 @@ module pmc006_page
 (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [9:0] at_i,  // address in the EEPROM
-    input wire logic sent_i,  // byte_o is sent
-    input wire logic got_i,  // received_i is valid
+    input wire logic [9:0] addr_i,  // address in the EEPROM
+    input wire logic byte_sent_i,  // strobe: byte_o is sent
+    input wire logic byte_received_i,  // strobe: received_i is valid
     input wire logic [7:0] received_i,  // received byte
-    input wire logic clear_i,  // clear the sum
+    input wire logic clear_i,  // clear the check sum
     input wire logic burn_i,  // 1: the program is written; 0: the parameters
-    input wire logic mark_i,  // the program is about to be written
-    input wire logic [7:0] ahead_i,  // byte of the program
-    input wire logic factory_i,  // factory values instead of the registers
-    input wire settings_t settings_i,  // parameter registers
-    input wire control_t control_i,  // registers of the control
+    input wire logic mark_i,  // 1: byte_o of the program mark is 00 (invalid)
+    input wire logic [7:0] prefetch_i,  // prefetched byte of the program
+    input wire logic factory_i,  // 1: factory values instead of the registers
+    input wire motor_settings_t settings_i,  // parameter registers
+    input wire control_settings_t control_i,  // registers of the control
     output logic [7:0] byte_o,  // byte to be sent, or expected
-    output logic wrong_o,  // the received byte differs from the expected one
+    output logic mismatch_o,  // strobe: received_i differs from byte_o, at a checked address
     output logic [7:0] op_o,  // instruction that loads the byte or pair, or I_NONE
-    output logic wide_o  // op_o uses a pair
+    output logic wide_o  // data of op_o: 1: pair; 0: byte
 );
 
   typedef struct packed {
     logic [15:0] pair;    // pair that contains the byte
     logic [7:0]  single;  // the byte, if it is not part of a pair
-  } field_t;
+  } page_field_t;
 
-  // Content of the page at this address.
-  function automatic field_t field_at(settings_t set, control_t ctl, logic [4:0] at);
-    field_t f;
-    logic   unused_bits;
+  // Content of the parameter page at this offset.
+  function automatic page_field_t page_field(motor_settings_t set, control_settings_t ctl,
+                                             logic [4:0] offset);
+    page_field_t f;
+    logic unused_bits;
     unused_bits = &{1'b0, set, ctl};
-    unique case (at[4:1])
+    unique case (offset[4:1])
       4'h6:    f.pair = 16'(set.vstart);
       4'h7:    f.pair = 16'(set.vstop);
       4'h8:    f.pair = 16'(set.ccomp);
@@ -46,7 +47,7 @@ module pmc006_page
       4'ha:    f.pair = 16'(set.cur);
       default: f.pair = 16'd0;
     endcase
-    unique case (at)
+    unique case (offset)
       5'h03:   f.single = ctl.addr;
       5'h04:   f.single = set.mstep;
       5'h06:   f.single = 8'(set.acc);
@@ -60,54 +61,55 @@ module pmc006_page
     return f;
   endfunction
 
-  field_t field;
-  logic [4:0] at;
+  page_field_t field;
+  logic [4:0] offset;
   logic [7:0] page, high_q;
   logic [15:0] sum_q;
-  logic tail, check;
+  logic in_trailer, is_checked;
 
-  assign at = at_i[4:0];
-  assign tail = at_i[9:8] == 2'b11 && at_i[6];  // after the program
-  assign field = factory_i ? field_at(
-      SETTINGS_RESET, CONTROL_RESET, at
-  ) : field_at(
-      settings_i, control_i, at
+  assign offset = addr_i[4:0];
+  assign in_trailer = addr_i[9:8] == 2'b11 && addr_i[6];  // after the program
+  assign field = factory_i ? page_field(
+      SETTINGS_RESET, CONTROL_RESET, offset
+  ) : page_field(
+      settings_i, control_i, offset
   );
 
   always_comb begin
-    unique case (at)
+    unique case (offset)
       5'h00: page = 8'h50;
       5'h01: page = 8'h36;
       5'h02: page = 8'h01;
       5'h03, 5'h04, 5'h06, 5'h07, 5'h08, 5'h09, 5'h0a, 5'h0b: page = field.single;
       5'h1f: page = sum_q[7:0];
-      default: page = at[0] ? high_q : field.pair[7:0];
+      default: page = offset[0] ? high_q : field.pair[7:0];
     endcase
   end
 
   always_comb begin
-    byte_o = burn_i ? ahead_i : page;
-    if (tail) begin
-      unique case (at[1:0])
+    byte_o = burn_i ? prefetch_i : page;
+    if (in_trailer) begin
+      unique case (offset[1:0])
         2'd0:    byte_o = sum_q[7:0];
         2'd1:    byte_o = sum_q[15:8];
         default: byte_o = mark_i ? 8'h00 : 8'h5a;
       endcase
     end
-    check   = tail || at_i inside {10'h000, 10'h001, 10'h002, 10'h01f};
-    wrong_o = got_i && check && received_i != byte_o;
+    is_checked = in_trailer || addr_i inside {10'h000, 10'h001, 10'h002, 10'h01f};
+    mismatch_o = byte_received_i && is_checked && received_i != byte_o;
   end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) sum_q <= '0;
     else if (clear_i) sum_q <= '0;
-    else if ((sent_i || got_i) && !tail) sum_q <= sum_q + {8'd0, got_i ? received_i : byte_o};
+    else if ((byte_sent_i || byte_received_i) && !in_trailer)
+      sum_q <= sum_q + {8'd0, byte_received_i ? received_i : byte_o};
   end
 
-  always_ff @(posedge clk_i) if (sent_i && !at[0]) high_q <= field.pair[15:8];
+  always_ff @(posedge clk_i) if (byte_sent_i && !offset[0]) high_q <= field.pair[15:8];
 
   always_comb begin
-    unique case (at)
+    unique case (offset)
       5'h03:   op_o = I_ADDR;
       5'h04:   op_o = I_MSTEP;
       5'h06:   op_o = I_ACC;
@@ -123,7 +125,7 @@ module pmc006_page
       5'h14:   op_o = I_CURRENT;
       default: op_o = I_NONE;
     endcase
-    wide_o = at >= 5'h0c;
+    wide_o = offset >= 5'h0c;
   end
 
 endmodule

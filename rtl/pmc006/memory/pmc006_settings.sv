@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_settings: the parameter registers.
-// Rules:  section 3.0, P006-CMD-04..50, P006-MOT-52, P006-PRG section 12.3 (EXTEN, VSET, ACC).
+// pmc006_settings: parameter registers.
+// Rules:  P006-CMD-04..50, P006-MOT-52; EXTEN, VSET and ACC of the user program: docs/pmc006/README.md, 13.
 // Timing: the registers change on the edge that ends the cycle of write_i.
 `default_nettype none
 
 module pmc006_settings
   import pmc006_pkg::*;
 (
-    input  wire logic           clk_i,
-    input  wire logic           rst_ni,
-    input  wire order_t         order_i,     // instruction
-    input  wire access_t        access_i,    // register of the instruction
-    input  wire logic           write_i,     // order_i is executed, with data in range
-    input  wire logic           take_i,      // sample the value for the reply
-    output settings_t           settings_o,  // settings used by motion and drive
-    output control_t            control_o,   // settings used only by the control
-    output logic         [13:0] value_o      // register value at take_i, or 0; valid after take_i
+    input  wire logic                clk_i,
+    input  wire logic                rst_ni,
+    input  wire exec_cmd_t           cmd_i,       // instruction in progress
+    input  wire reg_access_t         access_i,    // register of cmd_i
+    input  wire logic                write_i,     // strobe: cmd_i is executed, its data are accepted
+    input  wire logic                sample_i,    // strobe: sample the value for the reply
+    output motor_settings_t          settings_o,  // settings used by motion and drive
+    output control_settings_t        control_o,   // settings used only by the control
+    output logic              [13:0] value_o      // register of access_i at sample_i, or 0
 );
 
   logic [13:0] data;
   logic write, unused_bits;
 
   assign write = write_i && access_i.write;
-  assign unused_bits = &{1'b0, order_i};
+  assign unused_bits = &{1'b0, cmd_i};
 
   always_comb begin
-    data = order_i.data[13:0];
+    data = cmd_i.data[13:0];
     // The value 6, which only the user program can set, is equivalent to 5.
-    if (order_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
-    // An EXTEN instruction that is not from a frame switches both inputs.
-    if (order_i.op == I_EXTEN && order_i.source != FromFrame) data[1] = data[0];
+    if (cmd_i.op == I_ACC && data[2:1] == 2'b11) data[1:0] = 2'b01;
+    // Except in a frame, bit 0 of EXTEN enables or disables both inputs.
+    if (cmd_i.op == I_EXTEN && cmd_i.source != FromFrame) data[1] = data[0];
   end
 
-  pmc006_values u_values (
+  pmc006_reply_ram u_reply_ram (
       .clk_i,
       .rst_ni,
-      .write_i(write),
-      .which_i(access_i.which),
-      .data_i (data),
-      .take_i,
+      .write_i (write),
+      .reg_id_i(access_i.reg_id),
+      .data_i  (data),
+      .sample_i,
       .value_o
   );
 
@@ -47,7 +47,7 @@ module pmc006_settings
       settings_o <= SETTINGS_RESET;
       control_o  <= CONTROL_RESET;
     end else if (write) begin
-      unique case (access_i.which)
+      unique case (access_i.reg_id)
         RegMstep:   settings_o.mstep <= data[7:0];
         RegCurrent: settings_o.cur <= data[11:0];
         RegAcc:     settings_o.acc <= data[2:0];
@@ -60,7 +60,7 @@ module pmc006_settings
         RegScomp:   settings_o.scomp <= data[10:0];
         RegVmax: begin
           settings_o.vmax <= data;
-          settings_o.regulate <= order_i.option[0];
+          settings_o.regulate <= cmd_i.option[0];
         end
         RegDir:     settings_o.dir <= data[0];
         RegFree:    settings_o.free <= data[0];

@@ -1,6 +1,6 @@
 ; SPDX-License-Identifier: Apache-2.0
-; Program of the planner of the PMC006B4: planning of a motion, update tick, compensation.
-; Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
+; Program of the motion planner of the PMC006B4: planning of a motion, update tick, current compensation.
+; Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23.
 ; `make rom` writes pmc006_calc_rom.sv and the entry points in pmc006_calc_pkg.sv from this file; `make lint`
 ; compares them.
 ;
@@ -9,15 +9,16 @@
 ;
 ;   load X           hi = X
 ;   add X            hi = hi + X; Carry: overflow
-;   sub X            hi = hi - X; Carry: X was not greater
+;   sub X            hi = hi - X; Carry: X <= hi before
 ;   load.lo, add.lo, sub.lo    the same with the result in lo, and hi = 0
-;   mul.N X          {hi, lo} = hi + X * (the lowest N bits of lo); N = 1, 2, 16, 32. After 16 the product is RMid
-;   shift.N          {hi, lo} moves right by N bits; it is mul.N K0
-;   div X            lo = {hi, lo} / X, hi = the remainder
-;   add.dec, sub.dec, div.dec  with RWay of the deceleration
-;   root             VN = square root of lo, hi = 0; VN must be 0 before
+;   mul.N X          {hi, lo} = (hi + X * (lowest N bits of lo)) << (32 - N), plus lo >> N; N = 1, 2, 16, 32.
+;                    After mul.16, RMid = hi before + X * (lowest 16 bits of lo)
+;   shift.N          {hi, lo} = {hi, lo} >> N; the same as mul.N K0
+;   div X            lo = {hi, lo} / X, hi = remainder
+;   add.dec, sub.dec, div.dec  the same with RWay of the deceleration coefficient nd
+;   root             VN = square root of lo; hi and VN must be 0 before
 ;   store M          word M = hi
-;   out O            output O = hi; out Acc, out Dec: increment that coefficient
+;   out O            output O = hi; out Acc, out Dec: increment the coefficient na, nd
 ;   set …            phase=P, up=0|1, smooth=0|1: shape of the ramp; set over: the ramp has ended
 ;   jump L [if C]    continue at label L if condition C is true; without a condition, always
 ;   halt             end of the run
@@ -35,7 +36,7 @@ EntryTick:
 ; ---- a motion has been accepted: V = VSTART
 
 Plan:
-        load RLeft              ; R is stable for a short time only
+        load RLeft              ; R is stable only until 6 cycles after the start
         store MLeft
 
 Target: ; live target
@@ -64,7 +65,7 @@ Retarget:                       ; hi = LT - V, with its carry
         sub MLt
         jump Coef
 Straight:
-        set smooth=0            ; analog targets are followed without S-curve
+        set smooth=0            ; an analog target is followed without S-curve
         jump Retarget
 Reached:
         set phase=Cruise        ; no ramp is needed
@@ -364,8 +365,8 @@ Compensate:
         store MT
         load.lo MX
         mul.16 MT
-        out Bump                ; Bn = speed * RB * CCOMP / 2^22
+        out CurrentComp         ; Bn = speed * RB * CCOMP / 2^22
         load.lo MX
         mul.16 RScomp
-        out Lead                ; Wn = speed * SCOMP / 2^16, at most 64
+        out LeadAngle           ; Wn = speed * SCOMP / 2^16, at most 64
         halt

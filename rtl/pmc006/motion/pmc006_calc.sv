@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc: calculator of the planner: one adder that multiplies and divides step by step, a small memory
-// and the program of pmc006_calc_rom (pmc006_calc.asm).
-// Rules:  P006-MOT-10..23, P006-EXC-20..23, sections 5.2, 5.5.
-// Timing: an instruction takes 2 cycles without operand, 3 with one, n + 2 with n steps. A planning ends
-//         within 785 cycles of plan_i, an update tick within 590 of advance_i. Either strobe may occur during
-//         a run and then ends this run.
+// pmc006_calc: sequential processor of the motion planner: one adder, which multiplies and divides one bit
+// per cycle, a small memory, and the program of pmc006_calc_rom (pmc006_calc.asm).
+// Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
+// Timing: an instruction takes 2 cycles without operand, 3 with an operand, n + 2 with n steps. A run ends
+//         within 785 cycles of plan_i and within 590 cycles of advance_i. plan_i during a run aborts this
+//         run: a motion can be halted and the next one started while a run is in progress.
+// Assumes: advance_i is low while busy_o is high (two update ticks are at least 800 cycles apart).
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,44 +14,44 @@ module pmc006_calc
 (
     input  wire logic        clk_i,
     input  wire logic        rst_ni,
-    input  wire logic        plan_i,     // a motion begins: plan it
-    input  wire logic        advance_i,  // an update tick
-    output logic             busy_o,     // a run is in progress
-    // motion; stable while busy_o
-    input  wire logic        short_i,    // kind L
-    input  wire logic        speed_i,    // kind V
-    input  wire logic        stop_i,     // stop request
-    input  wire logic        analog_i,   // the target is analog
-    input  wire logic [ 2:0] acc_i,      // acceleration coefficient, sampled with plan_i
-    input  wire logic [ 2:0] dec_i,      // deceleration coefficient, sampled with plan_i
-    input  wire logic [13:0] v_i,        // V
-    input  wire logic [11:0] ve_i,       // VSTOP
-    input  wire logic [30:0] left_i,     // R; valid until 6 cycles after the start
-    input  wire logic [ 7:0] mstep_i,    // 1, 2, 4, .. 128
-    // sampled settings
-    input  wire logic [13:0] vmax_i,     // VMAX
-    input  wire logic [ 9:0] adc_i,      // h
-    input  wire logic [ 7:0] base_i,     // base code RB of the current
-    input  wire logic [10:0] ccomp_i,    // CCOMP
-    input  wire logic [10:0] scomp_i,    // SCOMP
+    input  wire logic        plan_i,          // strobe: start a run that plans a motion
+    input  wire logic        advance_i,       // strobe: start the run of an update tick
+    output logic             busy_o,          // a run is in progress
+    // motion; stable while busy_o is high, except left_i
+    input  wire logic        short_i,         // kind L
+    input  wire logic        speed_i,         // kind V
+    input  wire logic        stop_i,          // stop request
+    input  wire logic        analog_i,        // the target is analog
+    input  wire logic [ 2:0] acc_i,           // acceleration coefficient, sampled with plan_i
+    input  wire logic [ 2:0] dec_i,           // deceleration coefficient, sampled with plan_i
+    input  wire logic [13:0] v_i,             // V
+    input  wire logic [11:0] ve_i,            // VSTOP
+    input  wire logic [30:0] left_i,          // R; stable only until 6 cycles after the strobe
+    input  wire logic [ 7:0] mstep_i,         // 1, 2, 4, .. 128
+    // sampled settings; stable while busy_o is high
+    input  wire logic [13:0] vmax_i,          // VMAX
+    input  wire logic [ 9:0] adc_i,           // h
+    input  wire logic [ 7:0] base_i,          // base code RB of the current
+    input  wire logic [10:0] ccomp_i,         // CCOMP
+    input  wire logic [10:0] scomp_i,         // SCOMP
     // results
-    output phase_e           phase_o,    // phase of the motion
-    output logic      [13:0] next_o,     // Vn
-    output logic             start_v_o,  // strobe: V is set to Vn
-    output logic      [10:0] bump_o,     // Bn
-    output logic      [ 6:0] lead_o      // Wn
+    output phase_e           phase_o,         // phase of the motion
+    output logic      [13:0] next_v_o,        // Vn
+    output logic             load_v_o,        // strobe: V is set to Vn
+    output logic      [10:0] current_comp_o,  // Bn
+    output logic      [ 6:0] lead_angle_o     // Wn
 );
 
 
-  instr_t instr, ir_q;  // instr: fetched; ir_q: delayed, for operand and execution
-  logic run_q, read_q, bare, exec_q, fetch, last, done, taken;
+  instr_t instr, ir_q;  // instr: fetched; ir_q: one cycle later, for operand and execution
+  logic run_q, read_q, no_operand, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
-  logic [4:0] left_q, steps;
+  logic [4:0] steps_left_q, steps;
   logic plan_q, up_q, smooth_q, carry_q, zero;
   logic [2:0] acc_q, dec_q;
 
   logic [31:0] hi_q, lo_q, operand_q, a, b;
-  logic [31:0] word, register;  // the word or the register is 0
+  logic [31:0] word, register;
   logic [32:0] sum;
   logic mul, div, root, shift_only;
   logic [2:0] coefficient;
@@ -58,41 +59,41 @@ module pmc006_calc
   // ---- sequence -------------------------------------------------------------------------------------------
 
   assign busy_o = run_q;
-  assign last   = exec_q && left_q == '0;
-  assign done   = last && run_q;
-  assign fetch  = plan_i || advance_i || done;
-  assign bare   = instr.op[3] || instr.op[1:0] == '0;  // no operand
+  assign last = exec_q && steps_left_q == '0;
+  assign done = last && run_q;
+  assign fetch = plan_i || advance_i || done;
+  assign no_operand = instr.op[3] || instr.op[1:0] == '0;  // no operand
 
   always_comb begin
     unique case (cond_e'(ir_q.aux))
-      Always:     taken = 1'b1;
-      IfCarry:    taken = carry_q;
-      IfNotCarry: taken = !carry_q;
-      IfZero:     taken = zero;
-      IfShort:    taken = short_i;
-      IfSpeed:    taken = speed_i;
-      IfStop:     taken = stop_i && speed_i;
-      IfAnalog:   taken = analog_i;
-      IfPlan:     taken = plan_q;
-      IfEnding:   taken = phase_o[1:0] == PhEnd[1:0];
-      IfRamp:     taken = phase_o[2];
-      IfLive:     taken = phase_o[1:0] == PhCruise[1:0] && !short_i;
-      IfUp:       taken = up_q;
-      IfSmooth:   taken = smooth_q;
-      IfAcc5:     taken = acc_q == 3'd5;
-      IfDec5:     taken = dec_q == 3'd5;
-      default:    taken = 1'b0;
+      CondAlways:   taken = 1'b1;
+      CondCarry:    taken = carry_q;
+      CondNotCarry: taken = !carry_q;
+      CondZero:     taken = zero;
+      CondShort:    taken = short_i;
+      CondSpeed:    taken = speed_i;
+      CondStop:     taken = stop_i && speed_i;
+      CondAnalog:   taken = analog_i;
+      CondPlan:     taken = plan_q;
+      CondEnding:   taken = phase_o[1:0] == PhEnd[1:0];
+      CondRamp:     taken = phase_o[2];
+      CondLive:     taken = phase_o[1:0] == PhCruise[1:0] && !short_i;
+      CondUp:       taken = up_q;
+      CondSmooth:   taken = smooth_q;
+      CondAcc5:     taken = acc_q == 3'd5;
+      CondDec5:     taken = dec_q == 3'd5;
+      default:      taken = 1'b0;
     endcase
-    if (plan_i) pc_d = EntryPlan;
-    else if (advance_i) pc_d = EntryTick;
+    if (plan_i) pc_d = ENTRY_PLAN;
+    else if (advance_i) pc_d = ENTRY_TICK;
     else if (ir_q.op == OpJump && taken) pc_d = ir_q.low;
     else pc_d = pc_q + 1'b1;
     unique case (ir_q.op)
       OpMul: begin
-        unique case (steps_e'(ir_q.aux))
-          N1:      steps = 5'd0;
-          N2:      steps = 5'd1;
-          N16:     steps = 5'd15;
+        unique case (mul_steps_e'(ir_q.aux))
+          Steps1:  steps = 5'd0;
+          Steps2:  steps = 5'd1;
+          Steps16: steps = 5'd15;
           default: steps = 5'd31;
         endcase
       end
@@ -114,15 +115,15 @@ module pmc006_calc
     else if (done && ir_q.op == OpHalt) run_q <= 1'b0;
   end
 
-  // No reset: a start sets the following registers.
+  // No reset: plan_i or advance_i sets the following registers.
   always_ff @(posedge clk_i) begin
     if (fetch) pc_q <= pc_d;
     ir_q   <= instr;
     read_q <= fetch;
-    exec_q <= !fetch && run_q && (!read_q || bare);
-    if (read_q) left_q <= '0;
-    else if (!exec_q) left_q <= steps;
-    else left_q <= left_q - 1'b1;
+    exec_q <= !fetch && run_q && (!read_q || no_operand);
+    if (read_q) steps_left_q <= '0;
+    else if (!exec_q) steps_left_q <= steps;
+    else steps_left_q <= steps_left_q - 1'b1;
   end
 
   // ---- operands -------------------------------------------------------------------------------------------
@@ -132,10 +133,10 @@ module pmc006_calc
   // The word is 0 if the operand is a register.
   pmc006_calc_words u_words (
       .clk_i,
-      .we_i  (done && ir_q.op == OpStore),
-      .at_i  (ir_q.low[3:0]),
+      .we_i(done && ir_q.op == OpStore),
+      .waddr_i(ir_q.low[3:0]),
       .data_i(hi_q),
-      .read_i({instr.low[6:3], instr.low[5] ? coefficient : instr.low[2:0]}),
+      .raddr_i({instr.low[6:3], instr.low[5] ? coefficient : instr.low[2:0]}),
       .word_o(word)
   );
 
@@ -154,19 +155,19 @@ module pmc006_calc
       RLo[3:0]:     register = lo_q;
       RMid[3:0]:    register = {hi_q[15:0], lo_q[31:16]};
       RMargin[3:0]: register = 32'({1'b1, hi_q[13:12]});
-      RRoot[3:0]:   register = 32'({next_o, 2'b01});
+      RRoot[3:0]:   register = 32'({next_v_o, 2'b01});
       default:      register = '0;
     endcase
   end
 
   always_ff @(posedge clk_i) operand_q <= word | (ir_q.low[6] ? register : '0);
 
-  // ---- the adder ------------------------------------------------------------------------------------------
+  // ---- adder ----------------------------------------------------------------------------------------------
 
   assign mul = ir_q.op == OpMul;
   assign root = ir_q.op == OpRoot;
   assign div = ir_q.op == OpDiv || root;
-  assign shift_only = root && left_q[0];  // one digit of a root uses two bits of its square
+  assign shift_only = root && steps_left_q[0];  // one bit of the root consumes two bits of the square
   assign zero = hi_q == '0;
 
   always_comb begin
@@ -197,11 +198,11 @@ module pmc006_calc
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      plan_q    <= 1'b0;
-      phase_o   <= PhCruise;
-      start_v_o <= 1'b0;
+      plan_q   <= 1'b0;
+      phase_o  <= PhCruise;
+      load_v_o <= 1'b0;
     end else begin
-      start_v_o <= done && ir_q.op == OpOut && out_e'(ir_q.aux) == OutSpeed;
+      load_v_o <= done && ir_q.op == OpOut && output_sel_e'(ir_q.aux) == OutSpeed;
       if (plan_i || advance_i) plan_q <= plan_i;
       if (done && ir_q.op == OpSet) begin
         if (ir_q.aux[3]) phase_o <= phase_e'({1'b0, phase_o[1:0]});
@@ -212,15 +213,15 @@ module pmc006_calc
 
   always_ff @(posedge clk_i) begin
     if (done && ir_q.op == OpOut) begin
-      unique case (out_e'(ir_q.aux))
-        OutNext, OutSpeed: next_o <= hi_q[13:0];
-        OutBump:           bump_o <= hi_q[16:6];
-        OutLead:           lead_o <= (hi_q[8:6] != '0) ? 7'd64 : 7'(hi_q[5:0]);
+      unique case (output_sel_e'(ir_q.aux))
+        OutNext, OutSpeed: next_v_o <= hi_q[13:0];
+        OutCurrentComp:    current_comp_o <= hi_q[16:6];
+        OutLeadAngle:      lead_angle_o <= (hi_q[8:6] != '0) ? 7'd64 : 7'(hi_q[5:0]);
         OutAcc:            acc_q <= acc_q + 1'b1;
         OutDec:            dec_q <= dec_q + 1'b1;
         default:           ;
       endcase
-    end else if (exec_q && root && !left_q[0]) next_o <= {next_o[12:0], sum[32]};
+    end else if (exec_q && root && !steps_left_q[0]) next_v_o <= {next_v_o[12:0], sum[32]};
     if (done && ir_q.op == OpSet) begin
       if (ir_q.aux[1]) up_q <= ir_q.low[1];
       if (ir_q.aux[0]) smooth_q <= ir_q.low[0];
@@ -234,7 +235,7 @@ module pmc006_calc
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(calc_not_overtaken, !(advance_i && busy_o))
+  `PPMC_ASSERT(calc_advance_while_idle, !(advance_i && busy_o))
   `PPMC_ASSERT(calc_coefficients, !busy_o || (acc_q <= 3'd5 && dec_q <= 3'd5))
 `endif
 

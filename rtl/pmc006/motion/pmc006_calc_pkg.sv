@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_pkg: instruction set of the planner: instructions of pmc006_calc, operands and conditions.
+// pmc006_calc_pkg: instruction set of the motion planner: operations of pmc006_calc, operands, conditions.
 // Rules:  P006-MOT-10..23, P006-EXC-20..23 (computed by the program in pmc006_calc.asm).
-// How:    an instruction is {operation, aux, operand} or {jump, condition, target}. hi and lo are the
-//         accumulator pair of the one adder; only hi takes part in sums.
+// How:    an instruction is {operation, aux, operand} or {jump, condition, target}. {hi, lo} is the 64-bit
+//         accumulator of the only adder; load, add and sub use only hi as input.
 `default_nettype none
 
 package pmc006_calc_pkg;
@@ -13,44 +13,44 @@ package pmc006_calc_pkg;
   typedef enum logic [3:0] {
     OpHalt,
     OpLoad,   // hi = operand
-    OpAdd,    // hi = hi + operand; carry
-    OpSub,    // hi = hi - operand; carry = operand was not greater
+    OpAdd,    // hi = hi + operand; carry = overflow
+    OpSub,    // hi = hi - operand; carry = (operand <= hi)
     OpStore,  // word = hi
-    OpMul,    // {hi, lo} = (hi + operand * low n bits of lo), rest of lo rotated right by n
+    OpMul,    // {hi, lo} = ((hi + operand * (lowest n bits of lo)) << (32 - n)) + (lo >> n)
     OpDiv,    // lo = {hi, lo} / operand, hi = remainder
-    OpRoot,   // hi = 0: square root of lo to output VN, which must be 0
-    OpOut,    // output = hi, or increment a coefficient
-    OpSet,    // phase and shape of the ramp
+    OpRoot,   // VN = square root of lo; hi and VN must be 0 before
+    OpOut,    // an output = hi, or increment a coefficient
+    OpSet,    // set phase and shape of the ramp, see instr_t
     OpJump
-  } op_e;
+  } calc_op_e;
 
   // aux of a load, sum or division.
   typedef enum logic [3:0] {
-    Plain,
-    Dec,    // RWay with nd
-    Low,    // result to lo, hi = 0
-    LowDec
-  } where_e;
+    OperandPlain,
+    OperandDec,    // RWay uses nd instead of na
+    OperandLow,    // result in lo, hi = 0
+    OperandLowDec
+  } operand_mode_e;
 
   // aux of a multiplication: number of steps.
   typedef enum logic [3:0] {
-    N1,
-    N2,
-    N16 = 4'd3,
-    N32
-  } steps_e;
+    Steps1,
+    Steps2,
+    Steps16 = 4'd3,
+    Steps32
+  } mul_steps_e;
 
   // aux of an output.
   typedef enum logic [3:0] {
-    OutNext,   // Vn
-    OutSpeed,  // V and Vn
-    OutBump,   // Bn = hi >> 6
-    OutLead,   // Wn = min(64, hi)
+    OutNext,   // Vn = hi
+    OutSpeed,  // V = Vn = hi
+    OutCurrentComp,   // Bn = hi >> 6
+    OutLeadAngle,   // Wn = min(64, hi)
     OutAcc,    // na = na + 1
     OutDec     // nd = nd + 1
-  } out_e;
+  } output_sel_e;
 
-  // Bits 6, 5: 00 a word of pmc006_calc_words, 01 a table there, 10 a register.
+  // Bits 6..5: 00 word of pmc006_calc_words, 01 table of pmc006_calc_words, 10 register.
   typedef enum logic [6:0] {
     // writable words
     MLt     = 7'h00,  // live target used last
@@ -75,8 +75,8 @@ package pmc006_calc_pkg;
     K3x2p16 = 7'h17,  // 196608
     K2p31   = 7'h18,
     // tables, indexed by a coefficient in the lowest three bits
-    RRate   = 7'h20,  // 17 << na; for a falling ramp 17 << nd
-    RWay    = 7'h28,  // 3400 << na; with Dec nd
+    RRate   = 7'h20,  // 17 << na; for a ramp downwards 17 << nd
+    RWay    = 7'h28,  // 3400 << na; with OperandDec 3400 << nd
     // registers of the motion and sampled settings
     RV      = 7'h40,
     RVe     = 7'h41,
@@ -88,7 +88,7 @@ package pmc006_calc_pkg;
     RCcomp  = 7'h47,
     RScomp  = 7'h48,
     RMstep  = 7'h49,  // 1, 2, 4, .. 128
-    // registers of the calculator
+    // registers of pmc006_calc
     RLo     = 7'h4c,
     RMid    = 7'h4d,  // {hi, lo} >> 16
     RMargin = 7'h4e,  // margin(hi): (hi >> 12) + 4
@@ -96,22 +96,22 @@ package pmc006_calc_pkg;
   } operand_e;
 
   typedef enum logic [3:0] {
-    Always,
-    IfCarry,
-    IfNotCarry,
-    IfZero,      // hi = 0
-    IfShort,     // kind L
-    IfSpeed,     // kind V
-    IfStop,      // speed mode was switched off
-    IfAnalog,
-    IfPlan,      // before t = 0
-    IfEnding,    // phase STOP or END
-    IfRamp,      // phase RAMP, DEC or STOP
-    IfLive,      // phase CRUISE or RAMP
-    IfUp,        // the ramp rises
-    IfSmooth,    // the ramp is an S
-    IfAcc5,      // na = 5
-    IfDec5       // nd = 5
+    CondAlways,
+    CondCarry,
+    CondNotCarry,
+    CondZero,      // hi = 0
+    CondShort,     // kind L
+    CondSpeed,     // kind V
+    CondStop,      // kind V, and the stop request is active
+    CondAnalog,
+    CondPlan,      // run of plan_i, before t = 0
+    CondEnding,    // phase STOP or END
+    CondRamp,      // phase RAMP, DEC or STOP
+    CondLive,      // phase CRUISE or RAMP
+    CondUp,        // the ramp rises
+    CondSmooth,    // the ramp is an S
+    CondAcc5,      // na = 5
+    CondDec5       // nd = 5
   } cond_e;
 
   // Bit 2: a ramp; without bit 2: the phase after the ramp.
@@ -124,18 +124,19 @@ package pmc006_calc_pkg;
     PhStop   = 3'b110
   } phase_e;
 
-  // Of OpSet: bit 3 of aux ends the ramp; bits 2..0 select which of phase, up and smooth are set.
+  // OpSet: aux bit 3 ends the ramp (phase bit 2 = 0). Otherwise aux bits 2, 1, 0 enable the setting of phase,
+  // up, smooth.
   typedef struct packed {
-    op_e op;
-    logic [3:0] aux;  // where_e, steps_e, out_e or cond_e
+    calc_op_e   op;
+    logic [3:0] aux;  // operand_mode_e, mul_steps_e, output_sel_e or cond_e
     logic [8:0] low;  // operand, jump target or {phase_e, up, smooth}
   } instr_t;
 
   // ---- written by `make rom` from pmc006_calc.asm: entry points and length of the program -----------------
 
-  localparam logic [8:0] EntryPlan = 9'd0;
-  localparam logic [8:0] EntryTick = 9'd1;
-  localparam int unsigned ProgramWords = 272;
+  localparam logic [8:0] ENTRY_PLAN = 9'd0;
+  localparam logic [8:0] ENTRY_TICK = 9'd1;
+  localparam int unsigned CALC_ROM_WORDS = 272;
 
   // ---- end of the generated lines -------------------------------------------------------------------------
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_rom: program of the planner: planning of a motion, update tick, compensation.
-// Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
-// Timing: code_o follows addr_i by one cycle while fetch_i is high.
+// pmc006_calc_rom: ROM with the program of the motion planner: planning, update tick, current compensation.
+// Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23.
+// Timing: code_o follows fetch_i by one cycle and is stable until the next fetch_i.
 // Note:   written by `make rom` from pmc006_calc.asm; change the program there.
 `default_nettype none
 
@@ -9,16 +9,16 @@ module pmc006_calc_rom
   import pmc006_calc_pkg::*;
 (
     input  wire logic       clk_i,
-    input  wire logic       fetch_i,  // read a word
-    input  wire logic [8:0] addr_i,   // address of the word
-    output instr_t          code_o    // word; valid until the next one
+    input  wire logic       fetch_i,  // strobe: read the word at addr_i
+    input  wire logic [8:0] addr_i,   // word address
+    output instr_t          code_o    // word at addr_i of the last fetch_i
 );
 
   (* rom_style = "block" *)
   instr_t rom[512];
 
   initial begin
-    for (int unsigned i = ProgramWords; i < 512; i++) rom[i] = 17'h00010;  // halt
+    for (int unsigned i = CALC_ROM_WORDS; i < 512; i++) rom[i] = 17'h00010;  // halt
     rom[0]   = 17'h14002;  // EntryPlan: jump Plan
     rom[1]   = 17'h140c3;  // EntryTick: jump Advance
     rom[2]   = 17'h02042;  // Plan: load RLeft
@@ -286,10 +286,10 @@ module pmc006_calc_rom
     rom[264] = 17'h08006;  // store MT
     rom[265] = 17'h02407;  // load.lo MX
     rom[266] = 17'h0a606;  // mul.16 MT
-    rom[267] = 17'h10410;  // out Bump
+    rom[267] = 17'h10410;  // out CurrentComp
     rom[268] = 17'h02407;  // load.lo MX
     rom[269] = 17'h0a648;  // mul.16 RScomp
-    rom[270] = 17'h10610;  // out Lead
+    rom[270] = 17'h10610;  // out LeadAngle
     rom[271] = 17'h00010;  // halt
   end
 

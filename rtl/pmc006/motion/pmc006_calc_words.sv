@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_words: memory of the planner's calculator: words written by its program, constants, tables.
+// pmc006_calc_words: memory of pmc006_calc: words written by the program, constants, tables.
 // Rules:  P006-MOT-10..23 (the constants are binding).
-// Timing: word_o follows read_i by one cycle.
-// Assumes: a word is not read in the cycle in which it is written.
+// Timing: word_o follows raddr_i by one cycle.
+// Assumes: the address that is being written is not read in the same cycle.
 `default_nettype none
 
 module pmc006_calc_words
   import pmc006_calc_pkg::*;
 (
     input  wire logic        clk_i,
-    input  wire logic        we_i,    // write data_i to at_i
-    input  wire logic [ 3:0] at_i,    // a writable word
-    input  wire logic [31:0] data_i,  // data of we_i
-    input  wire logic [ 6:0] read_i,  // operand_e; tables have a coefficient in bits 2..0
-    output logic      [31:0] word_o   // 0 for a register
+    input  wire logic        we_i,     // write data_i to waddr_i
+    input  wire logic [ 3:0] waddr_i,  // address of a writable word, M… of operand_e
+    input  wire logic [31:0] data_i,   // data of we_i
+    input  wire logic [ 6:0] raddr_i,  // operand_e; table: bits 2..0 are the coefficient
+    output logic      [31:0] word_o    // 0 if raddr_i is a register
 );
 
-  function automatic logic [31:0] word_of(logic [6:0] at);
-    unique case (at)
+  function automatic logic [31:0] init_word(logic [6:0] addr);
+    unique case (addr)
       K1:      return 32'd1;
       K3:      return 32'd3;
       K4:      return 32'd4;
@@ -27,29 +27,29 @@ module pmc006_calc_words
       K3x2p16: return 32'd196608;
       K2p31:   return 32'h8000_0000;
       default: begin
-        if (at[6:3] == RRate[6:3]) return 32'd17 << at[2:0];
-        if (at[6:3] == RWay[6:3]) return 32'd3400 << at[2:0];
+        if (addr[6:3] == RRate[6:3]) return 32'd17 << addr[2:0];
+        if (addr[6:3] == RWay[6:3]) return 32'd3400 << addr[2:0];
         return '0;
       end
     endcase
   endfunction
 
-  function automatic logic [127:0][31:0] every_word();
-    logic [127:0][31:0] words_of_all;
-    for (int unsigned i = 0; i < 128; i++) words_of_all[7'(i)] = word_of(7'(i));
-    return words_of_all;
+  function automatic logic [127:0][31:0] init_words();
+    logic [127:0][31:0] table_words;
+    for (int unsigned i = 0; i < 128; i++) table_words[7'(i)] = init_word(7'(i));
+    return table_words;
   endfunction
 
-  localparam logic [127:0][31:0] Words = every_word();
+  localparam logic [127:0][31:0] InitWords = init_words();
 
   (* ram_style = "block", no_rw_check *)
   logic [31:0] words[128];
 
-  initial for (int unsigned i = 0; i < 128; i++) words[i] = Words[7'(i)];
+  initial for (int unsigned i = 0; i < 128; i++) words[i] = InitWords[7'(i)];
 
   always_ff @(posedge clk_i) begin
-    if (we_i) words[{3'b000, at_i}] <= data_i;
-    word_o <= words[read_i];
+    if (we_i) words[{3'b000, waddr_i}] <= data_i;
+    word_o <= words[raddr_i];
   end
 
 endmodule

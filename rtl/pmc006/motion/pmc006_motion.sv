@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_motion: a motion from its acceptance to its end: latched settings, planning, steps, live target,
-// compensation.
+// pmc006_motion: executes a motion from its acceptance to its end: latches the settings, plans the ramps,
+// generates the steps, follows changes of the target speed, computes the current compensation.
 // Rules:  P006-STA-10, P006-CMD-54, P006-MOT-01..05, P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42,
 //         P006-MOT-50..52, P006-EXC-21..24.
-// Timing: motion_o.busy rises at the edge s of start or run. t = 0 is the first us tick at or after s + 800.
-//         A step scheduled at t is made two cycles after its us tick. step_o is combinational: it is high in
-//         the cycle whose edge makes the step.
+// Timing: motion_o.busy rises at the edge s that ends the cycle of start or run. t = 0 is the first µs tick
+//         at or after s + 800. A step scheduled at t is made two cycles after the µs tick t. step_o is
+//         combinational: it is high in the cycle before the edge at which the step is made.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,39 +13,44 @@ module pmc006_motion
   import pmc006_pkg::*;
   import pmc006_calc_pkg::*;
 (
-    input  wire logic            clk_i,
-    input  wire logic            rst_ni,
-    input  wire logic            us_i,        // strobe every microsecond
-    input  wire settings_t       settings_i,  // parameter registers
-    input  wire logic      [7:0] base_i,      // base code of the current, one cycle after settings_i
+    input  wire logic                  clk_i,
+    input  wire logic                  rst_ni,
+    input  wire logic                  us_i,            // strobe every microsecond
+    input  wire motor_settings_t       settings_i,      // parameter registers
+    input  wire logic            [7:0] base_i,          // base code RB, one cycle after settings_i
     // accepted instructions
-    input  wire launch_t         launch_i,    // start of a motion
-    input  wire logic            halt_i,      // stop immediately; no step in this cycle
-    input  wire sample_t         adc_i,       // h of the analog target
-    output motion_t              motion_o,    // state of the motion
-    output logic                 step_o,      // a step is made at the next rising edge
-    output thrust_t              thrust_o     // values for the drive
+    input  wire motion_start_t         motion_start_i,  // start of a motion
+    input  wire logic                  halt_i,          // stop immediately; step_o is low
+    input  wire sample_t               adc_i,           // sample h of the analog speed
+    output motion_status_t             motion_o,        // state of the motion
+    output logic                       step_o,          // a step is made at the next rising edge
+    output drive_cmd_t                 drive_cmd_o      // values for the drive
 );
 
-  logic load, load_q, launch, update, look, look_q, sample, advance, stop, start_v, calc_busy;
-  logic short_q, speed_q, stop_q, analog_q, rest, busy_q, forward_q, steady_q;
+  logic start, start_q, t0, update, load_settings, load_base_q, sample, advance, motion_end;
+  logic load_v, calc_busy;
+  logic short_q, speed_q, stop_q, analog_q, end_run, busy_q, forward_q, steady_q;
   logic [11:0] ve_q;
   logic [ 7:0] base_q;
   logic [2:0] acc_q, dec_q;
-  logic [10:0] ccomp_q, scomp_q, bump, bump_now;
-  logic [6:0] lead, lead_now;
+  logic [10:0] ccomp_q, scomp_q, current_comp, current_comp_now;
+  logic [6:0] lead_angle, lead_angle_now;
   logic [7:0] increment_q;
-  logic [13:0] v, next, vmax_q;
+  logic [13:0] v, next_v, vmax_q;
   logic [30:0] left;
   logic [9:0] adc_q, h_q;
   logic [7:0] mstep;
   phase_e phase;
 
-  assign load = launch_i.start || launch_i.run;
-  // Until a motion is accepted, the registers follow the inputs, because load is timing-critical.
-  assign look = !busy_q || launch || update;
-  assign rest = speed_q && phase == PhEnd && !launch_i.speed;
-  assign thrust_o = '{increment: increment_q, bump: bump_now, lead: lead_now};
+  assign start = motion_start_i.start || motion_start_i.run;
+  // While no motion is in progress, the registers follow the inputs, because start is timing-critical.
+  assign load_settings = !busy_q || t0 || update;
+  assign end_run = speed_q && phase == PhEnd && !motion_start_i.speed;
+  assign drive_cmd_o = '{
+          increment: increment_q,
+          current_comp: current_comp_now,
+          lead_angle: lead_angle_now
+      };
   assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q && busy_q};
 
   always_comb for (int unsigned i = 0; i < 8; i++) mstep[i] = increment_q[7-i];
@@ -53,15 +58,15 @@ module pmc006_motion
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       busy_q    <= 1'b0;
-      load_q    <= 1'b0;
+      start_q   <= 1'b0;
       forward_q <= 1'b1;
       adc_q     <= '0;
       h_q       <= '0;
     end else begin
-      load_q <= load;
-      if (load) busy_q <= 1'b1;
-      else if (stop) busy_q <= 1'b0;
-      if (load) forward_q <= settings_i.dir;
+      start_q <= start;
+      if (start) busy_q <= 1'b1;
+      else if (motion_end) busy_q <= 1'b0;
+      if (start) forward_q <= settings_i.dir;
       if (adc_i.valid) adc_q <= adc_i.level;
       if (!busy_q || sample) h_q <= adc_q;
     end
@@ -70,78 +75,78 @@ module pmc006_motion
   // No reset: the following registers are set before a motion.
   always_ff @(posedge clk_i) begin
     if (!busy_q) begin
-      speed_q <= launch_i.run;
-      short_q <= launch_i.start && launch_i.count[30:8] == '0;
+      speed_q <= motion_start_i.run;
+      short_q <= motion_start_i.start && motion_start_i.count[30:8] == '0;
       ve_q    <= settings_i.vstop;
       acc_q   <= settings_i.acc;
       dec_q   <= settings_i.dec;
       for (int unsigned i = 1; i < 8; i++) increment_q[7-i] <= settings_i.mstep[i];
       increment_q[7] <= settings_i.mstep == '0;
     end
-    look_q <= look;
-    if (look_q) base_q <= base_i;
-    if (look) begin
+    load_base_q <= load_settings;
+    if (load_base_q) base_q <= base_i;
+    if (load_settings) begin
       vmax_q   <= settings_i.vmax;
       analog_q <= settings_i.regulate;
-      stop_q   <= !launch_i.speed;
+      stop_q   <= !motion_start_i.speed;
       ccomp_q  <= settings_i.ccomp;
       scomp_q  <= settings_i.scomp;
-      steady_q <= busy_q && phase == PhCruise && next != '0;  // at t = 0, Vn holds the planned V
+      steady_q <= busy_q && phase == PhCruise && next_v != '0;  // at t = 0, Vn holds the planned V
     end
   end
 
   pmc006_calc u_calc (
       .clk_i,
       .rst_ni,
-      .plan_i   (load_q),
-      .advance_i(advance && busy_q),
-      .busy_o   (calc_busy),
-      .short_i  (short_q),
-      .speed_i  (speed_q),
-      .stop_i   (stop_q),
-      .analog_i (analog_q),
-      .acc_i    (acc_q),
-      .dec_i    (dec_q),
-      .v_i      (v),
-      .ve_i     (ve_q),
-      .left_i   (left),
-      .mstep_i  (mstep),
-      .vmax_i   (vmax_q),
-      .adc_i    (h_q),
-      .base_i   (base_q),
-      .ccomp_i  (ccomp_q),
-      .scomp_i  (scomp_q),
-      .phase_o  (phase),
-      .next_o   (next),
-      .start_v_o(start_v),
-      .bump_o   (bump),
-      .lead_o   (lead)
+      .plan_i        (start_q),
+      .advance_i     (advance && busy_q),
+      .busy_o        (calc_busy),
+      .short_i       (short_q),
+      .speed_i       (speed_q),
+      .stop_i        (stop_q),
+      .analog_i      (analog_q),
+      .acc_i         (acc_q),
+      .dec_i         (dec_q),
+      .v_i           (v),
+      .ve_i          (ve_q),
+      .left_i        (left),
+      .mstep_i       (mstep),
+      .vmax_i        (vmax_q),
+      .adc_i         (h_q),
+      .base_i        (base_q),
+      .ccomp_i       (ccomp_q),
+      .scomp_i       (scomp_q),
+      .phase_o       (phase),
+      .next_v_o      (next_v),
+      .load_v_o      (load_v),
+      .current_comp_o(current_comp),
+      .lead_angle_o  (lead_angle)
   );
 
   pmc006_rate u_rate (
       .clk_i,
       .rst_ni,
       .us_i,
-      .count_i  (launch_i.count),
-      .vstart_i (settings_i.vstart),
-      .endless_i(speed_q),
-      .busy_i   (busy_q),
+      .count_i       (motion_start_i.count),
+      .vstart_i      (settings_i.vstart),
+      .endless_i     (speed_q),
+      .busy_i        (busy_q),
       .halt_i,
-      .rest_i   (rest),
-      .start_v_i(start_v),
-      .next_i   (next),
-      .bump_i   (bump),
-      .lead_i   (lead),
-      .launch_o (launch),
-      .update_o (update),
-      .sample_o (sample),
-      .advance_o(advance),
+      .end_run_i     (end_run),
+      .load_v_i      (load_v),
+      .next_v_i      (next_v),
+      .current_comp_i(current_comp),
+      .lead_angle_i  (lead_angle),
+      .t0_o          (t0),
+      .update_o      (update),
+      .sample_o      (sample),
+      .advance_o     (advance),
       .step_o,
-      .stop_o   (stop),
-      .v_o      (v),
-      .left_o   (left),
-      .bump_o   (bump_now),
-      .lead_o   (lead_now)
+      .motion_end_o  (motion_end),
+      .v_o           (v),
+      .left_o        (left),
+      .current_comp_o(current_comp_now),
+      .lead_angle_o  (lead_angle_now)
   );
 
   logic unused_settings;
@@ -151,8 +156,8 @@ module pmc006_motion
   };
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(motion_start_at_rest, !(load && busy_q))
-  `PPMC_ASSERT(motion_planned_in_time, !(launch && calc_busy))
+  `PPMC_ASSERT(motion_start_when_idle, !(start && busy_q))
+  `PPMC_ASSERT(motion_planned_in_time, !(t0 && calc_busy))
 `endif
 
 endmodule

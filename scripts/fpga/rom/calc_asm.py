@@ -15,20 +15,20 @@ WORDS = 512
 """Number of words in the ROM."""
 ENTRY = "Entry"
 """Prefix of the labels that the RTL uses."""
-FEW = 8
+MAX_LISTED = 8
 """Maximum number of names listed in an error."""
-SUMS = ("load", "add", "sub", "div")
-WHERE = {(): "Plain", ("dec",): "Dec", ("lo",): "Low", ("lo", "dec"): "LowDec"}
-WHAT = {
-    "op_e": "operation",
-    "where_e": "variant",
-    "steps_e": "number of steps",
-    "out_e": "output",
+ARITHMETIC = ("load", "add", "sub", "div")
+OPERAND_MODES = {(): "Plain", ("dec",): "Dec", ("lo",): "Low", ("lo", "dec"): "LowDec"}
+ENUM_TITLES = {
+    "calc_op_e": "operation",
+    "operand_mode_e": "variant",
+    "mul_steps_e": "number of steps",
+    "output_sel_e": "output",
     "operand_e": "operand",
     "cond_e": "condition",
     "phase_e": "phase",
 }
-PARTS = ("phase", "up", "smooth")
+SHAPE_FIELDS = ("phase", "up", "smooth")
 ENUM = re.compile(r"typedef enum logic \[\d+:0\] \{(.*?)\} (\w+);", re.S)
 
 Names = Mapping[str, Mapping[str, int]]
@@ -72,7 +72,7 @@ def names_of(package: str) -> Names:
             name, _, value = (part.strip() for part in item.partition("="))
             code = number(value) if value else code + 1
             codes[name] = code
-    for enum in WHAT:
+    for enum in ENUM_TITLES:
         if enum not in found:
             raise AsmError(0, f"the package has no {enum}")
     return found
@@ -87,41 +87,41 @@ def number(literal: str) -> int:
 def assemble(text: str, names: Names) -> Program:
     """Return words and labels of a program; raise AsmError for the first wrong line."""
     program, lines = Program(), []
-    for line, whole in enumerate(text.splitlines(), 1):
-        told = whole.partition(";")[0].strip()
-        if told.endswith(":"):
-            name = told[:-1]
+    for line, source in enumerate(text.splitlines(), 1):
+        instr = source.partition(";")[0].strip()
+        if instr.endswith(":"):
+            name = instr[:-1]
             if not re.fullmatch(r"[A-Za-z]\w*", name):
                 raise AsmError(line, f"{name!r} is not a valid label")
             if name in program.labels:
-                raise AsmError(line, f"label {name} stands twice")
+                raise AsmError(line, f"label {name} is defined twice")
             program.labels[name] = len(lines)
-        elif told:
-            lines.append((line, " ".join(told.split())))
+        elif instr:
+            lines.append((line, " ".join(instr.split())))
             if len(lines) > WORDS:
                 raise AsmError(line, f"the program is too long: more than {WORDS} words")
     coder = Coder(names, program.labels)
-    program.words = [Word(line, told, coder.word(line, told)) for line, told in lines]
-    check_end(program)
+    program.words = [Word(line, instr, coder.word(line, instr)) for line, instr in lines]
+    check_last_word(program)
     for name, at in program.labels.items():
         if at not in coder.used and not name.startswith(ENTRY):
             before = program.words[at - 1] if at else None
-            if before is None or leaves(before):
+            if before is None or always_leaves(before):
                 raise AsmError(program.words[at].line, f"no instruction leads to label {name}")
     return program
 
 
-def leaves(word: Word) -> bool:
+def always_leaves(word: Word) -> bool:
     """Return True if the word after this one is never executed next."""
     return word.text == "halt" or (word.text.startswith("jump ") and " if " not in word.text)
 
 
-def check_end(program: Program) -> None:
+def check_last_word(program: Program) -> None:
     """Raise AsmError if execution can pass the last word, or if a label follows it."""
     if not program.words:
         raise AsmError(1, "the program is empty")
     last = program.words[-1]
-    if not leaves(last):
+    if not always_leaves(last):
         raise AsmError(last.line, "the program continues after its last word")
     for name, at in program.labels.items():
         if at == len(program.words):
@@ -136,15 +136,15 @@ class Coder:
     labels: Mapping[str, int]
     used: set[int] = field(default_factory=set)
 
-    def word(self, line: int, told: str) -> int:
+    def word(self, line: int, instr: str) -> int:
         """Return the code of one instruction."""
-        head, *rest = told.split()
+        head, *rest = instr.split()
         name, *variants = head.split(".")
         try:
             op, aux, low = self.parts(name, variants, rest)
         except ValueError as error:
             raise AsmError(line, str(error)) from None
-        return self.code("op_e", "Op", op) << 13 | aux << 9 | low
+        return self.code("calc_op_e", "Op", op) << 13 | aux << 9 | low
 
     def code(self, enum: str, prefix: str, name: str) -> int:
         """Return the code of a name in an enumeration of the package.
@@ -154,25 +154,25 @@ class Coder:
         """
         codes = [known.removeprefix(prefix) for known in self.names[enum]]
         if name not in codes:
-            near = get_close_matches(name, codes, 1) or codes[:FEW]
-            but = f", but {', '.join(near)}" if len(near) == 1 or len(codes) <= FEW else ""
-            raise ValueError(f"there is no {WHAT[enum]} {name}{but}")
+            near = get_close_matches(name, codes, 1) or codes[:MAX_LISTED]
+            but = f", but {', '.join(near)}" if len(near) == 1 or len(codes) <= MAX_LISTED else ""
+            raise ValueError(f"there is no {ENUM_TITLES[enum]} {name}{but}")
         return self.names[enum][prefix + name]
 
     def parts(self, name: str, variants: list[str], rest: list[str]) -> tuple[str, int, int]:
         """Return operation, aux and operand of an instruction."""
         operand = self.names["operand_e"]
-        if name in SUMS:
-            where = WHERE.get(tuple(variants))
-            if where is None:
+        if name in ARITHMETIC:
+            mode = OPERAND_MODES.get(tuple(variants))
+            if mode is None:
                 raise ValueError(f"{name} has no variant .{'.'.join(variants)}")
             return (
                 name.capitalize(),
-                self.code("where_e", "", where),
+                self.code("operand_mode_e", "Operand", mode),
                 self.code("operand_e", "", one(name, rest)),
             )
         if name in ("mul", "shift"):
-            steps = self.code("steps_e", "N", one(f"the suffix of {name}", variants))
+            steps = self.code("mul_steps_e", "Steps", one(f"the suffix of {name}", variants))
             value = one(name, rest) if name == "mul" else none(name, rest) or "K0"
             return "Mul", steps, self.code("operand_e", "", value)
         if variants:
@@ -189,7 +189,7 @@ class Coder:
                 raise ValueError(f"store expects a word M…, not {word}")
             return "Store", 0, self.code("operand_e", "", word)
         if name == "out":
-            return "Out", self.code("out_e", "Out", one(name, rest)), operand["K0"]
+            return "Out", self.code("output_sel_e", "Out", one(name, rest)), operand["K0"]
         if name == "set":
             return "Set", *self.shape(rest)
         if name == "jump":
@@ -200,18 +200,20 @@ class Coder:
         """Return aux and operand of a set: which of phase, up and smooth are set, and their values."""
         if rest == ["over"]:
             return 0b1000, 0
-        puts = low = 0
+        selected = low = 0
         for item in rest:
             part, _, value = item.partition("=")
-            if part not in PARTS or puts & 4 >> PARTS.index(part):
-                raise ValueError(f"set expects over, or once each {', '.join(PARTS)} with =, not {item}")
+            if part not in SHAPE_FIELDS or selected & 4 >> SHAPE_FIELDS.index(part):
+                raise ValueError(
+                    f"set expects over, or once each {', '.join(SHAPE_FIELDS)} with =, not {item}"
+                )
             if part != "phase" and value not in ("0", "1"):
                 raise ValueError(f"{part} must be 0 or 1, not {value}")
-            puts |= 4 >> PARTS.index(part)
+            selected |= 4 >> SHAPE_FIELDS.index(part)
             low |= self.code("phase_e", "Ph", value) << 2 if part == "phase" else int(value) << (part == "up")
-        if not puts:
+        if not selected:
             raise ValueError("set expects over, or phase=…, up=…, smooth=…")
-        return puts, low
+        return selected, low
 
     def jump(self, rest: list[str]) -> tuple[int, int]:
         """Return aux and operand of a jump: condition and target."""
@@ -221,7 +223,7 @@ class Coder:
             raise ValueError(f"there is no label {rest[0]}")
         target = self.labels[rest[0]]
         self.used.add(target)
-        cond = self.code("cond_e", "If", rest[2]) if len(rest) == 3 else self.code("cond_e", "", "Always")
+        cond = self.code("cond_e", "Cond", rest[2] if len(rest) == 3 else "Always")
         return cond, target
 
 

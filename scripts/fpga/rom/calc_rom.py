@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from pathlib import Path
 
@@ -20,9 +21,9 @@ WIDTH = 110
 
 HEAD = f"""\
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc_rom: program of the planner: planning of a motion, update tick, compensation.
-// Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23, section 5.5.
-// Timing: code_o follows addr_i by one cycle while fetch_i is high.
+// pmc006_calc_rom: ROM with the program of the motion planner: planning, update tick, current compensation.
+// Rules:  P006-MOT-10..23, P006-MOT-30/31, P006-MOT-40..42, P006-MOT-50/51, P006-EXC-20..23.
+// Timing: code_o follows fetch_i by one cycle and is stable until the next fetch_i.
 // Note:   written by `make rom` from pmc006_calc.asm; change the program there.
 `default_nettype none
 
@@ -30,16 +31,16 @@ module pmc006_calc_rom
   import pmc006_calc_pkg::*;
 (
     input  wire logic       clk_i,
-    input  wire logic       fetch_i,  // read a word
-    input  wire logic [8:0] addr_i,   // address of the word
-    output instr_t          code_o    // word; valid until the next one
+    input  wire logic       fetch_i,  // strobe: read the word at addr_i
+    input  wire logic [8:0] addr_i,   // word address
+    output instr_t          code_o    // word at addr_i of the last fetch_i
 );
 
   (* rom_style = "block" *)
   instr_t rom[{WORDS}];
 
   initial begin
-    for (int unsigned i = ProgramWords; i < {WORDS}; i++) rom[i] = 17'h00010;  // halt
+    for (int unsigned i = CALC_ROM_WORDS; i < {WORDS}; i++) rom[i] = 17'h00010;  // halt
 """
 TAIL = """\
   end
@@ -64,18 +65,23 @@ def rom_text(program: Program) -> str:
     return HEAD + "\n".join(lines) + "\n" + TAIL
 
 
+def constant(label: str) -> str:
+    """Return the name of the package constant for a label: EntryPlan is ENTRY_PLAN."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", label).upper()
+
+
 def package_text(package: str, program: Program) -> str:
     """Return the package with the entries and the length of this program between its marks."""
     before, begin, rest = package.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
         raise ProjectError(f"{relative(PACKAGE)}: the marks of `make rom` are missing")
-    body = [f"  localparam logic [8:0] {name} = 9'd{at};" for name, at in program.entries().items()]
-    body.append(f"  localparam int unsigned ProgramWords = {len(program.words)};")
+    body = [f"  localparam logic [8:0] {constant(name)} = 9'd{at};" for name, at in program.entries().items()]
+    body.append(f"  localparam int unsigned CALC_ROM_WORDS = {len(program.words)};")
     return "\n".join([before + BEGIN.ljust(WIDTH, "-"), "", *body, "", END]) + after
 
 
-def wanted() -> dict[Path, str]:
+def expected_files() -> dict[Path, str]:
     """Return the required content of the files."""
     package = PACKAGE.read_text(encoding="utf-8")
     try:
@@ -92,7 +98,7 @@ def main() -> int:
         "--check", action="store_true", help="write nothing, list the files that are outdated"
     )
     check = parser.parse_args().check
-    texts = wanted()
+    texts = expected_files()
     stale = [path for path, text in texts.items() if not path.is_file() or path.read_text("utf-8") != text]
     if check:
         for path in stale:

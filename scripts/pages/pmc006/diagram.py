@@ -15,11 +15,11 @@ BOXES = {
     "i2c": Box(9.1, 1.2, "ppmc_i2c_master\n24LC32A", "plain", 1.6),
     "i2cpins": Box(10.6, 1.2, "scl, sda", "pin", 0.7, 0.4),
     "ext": Box(0.3, 2.3, "ext1, ext2,\nstall", "pin", 0.8, 0.5),
-    "guard": Box(1.75, 2.3, "pmc006_guard, _stall\ncauses of a stop", "motion", 1.7),
+    "guard": Box(1.75, 2.3, "pmc006_ext_stop, _stall\ncauses of a stop", "motion", 1.7),
     "motion": Box(4.25, 2.3, "pmc006_motion\nplan, S-curve,\naccumulator", "motion", 1.5, 0.85),
     "position": Box(6.75, 2.85, "pmc006_position\nsteps counted", "motion", 1.65),
     "drive": Box(6.75, 2.05, "pmc006_drive\nangle, currents", "motion", 1.65),
-    "bridge": Box(9.1, 2.05, "pmc006_bridge\nchopper, both bridges", "motion", 1.6),
+    "bridge": Box(9.1, 2.05, "pmc006_hbridge\nchopper, both bridges", "motion", 1.6),
     "bridges": Box(10.6, 2.05, "m10 … m21,\nreferences", "pin", 0.8, 0.5),
     "cmp": Box(10.6, 2.85, "cmp_a,\ncmp_b", "pin", 0.7, 0.5),
 }

@@ -21,9 +21,9 @@ module pmc006_position_fv (
 
   `FV_ASSUME(not_both, !(set_i && step_i))
 
-  `FV_ASSERT(p006_mot_05_one_a_step, !$past(rst_ni && step_i) || pos_o == ($past(forward_i) ? $past(pos_o)
+  `FV_ASSERT(p006_mot_05_one_per_step, !$past(rst_ni && step_i) || pos_o == ($past(forward_i) ? $past(pos_o)
              + 32'd1 : $past(pos_o) - 32'd1))
-  `FV_ASSERT(stands_without_a_step, !$past(rst_ni && !step_i && !set_i) || pos_o == $past(pos_o))
+  `FV_ASSERT(stable_without_step, !$past(rst_ni && !step_i && !set_i) || pos_o == $past(pos_o))
   `FV_ASSERT(p006_cmd_19_set, !$past(rst_ni && set_i) || pos_o == $past(data_i))
   `FV_ASSERT(p006_stl_02_marked, !$past(rst_ni) || stall_o == ($past(mark_i) ? $past(pos_o) : $past(stall_o)))
   `FV_COVER(seen_below_zero, pos_o == '1 && $past(pos_o) == '0)

@@ -82,7 +82,7 @@ module line_node #(
   );
 
   eeprom_24c32 #(
-      .WriteClk(CLK_HZ / 200)  // 5 ms
+      .WriteCycles(CLK_HZ / 200)  // 5 ms
   ) u_eeprom (
       .clk_i   (clk),
       .on_i    (1'b1),
@@ -99,9 +99,9 @@ module line_node #(
   assign moving = u_carrier.mon_busy;
   assign free = u_carrier.u_part.settings.free;
   assign locked = |u_carrier.u_part.u_control.flags;
-  assign busy = booting || moving || de || !u_carrier.u_part.u_control.free ||
+  assign busy = booting || moving || de || !u_carrier.u_part.u_control.ee_idle ||
                 |u_carrier.u_part.u_control.u_program.state_q ||
-                !(u_carrier.u_part.u_serial.late || u_carrier.u_part.u_serial.u_frame.at_q == '0);
+                !(u_carrier.u_part.u_serial.timeout || u_carrier.u_part.u_serial.u_frame.index_q == '0);
   assign unused = ^{uart_txd, m10, m11, m20, m21, bridge_a_en, bridge_b_en, pwm_a_ref, pwm_b_ref, ext1_pu,
                     ext2_pu, mon_step, mon_dir, lamps};
 

@@ -1,6 +1,6 @@
 """Motion engine of the PMC006B4 in steps of one microsecond, a reference for the golden model (P006 14.3).
 
-It is written according to the rules of chapter 5, with rational arithmetic and one state for each register,
+It is written according to the rules P006-MOT, with rational arithmetic and one state for each register,
 and it is slow. It shares no code with the golden model.
 """
 

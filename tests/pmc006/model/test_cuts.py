@@ -59,7 +59,7 @@ def _look(chip: Eeprom24C32, t: int, scl: int, sda: int) -> None:
 
 
 def judged(memory: bytes) -> dict[str, int] | None:
-    """Return the settings that a boot loads (13.2, step 5): from the block, else from its copy."""
+    """Return the settings that a boot loads (P006-BAD-14): from the block, else from its copy."""
     return values_of(memory[:32]) or values_of(memory[COPY : COPY + 32])
 
 

@@ -82,8 +82,8 @@ def test_every_change_of_the_comparator_is_there() -> None:
             before, level = level, changes.get(t, level)
             flips += level != before
             if t > first:
-                current, wanted = winding.current(t / CLK_HZ), winding.reference(t / CLK_HZ)
-                assert abs(current - wanted) < 1e-9 or level == (current > wanted)
+                current, expected = winding.current(t / CLK_HZ), winding.reference(t / CLK_HZ)
+                assert abs(current - expected) < 1e-9 or level == (current > expected)
         assert flips > 50
     # Fast decay has reduced the current: 1.2 A in less than 1 ms.
     assert all(winding.current(rig.part.now / CLK_HZ) < 0.31 for winding in plant.windings.values())
