@@ -102,7 +102,7 @@ module ppmc_bank
 
   assign unused_clear = ^{clear[5], clear[2:0]};
 
-  ppmc_bank_round #(
+  ppmc_bank_scheduler #(
       .RoundBits(RoundBits),
       .Width    (20 * Quantum),
       .TimeBits (TimeBits)
@@ -196,7 +196,7 @@ module ppmc_bank
             alarm: !levels[5*AXES+i]
         };
 
-    ppmc_bank_cell #(
+    ppmc_bank_pins #(
         .RoundBits(RoundBits),
         .PhaseIdle(PHASE_IDLE)
     ) u_cell (

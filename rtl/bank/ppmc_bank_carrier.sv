@@ -177,7 +177,7 @@ module ppmc_bank_carrier #(
         .link_o     (led_link)
     );
 
-    ppmc_bank_view u_view (
+    ppmc_bank_axis_port u_view (
         .clk_i   (clk),
         .rst_ni  (part_rst_n),
         .cs_ni   (host_cs_n),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_engine: pipeline that serves one axis a cycle: reads its state, decides, writes it back.
-// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_step.
+// Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_update.
 // Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters each cycle:
 //         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
 //         6 the order is valid in the cell: first cycle at whose end an edge can be ordered
@@ -117,7 +117,7 @@ module ppmc_bank_engine
     late3_q <= late2_q;
   end
 
-  ppmc_bank_times #(
+  ppmc_bank_interval_rom #(
       .Quantum (Quantum),
       .Round   (Round),
       .TimeBits(TimeBits)
@@ -261,7 +261,7 @@ module ppmc_bank_engine
   assign init = init_code_t'(code4_q);
   assign unused_words = ^{init, asking};
 
-  ppmc_bank_step #(
+  ppmc_bank_update #(
       .HoldRounds(HoldRounds),
       .HoldBits  (HoldBits)
   ) u_step (

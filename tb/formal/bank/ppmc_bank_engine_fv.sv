@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine_fv: the engine with ppmc_bank_round and eight axes, for any bytes, switches and cells.
+// ppmc_bank_engine_fv: the engine with ppmc_bank_scheduler and eight axes, for any bytes, switches and cells.
 // Proves that a visit reads the state that the previous visit of the same axis has written, that it issues at
 // most one order, that an axis which is stopped or has no motion gets no pulse, and that a byte is accepted
 // once.
@@ -34,7 +34,7 @@ module ppmc_bank_engine_fv
 
   `FV_RESET
 
-  ppmc_bank_round #(
+  ppmc_bank_scheduler #(
       .RoundBits(3),
       .Width    (20),
       .TimeBits (TimeBits)

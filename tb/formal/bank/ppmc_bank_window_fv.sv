@@ -55,7 +55,7 @@ module ppmc_bank_window_fv
       .d_i    (d)
   );
 
-  // ---- visits, as ppmc_bank_round and ppmc_bank_engine make them --------------------------------------
+  // ---- visits, as ppmc_bank_scheduler and ppmc_bank_engine make them --------------------------------------
 
   logic [2:0] axis_q, done_axis;
   logic [3:0] clear_q;  // remaining cycles of the reset of all axes
@@ -97,7 +97,7 @@ module ppmc_bank_window_fv
       '{taken: new_taken_q, error: others_i[4], number: others_i[3:1], busy: others_i[0]}
       : ready ? others_i : '0;
   assign answered = mine_5 && answer_q;
-  // As in ppmc_bank_step.
+  // As in ppmc_bank_update.
   always_comb begin
     answer.seq = answer_seq_q + 2'd1;
     if (answer.seq == progress_q.seq) answer.seq = answer_seq_q + 2'd2;

@@ -35,7 +35,7 @@ module ppmc_bank_plan
     output logic          [        31:0] params_o,   // parameters of the action
     // decisions
     input  wire logic     [TimeBits-1:0] due_i,      // W minus the cycles since GO
-    input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_times
+    input  wire logic     [TimeBits-1:0] after_i,    // see ppmc_bank_interval_rom
     output plan_t                        plan_o,     // decision
     output logic                         anew_o,     // restart rem from 0
     output logic          [TimeBits-1:0] add_o       // cycles to add to rem

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_times_fv: proves that each word of the table is the remainder of its interval, with the times of
+// ppmc_bank_interval_rom_fv: proves that each word of the table is the remainder of its interval, with the times of
 // the PPMC-104.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_bank_times_fv
+module ppmc_bank_interval_rom_fv
   import ppmc_bank_pkg::*;
 (
     input wire logic  clk_i,
@@ -17,7 +17,7 @@ module ppmc_bank_times_fv
 
   `FV_RESET
 
-  ppmc_bank_times #(
+  ppmc_bank_interval_rom #(
       .Quantum (Quantum),
       .Round   (Round),
       .TimeBits(TimeBits)

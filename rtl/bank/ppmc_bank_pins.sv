@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_cell: pins of one axis of a bank. Executes each order of a visit in the cycle of the order, and
+// ppmc_bank_pins: pins of one axis of a bank. Executes each order of a visit in the cycle of the order, and
 //         suppresses pulses when a switch ends the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: an order is valid in the cell from the cycle after load_i on. It is executed at the end of the
@@ -8,7 +8,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc_bank_cell
+module ppmc_bank_pins
   import ppmc_bank_pkg::*;
   import ppmc_motion_pkg::*;
 #(

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_step_fv: decision and update of a visit, for any state of its axis. Proves that a visit issues at
+// ppmc_bank_update_fv: decision and update of a visit, for any state of its axis. Proves that a visit issues at
 // most one order, that the position changes by one per pulse, that a killed or halted motion has no pulse,
 // and that an axis without a motion has neither pulse nor rise.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_bank_step_fv
+module ppmc_bank_update_fv
   import ppmc_bank_pkg::*;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
@@ -52,7 +52,7 @@ module ppmc_bank_step_fv
 
   ppmc_bank_plan #(.TimeBits(18)) u_plan (.*);
 
-  ppmc_bank_step dut (
+  ppmc_bank_update dut (
       .plan_i    (plan_o),
       .code_i    (code_o),
       .params_i  (params_o),

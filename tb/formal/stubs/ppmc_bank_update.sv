@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_step, stub for the proofs of the blocks that instantiate it: any result of a visit. Its outputs
+// ppmc_bank_update, stub for the proofs of the blocks that instantiate it: any result of a visit. Its outputs
 // are not driven.
 `default_nettype none
 
-module ppmc_bank_step
+module ppmc_bank_update
   import ppmc_bank_pkg::*;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_round: selects the axis of each visit, and extends reset, GO and STOP to a round so that they act
+// ppmc_bank_scheduler: selects the axis of each visit, and extends reset, GO and STOP to a round so that they act
 //         on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
 // Timing: axis 0 is in stage 0 in the first cycle after reset. go_o is high for one round, from the cycle
 //         after go_i; stop_o is high for one round plus one cycle, from the cycle after stop_i.
 `default_nettype none
 
-module ppmc_bank_round #(
+module ppmc_bank_scheduler #(
     parameter  int unsigned RoundBits = 5,
     parameter  int unsigned Width     = 500,            // W in cycles
     parameter  int unsigned TimeBits  = 20,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_cell_fv: proves that pulses occur only in the cycle of their order, and that no pulse occurs at
+// ppmc_bank_pins_fv: proves that pulses occur only in the cycle of their order, and that no pulse occurs at
 // or after a cause until the axis is armed again.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_bank_cell_fv
+module ppmc_bank_pins_fv
   import ppmc_bank_pkg::*;
   import ppmc_motion_pkg::*;
 (
@@ -21,7 +21,7 @@ module ppmc_bank_cell_fv
 
   `FV_RESET
 
-  ppmc_bank_cell #(.RoundBits(3)) dut (.*);
+  ppmc_bank_pins #(.RoundBits(3)) dut (.*);
 
   // An axis is visited once per round.
   assign load_i = clock_i == '0;

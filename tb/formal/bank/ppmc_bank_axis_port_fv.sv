@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_view_fv: the view, driven by the strobe master of the bridges. Proves that no strobe reaches the
+// ppmc_bank_axis_port_fv: the view, driven by the strobe master of the bridges. Proves that no strobe reaches the
 // bank for axes that do not exist or for the axis choice, and that the address is stable while a strobe is
 // low.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_bank_view_fv (
+module ppmc_bank_axis_port_fv (
     input wire logic       clk_i,
     input wire logic       req_i,
     input wire logic       we_i,
@@ -32,7 +32,7 @@ module ppmc_bank_view_fv (
       .*
   );
 
-  ppmc_bank_view dut (
+  ppmc_bank_axis_port dut (
       .d_i(master_d),
       .d_o(view_d),
       .*

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_view: maps the 16 registers of one axis of a bank to the four address lines of the UART bridge;
+// ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART bridge;
 //         register 0x3 selects the axis.
 // Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
 // Timing: combinational, except for the selected axis. This axis changes during the write strobe at register
@@ -8,7 +8,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc_bank_view (
+module ppmc_bank_axis_port (
     input  wire logic       clk_i,
     input  wire logic       rst_ni,    // reset of the bank; selects axis 0
     // host, synchronous to clk_i; rd_n, wr_n and write data are connected to the bank unchanged

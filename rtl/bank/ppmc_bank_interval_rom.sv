@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_times: duration of an interval after its low time; a ROM with one word for each base clock, extra
+// ppmc_bank_interval_rom: duration of an interval after its low time; a ROM with one word for each base clock, extra
 //         time and rate, so that no multiplier is needed.
 // Rules:  P104-BCK-01/03, P104-INT-01/02, P104-TIM-05 (a), BANK-GEN-02.
 // Timing: rest_o is valid two cycles after pace_i.
 `default_nettype none
 
-module ppmc_bank_times
+module ppmc_bank_interval_rom
   import ppmc_bank_pkg::*;
 #(
     parameter int unsigned Quantum  = 25,  // quantum in cycles

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_round_fv: proves that each axis is visited once per round, in all stages, that a RAM word is
+// ppmc_bank_scheduler_fv: proves that each axis is visited once per round, in all stages, that a RAM word is
 // never read while it is written, that GO lasts exactly one round and no GO is missed, and that every axis is
 // reset once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
-module ppmc_bank_round_fv (
+module ppmc_bank_scheduler_fv (
     input wire logic       clk_i,
     input wire logic       go_i,
     input wire logic       stop_i,
@@ -20,7 +20,7 @@ module ppmc_bank_round_fv (
 
   `FV_RESET
 
-  ppmc_bank_round #(
+  ppmc_bank_scheduler #(
       .RoundBits(3),
       .Width    (40),
       .TimeBits (6)

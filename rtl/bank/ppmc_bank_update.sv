@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_step: executes the decisions of a visit: next state of the axis, order to the pin cell, answer
+// ppmc_bank_update: executes the decisions of a visit: next state of the axis, order to the pin cell, answer
 //         for the host.
 // Rules:  P104-PRO-01..04, P104-OPR-01..05, P104-END-01..07, P104-RD-02..07, P104-INI-05..08, P104-AUX-03/04,
 //         P104-PHS-01..06, P104-SW-02..05; BANK-WIN-07, BANK-MOT-01..04.
 // Timing: combinational.
 `default_nettype none
 
-module ppmc_bank_step
+module ppmc_bank_update
   import ppmc_bank_pkg::*;
   import ppmc_code_pkg::*;
   import ppmc_motion_pkg::*;
