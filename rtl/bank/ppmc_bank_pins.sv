@@ -17,11 +17,11 @@ module ppmc_bank_pins
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [RoundBits-1:0] clock_i,  // number of the cycle in the round
+    input wire logic [RoundBits-1:0] cycle_i,  // number of the cycle in the round
     // orders
     input wire logic load_i,  // the order is for this axis
-    input wire order_t order_i,  // pin changes
-    input wire logic [RoundBits-1:0] at_i,  // cycle of the pin changes
+    input wire pin_cmd_t pin_cmd_i,  // pin changes
+    input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
     input wire logic stop_i,  // end every motion
     input wire switches_t switches_i,  // synchronous levels
     // status for the visits
@@ -37,35 +37,35 @@ module ppmc_bank_pins
     output logic dir_o  // 0 = CW
 );
 
-  order_t order_q;
-  logic [RoundBits-1:0] at_q;
-  logic given;  // the order that is loaded has a pulse
-  logic now, limit, halt, ends, pulse, rise, set, unused_slow;
+  pin_cmd_t pin_cmd_q;
+  logic [RoundBits-1:0] at_cycle_q;
+  logic loads_pulse;  // the order that is loaded has a pulse
+  logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
-  assign given = load_i && order_i.pulse;
-  assign now = at_q == clock_i;
-  assign limit = order_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
-  assign halt = order_q.halt || stop_i;
-  assign ends = halt || limit || switches_i.alarm || (switches_i.origin && order_q.search);
-  assign pulse = now && order_q.pulse && armed_o && !ends;
-  assign rise = now && order_q.rise;
-  assign set = now && order_q.sets;
+  assign loads_pulse = load_i && pin_cmd_i.pulse;
+  assign cycle_hit = at_cycle_q == cycle_i;
+  assign limit = pin_cmd_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign halt = pin_cmd_q.halt || stop_i;
+  assign end_motion = halt || limit || switches_i.alarm || (switches_i.origin && pin_cmd_q.search);
+  assign pulse = cycle_hit && pin_cmd_q.pulse && armed_o && !end_motion;
+  assign pulse_end = cycle_hit && pin_cmd_q.pulse_end;
+  assign set_pins = cycle_hit && pin_cmd_q.set_pins;
 
   // The action of an order (pulse, rise or sets) may still be pending when the next order is loaded. Then it
   // is executed in exactly this cycle.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      order_q                       <= '0;
-      at_q                          <= '0;
+      pin_cmd_q                     <= '0;
+      at_cycle_q                    <= '0;
       armed_o                       <= 1'b0;
       emitted_o                     <= 1'b1;
       {stopped_o, alarm_o, limit_o} <= '0;
     end else begin
-      order_q.halt <= 1'b0;
-      if (load_i) {order_q, at_q} <= {order_i, at_i};
-      if (set || ends || (pulse && !order_q.arm)) armed_o <= set && order_q.arm;
-      if (given || pulse || set) emitted_o <= !given;
+      pin_cmd_q.halt <= 1'b0;
+      if (load_i) {pin_cmd_q, at_cycle_q} <= {pin_cmd_i, at_cycle_i};
+      if (set_pins || end_motion || (pulse && !pin_cmd_q.arm)) armed_o <= set_pins && pin_cmd_q.arm;
+      if (loads_pulse || pulse || set_pins) emitted_o <= !loads_pulse;
       if (armed_o) {stopped_o, alarm_o, limit_o} <= {halt, switches_i.alarm, limit};
     end
   end
@@ -77,17 +77,17 @@ module ppmc_bank_pins
       pout_no <= 1'b1;
       dir_o   <= 1'b0;
     end else begin
-      if (pulse || rise) pout_no <= order_q.rise;
-      if (pulse || set) s_o <= order_q.s;
-      if (set) {hold_o, dir_o} <= {order_q.hold, order_q.ccw};
+      if (pulse || pulse_end) pout_no <= pin_cmd_q.pulse_end;
+      if (pulse || set_pins) s_o <= pin_cmd_q.s;
+      if (set_pins) {hold_o, dir_o} <= {pin_cmd_q.hold, pin_cmd_q.ccw};
     end
   end
 
 `ifndef SYNTHESIS
   `PPMC_ASSERT(
-      bank_one_order,
-      !(order_q.pulse && order_q.rise) && !(order_q.pulse && order_q.sets) && !(order_q.rise && order_q.sets))
-  `PPMC_ASSERT(bank_mot_02, !(pulse && ends))
+      bank_one_pin_action,
+      !(pin_cmd_q.pulse && pin_cmd_q.pulse_end) && !(pin_cmd_q.pulse && pin_cmd_q.set_pins) && !(pin_cmd_q.pulse_end && pin_cmd_q.set_pins))
+  `PPMC_ASSERT(bank_mot_02, !(pulse && end_motion))
   `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
 `endif
 

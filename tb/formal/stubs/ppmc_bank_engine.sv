@@ -19,22 +19,22 @@ module ppmc_bank_engine
     input wire logic [5:0][RoundBits-1:0] axis_i,  // axes visited in stages 0 to 5
     input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
     // from the window
-    input wire mail_t mail_i,  // stage 1: input buffer
-    input wire progress_t progress_i,  // stage 1: bytes of the answer already read
+    input wire in_buf_t in_buf_i,  // stage 1: input buffer
+    input wire read_progress_t read_progress_i,  // stage 1: bytes of the answer already read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] due_i,  // W minus the cycles since GO
+    input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO
     // from cells and switches
-    input wire seen_t seen_i,  // stage 2: pin cell and switches
+    input wire pin_status_t pin_status_i,  // stage 2: pin cell and switches
     // results of a visit, stage 5
-    output status_t status_o,  // status register
+    output axis_status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic answer_we_o,  // an answer is written
-    output answer_t answer_o,  // the answer
-    output order_t order_o,  // order to the pin cell
-    output logic [RoundBits-1:0] at_o,  // cycle of the edge in the round
-    output logic call_o,  // set the interrupt
-    output logic calm_o  // clear the interrupt
+    output logic read_data_we_o,  // an answer is written
+    output read_data_t read_data_o,  // the answer
+    output pin_cmd_t pin_cmd_o,  // order to the pin cell
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of the edge in the round
+    output logic irq_set_o,  // set the interrupt
+    output logic irq_clear_o  // clear the interrupt
 );
 
 endmodule
