@@ -12,7 +12,7 @@ module ppmc_bank
     parameter int unsigned AXES       = 32,           // 4, 8, 16, 32 or 64
     parameter int unsigned CLK_HZ     = 100_000_000,  // clock frequency in Hz, 8e6 .. 200e6
     parameter int unsigned XTAL_HZ    = 16_000_000,   // crystal of the old chip in Hz, 1e6 .. 16e6
-    parameter bit          PHASE_IDLE = 1'b1          // level of s until the first initialisation
+    parameter bit          PHASE_IDLE = 1'b1          // level of s before the first initialisation
 ) (
     input  wire logic              clk,
     input  wire logic              rst_n,
@@ -24,15 +24,15 @@ module ppmc_bank
     input  wire logic [       7:0] d_i,
     output logic      [       7:0] d_o,
     output logic                   d_oe,
-    output logic                   int_n,   // L: a motion has ended
-    // switches, L = active, one bit for each axis
+    output logic                   int_n,   // low: at least one interrupt is pending
+    // switches, active low, one bit for each axis
     input  wire logic [  AXES-1:0] l1_n,    // CW limit
     input  wire logic [  AXES-1:0] l2_n,    // CCW limit
     input  wire logic [  AXES-1:0] l3_n,    // CW slow-down limit
     input  wire logic [  AXES-1:0] l4_n,    // CCW slow-down limit
     input  wire logic [  AXES-1:0] cnp_n,   // origin
     input  wire logic [  AXES-1:0] alm_n,   // alarm
-    // motors, one bit for each axis; five bits S5..S1
+    // motors, one bit for each axis; s: five bits S5..S1 for each axis
     output logic      [5*AXES-1:0] s,
     output logic      [  AXES-1:0] hold,
     output logic      [  AXES-1:0] pout_n,
@@ -105,7 +105,7 @@ module ppmc_bank
   ppmc_bank_scheduler #(
       .RoundBits(RoundBits),
       .WidthCycles(20 * Quantum),
-      .TimeBits (TimeBits)
+      .TimeBits(TimeBits)
   ) u_scheduler (
       .clk_i  (clk),
       .rst_ni (rst_core_n),
@@ -178,7 +178,7 @@ module ppmc_bank
 
   pin_status_t axis_pin_status[AXES];
 
-  // AND and OR need half the cells of a multiplexer. turn marks the axis in the last stage. The axis in stage
+  // AND and OR need half the cells of a multiplexer. last_stage marks the axis in stage 5. The axis in stage
   // 2 is three axes after it.
   always_comb begin
     pin_status = '0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART bridge;
-//         register 0x3 selects the axis.
+// ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART
+//         bridge; register 0x3 selects the axis.
 // Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
-// Timing: combinational, except for the selected axis. This axis changes during the write strobe at register
-//         0x3 and is stable from GapClk - 1 cycles before the next strobe on. The bank receives no strobe at
-//         0x3 and no strobe for axes 64 .. 255.
+// Timing: combinational, except for the selected axis. axis_o changes during the write strobe at register 0x3
+//         and is stable from (gap of ppmc_strobe_master - 1) cycles before the next strobe on. The bank
+//         receives no strobe at 0x3 and no strobe for axes 64 .. 255.
 `include "ppmc_assert.svh"
 `default_nettype none
 

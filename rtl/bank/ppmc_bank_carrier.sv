@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_carrier: all blocks of a board with a bank except clock generator and pads: the bank and its host
-//         interface. This is either the UART bridge with a view of one axis, or an SPI slave with the
-//         complete window.
+//         interface. This is either the UART bridge with the registers of one selected axis, or an SPI
+//         slave with the complete window.
 // Rules:  HOST = "UART": docs/uart_bridge.md, docs/bank/carrier.md; HOST = "SPI": docs/bank/spi.md. Axis a
 //         (from 0) has bit a of each port, and bits 5 a to 5 a + 4 of s (S1 to S5).
 // Timing: that of ppmc_bank; the inputs need no external synchroniser.
@@ -41,7 +41,7 @@ module ppmc_bank_carrier #(
     output logic      [  AXES-1:0] pout_n,
     output logic      [  AXES-1:0] dir,
     // LEDs, 1 = on
-    output logic                   led_link,    // a script or a frame is running, or an answer is being sent
+    output logic                   led_link,    // a script or a frame is running, or a response is being sent
     output logic                   led_moving,  // at least one motor is moving
     output logic                   led_switch   // a limit or an alarm is active
 );
@@ -130,7 +130,7 @@ module ppmc_bank_carrier #(
     logic host_cs_n;
     logic [3:0] host_a;
     logic [7:0] to_host, axis, straps;
-    logic [AxisBits-1:0] pins_axis;  // axis for op PINS
+    logic [AxisBits-1:0] pins_axis;  // axis that op PINS reads
 
     logic [Watch-1:0] watch;
 

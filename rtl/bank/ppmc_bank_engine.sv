@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine: pipeline that serves one axis a cycle: reads its state, decides, writes it back.
+// ppmc_bank_engine: pipeline that serves one axis per cycle: it reads the state of the axis, decides, and
+//         writes the state back.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-INI-01/02; the others in ppmc_bank_plan and ppmc_bank_update.
-// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters each cycle:
-//         0 address    1 RAM    2 compare    3 plan    4 step    5 write; order_o is loaded
-//         6 the order is valid in the cell: first cycle at whose end an edge can be ordered
-//         The rate is read two cycles earlier, because the address of a threshold contains the rate.
+// Timing: seven cycles from the address of an axis to the edge of its visit; a new axis enters in each cycle:
+//         0 address    1 RAM    2 compare    3 plan    4 update    5 write; pin_cmd_o is
+//         loaded    6 the command is valid in the pin block: first cycle at whose end an edge can be ordered
+//         The interval is read two cycles earlier, because the address of a threshold contains the rate.
 `default_nettype none
 
 module ppmc_bank_engine
@@ -15,28 +16,28 @@ module ppmc_bank_engine
 #(
     parameter int unsigned Quantum   = 25,    // quantum in cycles
     parameter int unsigned TimeBits  = 18,    // bits of an interval in cycles
-    parameter bit          PhaseIdle = 1'b1,
-    parameter int unsigned RoundBits = 5
+    parameter bit          PhaseIdle = 1'b1,  // level of s before the first initialisation
+    parameter int unsigned RoundBits = 5      // a round is 2^RoundBits cycles
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic [5:0][RoundBits-1:0] axis_i,  // axis of the visit in stage 0, 1 …
+    input wire logic [5:0][RoundBits-1:0] axis_i,  // axes in stages 0 to 5
     input wire logic [4:3] clear_i,  // the visits in stages 3 and 4 reset their axes
     // from the window
     input wire in_buf_t in_buf_i,  // stage 1: input buffer
-    input wire read_progress_t read_progress_i,  // stage 1: bytes of the answer that were read
+    input wire read_progress_t read_progress_i,  // stage 1: response bytes read by the host
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO
-    // from cells and switches
-    input wire pin_status_t pin_status_i,  // stage 2: pin cell and switches
+    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: W minus the cycles since GO
+    // from pin blocks and switches
+    input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
     output axis_status_t status_o,  // status register
     output logic [31:0] position_o,  // position
-    output logic read_data_we_o,  // write answer_o
-    output read_data_t read_data_o,  // answer to a read command
-    output pin_cmd_t pin_cmd_o,  // order to the pin cell
-    output logic [RoundBits-1:0] at_cycle_o,  // cycle of order_o in the round
+    output logic read_data_we_o,  // write read_data_o
+    output read_data_t read_data_o,  // response to a read command
+    output pin_cmd_t pin_cmd_o,  // command to the pin block
+    output logic [RoundBits-1:0] at_cycle_o,  // cycle of pin_cmd_o in the round
     output logic irq_set_o,  // set the pending interrupt of the axis
     output logic irq_clear_o  // clear the pending interrupt of the axis
 );
@@ -56,7 +57,7 @@ module ppmc_bank_engine
 
   // ---- memories ------------------------------------------------------------------------------------
 
-  // early_t: state that the comparisons need; late_t: state that only later stages need.
+  // state_s1_t is read in stage 1, because the comparisons need it; state_s2_t is read in stage 2.
   typedef struct packed {
     logic [TimeBits-1:0] cycles_left;  // cycles to the awaited edge
     motion_state_t       motion;
@@ -66,14 +67,14 @@ module ppmc_bank_engine
 
   typedef struct packed {
     output_state_t       outputs;
-    logic [HoldBits-1:0] hold_left;
-    logic [31:0]         position;
+    logic [HoldBits-1:0] hold_left;  // remaining rounds of the hold time, minus 1
+    logic [31:0]         position;   // CW pulses minus CCW pulses
   } state_s2_t;
 
   (* ram_style = "block", no_rw_check *) state_s1_t state1_mem[Round];
   (* ram_style = "block", no_rw_check *) state_s2_t state2_mem[Round];
   (* ram_style = IntervalStyle, no_rw_check *) interval_t interval_mem[Round];
-  // These words are written when a byte sets them, not by each visit, so a visit does not carry them through.
+  // A visit writes these words only when a byte sets them, so they do not pass through all stages.
   (* ram_style = "block", no_rw_check *) last_cmd_t last_cmd_mem[Round];
   (* ram_style = "block", no_rw_check *) ramp_t ramp_mem[Round];
   (* ram_style = "block", no_rw_check *) chop_units_t chop_units_mem[Round];
@@ -116,7 +117,7 @@ module ppmc_bank_engine
     last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
     ramp_s1_q <= ramp_mem[axis_i[0]];
     chop_units_s3_q <= chop_units_mem[axis_i[2]];
-    // pace0_q.down = 1 (deceleration): the threshold of the next slower rate is compared.
+    // interval_s0_q.decel = 1: the threshold of the next slower rate is compared.
     interval_s0_q <= interval_pre_q;
     lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
     interval_s1_q <= interval_s0_q;
@@ -152,8 +153,10 @@ module ppmc_bank_engine
 
   assign unused_bits = &{1'b0, state1_s4_q, ramp_s4_q, read_progress_s4_q, motion_s2};
   assign motion_s2 = state1_s2_q.motion;
-  assign threshold_reached = {motion_s2.ramp_level[StepBits-1:0], !interval_s2_q.decel} >= {threshold, interval_s2_q.decel};
-  assign ramp_motion = motion_s2.busy && motion_s2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
+  assign threshold_reached =
+      {motion_s2.ramp_level[StepBits-1:0], !interval_s2_q.decel} >= {threshold, interval_s2_q.decel};
+  assign ramp_motion =
+      motion_s2.busy && motion_s2.op inside {ppmc_op_pkg::OP_ACC_DEC, ppmc_op_pkg::OP_CONT_HIGH};
 
   always_ff @(posedge clk_i) begin
     {in_buf_s2_q, read_progress_s2_q, config_n_s2_q} <= {in_buf_i, read_progress_i, config_ni};
@@ -167,11 +170,12 @@ module ppmc_bank_engine
     value_s3_q <= ppmc104_pkg::judge({in_buf_s2_q.data, last_cmd_s2_q.params});
     compare_s3_q.edge_in_round <= state1_s2_q.cycles_left[TimeBits-1:RoundBits] == '0;
     if (interval_s2_q.decel)
-      compare_s3_q.rate_mismatch <= ramp_motion && (motion_s2.more_pulses || (motion_s2.pulse_low && !motion_s2.last_ordered)) && !threshold_reached
-                                       && interval_s2_q.rate != ramp_s2_q.slow;
+      compare_s3_q.rate_mismatch <= ramp_motion
+          && (motion_s2.more_pulses || (motion_s2.pulse_low && !motion_s2.last_ordered))
+          && !threshold_reached && interval_s2_q.rate != ramp_s2_q.slow;
     else
-      compare_s3_q.rate_mismatch <= ramp_motion && motion_s2.more_pulses && !motion_s2.pulse_low && !motion_s2.held && threshold_reached
-                                         && interval_s2_q.rate != ramp_s2_q.fast;
+      compare_s3_q.rate_mismatch <= ramp_motion && motion_s2.more_pulses && !motion_s2.pulse_low
+          && !motion_s2.held && threshold_reached && interval_s2_q.rate != ramp_s2_q.fast;
     compare_s3_q.margin_zero  <= motion_s2.decel_margin == '0;
     compare_s3_q.margin_negative <= motion_s2.decel_margin[24];
     compare_s3_q.ramp_bottom  <= motion_s2.ramp_level[14:1] == '0;
@@ -262,7 +266,7 @@ module ppmc_bank_engine
     };
   end
 
-  // ---- stage 4: step -------------------------------------------------------------------------------
+  // ---- stage 4: update -----------------------------------------------------------------------------
 
   pin_cmd_t   pin_cmd;
   read_data_t read_data;
@@ -319,7 +323,7 @@ module ppmc_bank_engine
     if (decision_s4_q.switching) chop_units_mem[axis_i[4]] <= params_s4_q[31:16];
   end
 
-  // ---- stage 5: write, order -----------------------------------------------------------------------
+  // ---- stage 5: write, command ---------------------------------------------------------------------
 
   localparam state_s1_t State1Reset = '0;
   localparam state_s2_t State2Reset = '{
@@ -335,8 +339,9 @@ module ppmc_bank_engine
     read_data_o <= clear_i[4] ? '0 : read_data;
     read_data_we_o <= clear_i[4] || decision_s4_q.read;
     pin_cmd_o <= clear_i[4] ? '0 : pin_cmd;
-    // The order is executed immediately, or rem cycles after the first cycle in which an edge can be ordered.
-    at_cycle_o        <= axis_i[0] + axis_t'(2) + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
+    // The command is executed in the first possible cycle, or cycles_left cycles after this cycle.
+    at_cycle_o     <= axis_i[0] + axis_t'(2)
+        + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
     irq_set_o <= irq_set && !clear_i[4];
     irq_clear_o <= irq_clear && !clear_i[4];
   end

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins: pins of one axis of a bank. Executes each order of a visit in the cycle of the order, and
-//         suppresses pulses when a switch ends the motion.
+// ppmc_bank_pins: pins of one axis of a bank. Executes each command of a visit in its cycle, and outputs no
+//         pulse when a switch or STOP ends the motion.
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
-// Timing: an order is valid in the cell from the cycle after load_i on. It is executed at the end of the
-//         cycle in which clock_i = at_i; halt is executed at the end of the first cycle. A switch acts in the
-//         cycle in which it is active on switches_i.
+// Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
+//         cycle in which cycle_i = at_cycle_q; halt is executed at the end of the first cycle. A switch acts
+//         in the cycle in which it is active on switches_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -13,16 +13,16 @@ module ppmc_bank_pins
   import ppmc_motion_pkg::*;
 #(
     parameter int unsigned RoundBits = 5,
-    parameter bit          PhaseIdle = 1'b1  // level of s_o until the first order
+    parameter bit          PhaseIdle = 1'b1  // level of s_o before the first command
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic [RoundBits-1:0] cycle_i,  // number of the cycle in the round
-    // orders
-    input wire logic load_i,  // the order is for this axis
-    input wire pin_cmd_t pin_cmd_i,  // pin changes
+    // command
+    input wire logic load_i,  // pin_cmd_i is for this axis
+    input wire pin_cmd_t pin_cmd_i,  // pin changes of the next round
     input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
-    input wire logic stop_i,  // end every motion
+    input wire logic stop_i,  // end every running motion
     input wire switches_t switches_i,  // synchronous levels
     // status for the visits
     output logic armed_o,  // pulses may be output
@@ -39,7 +39,8 @@ module ppmc_bank_pins
 
   pin_cmd_t pin_cmd_q;
   logic [RoundBits-1:0] at_cycle_q;
-  logic loads_pulse;  // the order that is loaded has a pulse
+  logic loads_pulse;  // a command with a pulse is loaded
+  // cycle_hit: the command is executed in this cycle; end_motion: a cause ends the motion in this cycle
   logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
@@ -52,8 +53,8 @@ module ppmc_bank_pins
   assign pulse_end = cycle_hit && pin_cmd_q.pulse_end;
   assign set_pins = cycle_hit && pin_cmd_q.set_pins;
 
-  // The action of an order (pulse, rise or sets) may still be pending when the next order is loaded. Then it
-  // is executed in exactly this cycle.
+  // The action of a command (pulse, pulse_end or set_pins) may still be pending when the next command is
+  // loaded. Then it is executed in exactly this cycle.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       pin_cmd_q                     <= '0;
@@ -84,9 +85,8 @@ module ppmc_bank_pins
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(
-      bank_one_pin_action,
-      !(pin_cmd_q.pulse && pin_cmd_q.pulse_end) && !(pin_cmd_q.pulse && pin_cmd_q.set_pins) && !(pin_cmd_q.pulse_end && pin_cmd_q.set_pins))
+  `PPMC_ASSERT(bank_one_pin_action,
+               2'(pin_cmd_q.pulse) + 2'(pin_cmd_q.pulse_end) + 2'(pin_cmd_q.set_pins) <= 2'd1)
   `PPMC_ASSERT(bank_mot_02, !(pulse && end_motion))
   `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
 `endif

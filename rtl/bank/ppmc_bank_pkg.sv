@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pkg: types that the blocks of a bank exchange for one axis, and the state of an axis in RAM.
+// ppmc_bank_pkg: register numbers of a bank, types that its blocks exchange for one axis, and the state of
+//         an axis in RAM.
 // Rules:  BANK-GEN-01..04, BANK-WIN-01..03.
 `default_nettype none
 

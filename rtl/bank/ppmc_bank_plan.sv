@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_plan: decisions of a visit: whether the byte is accepted, the effect of byte and switches on the
-//         motion, the edge to order from the pin cell, and the cycles to the next edge.
+//         motion, the edge to order from the pin block, and the cycles to the next edge.
 // Rules:  BANK-HSK-02, BANK-GRP-01/02, BANK-MOT-01..05, BANK-CHP-01, BANK-HLD-01; P104-PRO-04/05,
 //         P104-FDC-01..05, P104-TIM-05, P104-LIM-01..09.
 // Timing: combinational.
-// Times:  rem in ppmc_bank_engine is the number of cycles from the visit to the awaited edge. All values
-//         added to it are reduced by a round, because the next visit is one round later.
+// How:    cycles_left of state_s1_t is the number of cycles from the visit to the awaited edge. All values
+//         added to it are reduced by Round, because the next visit is one round later.
 `default_nettype none
 
 module ppmc_bank_plan
@@ -16,23 +16,23 @@ module ppmc_bank_plan
 #(
     parameter int unsigned Quantum  = 25,  // quantum in cycles
     parameter int unsigned Round    = 32,  // round in cycles
-    parameter int unsigned TimeBits = 20
+    parameter int unsigned TimeBits = 20   // bits of an interval in cycles
 ) (
     // axis
     input wire motion_state_t motion_i,  // state of the motion
-    input wire interval_t interval_i,  // interval of the motion
+    input wire interval_t interval_i,  // timing of the running interval
     input wire init_state_t init_state_i,  // progress of the initialisation
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
     input wire logic hold_end_i,  // the hold time ends with this visit
-    input wire pin_status_t pin_status_i,  // pin cell and switches
+    input wire pin_status_t pin_status_i,  // pin block and switches
     input wire compare_t compare_i,  // comparisons of this visit
     input wire logic builder_free_i,  // a ramp table may be built
     // command unit
     input wire logic extra_time_i,  // vsel = L in CONFIG
     input wire in_buf_t in_buf_i,  // byte of the host
-    input wire logic in_buf_new_i,  // mail_i has not been accepted yet
-    input wire decoded_t decoded_i,  // mail_i.data as a code
-    input wire error_e value_i,  // error in an initialisation that mail_i completes
+    input wire logic in_buf_new_i,  // in_buf_i is not yet accepted
+    input wire decoded_t decoded_i,  // in_buf_i.data as a code
+    input wire error_e value_i,  // error in an initialisation that in_buf_i completes
     input wire asking_t asking_i,  // state before this byte
     output asking_t asking_o,  // state after this byte
     output logic take_o,  // the byte is accepted
@@ -40,10 +40,10 @@ module ppmc_bank_plan
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
     input wire logic [TimeBits-1:0] go_delay_i,  // W minus the cycles since GO
-    input wire logic [TimeBits-1:0] after_low_i,  // see ppmc_bank_interval_rom
+    input wire logic [TimeBits-1:0] after_low_i,  // cycles after the low time, minus Round
     output decision_t decision_o,  // decisions of the visit
-    output logic restart_time_o,  // restart rem from 0
-    output logic [TimeBits-1:0] add_cycles_o  // cycles to add to rem
+    output logic restart_time_o,  // restart cycles_left from 0
+    output logic [TimeBits-1:0] add_cycles_o  // cycles to add to cycles_left
 );
 
   localparam int unsigned WidthCycles = 20 * Quantum;  // W in cycles
@@ -73,7 +73,8 @@ module ppmc_bank_plan
     has_ramp = motion_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
     abort = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || !pin_status_i.emitted);
     cancel_pulse = abort && !pin_status_i.emitted;
-    finish = motion_i.busy && (abort ? cancel_pulse || !motion_i.pulse_low : !motion_i.more_pulses && !motion_i.pulse_low);
+    finish = motion_i.busy
+        && (abort ? cancel_pulse || !motion_i.pulse_low : !motion_i.more_pulses && !motion_i.pulse_low);
     init_done = init_state_i.building && compare_i.table_idle;
     go_accept = compare_i.go && pin_status_i.in_group && motion_i.held && motion_i.more_pulses && !abort;
     go_reject = compare_i.go && pin_status_i.in_group && !go_accept;
@@ -86,8 +87,8 @@ module ppmc_bank_plan
   assign pulses_done = !motion_i.more_pulses || abort;
   assign is_init = asking_i.code[7:6] == 2'b00;
   assign init_complete = is_init && !in_buf_i.is_command && !asking_i.error && asking_i.number == 3'd1;
-  assign accept_ok = !finish && !init_state_i.building && !(compare_i.go && pin_status_i.in_group) && !chop_edge
-      && (builder_free_i || !init_complete);
+  assign accept_ok = !finish && !init_state_i.building && !(compare_i.go && pin_status_i.in_group)
+      && !chop_edge && (builder_free_i || !init_complete);
   assign take_o = in_buf_new_i && accept_ok;
   assign code_o = in_buf_i.is_command ? in_buf_i.data : asking_i.code;
   assign params_o = {in_buf_i.data, asking_i.params[31:8]};
@@ -143,17 +144,23 @@ module ppmc_bank_plan
     decision_o.flag_slow = slow_limit && slow_limit_enabled;
     decel_forced = motion_i.decel_forced || decision_o.flag_stop || decision_o.flag_slow;
 
-    pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort && compare_i.edge_in_round && !compare_i.rate_mismatch;
+    pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort
+        && compare_i.edge_in_round && !compare_i.rate_mismatch;
     decision_o.pulse = pulse && !halt;
     // A low time that may still become longer does not end before its length is known.
-    low_may_grow = compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
+    low_may_grow =
+        compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
     decision_o.pulse_end = motion_i.pulse_low && compare_i.edge_in_round && !low_may_grow && !cancel_pulse;
     decision_o.rate_next = compare_i.rate_mismatch && !decision_o.pulse_end && !cancel_pulse;
     decision_o.level_down = has_ramp && (decel_forced || compare_i.margin_negative);
-    decision_o.level_up = has_ramp && !decel_forced && !interval_i.decel && !compare_i.margin_negative && !compare_i.margin_zero && !compare_i.ramp_top;
-    decision_o.decel_point = has_ramp && !interval_i.decel && (decel_forced || compare_i.margin_negative || compare_i.margin_zero);
-    decision_o.decel_natural = has_ramp && (compare_i.margin_negative || (compare_i.margin_zero && !compare_i.ramp_top));
-    decision_o.last_pulse = (decision_o.level_down && compare_i.ramp_bottom) || (compare_i.margin_zero && motion_i.ramp_level == '0);
+    decision_o.level_up = has_ramp && !decel_forced && !interval_i.decel
+        && !compare_i.margin_negative && !compare_i.margin_zero && !compare_i.ramp_top;
+    decision_o.decel_point = has_ramp && !interval_i.decel
+        && (decel_forced || compare_i.margin_negative || compare_i.margin_zero);
+    decision_o.decel_natural =
+        has_ramp && (compare_i.margin_negative || (compare_i.margin_zero && !compare_i.ramp_top));
+    decision_o.last_pulse = (decision_o.level_down && compare_i.ramp_bottom)
+        || (compare_i.margin_zero && motion_i.ramp_level == '0);
 
     decision_o.start = act.start;
     decision_o.init = act.init;
@@ -169,7 +176,7 @@ module ppmc_bank_plan
 
   // ---- cycles to the next edge ---------------------------------------------------------------------
 
-  // Low time at a rate: W, except for the rates 0 to 2 with halves.
+  // Low time at a rate, minus Round: half the interval if halves = 1 and the rate is 0 to 2, else W.
   function automatic cycles_t low_time(logic [7:0] rate, logic halves);
     unique case ({
       halves && rate[7:2] == '0, rate[1:0]
@@ -181,13 +188,15 @@ module ppmc_bank_plan
     endcase
   endfunction
 
-  // Difference to the low time of the next slower rate.
+  // Low time of the next slower rate minus the low time of this rate, minus Round.
   function automatic cycles_t low_time_increase(logic [7:0] rate, logic halves);
     if (!halves || rate[7:2] != '0 || rate[1:0] == 2'd3) return -cycles_t'(Round);
-    return (rate[1:0] == 2'd2) ? cycles_t'(WidthCycles - 3 * HalfBaseCycles - Round) : cycles_t'(HalfBaseCycles - Round);
+    return (rate[1:0] == 2'd2) ? cycles_t'(WidthCycles - 3 * HalfBaseCycles - Round)
+        : cycles_t'(HalfBaseCycles - Round);
   endfunction
 
-  // Fixed time of a chopper phase.
+  // Fixed time of a chopper phase, minus Round. on: ON phase; programmed: the host has set the units; extra:
+  // vsel = L.
   function automatic cycles_t chop_time(logic on, logic programmed, logic extra);
     unique case ({
       on, programmed, extra
@@ -221,7 +230,8 @@ module ppmc_bank_plan
       if (motion_i.pulse_low)
         add_cycles_o = low_time_increase(interval_i.rate, fast_no_extra && !motion_i.last_ordered);
       else
-        add_cycles_o = interval_i.slow_base ? cycles_t'(32 * Quantum - Round) : cycles_t'(8 * Quantum - Round);
+        add_cycles_o =
+            interval_i.slow_base ? cycles_t'(32 * Quantum - Round) : cycles_t'(8 * Quantum - Round);
     end
     if (decision_o.start || (pulse && decision_o.last_pulse)) add_cycles_o = cycles_t'(WidthCycles - Round);
   end

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_scheduler: selects the axis of each visit, and extends reset, GO and STOP to a round so that they act
-//         on all axes.
+// ppmc_bank_scheduler: selects the axis of each visit, and extends reset, GO and STOP to a round, so that
+//         they act on all axes.
 // Rules:  BANK-GEN-01, BANK-GEN-05, BANK-GRP-02..04.
-// Timing: axis 0 is in stage 0 in the first cycle after reset. go_o is high for one round, from the cycle
-//         after go_i; stop_o is high for one round plus one cycle, from the cycle after stop_i.
+// Timing: axis 0 is in stage 0 in the first cycle after reset. clear_o covers one visit of every axis. go_o
+//         is high for one round, from the cycle after go_i; stop_o is high for one round plus one cycle,
+//         from the cycle after stop_i.
 `default_nettype none
 
 module ppmc_bank_scheduler #(
@@ -19,10 +20,10 @@ module ppmc_bank_scheduler #(
     input wire logic stop_i,  // STOP is written at the next edge
     output logic [Stages-1:0][RoundBits-1:0] axis_o,  // axis of the visit in each stage
     output logic [Round-1:0] last_stage_o,  // bit i: axis i is in the last stage
-    output logic [Stages:0] clear_o,  // bit i: the visit in stage i resets its axis
-    output logic go_o,  // GO is active for the visits
+    output logic [Stages:0] clear_o,  // bit i: reset the axis in stage i
+    output logic go_o,  // GO is active for the visits of this cycle
     output logic [TimeBits-1:0] go_delay_o,  // W minus the cycles since GO
-    output logic stop_o  // end every motion
+    output logic stop_o  // end every running motion
 );
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -37,10 +38,10 @@ module ppmc_bank_scheduler #(
     end
   end
 
-  // Cycles for which go_o and stop_o stay high after this one.
+  // Number of further cycles for which go_o and stop_o stay high.
   logic [RoundBits-1:0] go_left_q;
-  logic [RoundBits:0] stop_left_q;  // one more than a round: an operation that starts last is armed by then
-  logic go_pending_q;  // another GO is pending
+  logic [RoundBits:0] stop_left_q;  // a round + 1: the last operation to start is armed by then
+  logic go_pending_q;  // another GO was written during go_o
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

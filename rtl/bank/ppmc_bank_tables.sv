@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_tables: ramp tables of all axes in one RAM, and one builder that fills them.
 // Rules:  P104-RMP-02, P104-INI-07, BANK-INI-01, BANK-HSK-05.
-// Timing: book_i is accepted in a cycle with booked_o = 0; the table is complete when booked_o falls.
+// Timing: build_start_i is accepted in a cycle with build_busy_o = 0; the table is complete when build_busy_o
+//         is deasserted.
 //         threshold_o is valid two cycles after axis_i and rate_i.
 `default_nettype none
 
@@ -12,7 +13,7 @@ module ppmc_bank_tables #(
     input  wire logic                clk_i,
     input  wire logic                rst_ni,
     // build
-    input  wire logic                build_start_i,  // build a table from the inputs below
+    input  wire logic                build_start_i,  // build a table from the values below
     input  wire logic [AxisBits-1:0] build_axis_i,   // axis of the table to build
     input  wire logic [         7:0] slow_i,         // start-up rate
     input  wire logic [         7:0] fast_i,         // high-speed rate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_update: executes the decisions of a visit: next state of the axis, order to the pin cell, answer
-//         for the host.
+// ppmc_bank_update: executes the decisions of a visit: next state of the axis, command to the pin block,
+//         response to the host.
 // Rules:  P104-PRO-01..04, P104-OPR-01..05, P104-END-01..07, P104-RD-02..07, P104-INI-05..08, P104-AUX-03/04,
 //         P104-PHS-01..06, P104-SW-02..05; BANK-WIN-07, BANK-MOT-01..04.
 // Timing: combinational.
@@ -16,16 +16,16 @@ module ppmc_bank_update
     parameter int unsigned HoldBits = 17  // bits of left_i
 ) (
     input wire decision_t decision_i,  // decisions of the visit
-    input wire pin_status_t pin_status_i,  // pin cell and switches
-    input wire logic [7:0] code_i,  // code of the action
+    input wire pin_status_t pin_status_i,  // pin block and switches
+    input wire logic [7:0] code_i,  // code of the command
     input wire logic [31:0] params_i,  // parameters of code_i
     input wire logic [1:0] config_ni,  // vsel and csel, inverted
-    input wire logic [1:0] read_seq_i,  // seq of the answer that the host has read last
+    input wire logic [1:0] read_seq_i,  // seq of the response that the host has read last
     // state before the visit
     input wire motion_state_t motion_i,  // state of the motion
     input wire interval_t interval_i,  // interval of the motion
     input wire init_state_t init_state_i,  // progress of the initialisation
-    input wire chop_units_t chop_units_i,  // units of the chopper
+    input wire chop_units_t chop_units_i,  // units of the chopper phases
     input wire logic chop_i,  // chopping at standstill, from the initialisation
     input wire logic [7:0] slow_i,  // start-up rate
     input wire output_state_t outputs_i,  // phases, chopper, end of the last motion
@@ -39,8 +39,8 @@ module ppmc_bank_update
     output logic [HoldBits-1:0] hold_left_o,  // remaining rounds of the hold time, minus 1
     output logic [31:0] position_o,  // CW pulses minus CCW pulses
     // outputs
-    output pin_cmd_t pin_cmd_o,  // order to the pin cell
-    output read_data_t read_data_o,  // answer to a read command, with plan_i.read
+    output pin_cmd_t pin_cmd_o,  // command to the pin block
+    output read_data_t read_data_o,  // response to a read command, with decision_i.read
     output logic irq_set_o,  // set the pending interrupt of the axis
     output logic irq_clear_o  // clear the pending interrupt of the axis
 );
@@ -58,7 +58,7 @@ module ppmc_bank_update
 
   logic [24:0] margin_add;
   logic [24:0] decel_margin;  // with finish: remaining pulses minus 1
-  logic count_down;  // climb decreases by 1
+  logic count_down;  // ramp_level decreases by 1
   logic
       ccw,
       position_changes;  // ccw: direction of a pulse that is added or removed; counts: there is such a pulse
@@ -75,7 +75,8 @@ module ppmc_bank_update
     count_down = decision_i.chop_unit || (decision_i.pulse && decision_i.level_down);
     motion_o = motion_i;
     motion_o.decel_margin = decel_margin;
-    motion_o.ramp_level = motion_i.ramp_level + {{14{count_down}}, count_down || (decision_i.pulse && decision_i.level_up)};
+    motion_o.ramp_level = motion_i.ramp_level
+        + {{14{count_down}}, count_down || (decision_i.pulse && decision_i.level_up)};
     motion_o.decel_forced = motion_i.decel_forced || decision_i.flag_stop || decision_i.flag_slow;
     motion_o.flag_stop = motion_i.flag_stop || decision_i.flag_stop;
     motion_o.flag_slow = motion_i.flag_slow || decision_i.flag_slow;
@@ -211,7 +212,7 @@ module ppmc_bank_update
         s: (outputs_o.pattern & {5{outputs_o.phases_on}}) ^ {5{!outputs_o.positive}}
     };
 
-    // The new seq differs from the seq of the previous answer and from that of the answer read last.
+    // The new seq differs from that of the previous response and from that of the response read last.
     read_data_o.seq = outputs_i.read_data_seq + 2'd1;
     if (read_data_o.seq == read_seq_i) read_data_o.seq = outputs_i.read_data_seq + 2'd2;
     read_data_o.bytes = (decision_i.read_select == SEL_REMAINING) ? 2'd3 : 2'd1;

@@ -3,11 +3,11 @@
 //         each axis.
 // Rules:  BANK-WIN-01..08, BANK-HSK-01/03/04, BANK-GEN-04/05, BANK-GRP-01..04.
 // Timing: a write acts at the first edge after the end of its strobe has left the synchronisers. d_o is valid
-//         from the third edge after the start of a read strobe has left them. mail_o, progress_o and
+//         from the third edge after the start of a read strobe has left them. in_buf_o, read_progress_o and
 //         config_no are valid one cycle after axis_i.
 // How:    the RAM words of the addressed axis are read in every cycle. If a visit writes these words in the
-//         cycle in which they are read, the words read before are kept. The registers of the bank (other1_q,
-//         other2_q) are updated in every cycle.
+//         cycle in which they are read, the words read before are kept. The registers of the bank
+//         (bank_reg_q, bank_reg_q2) are updated in every cycle.
 `default_nettype none
 
 module ppmc_bank_window
@@ -30,13 +30,13 @@ module ppmc_bank_window
     input wire logic ready_i,  // 0: the axes are being reset
     input wire logic [RoundBits-1:0] axis_i,  // axis of the next visit
     output in_buf_t in_buf_o,  // input buffer of axis_i
-    output read_progress_t read_progress_o,  // bytes of the answer of axis_i that were read
+    output read_progress_t read_progress_o,  // response bytes of axis_i that were read
     output logic [1:0] config_no,  // vsel and csel of axis_i, inverted
     input wire logic [RoundBits-1:0] done_axis_i,  // axis of the visit that ends
     input wire axis_status_t status_i,  // status of done_axis_i
     input wire logic [31:0] position_i,  // position of done_axis_i
-    input wire logic read_data_we_i,  // write answer_i
-    input wire read_data_t read_data_i,  // answer to a read command
+    input wire logic read_data_we_i,  // write read_data_i
+    input wire read_data_t read_data_i,  // response to a read command
     // bank
     input wire logic [Axes-1:0] map_i,  // pending interrupts
     output logic [Axes-1:0] mask_o,  // members of the group
@@ -197,7 +197,7 @@ module ppmc_bank_window
     endcase
     collision_q <= done_axis_i == axis_s2;
     if (!collision_q) axis_regs_q2 <= axis_regs_q;
-    bank_reg_q2 <= bank_reg_q;  // even if clash_q: any visit may change the map
+    bank_reg_q2 <= bank_reg_q;  // even if collision_q = 1: any visit may change the map
   end
 
   // The new seq differs from the seq of the previous byte and from that of the byte accepted last.
@@ -218,7 +218,8 @@ module ppmc_bank_window
   assign axis_exists = 32'(a_s2[9:4]) < Axes;
 
   always_comb begin
-    bytes_read   = (axis_regs_q2.read_progress.seq == axis_regs_q2.read_data.seq) ? axis_regs_q2.read_progress.bytes_read : 2'd0;
+    bytes_read = (axis_regs_q2.read_progress.seq == axis_regs_q2.read_data.seq)
+        ? axis_regs_q2.read_progress.bytes_read : 2'd0;
     obf = bytes_read < axis_regs_q2.read_data.bytes;
     ibf = axis_regs_q2.in_buf_seq != axis_regs_q2.status.ack_seq;
     byte_index = (axis_regs_q2.read_data.bytes != 2'd3) ? 2'd0 : (bytes_read == 2'd3) ? 2'd2 : bytes_read;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_axis_port_fv: the view, driven by the strobe master of the bridges. Proves that no strobe reaches the
-// bank for axes that do not exist or for the axis choice, and that the address is stable while a strobe is
-// low.
+// ppmc_bank_axis_port_fv: the axis port, driven by the strobe master of the bridges. Proves that no strobe
+// reaches the bank for axes that do not exist or for the axis selection, and that the address is stable while
+// a strobe is low.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -38,7 +38,7 @@ module ppmc_bank_axis_port_fv (
       .*
   );
 
-  // latest_q: byte of the last access, which may still be in progress; choice_q: last byte written to
+  // wdata_q: byte of the last access, which may still be in progress; axis_select_q: last byte written to
   // register 3
   logic [7:0] axis_select_q, wdata_q;
   logic select_write_q;

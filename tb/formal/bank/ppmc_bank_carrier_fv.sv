@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_carrier_fv: a carrier with UART host and four axes, with any bank and any host. Proves that bus
-// strobes reach the bank as the view passes them on, that op PINS reads the switches of the chosen axis, and
-// that the LEDs indicate motion and switches.
+// strobes reach the bank as ppmc_bank_axis_port passes them on, that op PINS reads the switches of the
+// selected axis, and that the LEDs indicate motion and switches.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -64,7 +64,9 @@ module ppmc_bank_carrier_fv (
   logic pins_of_selected_axis_holds;
   assign pins_of_selected_axis_holds =
       !was_reset_q ||
-      dut.g_uart.u_host.switches_ni == {alm_n[pins_axis], cnp_n[pins_axis], l4_n[pins_axis], l3_n[pins_axis], l2_n[pins_axis], l1_n[pins_axis]} &&
+      dut.g_uart.u_host.switches_ni == {
+        alm_n[pins_axis], cnp_n[pins_axis], l4_n[pins_axis], l3_n[pins_axis], l2_n[pins_axis], l1_n[pins_axis]
+      } &&
       dut.g_uart.u_host.hold_i == hold[pins_axis];
   `FV_ASSERT(pins_of_selected_axis, pins_of_selected_axis_holds)
   logic switches_reach_the_bank_holds;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_engine_fv: the engine with ppmc_bank_scheduler and eight axes, for any bytes, switches and cells.
-// Proves that a visit reads the state that the previous visit of the same axis has written, that it issues at
-// most one order, that an axis which is stopped or has no motion gets no pulse, and that a byte is accepted
-// once.
+// ppmc_bank_engine_fv: the engine with ppmc_bank_scheduler and eight axes, for any bytes, switches and pin
+// blocks. Proves that a visit reads the state that the previous visit of the same axis has written, that it
+// issues at most one pin action, that an axis which is stopped or has no motion gets no pulse, and that a
+// byte is accepted once.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -95,7 +95,7 @@ module ppmc_bank_engine_fv
   chop_units_t chop_units_q;
   axis_status_t status_q;
   logic [31:0] position_q;
-  logic cmd_set_q, ramp_set_q, chop_set_q;  // the host has set words_q; ramp_q; units_q
+  logic cmd_set_q, ramp_set_q, chop_set_q;  // the host has set last_cmd_q, ramp_q, chop_units_q
 
   always_ff @(posedge clk_i)
     if (!rst_ni) {cmd_set_q, ramp_set_q, chop_set_q} <= '0;
@@ -128,13 +128,13 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(lemma_interval_s1, !(visited_q && axis[1] == watched_i) || dut.interval_s1_q == interval_q)
   logic lemma_mem_s1_holds;
   assign lemma_mem_s1_holds =
-      axis[1] != watched_i || cycles_q < 5'd6 || ((!cmd_set_q || dut.last_cmd_s1_q == last_cmd_q) && (!ramp_set_q ||
-      dut.ramp_s1_q == ramp_q));
+      axis[1] != watched_i || cycles_q < 5'd6 || ((!cmd_set_q || dut.last_cmd_s1_q == last_cmd_q) &&
+      (!ramp_set_q || dut.ramp_s1_q == ramp_q));
   `FV_ASSERT(lemma_mem_s1, lemma_mem_s1_holds)
   logic lemma_mem_s2_holds;
   assign lemma_mem_s2_holds =
-      axis[2] != watched_i || cycles_q < 5'd6 || ((!cmd_set_q || dut.last_cmd_s2_q == last_cmd_q) && (!ramp_set_q ||
-      dut.ramp_s2_q == ramp_q));
+      axis[2] != watched_i || cycles_q < 5'd6 || ((!cmd_set_q || dut.last_cmd_s2_q == last_cmd_q) &&
+      (!ramp_set_q || dut.ramp_s2_q == ramp_q));
   `FV_ASSERT(lemma_mem_s2, lemma_mem_s2_holds)
 
   `FV_ASSERT(bank_gen_05_motion_kept, !(visited_q && axis[2] == watched_i) || dut.state1_s2_q == state1_q)
@@ -204,9 +204,11 @@ module ppmc_bank_engine_fv
       !(visited_q && axis[4] == watched_i) || {dut.state1_s4_q, dut.state2_s4_q} == {state1_q, state2_q})
   `FV_ASSERT(lemma_visit_last,
              !visited_q || (status_q == {state1_q[5:0], state1_q[BusyAt]} && position_q == state2_q[31:0]))
-  `FV_ASSERT(
-      lemma_visit_armed,
-      !dut.decision_s4_q.pulse || cycles_q < 5'd8 || (dut.pin_status_s4_q.armed && dut.state1_s4_q.motion.busy))
+  logic lemma_visit_armed_holds;
+  assign lemma_visit_armed_holds =
+      !dut.decision_s4_q.pulse || cycles_q < 5'd8 ||
+      (dut.pin_status_s4_q.armed && dut.state1_s4_q.motion.busy);
+  `FV_ASSERT(lemma_visit_armed, lemma_visit_armed_holds)
 
   // Assumptions of the visits, for every axis in every stage.
   for (genvar n = 0; n < 8; n++) begin : g_axis
@@ -230,7 +232,8 @@ module ppmc_bank_engine_fv
                                                           dut.state1_s5_q.parser))
 
   function automatic logic state_valid(motion_state_t motion, init_state_t init_state, parser_t parser);
-    return motion.busy ? !init_state.building && (parser.error || parser.number == '0) : !(motion.more_pulses || motion.pulse_low);
+    return motion.busy ? !init_state.building && (parser.error || parser.number == '0) :
+        !(motion.more_pulses || motion.pulse_low);
   endfunction
 
   `FV_COVER(seen_host_words, cmd_set_q && ramp_set_q && chop_set_q && visited_q && axis[3] == watched_i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_interval_rom_fv: proves that each word of the table is the remainder of its interval, with the times of
-// the PPMC-104.
+// ppmc_bank_interval_rom_fv: proves that each word of the ROM is the rest of its interval after the low time,
+// with the times of the PPMC-104.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -25,16 +25,18 @@ module ppmc_bank_interval_rom_fv
       .*
   );
 
-  // A base clock lasts 8 quanta (fast) or 32 (slow). With extra (vsel = L) an interval is 30 quanta longer.
-  // The low time is 20 quanta; with the fast base clock, without extra and at rates 0 to 2 it is half the
-  // interval.
+  // A base clock lasts 8 quanta (fast) or 32 (slow). With extra_time (vsel = L) an interval is 30 quanta
+  // longer. The low time is 20 quanta; with the fast base clock, without extra_time and at rates 0 to 2 it is
+  // half the interval.
   interval_t interval_q, interval_q2;
   logic [1:0] valid_q;  // both registers of the block are filled
   logic [TimeBits-1:0] base_clocks, interval_cycles, low_cycles;
 
   assign base_clocks = TimeBits'({1'b0, interval_q2.rate} + 9'd1);
-  assign interval_cycles = (interval_q2.slow_base ? base_clocks << 5 : base_clocks << 3) + (interval_q2.extra_time ? TimeBits'(30) : '0);
-  assign low_cycles   = (!interval_q2.slow_base && !interval_q2.extra_time && interval_q2.rate <= 8'd2) ? interval_cycles >> 1 : TimeBits'(20);
+  assign interval_cycles = (interval_q2.slow_base ? base_clocks << 5 : base_clocks << 3)
+      + (interval_q2.extra_time ? TimeBits'(30) : '0);
+  assign low_cycles = (!interval_q2.slow_base && !interval_q2.extra_time && interval_q2.rate <= 8'd2)
+      ? interval_cycles >> 1 : TimeBits'(20);
 
   always_ff @(posedge clk_i) begin
     {interval_q2, interval_q} <= {interval_q, interval_i};

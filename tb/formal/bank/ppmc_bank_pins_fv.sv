@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc_bank_pins_fv: proves that pulses occur only in the cycle of their order, and that no pulse occurs at
+// ppmc_bank_pins_fv: proves that pulses occur only in the cycle of their command, and that no pulse occurs at
 // or after a cause until the axis is armed again.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -28,7 +28,7 @@ module ppmc_bank_pins_fv
   always_ff @(posedge clk_i) cycle_i <= rst_ni ? cycle_i + 1'b1 : '0;
 
   logic blocked_q;  // a cause has occurred, and the axis has not been armed since
-  logic has_pulse_q;  // the current order has a pulse
+  logic has_pulse_q;  // the current command has a pulse
   logic [2:0] at_cycle_q;
   logic limit, switch_cause, cause;
 

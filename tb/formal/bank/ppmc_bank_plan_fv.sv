@@ -48,44 +48,44 @@ module ppmc_bank_plan_fv
       .*
   );
 
-  assign completes_init = !in_buf_i.is_command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
+  assign completes_init =
+      !in_buf_i.is_command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
+
+  logic go;  // GO acts on this axis
+  logic host_action;  // an action that a host requests with a byte
+  assign go = compare_i.go && pin_status_i.in_group;
+  assign host_action =
+      decision_o.start || decision_o.init || decision_o.exc_off || decision_o.switching || decision_o.read ||
+      decision_o.halt || decision_o.flag_stop;
 
   `FV_ASSUME(no_pulse_at_standstill, motion_i.busy || !(motion_i.more_pulses || motion_i.pulse_low))
   `FV_ASSUME(valid_kind, decoded_i.kind <= KindAuxOff && decoded_i.params <= 3'd4)
 
   logic bank_hsk_02_accepts_no_byte_holds;
   assign bank_hsk_02_accepts_no_byte_holds =
-      !take_o || !(decision_o.finish || decision_o.init_done || decision_o.chop_edge || decision_o.go_accept || decision_o.go_reject ||
-      (compare_i.go && pin_status_i.in_group));
+      !take_o || !(decision_o.finish || decision_o.init_done || decision_o.chop_edge ||
+      decision_o.go_accept || decision_o.go_reject || go);
   `FV_ASSERT(bank_hsk_02_accepts_no_byte, bank_hsk_02_accepts_no_byte_holds)
   `FV_ASSERT(bank_hsk_01_accepts_only_new_bytes, !take_o || in_buf_new_i)
   `FV_ASSERT(bank_hsk_05_waits_for_builder, !(take_o && completes_init) || builder_free_i)
   logic bank_hsk_02_accepts_otherwise_holds;
   assign bank_hsk_02_accepts_otherwise_holds =
-      take_o || !in_buf_new_i || decision_o.finish || init_state_i.building || (compare_i.go && pin_status_i.in_group) ||
-      decision_o.chop_edge || (completes_init && !builder_free_i);
+      take_o || !in_buf_new_i || decision_o.finish || init_state_i.building || go || decision_o.chop_edge ||
+      (completes_init && !builder_free_i);
   `FV_ASSERT(bank_hsk_02_accepts_otherwise, bank_hsk_02_accepts_otherwise_holds)
-  logic host_action_needs_a_byte_holds;
-  assign host_action_needs_a_byte_holds =
-      take_o || !(decision_o.start || decision_o.init || decision_o.exc_off || decision_o.switching || decision_o.read ||
-      decision_o.halt || decision_o.flag_stop);
-  `FV_ASSERT(host_action_needs_a_byte, host_action_needs_a_byte_holds)
-  `FV_ASSERT(
-      bank_grp_02_accepted_or_rejected,
-      (decision_o.go_accept || decision_o.go_reject) == (compare_i.go && pin_status_i.in_group) && !(decision_o.go_accept && decision_o.go_reject))
+  `FV_ASSERT(host_action_needs_a_byte, take_o || !host_action)
+  `FV_ASSERT(bank_grp_02_accepted_or_rejected, 2'(decision_o.go_accept) + 2'(decision_o.go_reject) == 2'(go))
   `FV_ASSERT(bank_grp_02_reject_is_an_error, !decision_o.go_reject || asking_o.error)
-  `FV_ASSERT(
-      bank_grp_02_first_pulse,
-      !decision_o.go_accept || decision_o.finish || decision_o.pulse_end || (restart_time_o && add_cycles_o == go_delay_i))
+  logic bank_grp_02_first_pulse_holds;
+  assign bank_grp_02_first_pulse_holds =
+      !decision_o.go_accept || decision_o.finish || decision_o.pulse_end ||
+      (restart_time_o && add_cycles_o == go_delay_i);
+  `FV_ASSERT(bank_grp_02_first_pulse, bank_grp_02_first_pulse_holds)
   `FV_ASSERT(bank_mot_01_first_pulse,
              !decision_o.start || (restart_time_o && add_cycles_o == 18'(WidthCycles - Round)))
   `FV_ASSERT(bank_mot_04_no_edge_at_the_end,
              !decision_o.finish || !(decision_o.pulse || decision_o.pulse_end || decision_o.start))
-  logic p104_err_00_no_action_on_error_holds;
-  assign p104_err_00_no_action_on_error_holds =
-      !(take_o && asking_o.error) || !(decision_o.start || decision_o.init || decision_o.exc_off || decision_o.switching ||
-      decision_o.read || decision_o.halt || decision_o.flag_stop);
-  `FV_ASSERT(p104_err_00_no_action_on_error, p104_err_00_no_action_on_error_holds)
+  `FV_ASSERT(p104_err_00_no_action_on_error, !(take_o && asking_o.error) || !host_action)
   `FV_COVER(seen_go, decision_o.go_accept && in_buf_new_i)
   `FV_COVER(seen_start, decision_o.start && take_o)
 

@@ -39,7 +39,8 @@ module ppmc_bank_scheduler_fv (
     if (!rst_ni) {cycles_q, visits_q, stop_q, go_pending_q} <= {8'd0, 4'd15, 1'b0};
     else begin
       cycles_q <= (cycles_q == '1) ? '1 : cycles_q + 1'b1;
-      visits_q <= (!go_o || go_delay_o == 6'd32) ? '0 : visits_q + 3'(axis_o[2] == watched_i && cycles_q >= 5'd6);
+      visits_q <= (!go_o || go_delay_o == 6'd32) ? '0
+          : visits_q + 3'(axis_o[2] == watched_i && cycles_q >= 5'd6);
       stop_q <= stop_i ? '0 : (stop_q == '1) ? '1 : stop_q + 1'b1;
       go_pending_q <= go_i || (go_pending_q && !(go_o && go_delay_o == 6'd39));
     end

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_bank_window_fv: the window, driven by the strobe master of the bridges, with an engine that accepts
-// and answers bytes at any time.
+// bytes and responds to them at any time.
 // The proof is for one axis, regardless of accesses to the others. A visit reads the last byte that the host
-// has written, unchanged, and the byte is new until it was accepted. The bytes of an answer are read in
+// has written, unchanged, and the byte is new until it was accepted. The bytes of a response are read in
 // order, each once.
 `include "ppmc_fv.svh"
 `default_nettype none
@@ -10,20 +10,20 @@
 module ppmc_bank_window_fv
   import ppmc_bank_pkg::*;
 (
-    input wire logic        clk_i,
+    input wire logic clk_i,
     // host
-    input wire logic        req_i,
-    input wire logic        we_i,
-    input wire logic [ 9:0] addr_i,
-    input wire logic [ 7:0] wdata_i,
+    input wire logic req_i,
+    input wire logic we_i,
+    input wire logic [9:0] addr_i,
+    input wire logic [7:0] wdata_i,
     // engine
-    input wire logic        accept_i,           // the engine accepts a byte if one is waiting
-    input wire logic        respond_i,          // the engine answers the byte it accepts
-    input wire logic        three_bytes_i,      // the answer has three bytes
+    input wire logic accept_i,  // the engine accepts a byte if one is waiting
+    input wire logic respond_i,  // the engine responds to the byte that it accepts
+    input wire logic three_bytes_i,  // the response has three bytes
     input wire logic [23:0] read_data_bytes_i,
-    input wire logic [ 6:0] other_status_i,     // status of other axes; of the watched axis, all except taken
-    input wire logic [ 1:0] position_i,         // positions
-    input wire logic [ 3:0] map_i               // pending interrupts
+    input wire logic [6:0] other_status_i,  // status of other axes; of the watched axis, all except ack_seq
+    input wire logic [1:0] position_i,  // positions
+    input wire logic [3:0] map_i  // pending interrupts
 );
 
   localparam logic [2:0] Axis = 3'd2;  // the watched axis
@@ -59,7 +59,7 @@ module ppmc_bank_window_fv
 
   logic [2:0] axis_q, done_axis;
   logic [3:0] clear_q;  // remaining cycles of the reset of all axes
-  logic ready, watched_s1, watched_s3, watched_s5;  // mine_n: the visit of the watched axis is in stage n
+  logic ready, watched_s1, watched_s3, watched_s5;  // watched_sN: the watched axis is in stage N
   in_buf_t in_buf, in_buf_q;
   read_progress_t read_progress, read_progress_q;
   logic [1:0] config_n, ack_seq_q, read_data_seq_q, next_ack_seq_q;
@@ -143,7 +143,8 @@ module ppmc_bank_window_fv
 
   // ---- input buffer ----------------------------------------------------------------------------------
 
-  // written: a byte is written; full_q: a byte is waiting; seen_q: the current visit has read a waiting byte
+  // byte_written: a byte is written; full_q: a byte is waiting; visit_full_q: the current visit has read a
+  // waiting byte
   logic byte_written, full_q, visit_full_q;
   logic written_late_q;  // a byte was written after the read of that visit
   logic [8:0] in_buf_byte_q, visit_byte_q;
@@ -167,19 +168,21 @@ module ppmc_bank_window_fv
   `FV_COVER(seen_replaced_while_accepted,
             watched_s5 && ack_seq_q != next_ack_seq_q && written_late_q && full_q)
 
-  // ---- answers ---------------------------------------------------------------------------------------
+  // ---- responses -------------------------------------------------------------------------------------
 
   typedef struct packed {
-    logic        newest;  // no other answer has been written since
+    logic        newest;  // no other response has been stored since
     logic [1:0]  bytes;
     logic [1:0]  read;    // bytes already read
     logic [23:0] data;
   } read_queue_t;
 
   read_queue_t
-      queue_q, queue_s1_q, queue_s2_q;  // now_q: current state; view1_q, view2_q: its copies in a read
-  // shows: a data byte is loaded; there: an unread byte is left; current_q: the loaded byte is of the last
-  // answer
+      queue_q,
+      queue_s1_q,
+      queue_s2_q;  // queue_q: current state; queue_s1_q, queue_s2_q: its copies in a read
+  // data_loaded: a data byte is loaded; unread_left: an unread byte is left; current_q: the loaded byte is of
+  // the last response
   logic data_loaded, unread_left, current_q;
   logic [7:0] byte_q;
   logic data_loaded_q, unread_left_q;
