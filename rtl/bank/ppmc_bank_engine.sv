@@ -94,15 +94,8 @@ module ppmc_bank_engine
   chop_units_t chop_units_s3_q, chop_units_s4_q;
   state_s1_t state1_s1_q, state1_s2_q, state1_s3_q, state1_s4_q, state1_d, state1_s5_q;
   state_s2_t state2_s2_q, state2_s3_q, state2_s4_q, state2_d, state2_s5_q;
-  interval_t
-      interval_pre_q,
-      interval_s0_q,
-      interval_s1_q,
-      interval_s2_q,
-      interval_s3_q,
-      interval_s4_q,
-      interval_d,
-      interval_s5_q;
+  interval_t interval_pre_q, interval_s0_q, interval_s1_q, interval_s2_q, interval_s3_q, interval_s4_q;
+  interval_t interval_d, interval_s5_q;
   logic [7:0] lookup_rate_s0_q;
   logic [StepBits-1:0] threshold;
   logic [TimeBits-1:0] after_low, after_low_s3_q;

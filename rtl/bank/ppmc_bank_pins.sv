@@ -20,7 +20,7 @@ module ppmc_bank_pins
     input wire logic [RoundBits-1:0] cycle_i,  // number of the cycle in the round
     // command
     input wire logic load_i,  // pin_cmd_i is for this axis
-    input wire pin_cmd_t pin_cmd_i,  // pin changes of the next round
+    input wire pin_cmd_t pin_cmd_i,  // immediate halt, and pin changes of the next round
     input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
     input wire logic stop_i,  // end every running motion
     input wire switches_t switches_i,  // synchronous levels

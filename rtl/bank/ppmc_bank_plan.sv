@@ -53,17 +53,9 @@ module ppmc_bank_plan
 
   action_t act;
   logic abort, cancel_pulse, finish, init_done, go_accept, go_reject, chop_unit, chop_edge;
-  logic has_ramp, pulses_done, is_init, init_complete, accept_ok, unused_stop, unused_bits;
-  logic
-      decelerating,
-      halt,
-      slow_limit,
-      slow_limit_enabled,
-      decel_forced,
-      fast_no_extra,
-      low_may_grow,
-      pulse,
-      hold_waiting;
+  logic has_ramp, pulses_done, is_init, last_init_byte, accept_ok, unused_stop, unused_bits;
+  logic decelerating, halt, slow_limit, slow_limit_enabled, decel_forced;
+  logic fast_no_extra, low_may_grow, pulse, hold_waiting;
 
   assign unused_bits = &{1'b0, motion_i, init_state_i, outputs_i, pin_status_i, in_buf_i, act};
 
@@ -86,9 +78,9 @@ module ppmc_bank_plan
 
   assign pulses_done = !motion_i.more_pulses || abort;
   assign is_init = asking_i.code[7:6] == 2'b00;
-  assign init_complete = is_init && !in_buf_i.is_command && !asking_i.error && asking_i.number == 3'd1;
+  assign last_init_byte = is_init && !in_buf_i.is_command && !asking_i.error && asking_i.number == 3'd1;
   assign accept_ok = !finish && !init_state_i.building && !(compare_i.go && pin_status_i.in_group)
-      && !chop_edge && (builder_free_i || !init_complete);
+      && !chop_edge && (builder_free_i || !last_init_byte);
   assign take_o = in_buf_new_i && accept_ok;
   assign code_o = in_buf_i.is_command ? in_buf_i.data : asking_i.code;
   assign params_o = {in_buf_i.data, asking_i.params[31:8]};

@@ -59,9 +59,8 @@ module ppmc_bank_update
   logic [24:0] margin_add;
   logic [24:0] decel_margin;  // with finish: remaining pulses minus 1
   logic count_down;  // ramp_level decreases by 1
-  logic
-      ccw,
-      position_changes;  // ccw: direction of a pulse that is added or removed; counts: there is such a pulse
+  logic position_changes;  // a pulse is added or removed
+  logic ccw;  // direction of this pulse
 
   assign ccw    = motion_i.ccw ^ decision_i.cancel_pulse;
   assign position_changes = decision_i.pulse || decision_i.cancel_pulse;
