@@ -182,8 +182,8 @@ package ppmc_bank_pkg;
     logic       read;           // a read command
     logic [2:0] read_select;    // data selected by the read command
     logic       halt;           // a stop command that acts immediately
-    logic       abort;          // the pin block has ended the motion
-    logic       cancel_pulse;   // with abort: the last ordered pulse was not output
+    logic       abort_motion;   // the pin block has ended the motion
+    logic       cancel_pulse;   // with abort_motion: the last ordered pulse was not output
     logic       flag_stop;      // deceleration by a command
     logic       flag_slow;      // deceleration by a slow-down limit
     logic       pulse;          // a pulse is ordered

@@ -52,7 +52,7 @@ module ppmc_bank_plan
   typedef logic [TimeBits-1:0] cycles_t;
 
   action_t act;
-  logic abort, cancel_pulse, finish, init_done, go_accept, go_reject, chop_unit, chop_edge;
+  logic abort_motion, cancel_pulse, finish, init_done, go_accept, go_reject, chop_unit, chop_edge;
   logic has_ramp, pulses_done, is_init, last_init_byte, accept_ok, unused_stop, unused_bits;
   logic decelerating, halt, slow_limit, slow_limit_enabled, decel_forced;
   logic fast_no_extra, low_may_grow, pulse, hold_waiting;
@@ -63,12 +63,13 @@ module ppmc_bank_plan
 
   always_comb begin
     has_ramp = motion_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
-    abort = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || !pin_status_i.emitted);
-    cancel_pulse = abort && !pin_status_i.emitted;
-    finish = motion_i.busy
-        && (abort ? cancel_pulse || !motion_i.pulse_low : !motion_i.more_pulses && !motion_i.pulse_low);
+    abort_motion = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || !pin_status_i.emitted);
+    cancel_pulse = abort_motion && !pin_status_i.emitted;
+    finish = motion_i.busy && (abort_motion ? cancel_pulse || !motion_i.pulse_low
+        : !motion_i.more_pulses && !motion_i.pulse_low);
     init_done = init_state_i.building && compare_i.table_idle;
-    go_accept = compare_i.go && pin_status_i.in_group && motion_i.held && motion_i.more_pulses && !abort;
+    go_accept = compare_i.go && pin_status_i.in_group
+        && motion_i.held && motion_i.more_pulses && !abort_motion;
     go_reject = compare_i.go && pin_status_i.in_group && !go_accept;
     chop_unit = !motion_i.busy && outputs_i.chop && compare_i.edge_in_round && !init_done;
     chop_edge = chop_unit && motion_i.ramp_level == '0;
@@ -76,7 +77,7 @@ module ppmc_bank_plan
 
   // ---- the byte ------------------------------------------------------------------------------------
 
-  assign pulses_done = !motion_i.more_pulses || abort;
+  assign pulses_done = !motion_i.more_pulses || abort_motion;
   assign is_init = asking_i.code[7:6] == 2'b00;
   assign last_init_byte = is_init && !in_buf_i.is_command && !asking_i.error && asking_i.number == 3'd1;
   assign accept_ok = !finish && !init_state_i.building && !(compare_i.go && pin_status_i.in_group)
@@ -118,7 +119,7 @@ module ppmc_bank_plan
   // ---- the motion ----------------------------------------------------------------------------------
 
   always_comb begin
-    decision_o.abort = abort;
+    decision_o.abort_motion = abort_motion;
     decision_o.cancel_pulse = cancel_pulse;
     decision_o.finish = finish;
     decision_o.init_done = init_done;
@@ -136,7 +137,7 @@ module ppmc_bank_plan
     decision_o.flag_slow = slow_limit && slow_limit_enabled;
     decel_forced = motion_i.decel_forced || decision_o.flag_stop || decision_o.flag_slow;
 
-    pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort
+    pulse = motion_i.more_pulses && !motion_i.held && !motion_i.pulse_low && !abort_motion
         && compare_i.edge_in_round && !compare_i.rate_mismatch;
     decision_o.pulse = pulse && !halt;
     // A low time that may still become longer does not end before its length is known.

@@ -81,7 +81,7 @@ module ppmc_bank_update
     motion_o.flag_slow = motion_i.flag_slow || decision_i.flag_slow;
     if (decision_i.go_accept) motion_o.held = 1'b0;
     if (decision_i.pulse_end || decision_i.cancel_pulse) motion_o.pulse_low = 1'b0;
-    if (decision_i.abort) motion_o.more_pulses = 1'b0;
+    if (decision_i.abort_motion) motion_o.more_pulses = 1'b0;
     if (decision_i.pulse) begin
       motion_o.pulse_low     = 1'b1;
       motion_o.more_pulses   = !decision_i.last_pulse;

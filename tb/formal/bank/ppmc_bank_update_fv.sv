@@ -73,7 +73,7 @@ module ppmc_bank_update_fv
   `FV_ASSERT(bank_mot_03_position_by_one, position_o - position_i inside {32'd0, 32'd1, 32'hFFFFFFFF})
   `FV_ASSERT(bank_mot_03_position_changes_with_pulses,
              position_o == position_i || pin_cmd_o.pulse || decision_o.cancel_pulse)
-  `FV_ASSERT(p104_lim_03_no_pulse_when_aborted, !(pin_cmd_o.pulse && decision_o.abort))
+  `FV_ASSERT(p104_lim_03_no_pulse_when_aborted, !(pin_cmd_o.pulse && decision_o.abort_motion))
   `FV_ASSERT(p104_stp_03_no_pulse_when_halted, !(pin_cmd_o.pulse && decision_o.halt))
   `FV_ASSERT(
       no_pulse_without_motion,
