@@ -85,8 +85,10 @@ module ppmc_bank_pins
   end
 
 `ifndef SYNTHESIS
-  `PPMC_ASSERT(bank_one_pin_action,
-               2'(pin_cmd_q.pulse) + 2'(pin_cmd_q.pulse_end) + 2'(pin_cmd_q.set_pins) <= 2'd1)
+  logic one_pin_action;
+  assign one_pin_action = !(pin_cmd_q.pulse && pin_cmd_q.pulse_end)
+      && !(pin_cmd_q.pulse && pin_cmd_q.set_pins) && !(pin_cmd_q.pulse_end && pin_cmd_q.set_pins);
+  `PPMC_ASSERT(bank_one_pin_action, one_pin_action)
   `PPMC_ASSERT(bank_mot_02, !(pulse && end_motion))
   `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
 `endif
