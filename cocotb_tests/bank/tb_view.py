@@ -1,4 +1,4 @@
-"""Contract of ppmc_bank_view: docs/bank/carrier.md, and the requirements of BANK-WIN-04 for strobes."""
+"""Contract of ppmc_bank_axis_port: docs/bank/carrier.md, and the requirements of BANK-WIN-04 for strobes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..harness import Block, Unit, rng, same
 AREA = "bank_view"
 GROUPS = ("ppmc_bank_carrier",)
 BLOCKS = {
-    "view": Block("ppmc_bank_view", "cs_ni wr_ni a_i:4 d_i:8 d_o:8 cs_no a_o:10 bank_d_i:8 axis_o:8"),
+    "view": Block("ppmc_bank_axis_port", "cs_ni wr_ni a_i:4 d_i:8 d_o:8 cs_no a_o:10 bank_d_i:8 axis_o:8"),
 }
 CHOICE = 3
 AXES = 64

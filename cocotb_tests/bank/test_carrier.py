@@ -19,7 +19,7 @@ FROM_ZERO = ("--output-split", "0", "--x-initial", "0")
 
 @pytest.mark.parametrize("item", VIEW)
 def test_view(item: Item, sim_options: SimOptions) -> None:
-    """Run one simulation of ppmc_bank_view."""
+    """Run one simulation of ppmc_bank_axis_port."""
     run_block(item, sim_options)
 
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// ppmc_bank_pins: pins of one axis of a bank. Executes each command of a visit in its cycle, and outputs no
+//         pulse when a switch or STOP ends the motion.
+// Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
+// Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
+//         cycle in which cycle_i = at_cycle_q; halt is executed at the end of the first cycle. A switch acts
+//         in the cycle in which it is active on switches_i.
+`include "ppmc_assert.svh"
+`default_nettype none
+
+module ppmc_bank_pins
+  import ppmc_bank_pkg::*;
+  import ppmc_motion_pkg::*;
+#(
+    parameter int unsigned RoundBits = 5,
+    parameter bit          PhaseIdle = 1'b1  // level of s_o before the first command
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic [RoundBits-1:0] cycle_i,  // number of the cycle in the round
+    // command
+    input wire logic load_i,  // pin_cmd_i is for this axis
+    input wire pin_cmd_t pin_cmd_i,  // immediate halt, and pin changes of the next round
+    input wire logic [RoundBits-1:0] at_cycle_i,  // cycle of the pin changes
+    input wire logic stop_i,  // end every running motion
+    input wire switches_t switches_i,  // synchronous levels
+    // status for the visits
+    output logic armed_o,  // pulses may be output
+    output logic emitted_o,  // the last ordered pulse has been output
+    output logic stopped_o,  // cause of armed_o = 0: STOP or a stop command
+    output logic alarm_o,  // cause of armed_o = 0: alarm
+    output logic limit_o,  // cause of armed_o = 0: limit of the direction
+    // pins
+    output logic [5:1] s_o,  // phases
+    output logic hold_o,  // at standstill for the hold time
+    output logic pout_no,  // pulse, L = active
+    output logic dir_o  // 0 = CW
+);
+
+  pin_cmd_t pin_cmd_q;
+  logic [RoundBits-1:0] at_cycle_q;
+  logic loads_pulse;  // a command with a pulse is loaded
+  // cycle_hit: the command is executed in this cycle; end_motion: a cause ends the motion in this cycle
+  logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
+
+  assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
+  assign loads_pulse = load_i && pin_cmd_i.pulse;
+  assign cycle_hit = at_cycle_q == cycle_i;
+  assign limit = pin_cmd_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
+  assign halt = pin_cmd_q.halt || stop_i;
+  assign end_motion = halt || limit || switches_i.alarm || (switches_i.origin && pin_cmd_q.search);
+  assign pulse = cycle_hit && pin_cmd_q.pulse && armed_o && !end_motion;
+  assign pulse_end = cycle_hit && pin_cmd_q.pulse_end;
+  assign set_pins = cycle_hit && pin_cmd_q.set_pins;
+
+  // The action of a command (pulse, pulse_end or set_pins) may still be pending when the next command is
+  // loaded. Then it is executed in exactly this cycle.
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      pin_cmd_q                     <= '0;
+      at_cycle_q                    <= '0;
+      armed_o                       <= 1'b0;
+      emitted_o                     <= 1'b1;
+      {stopped_o, alarm_o, limit_o} <= '0;
+    end else begin
+      pin_cmd_q.halt <= 1'b0;
+      if (load_i) {pin_cmd_q, at_cycle_q} <= {pin_cmd_i, at_cycle_i};
+      if (set_pins || end_motion || (pulse && !pin_cmd_q.arm)) armed_o <= set_pins && pin_cmd_q.arm;
+      if (loads_pulse || pulse || set_pins) emitted_o <= !loads_pulse;
+      if (armed_o) {stopped_o, alarm_o, limit_o} <= {halt, switches_i.alarm, limit};
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      s_o     <= {5{PhaseIdle}};
+      hold_o  <= 1'b1;
+      pout_no <= 1'b1;
+      dir_o   <= 1'b0;
+    end else begin
+      if (pulse || pulse_end) pout_no <= pin_cmd_q.pulse_end;
+      if (pulse || set_pins) s_o <= pin_cmd_q.s;
+      if (set_pins) {hold_o, dir_o} <= {pin_cmd_q.hold, pin_cmd_q.ccw};
+    end
+  end
+
+`ifndef SYNTHESIS
+  logic one_pin_action;
+  assign one_pin_action = !(pin_cmd_q.pulse && pin_cmd_q.pulse_end)
+      && !(pin_cmd_q.pulse && pin_cmd_q.set_pins) && !(pin_cmd_q.pulse_end && pin_cmd_q.set_pins);
+  `PPMC_ASSERT(bank_one_pin_action, one_pin_action)
+  `PPMC_ASSERT(bank_mot_02, !(pulse && end_motion))
+  `PPMC_ASSERT(bank_pulse_once, !(pulse && !pout_no))
+`endif
+
+endmodule
+
+`default_nettype wire
