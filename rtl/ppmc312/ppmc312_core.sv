@@ -68,7 +68,7 @@ module ppmc312_core
     else late_q <= over;
   end
 
-  ppmc312_instr #(
+  ppmc312_instr_unit #(
       .ClkHz    (ClkHz),
       .XtalHz   (XtalHz),
       .Datasheet(Datasheet),
@@ -125,10 +125,10 @@ module ppmc312_core
       .take_i   (take)
   );
 
-  ppmc312_auxin #(
+  ppmc312_aux_monitor #(
       .ClkHz (ClkHz),
       .XtalHz(XtalHz)
-  ) u_auxin (
+  ) u_aux_monitor (
       .clk_i,
       .rst_ni,
       .set_i   (mask),
@@ -139,7 +139,7 @@ module ppmc312_core
       .data_o  (aux_data)
   );
 
-  ppmc312_reports u_reports (
+  ppmc312_report_queue u_reports (
       .clk_i,
       .rst_ni,
       .serial_i,

@@ -27,7 +27,7 @@ module ppmc312_fuzz
   logic [31:0] digest_q;
 
   // 20 cycles are 20 ms.
-  ppmc312_frame #(
+  ppmc312_serial_rx #(
       .ClkHz   (1_000),
       .CharsSum(CharsSum)
   ) dut (
@@ -51,7 +51,7 @@ module ppmc312_fuzz
       .overrun_o(overrun)
   );
 
-  ppmc312_codes u_codes (
+  ppmc312_serial_code_rom u_code_rom (
       .clk_i,
       .code_i(code),
       .info_o(info)

@@ -2,7 +2,7 @@
 // ppmc312_serial: serial front end: a station on a line with a host. It receives frames, passes blocks to the
 //         core and sends replies.
 // Rules:  section 2.4, P312-PRT-01..03, P312-BAD-16/17.
-// Timing: a character is received in the middle of its stop bit. See ppmc312_replies and ppmc312_sender.
+// Timing: a character is received in the middle of its stop bit. See ppmc312_serial_reply and ppmc312_serial_tx.
 // Rate:   bits are timed by a phase accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud. A
 //         bit lasts a whole number of phases.
 `include "ppmc_assert.svh"
@@ -99,17 +99,17 @@ module ppmc312_serial
   assign take_valid = valid && ready_i;
   assign framing = error && ready_i;
 
-  ppmc312_codes u_codes (
+  ppmc312_serial_code_rom u_code_rom (
       .clk_i,
       .code_i(code),
       .info_o(info)
   );
 
-  ppmc312_frame #(
+  ppmc312_serial_rx #(
       .ClkHz   (ClkHz),
       .XtalHz  (XtalHz),
       .CharsSum(CharsSum)
-  ) u_frame (
+  ) u_rx_frame (
       .clk_i,
       .rst_ni,
       .adr_i,
@@ -130,7 +130,7 @@ module ppmc312_serial
       .overrun_o(overrun)
   );
 
-  ppmc312_block u_block (
+  ppmc312_serial_block u_block (
       .clk_i,
       .info_i(info),
       .we_i  (we),
@@ -143,7 +143,7 @@ module ppmc312_serial
 
   assign byte_o = '{we: we, at: at, data: placed};
 
-  ppmc312_replies u_replies (
+  ppmc312_serial_reply u_reply (
       .clk_i,
       .rst_ni,
       .poll_i     (poll),
@@ -169,12 +169,12 @@ module ppmc312_serial
   // byte.
   assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
 
-  ppmc312_sender #(
+  ppmc312_serial_tx #(
       .Width   (Width),
       .CharsSum(CharsSum),
       .SndLead (SndLead),
       .SndWait (SndWait)
-  ) u_sender (
+  ) u_tx (
       .clk_i,
       .rst_ni,
       .adr_i,

@@ -119,13 +119,13 @@ module ppmc312_exec
       .put_data_o(put_o.data)
   );
 
-  ppmc312_codebook u_codebook (
+  ppmc312_instr_rom u_instr_rom (
       .clk_i,
       .code_i(code),
       .info_o(info)
   );
 
-  ppmc312_judge u_judge (
+  ppmc312_instr_check u_check (
       .clk_i,
       .rst_ni,
       .block_i   (block_o),
@@ -212,7 +212,7 @@ module ppmc312_exec
   assign fails = !host && ((act && verdict != VerdictGo) ||
       (move_ends && (move_i.limited || move_i.refused)) || (setup_ends && setup_i.bad));
 
-  ppmc312_compose u_compose (
+  ppmc312_response_format u_format (
       .block_i    (block_o),
       .verdict_i  (verdict),
       .error_i    (error),

@@ -91,7 +91,7 @@ module ppmc312_setup
     end
   end
 
-  ppmc312_free u_free (
+  ppmc312_free_curve u_free_curve (
       .clk_i,
       .rst_ni,
       .open_i    (order_i.open),

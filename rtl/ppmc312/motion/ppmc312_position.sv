@@ -110,7 +110,7 @@ module ppmc312_position
   end
 
   for (genvar n = 0; n < 2; n++) begin : g_window
-    ppmc312_window u_window (
+    ppmc312_window_monitor u_window (
         .clk_i,
         .rst_ni,
         .set_i     (set_window_i[n]),

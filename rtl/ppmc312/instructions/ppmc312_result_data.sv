@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_reply: data that an executed instruction returns: the bytes after the code of its answer.
+// ppmc312_result_data: data that an executed instruction returns: the bytes after the code of its answer.
 // Rules:  section 3.1 (answers), P312-CMD-25/27/40..4D.
 // Timing: outputs are registered. All bytes are from the same cycle, so a position of four bytes is a
 //         snapshot.
 `default_nettype none
 
-module ppmc312_reply
+module ppmc312_result_data
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr: processing of instructions: those of the host, stored ones that wait for a trigger, their
+// ppmc312_instr_unit: processing of instructions: those of the host, stored ones that wait for a trigger, their
 //         effects and their answers.
 // Rules:  see its blocks. Timing: see ppmc312_exec.
 `default_nettype none
 
-module ppmc312_instr
+module ppmc312_instr_unit
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;
@@ -107,11 +107,11 @@ module ppmc312_instr
       .class2_i
   );
 
-  ppmc312_pace #(
+  ppmc312_proc_time #(
       .ClkHz    (ClkHz),
       .XtalHz   (XtalHz),
       .Datasheet(Datasheet)
-  ) u_pace (
+  ) u_proc_time (
       .clk_i,
       .rst_ni,
       .idle_i (idle),
@@ -122,7 +122,7 @@ module ppmc312_instr
 
   // ---- stored instructions ------------------------------------------------------------------------
 
-  ppmc312_store u_store (
+  ppmc312_instr_queue u_queue (
       .clk_i,
       .rst_ni,
       .edge_i       (inputs_i.fell),
@@ -217,9 +217,9 @@ module ppmc312_instr
 
   // ---- answers ------------------------------------------------------------------------------------
 
-  ppmc312_reply #(
+  ppmc312_result_data #(
       .Version(Version)
-  ) u_reply (
+  ) u_result (
       .clk_i,
       .block_i (block_o),
       .inputs_i,
@@ -232,7 +232,7 @@ module ppmc312_instr
       .value_o (value)
   );
 
-  ppmc312_answer u_answer (
+  ppmc312_response_writer u_writer (
       .clk_i,
       .rst_ni,
       .start_i    (write.answer),
@@ -252,7 +252,7 @@ module ppmc312_instr
       .size_o     (answer_size)
   );
 
-  ppmc312_readback u_readback (
+  ppmc312_table_read u_table_read (
       .clk_i,
       .rst_ni,
       .open_i (write.table_open),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_auxin: reports changes of the masked bits of the generalized input.
+// ppmc312_aux_monitor: reports changes of the masked bits of the generalized input.
 // Rules:  P312-MON-10, P312-CMD-28.
 // Timing: auxi_i is sampled every 50 us, counted from set_i; report_o is high in the cycle of the sample.
 `default_nettype none
 
-module ppmc312_auxin #(
+module ppmc312_aux_monitor #(
     parameter int unsigned ClkHz  = 16_000_000,
     parameter int unsigned XtalHz = 16_000_000
 ) (

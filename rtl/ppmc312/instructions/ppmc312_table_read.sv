@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_readback: writes the data blocks of a table read: rates, acceleration and deceleration pulses,
+// ppmc312_table_read: writes the data blocks of a table read: rates, acceleration and deceleration pulses,
 //         fastest stage first.
 // Rules:  P312-CMD-41.
 // Timing: next_i starts the next block, which takes 6 cycles per stage; done_o is asserted in its last cycle.
 `default_nettype none
 
-module ppmc312_readback
+module ppmc312_table_read
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;
@@ -13,7 +13,7 @@ module ppmc312_readback
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic open_i,  // strobe: a table read begins; ppmc312_answer writes its first block
+    input wire logic open_i,  // strobe: a table read begins; ppmc312_response_writer writes its first block
     output logic more_o,  // more blocks follow
     input wire logic next_i,  // strobe: write the next block
     output logic busy_o,  // a block is being written

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_pace: delays the effect of an instruction by the processing time of the old chip (Datasheet = 1).
+// ppmc312_proc_time: delays the effect of an instruction by the processing time of the old chip (Datasheet = 1).
 // Rules:  P312-TIM-02..13, P312-TIM-20.
 // Timing: open_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
 //         Datasheet = 0 it is always high.
 // Note:   the time of a start ends at pulse 1, which occurs TW after t0.
 `default_nettype none
 
-module ppmc312_pace
+module ppmc312_proc_time
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
 #(

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_judge: checks whether a block may be executed: size, header, code, status, length, values, in this
+// ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in this
 //         order.
 // Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03, section 10.2.
 // Timing: the verdict is valid three cycles after the block.
 `default_nettype none
 
-module ppmc312_judge
+module ppmc312_instr_check
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;

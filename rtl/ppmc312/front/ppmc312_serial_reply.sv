@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_replies: generates one reply to each frame: immediately for polls, local reads and faults,
+// ppmc312_serial_reply: generates one reply to each frame: immediately for polls, local reads and faults,
 //         otherwise after the core has executed the instruction.
 // Rules:  P312-SER-14, P312-SER-17..20, P312-SER-30, P312-SER-45/46, P312-STA-01 (4E, 4F).
 // Timing: a frame that ends in cycle n is offered to the core in cycle n + 2, or its reply is valid in cycle
@@ -7,7 +7,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_replies
+module ppmc312_serial_reply
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
@@ -49,13 +49,13 @@ module ppmc312_replies
   logic [2:0] errors_q;
   logic [2:0][7:0] counts;
 
-  ppmc312_polled u_polled (
+  ppmc312_serial_poll u_poll (
       .poll_i (found_i),
       .status_i,
       .reply_o(polled)
   );
 
-  ppmc312_counts u_counts (
+  ppmc312_serial_errors u_errors (
       .clk_i,
       .rst_ni,
       .error_i(errors_q),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_codes: translates an instruction code of the serial mode to the parallel bus.
+// ppmc312_serial_code_rom: translates an instruction code of the serial mode to the parallel bus.
 // Rules:  section 3.6; P312-SER-40..44.
 // Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
 // How:    look-up table in a block RAM; the function meaning computes its words.
 `default_nettype none
 
-module ppmc312_codes
+module ppmc312_serial_code_rom
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
 (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_sender: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
+// ppmc312_serial_tx: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
 // Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
 //         heard_i. heard_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end. Edge
@@ -10,7 +10,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_sender
+module ppmc312_serial_tx
   import ppmc312_serial_pkg::*;
 #(
     parameter int unsigned Width    = 20,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_frame: parses the frames of the host: control code, hexadecimal data, checksum, silence.
+// ppmc312_serial_rx: parses the frames of the host: control code, hexadecimal data, checksum, silence.
 // Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
 // Timing: poll_o, run_o, fault_o, strange_o and overrun_o are asserted in the cycle of the deciding
 //         character, or of the end of the silence.
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_frame
+module ppmc312_serial_rx
   import ppmc312_serial_pkg::*;
 #(
     parameter int unsigned ClkHz    = 16_000_000,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_polled: selects the answer to a poll: the first pending report, otherwise busy or ready.
+// ppmc312_serial_poll: selects the answer to a poll: the first pending report, otherwise busy or ready.
 // Rules:  P312-SER-30, sections 4 and 10.3.
 // Timing: combinational.
 `default_nettype none
 
-module ppmc312_polled
+module ppmc312_serial_poll
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_compose: builds the answer to an instruction from the result of its check or execution.
+// ppmc312_response_format: builds the answer to an instruction from the result of its check or execution.
 // Rules:  sections 3.1, 10.1, 10.2; P312-OVR-04, P312-EVT-02, P312-CMD-FC-1..4, P312-CMD-49.
 // Timing: combinational.
 `default_nettype none
 
-module ppmc312_compose
+module ppmc312_response_format
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;

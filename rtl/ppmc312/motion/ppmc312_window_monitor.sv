@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_window: one of the two position monitors (in-position, encode): inside or outside its range, and
+// ppmc312_window_monitor: one of the two position monitors (in-position, encode): inside or outside its range, and
 //         its reports.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
 // Timing: wait_o follows inside_i by two cycles.
 // Note:   a report is pending while the state differs from the state that the host has read last.
 `default_nettype none
 
-module ppmc312_window (
+module ppmc312_window_monitor (
     input  wire logic clk_i,       // clock
     input  wire logic rst_ni,      // reset, asynchronous
     input  wire logic set_i,       // strobe: latch enable_i and repeat_i; restart

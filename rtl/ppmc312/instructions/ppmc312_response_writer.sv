@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_answer: writes an answer byte by byte into the store of class 2.
+// ppmc312_response_writer: writes an answer byte by byte into the store of class 2.
 // Rules:  section 10.1, P312-GEN-04 (logical order), P312-RSP-10.
 // Timing: done_o follows start_i by 3 + bytes cycles. The echo reads the instruction from its source, two
 //         cycles after echo_addr_o.
 // Assumes: answer_i is stable from start_i to done_o.
 `default_nettype none
 
-module ppmc312_answer
+module ppmc312_response_writer
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;

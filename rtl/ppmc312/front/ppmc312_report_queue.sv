@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_reports: holds reports until the host has read them: eight classes, each with a separate store.
+// ppmc312_report_queue: holds reports until the host has read them: eight classes, each with a separate store.
 // Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30, section 10.1.
 // Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
 // Note:   the store of class 2 has two entries: the host reads one while the next answer is written to the
@@ -10,7 +10,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_reports
+module ppmc312_report_queue
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;

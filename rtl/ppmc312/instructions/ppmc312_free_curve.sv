@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_free: receives a free-curve transfer: writes blocks of rates and pulse numbers into the stage
+// ppmc312_free_curve: receives a free-curve transfer: writes blocks of rates and pulse numbers into the stage
 //         table.
 // Rules:  P312-CMD-FC-1..10.
 // Timing: open_i latches split_i, acc_i and dec_i. done_o follows data_i by bytes_i + 4 cycles; the results
@@ -8,7 +8,7 @@
 //         without a table.
 `default_nettype none
 
-module ppmc312_free
+module ppmc312_free_curve
   import ppmc312_pkg::*;
   import ppmc312_stage_pkg::*;
 (

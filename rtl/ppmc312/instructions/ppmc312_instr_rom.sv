@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_codebook: look-up table of the properties of instruction codes.
+// ppmc312_instr_rom: look-up table of the properties of instruction codes.
 // Rules:  P312-STA-01, section 3.1 (info_of in ppmc312_pkg).
 // Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
 `default_nettype none
 
-module ppmc312_codebook
+module ppmc312_instr_rom
   import ppmc312_pkg::*;
 (
     input  wire logic       clk_i,   // clock

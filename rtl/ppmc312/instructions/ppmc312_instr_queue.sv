@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_store: stores instructions that wait for a trigger: a command FIFO of eight entries and two event
+// ppmc312_instr_queue: stores instructions that wait for a trigger: a command FIFO of eight entries and two event
 //         buffers of four.
 // Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
 // Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous one. halt_o follows the
@@ -10,7 +10,7 @@
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_store
+module ppmc312_instr_queue
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
   import ppmc312_instr_pkg::*;

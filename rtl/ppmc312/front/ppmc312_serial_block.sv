@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_block: converts an instruction received in serial mode to the equivalent block of the parallel bus.
+// ppmc312_serial_block: converts an instruction received in serial mode to the equivalent block of the parallel bus.
 // Rules:  P312-SER-40..43, P312-GEN-04.
 // Timing: data_o is combinational; size_o is valid from the last data byte on.
 `default_nettype none
 
-module ppmc312_block
+module ppmc312_serial_block
   import ppmc312_pkg::*;
   import ppmc312_serial_pkg::*;
 (
