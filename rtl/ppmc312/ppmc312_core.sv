@@ -24,7 +24,7 @@ module ppmc312_core
     input wire host_block_t host_block_i,  // block from the host
     output logic [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
     input wire logic [7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
-    output logic blk_done_o,  // strobe: the block is processed and answered
+    output logic blk_done_o,  // strobe: the block is processed, its response stored
     output logic rd_any_o,  // a report is pending
     input wire logic rd_load_i,  // strobe: load the next report
     output logic [BLOCK_BITS:0] rd_size_o,  // bytes, 3 .. 32; valid 2 cycles after rd_load_i

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_link_pkg: types of the signals between front end, instructions and motor side of the PPMC-312.
-// Rules:  sections 2.3, 10.1..10.3; P312-GEN-04, P312-RSP-10/20/21, P312-PRT-04, P312-MON-01..06.
+// Rules:  docs/ppmc312/README.md, Pins, Answers and reports; P312-GEN-04, P312-RSP-10/20/21, P312-PRT-04,
+//         P312-MON-01..06.
 // Note:   all fields are synchronous to clk. A strobe is high for one cycle. Names that end in _n are active
 //         low, as on the pin; all others are active high.
 `default_nettype none
@@ -22,7 +23,7 @@ package ppmc312_link_pkg;
 
   // ---- an instruction in progress -----------------------------------------------------------------
 
-  // Source of an instruction; coded as RESP in the header of the answer.
+  // Source of an instruction; coded as RESP in the header of the response.
   typedef enum logic [1:0] {
     SrcHost     = 2'b00,
     SrcEvent    = 2'b01,
@@ -81,11 +82,11 @@ package ppmc312_link_pkg;
   } operation_t;
 
   typedef struct packed {
-    logic start;  // strobe: start op along plan; only at standstill
+    logic start;  // strobe: start op along profile; only at standstill
     operation_t op;  // valid with start
-    logic change;  // strobe: change the rate to plan.to
-    profile_t profile;  // stable from start to t0; plan.to until 2 cycles after change
-    logic single_pulse;  // stable like plan; 1: one pulse at the start-up rate, not plan.to, regardless of plan.dec
+    logic change;  // strobe: change the rate to profile.target
+    profile_t profile;  // stable from start to t0; target until 2 cycles after change
+    logic single_pulse;  // stable like profile; 1: one pulse at the start-up rate
     logic pos_halt;  // strobe: the position of an immediate stop is reached
     logic triggers_done;  // 1: all triggered instructions are processed
   } motion_req_t;
@@ -122,7 +123,7 @@ package ppmc312_link_pkg;
   typedef struct packed {
     alarm_event_t alarm;  // class 1
     logic unlock;  // class 3, strobe: interlock control ends
-    logic hold_end;  // class 4, strobe: a held start begins
+    logic hold_end;  // class 4, strobe: RUN releases a start that it held
     logic stop;  // class 5, strobe: a motion has ended
     end_cause_t cause;  // cause of the end; valid with stop
   } axis_event_t;
@@ -146,7 +147,7 @@ package ppmc312_link_pkg;
     logic [7:0]            data;  // byte at addr
   } response_write_t;
 
-  // Result of a triggered instruction. The comments are the codes in the answer to a poll.
+  // Result of a triggered instruction. The comments are the codes in the reply to a poll.
   typedef enum logic [1:0] {
     DoneOverride = 2'b00,  // 28
     DoneEvent    = 2'b01,  // 29
@@ -155,23 +156,23 @@ package ppmc312_link_pkg;
   } trigger_result_e;
 
   typedef struct packed {
-    logic                valid;           // strobe: an answer is complete
-    logic                host;            // the answer is for the host
+    logic                valid;           // strobe: a response is complete
+    logic                host;            // the response is for the host
     trigger_result_e     trigger_result;  // if not for the host: result of the triggered instruction
     logic [BLOCK_BITS:0] size;            // bytes, 3 .. 32
   } response_done_t;
 
-  // State of the two-entry store of class 2.
+  // State of the two-entry queue of class 2.
   typedef struct packed {
-    logic full;       // an answer can be read
-    logic full_host;  // this answer is for the host
-    logic pending;    // a second answer waits after this one
+    logic full;       // a response can be read
+    logic full_host;  // this response is for the host
+    logic pending;    // a second response waits after this one
   } response_queue_t;
 
   // Result of a block from the host, for the serial station.
   typedef struct packed {
     logic       valid;  // strobe: the block is executed
-    logic [7:0] code;   // code of the answer, one cycle later
+    logic [7:0] code;   // code of the response, one cycle later
     logic [2:0] first;  // low bits of the first byte after the code, one cycle later
   } host_result_t;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_pkg: instruction codes, statuses, accept table, instruction lengths, reports and errors of the
 // PPMC-312.
-// Rules:  P312-STA-01 (accept table), section 3.1 (lengths), sections 10.1..10.3 (reports, errors, causes).
+// Rules:  P312-STA-01 (accept table), P312-BLK-01 (lengths); docs/ppmc312/README.md, Answers
+//         and reports (reports, errors, causes).
 `default_nettype none
 
 package ppmc312_pkg;
@@ -78,7 +79,7 @@ package ppmc312_pkg;
     logic [5:0] states_ov0;     // statuses that accept the code with OV = 0
     logic [5:0] states_ov1;     // statuses that accept the code with OV = 1
     logic [4:0] len_long;       // longer legal length of code and parameters
-    logic [4:0] len_short;      // shorter legal length, at most len_a
+    logic [4:0] len_short;      // shorter legal length, at most len_long
   } instr_info_t;
 
   localparam logic [5:0] STATES_STANDSTILL = StatusIni | StatusNor;
@@ -205,7 +206,7 @@ package ppmc312_pkg;
   localparam logic [7:0] E_INPOS_ZERO = 8'h26;
   localparam logic [7:0] E_ENCODE_ZERO = 8'h27;
 
-  // Causes of the end of a motion, in the bit order of the byte in E0 (section 10.3). Exactly one bit is set.
+  // Causes of the end of a motion, in the bit order of the byte in report E0. Exactly one bit is set.
   typedef struct packed {logic als, nos, org, low, dec, stp, del, stl;} end_cause_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_proc_time: delays the effect of an instruction by the processing time of the old chip (Datasheet = 1).
+// ppmc312_proc_time: delays the effect of an instruction by the processing time of the old chip (Datasheet =
+//         1).
 // Rules:  P312-TIM-02..13, P312-TIM-20.
-// Timing: open_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
+// Timing: elapsed_o is high when the time of block_i has passed, counted from the last cycle of idle_i. With
 //         Datasheet = 0 it is always high.
 // Note:   the time of a start ends at pulse 1, which occurs TW after t0.
 `default_nettype none
@@ -69,7 +70,7 @@ module ppmc312_proc_time
       endcase
     end
 
-    // limit_q is one cycle late, so limit must be unchanged for two cycles.
+    // limit_q follows limit by one cycle, so limit must be unchanged for two cycles.
     always_ff @(posedge clk_i or negedge rst_ni) begin
       if (!rst_ni) begin
         limit_q   <= '0;

@@ -31,7 +31,7 @@ module ppmc312_reset #(
 
   localparam int unsigned StartXtal = 25_600;
 
-  // rst_pin resets flip-flops and is also a data signal, which restarts the delay.
+  // rst_pin_n resets flip-flops and is also a data signal, which restarts the delay.
   // verilator lint_off SYNCASYNCNET
   logic rst_pin_n;
   // verilator lint_on SYNCASYNCNET

@@ -36,7 +36,7 @@ module ppmc312_mailbox
     output host_block_t host_block_o,  // block for the core
     input wire logic [BLOCK_BITS-1:0] blk_addr_i,  // byte of the block, 0 = header
     output logic [7:0] blk_data_o,  // byte at blk_addr_i, two cycles later
-    input wire logic blk_done_i,  // strobe: the block is processed and answered
+    input wire logic blk_done_i,  // strobe: the block is processed, its response stored
     input wire block_write_t block_write_i,  // byte of a block from the serial station
     // reports to the host
     input wire logic rd_any_i,  // a report is pending
@@ -107,7 +107,7 @@ module ppmc312_mailbox
         at_q <= (wr_data < 8'(WindowBytes)) ? wr_data[BLOCK_BITS:0] : WindowBytes;
         host_block_o.size <= 6'(ppmc_pkg::inc(
             {26'd0, ~wr_data[BLOCK_BITS:0]}
-        )) ^ WindowBytes;  // Top - wr_data
+        )) ^ WindowBytes;  // WindowBytes - wr_data
       end
       if (write_byte) at_q <= 6'(ppmc_pkg::inc(32'(at_q)));
       if (write_byte && at_q == WindowBytes - 1'b1) host_block_o.valid <= 1'b1;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_report_queue: holds reports until the host has read them: eight classes, each with a separate store.
-// Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30, section 10.1.
+// ppmc312_report_queue: stores reports until the host has read them: eight classes, each with a separate
+//         queue.
+// Rules:  P312-RSP-10/11/20/21, P312-SER-21/22/30.
 // Timing: an event is stored one cycle later. rd_size_o and the bytes are valid 2 cycles after rd_load_i.
-// Note:   the store of class 2 has two entries: the host reads one while the next answer is written to the
-//         other. A complete answer (commit_i) becomes readable as soon as the previous one has been read. In
-//         serial mode the station reads the answer to the host from the entry that is written, and class 2
-//         reports the result of triggered instructions; rd_load_i consumes a report, and a newer report
-//         replaces a pending one.
+// Note:   the queue of class 2 has two entries: the host reads one while the next response is written to the
+//         other. A complete response (response_done_i) becomes readable as soon as the previous one has been
+//         read. In serial mode the station reads the response to the host from the entry that is written, and
+//         class 2 reports the result of triggered instructions; rd_load_i consumes a report, and a newer
+//         report replaces a pending one.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -20,18 +21,18 @@ module ppmc312_report_queue
     input wire logic serial_i,  // 1: the front end is the serial station
     // events
     input wire axis_event_t axis_event_i,  // events of classes 1, 3, 4, 5
-    input wire logic [31:0] pos_i,  // position in pulses; valid with notice_i.stop
+    input wire logic [31:0] pos_i,  // position in pulses; valid with axis_event_i.stop
     output alarm_event_t discarded_o,  // multiple occurrence: a report of class 3, 4 or 5 is discarded
-    input wire response_write_t response_write_i,  // class 2: byte of an answer
-    input wire response_done_t response_done_i,  // class 2: an answer is complete
-    output response_queue_t response_queue_o,  // class 2: state of the store
+    input wire response_write_t response_write_i,  // class 2: byte of a response
+    input wire response_done_t response_done_i,  // class 2: a response is complete
+    output response_queue_t response_queue_o,  // class 2: state of the queue
     input wire logic aux_clear_i,  // class 6, strobe: discard waiting reports
     input wire logic aux_i,  // strobe: the generalized input has changed
     input wire logic [7:0] aux_data_i,  // changed bits; valid with aux_i
     input wire monitor_req_t monitor_req_i,  // classes 7 and 8
     output monitor_ack_t monitor_ack_o,  // classes 7 and 8: report is loaded, has been read
     // front end
-    input wire logic hold_i,  // 1: an answer follows soon; only classes 1, 2 are offered
+    input wire logic hold_i,  // 1: a response follows soon; only classes 1, 2 are offered
     output logic rd_any_o,  // a report is pending
     input wire logic rd_load_i,  // strobe: load the next report
     output poll_result_t poll_result_o,  // serial mode: report that rd_load_i consumes
@@ -70,7 +71,7 @@ module ppmc312_report_queue
     full_q || class2_pending_q,
     alarm_full_q
   };
-  // Reports that an instruction causes follow its answer.
+  // Reports that an instruction causes follow its response.
   assign hold = !serial_i && (hold_i || (pending_q && !full_q));
   assign offered = hold ? {6'd0, pending[2:1]} : pending;
   assign rd_any_o = offered != '0 && !loaded_q;

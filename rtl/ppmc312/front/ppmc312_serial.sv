@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_serial: serial front end: a station on a line with a host. It receives frames, passes blocks to the
 //         core and sends replies.
-// Rules:  section 2.4, P312-PRT-01..03, P312-BAD-16/17.
-// Timing: a character is received in the middle of its stop bit. See ppmc312_serial_reply and ppmc312_serial_tx.
+// Rules:  P312-SER-01..22, P312-PRT-01..03, P312-BAD-16/17.
+// Timing: a character is received in the middle of its stop bit. See ppmc312_serial_reply, ppmc312_serial_tx.
 // Rate:   bits are timed by a phase accumulator with an exact modulus: XTAL * {3/2500, 6/2500, 1/192} baud. A
 //         bit lasts a whole number of phases.
 `include "ppmc_assert.svh"
@@ -19,27 +19,27 @@ module ppmc312_serial
     parameter int unsigned SndLead  = 1,           // bits from the rise of snd_o to the start bit, 1 .. 16
     parameter int unsigned SndWait  = 0            // bits of wait before snd_o in addition to 0.5, 0 .. 8
 ) (
-    input  wire logic                          clk_i,          // clock
-    input  wire logic                          rst_ni,         // reset, asynchronous
-    input  wire logic                          ready_i,        // 0: received characters are ignored
-    input  wire logic                          enable_i,       // 0: nothing is received or sent
-    input  wire logic         [           1:0] rate_i,         // 1: 19 200, 2: 38 400, 3: 83 333 baud
-    input  wire logic         [           3:0] adr_i,          // station number
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic ready_i,  // 0: received characters are ignored
+    input wire logic enable_i,  // 0: nothing is received or sent
+    input wire logic [1:0] rate_i,  // 1: 19 200, 2: 38 400, 3: 83 333 baud
+    input wire logic [3:0] adr_i,  // station number
     // pins
-    input  wire logic                          rxd_i,          // line, asynchronous; idle high
-    output logic                               txd_o,          // line, idle high
-    output logic                               snd_o,          // 1: drive the line
+    input wire logic rxd_i,  // line, asynchronous; idle high
+    output logic txd_o,  // line, idle high
+    output logic snd_o,  // 1: drive the line
     // blocks from the host
-    output host_block_t                        host_block_o,   // block for the core
-    output block_write_t                       block_write_o,  // byte for the write window
-    // answers to these blocks
-    input  wire host_result_t                  host_result_i,  // result of the executed block
-    output logic              [BLOCK_BITS-1:0] rd_addr_o,      // byte of the answer, 0 = header
-    input  wire logic         [           7:0] rd_data_i,      // byte at rd_addr_o, two cycles later
+    output host_block_t host_block_o,  // block for the core
+    output block_write_t block_write_o,  // byte for the write window
+    // responses to these blocks
+    input wire host_result_t host_result_i,  // result of the executed block
+    output logic [BLOCK_BITS-1:0] rd_addr_o,  // byte of the response, 0 = header
+    input wire logic [7:0] rd_data_i,  // byte at rd_addr_o, two cycles later
     // state and reports
-    input  wire status_e                       status_i,       // status of the device
-    output logic                               report_take_o,  // strobe: the report in found_i is consumed
-    input  wire poll_result_t                  poll_result_i   // report that a poll finds
+    input wire status_e status_i,  // status of the device
+    output logic report_take_o,  // strobe: the report in poll_result_i is consumed
+    input wire poll_result_t poll_result_i  // report that a poll finds
 );
 
   // A bit lasts Modulus / step cycles.
@@ -165,7 +165,7 @@ module ppmc312_serial
       .sent_i        (sent)
   );
 
-  // The answer to I_POS names the selected position in an extra byte before the value; a reply omits this
+  // The response to I_POS names the selected position in an extra byte before the value; a reply omits this
   // byte.
   assign rd_addr_o = BLOCK_BITS'(index) + ((info.code == I_POS) ? 5'd4 : 5'd3);
 

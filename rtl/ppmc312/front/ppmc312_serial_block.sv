@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_block: converts an instruction received in serial mode to the equivalent block of the parallel bus.
+// ppmc312_serial_block: converts an instruction received in serial mode to the equivalent block of the
+//         parallel bus.
 // Rules:  P312-SER-40..43, P312-GEN-04.
 // Timing: data_o is combinational; size_o is valid from the last data byte on.
 `default_nettype none

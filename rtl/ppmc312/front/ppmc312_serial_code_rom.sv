@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_serial_code_rom: translates an instruction code of the serial mode to the parallel bus.
-// Rules:  section 3.6; P312-SER-40..44.
+// Rules:  P312-SER-40..44.
 // Timing: latency 2 cycles; block RAMs are slow, so the output has a register.
 // How:    look-up table in a block RAM; the function meaning computes its words.
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_serial_pkg: types of the serial station: instruction codes, polled reports, replies.
-// Rules:  sections 2.4 and 3.6; P312-SER-20, P312-SER-30, section 10.3 (END codes).
+// Rules:  P312-SER-20, P312-SER-30 (END codes), P312-SER-40..44.
 `default_nettype none
 
 package ppmc312_serial_pkg;
@@ -30,7 +30,7 @@ package ppmc312_serial_pkg;
   typedef struct packed {
     logic [3:0]                        report_class;    // class of the first pending report; 0: no report
     ppmc312_link_pkg::trigger_result_e trigger_result;  // class 2
-    ppmc312_pkg::end_cause_t           cause;           // class 5; held for the END code
+    ppmc312_pkg::end_cause_t           cause;           // class 5; stored for the END code
     logic                              discarded;       // class 6: a change was discarded
     logic [7:0]                        data;            // class 6: changed bits of the input
     logic                              outside;         // classes 7, 8: 1: outside, 0: inside
@@ -68,7 +68,7 @@ package ppmc312_serial_pkg;
   typedef struct packed {
     reply_kind_e     kind;
     logic [2:0]      count;          // data bytes
-    logic            from_response;  // the data bytes are in the answer store
+    logic            from_response;  // the data bytes are in the response queue
     logic [2:0][7:0] data;           // otherwise: data bytes, data[0] first
   } reply_t;
 

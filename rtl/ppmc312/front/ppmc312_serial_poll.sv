@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_poll: selects the answer to a poll: the first pending report, otherwise busy or ready.
-// Rules:  P312-SER-30, sections 4 and 10.3.
+// ppmc312_serial_poll: selects the reply to a poll: the first pending report, otherwise busy or ready.
+// Rules:  P312-SER-20, P312-SER-30.
 // Timing: combinational.
 `default_nettype none
 

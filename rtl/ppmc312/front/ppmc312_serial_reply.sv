@@ -26,7 +26,7 @@ module ppmc312_serial_reply
     output logic                    busy_o,          // a reply is pending or being sent
     // core
     input  wire status_e            status_i,        // status of the device
-    output logic                    report_take_o,   // strobe: the report in found_i is consumed
+    output logic                    report_take_o,   // strobe: the report in poll_result_i is consumed
     input  wire poll_result_t       poll_result_i,   // report that a poll finds
     output logic                    blk_valid_o,     // a block is pending for the core
     input  wire host_result_t       host_result_i,   // result of the executed block
@@ -63,7 +63,7 @@ module ppmc312_serial_reply
       .count_o(counts)
   );
 
-  // The counters may be one cycle late, because errors and reads of the counters belong to different
+  // The counters follow by one cycle, because errors and reads of the counters belong to different
   // characters.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) errors_q <= '0;

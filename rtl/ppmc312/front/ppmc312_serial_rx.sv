@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_serial_rx: parses the frames of the host: control code, hexadecimal data, checksum, silence.
 // Rules:  P312-SER-02, P312-SER-10..17, P312-BAD-16.
-// Timing: poll_o, run_o, fault_o, strange_o and overrun_o are asserted in the cycle of the deciding
+// Timing: poll_o, run_o, fault_o, unknown_code_o and overrun_o are asserted in the cycle of the deciding
 //         character, or of the end of the silence.
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -28,7 +28,7 @@ module ppmc312_serial_rx
     output logic                    we_o,            // strobe: a byte of the block
     output logic                    generated_o,     // the byte is header, length, code or flags
     output logic              [3:0] addr_o,          // position of the byte, 0 = header
-    output logic              [7:0] data_o,          // received byte; valid with we_o and head_o = 0
+    output logic              [7:0] data_o,          // received byte; valid with we_o and generated_o = 0
     // result
     output logic                    poll_o,          // strobe: a poll
     output logic                    run_o,           // strobe: an instruction with a correct checksum

@@ -2,8 +2,8 @@
 // ppmc312_serial_tx: sends a reply when the line is free: gate, control code, hexadecimal data, checksum.
 // Rules:  P312-SER-01/02, P312-SER-13, P312-SER-18.
 // Timing: snd_o rises one cycle after send_i, but at least ceil((1 + SndWait) * bit time) + 2 cycles after
-//         heard_i. heard_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end. Edge
-//         n of the frame occurs ceil(n * bit time) after the rise of snd_o; the first start bit is edge
+//         rx_char_i. rx_char_i marks the middle of a stop bit, so this is SndWait + 0.5 bits after its end.
+//         Edge n of the frame occurs ceil(n * bit time) after the rise of snd_o; the first start bit is edge
 //         SndLead, the fall of snd_o is the last edge.
 // Rate:   the phase increases by step_i per cycle. When it overflows (Width bits), a bit has ended, and the
 //         next cycle adds wrap_i instead, which is step_i minus the modulus.
@@ -27,7 +27,7 @@ module ppmc312_serial_tx
     input  wire logic               send_i,           // send reply_i; high until sent_o
     input  wire reply_t             reply_i,          // reply, stable while send_i
     output logic        [      1:0] index_o,          // index of the data byte
-    input  wire logic   [      7:0] response_byte_i,  // byte index_o in the answer store, two cycles later
+    input  wire logic   [      7:0] response_byte_i,  // byte index_o of the response, two cycles later
     output logic                    sent_o,           // strobe: the reply has been sent
     output logic                    txd_o,            // line, idle high
     output logic                    snd_o             // 1: drive the line

@@ -14,7 +14,7 @@ module ppmc312_arbiter
     input  wire logic          clk_i,           // clock
     input  wire logic          rst_ni,          // reset, asynchronous
     input  wire logic          idle_i,          // 1: the next instruction can be accepted
-    input  wire logic          occupied_i,      // an answer waits to be read or stored
+    input  wire logic          occupied_i,      // a response waits to be read or stored
     input  wire logic          host_i,          // an instruction of the host is pending
     input  wire queue_status_t queue_status_i,  // stored instructions
     output logic               start_o,         // strobe: an instruction is accepted

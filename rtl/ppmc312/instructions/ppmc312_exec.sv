@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_exec: processes one instruction at a time, from the host or triggered: fetch, check, execution,
-//         answer.
-// Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06, sections 3.1..3.5,
-//         10.1.
-// Timing: do_o follows offer_i.valid by 24 cycles; the answer is complete 5 + bytes cycles later. Set-ups,
-//         starts and rate changes add a wait in between. blk_done_o is asserted when the answer is stored.
-// Note:   do_o is the command to the other blocks to execute block_o.
+//         response.
+// Rules:  P312-BLK-01/02, P312-OVR-01/03/04, P312-EVT-02/03, P312-RSP-20, P312-PAR-06;
+//         docs/ppmc312/README.md, Instruction blocks.
+// Timing: execute_o follows host_block_i.valid by 24 cycles; the response is complete 5 + bytes cycles later.
+//         Set-ups, starts and rate changes add a wait in between. blk_done_o is asserted when the response is
+//         stored.
+// Note:   execute_o is the command to the other blocks to execute block_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -17,12 +18,12 @@ module ppmc312_exec
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic serial_i,  // 1: answers never wait to be read
+    input wire logic serial_i,  // 1: responses never wait to be read
     input wire logic boot_i,  // leaving a reset by an instruction: report it
     output logic reset_o,  // strobe: reset the device
     // sources of instructions
     input wire host_block_t host_block_i,  // block from the host
-    output logic blk_done_o,  // strobe: the block is processed and answered
+    output logic blk_done_o,  // strobe: the block is processed, its response stored
     output logic [BLOCK_BITS-1:0] byte_addr_o,  // byte of the block or entry, 0 = header
     input wire logic [7:0] byte_i,  // byte at byte_addr_o, two cycles later
     input wire queue_status_t queue_status_i,  // stored instructions
@@ -37,28 +38,28 @@ module ppmc312_exec
     // execution
     output block_t block_o,  // instruction in progress
     output logic execute_o,  // strobe: execute block_o
-    output logic multi_o,  // strobe, one cycle late: multiple occurrence
+    output logic multi_o,  // strobe, registered: multiple occurrence
     output setup_cmd_t setup_cmd_o,  // initial setting, free curve
     input wire setup_status_t setup_status_i,  // state of the set-up
     output logic move_o,  // strobe: a start or a rate change
     input wire move_status_t move_status_i,  // result of move_o
-    // answers
+    // responses
     output response_t response_o,  // stable while it is written, until response_done_o
     output response_cmd_t response_cmd_o,  // write commands
     input wire response_status_t response_status_i,  // state of the writing
-    output logic hold_o,  // 1: an answer follows soon
-    output logic response_done_o,  // strobe: the answer is complete
-    input wire response_queue_t response_queue_i  // answers that wait to be read
+    output logic hold_o,  // 1: a response follows soon
+    output logic response_done_o,  // strobe: the response is complete
+    input wire response_queue_t response_queue_i  // responses that wait to be read
 );
 
   typedef enum logic [3:0] {
     StBoot,
     StIdle,
     StFetch,
-    StFirst,    // checks for reset and unread answers; comparisons settle
+    StFirst,    // checks for reset and unread responses; comparisons settle
     StSettle,
     StAct,
-    StWait,     // processing time of 26 and 80; the verdict is held
+    StWait,     // processing time of 26 and 80; check is stable
     StSetup,
     StProcTime,     // remaining processing time
     StCopy,
@@ -151,7 +152,8 @@ module ppmc312_exec
   assign hold_o = act || state_q inside {StWrite, StReadback} || response_status_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset is always executed. No other instruction of the host is executed while the last answer is unread.
+  // A reset is always executed. Other instructions of the host are rejected while the last response is
+  // unread.
   assign reset_o = state_q == StFirst && reset_q;
   assign unread = state_q == StFirst && host && response_queue_i.full_host && !reset_o;
 
@@ -206,7 +208,7 @@ module ppmc312_exec
     if (go && inner && flags[1] && !empty) dequeue_o.highest[evt_n] = 1'b1;
   end
 
-  // ---- answer -------------------------------------------------------------------------------------
+  // ---- response -------------------------------------------------------------------------------------
 
   assign move_ends = state_q == StMove && move_status_i.done;
   assign setup_ends = state_q == StSetup && setup_status_i.done;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_fetch: reads an instruction into block_o, or copies it into the store of instructions.
+// ppmc312_fetch: reads an instruction into block_o, or copies it into the instruction queue.
 // Rules:  P312-GEN-04, P312-CMD-00 and P312-CMD-82 (short forms), P312-OVR-01, P312-CMD-49.
 // Timing: done_o follows start_i or copy_i by 19 cycles, regardless of the length. data_i is expected two
 //         cycles after addr_o.
@@ -25,7 +25,7 @@ module ppmc312_fetch
     // destination of the copy
     output logic                          copy_we_o,    // strobe
     output logic         [           3:0] copy_addr_o,  // byte number, 0 = header
-    output logic         [           7:0] copy_data_o   // with put_we_o
+    output logic         [           7:0] copy_data_o   // with copy_we_o
 );
 
   localparam logic [4:0] Bytes = 5'd16;

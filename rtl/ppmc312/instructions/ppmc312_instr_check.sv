@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in this
-//         order.
-// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03, section 10.2.
-// Timing: the verdict is valid three cycles after the block.
+// ppmc312_instr_check: checks whether a block may be executed: size, header, code, status, length, values, in
+//         this order.
+// Rules:  P312-BLK-01, P312-STA-01, P312-CMD-8L/8V, P312-EVT-03; docs/ppmc312/README.md, Blocks (error
+//         numbers).
+// Timing: check_o is valid three cycles after the block.
 `default_nettype none
 
 module ppmc312_instr_check
@@ -15,7 +16,7 @@ module ppmc312_instr_check
     input  wire logic              rst_ni,      // reset, asynchronous
     input  wire block_t            block_i,     // the instruction
     input  wire instr_info_t       info_i,      // properties of block_i.code
-    input  wire logic              hold_i,      // 1: the verdict does not change
+    input  wire logic              hold_i,      // 1: check_o does not change
     input  wire status_e           status_i,    // status of the device
     input  wire logic              end_wait_i,  // a motion waits for END
     input  wire logic              transfer_i,  // a free-curve transfer is open
@@ -185,7 +186,7 @@ module ppmc312_instr_check
     endcase
   endfunction
 
-  // ---- verdict, in the order of the rules ---------------------------------------------------------
+  // ---- result, in the order of the rules ----------------------------------------------------------
 
   always_comb begin
     check = CheckOk;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_pkg: types of the signals between the blocks that process instructions: verdict, answer,
+// ppmc312_instr_pkg: types of the signals between the blocks that process instructions: check, response,
 //         stored instructions, set-up, moves.
-// Rules:  sections 3.1..3.5, 10.1, 10.2; P312-OVR-01/10, P312-EVT-01/04, P312-CMD-FC-1..10.
+// Rules:  docs/ppmc312/README.md, Instruction blocks, Answers and reports; P312-OVR-01/10, P312-EVT-01/04,
+//         P312-CMD-FC-1..10.
 // Note:   a strobe is high for one cycle.
 `default_nettype none
 
@@ -12,7 +13,7 @@ package ppmc312_instr_pkg;
 
   import ppmc312_pkg::*;
 
-  // ---- check and answer ---------------------------------------------------------------------------
+  // ---- check and response -------------------------------------------------------------------------
 
   typedef enum logic [2:0] {
     CheckOk,
@@ -23,7 +24,7 @@ package ppmc312_instr_pkg;
     CheckSize      // F6
   } check_e;
 
-  // Source of the last bytes of an answer.
+  // Source of the last bytes of a response.
   typedef enum logic [1:0] {
     TailNone,
     TailPos,    // 4 bytes: a position
@@ -31,14 +32,14 @@ package ppmc312_instr_pkg;
     TailSums    // 6 bytes: pulses of both sides of the table
   } response_tail_e;
 
-  // Data that an executed instruction returns: the bytes after the code of its answer.
+  // Data that an executed instruction returns: the bytes after the code of its response.
   typedef struct packed {
     logic [3:0]      extra;  // number of bytes, 0 .. 9
     logic [2:0][7:0] data;   // first bytes, data[0] first
     response_tail_e  tail;   // source of the last bytes
   } result_data_t;
 
-  // An answer. Its length byte is computed when it is written.
+  // A response. Its length byte is computed when it is written.
   typedef struct packed {
     logic [7:0]      head;
     logic [7:0]      code;
@@ -48,17 +49,17 @@ package ppmc312_instr_pkg;
     logic            echo;   // 1: append the instruction as received
   } response_t;
 
-  // Commands to the blocks that write answers and the data blocks of a table read. All except keep are
+  // Commands to the blocks that write responses and the data blocks of a table read. All except hold_data are
   // strobes.
   typedef struct packed {
-    logic write;       // write the answer
+    logic write;       // write the response
     logic hold_data;   // level: hold the data that the instruction returns
     logic table_open;  // a table read begins; its data blocks follow
     logic table_next;  // write the next data block
   } response_cmd_t;
 
   typedef struct packed {
-    logic                  written;     // strobe: the answer is written
+    logic                  written;     // strobe: the response is written
     logic [BLOCK_BITS-1:0] echo_addr;   // byte of the instruction for the echo, two cycles ahead
     logic                  table_more;  // more data blocks follow
     logic                  table_done;  // strobe: a data block is written
@@ -66,7 +67,7 @@ package ppmc312_instr_pkg;
 
   // ---- stored instructions, which wait for a trigger ----------------------------------------------
 
-  // Write port of the store: first the bytes of an entry, then put.
+  // Write port of the instruction queue: first the bytes of an entry, then entry_done.
   typedef struct packed {
     logic        we;          // strobe: write data at addr
     logic        to_event;    // 1: event buffer n, 0: command FIFO
@@ -79,7 +80,7 @@ package ppmc312_instr_pkg;
     logic [31:0] pos;         // trigger position in pulses
   } enqueue_t;
 
-  // Removal from the store. All except from_event and n are strobes.
+  // Removal from the instruction queue. All except from_event and n are strobes.
   typedef struct packed {
     logic       take;        // take the triggered entry
     logic       from_event;  // with take, 1: event buffer n, 0: command FIFO
@@ -90,7 +91,7 @@ package ppmc312_instr_pkg;
     logic [1:0] highest;     // remove the highest entry of event buffer [n]
   } dequeue_t;
 
-  // Contents of the store.
+  // Contents of the instruction queue.
   typedef struct packed {
     logic            fifo_triggered;    // a triggered entry of the command FIFO is pending
     logic [1:0]      fifo_trig;         // trigger of this entry
@@ -135,7 +136,7 @@ package ppmc312_instr_pkg;
     logic       done;         // strobe: finished
     logic       at_limit;     // with done: a limit prevents the start
     logic       rejected;     // with done: the status no longer allows the start
-    logic [7:0] status_byte;  // with done: status byte of the answer
+    logic [7:0] status_byte;  // with done: status byte of the response
   } move_status_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_queue: stores instructions that wait for a trigger: a command FIFO of eight entries and two event
-//         buffers of four.
+// ppmc312_instr_queue: stores instructions that wait for a trigger: a command FIFO of eight entries and two
+//         event buffers of four.
 // Rules:  P312-OVR-01/02/05/10/12, P312-EVT-01/04, P312-BAD-13.
 // Timing: a new head of the FIFO is armed 2 cycles after the trigger of the previous one. halt_o follows the
 //         count by one cycle. Bytes of an entry are valid two cycles after fetch_addr_i.
@@ -39,8 +39,8 @@ module ppmc312_instr_queue
     logic [1:0] trig;
   } tag_t;
 
-  // put_i.code, trig and pos are stable while the bytes of an entry are written, so the head is written with
-  // each byte. No block uses data that are read from the place that is being written.
+  // enqueue_i.code, trig and pos are stable while the bytes of an entry are written, so the head is written
+  // with each byte. No block uses data that are read from the place that is being written.
   (* ram_style = "block", no_rw_check *)
   logic [34:0] heads[16];
   logic [34:0] ahead_q;  // head of the entry that is armed next
@@ -119,7 +119,7 @@ module ppmc312_instr_queue
     end else begin
       head_valid_q <= armed_q != written_q && !fire && !drop;
       halt_o       <= fire && head_q.halt && !head_q.trig[0];
-      // armed_q is equal to done_q or ahead of it, because entries are taken only while due_q = 1.
+      // armed_q is equal to done_q or ahead of it, because entries are taken only while triggered_q = 1.
       triggered_q  <= !drop && (fire || (take_fifo ? done_next != armed_q : done_q != armed_q));
       if (drop) begin
         armed_q <= written_q;

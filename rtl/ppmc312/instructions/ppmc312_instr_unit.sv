@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_instr_unit: processing of instructions: those of the host, stored ones that wait for a trigger, their
-//         effects and their answers.
+// ppmc312_instr_unit: processing of instructions: those of the host, stored ones that wait for a trigger,
+//         their effects and their responses.
 // Rules:  see its blocks. Timing: see ppmc312_exec.
 `default_nettype none
 
@@ -24,7 +24,7 @@ module ppmc312_instr_unit
     input wire host_block_t host_block_i,  // block from the host
     output logic [BLOCK_BITS-1:0] blk_addr_o,  // byte of the block, 0 = header
     input wire logic [7:0] blk_data_i,  // byte at blk_addr_o, two cycles later
-    output logic blk_done_o,  // strobe: the block is processed and answered
+    output logic blk_done_o,  // strobe: the block is processed, its response stored
     // state of the device
     input wire inputs_t inputs_i,  // input pins, synchronised
     input wire axis_state_t state_i,  // state of the motor side
@@ -38,13 +38,13 @@ module ppmc312_instr_unit
     output table_t table_o,  // active table
     output target_t start_target_o,  // look-up result of table_o.rate_acc
     input wire table_addr_t table_addr_i,  // read port of the motion
-    output stage_t stage_o,  // stage at look_i, two cycles later
-    // answers, class 2
-    output response_write_t response_write_o,  // byte for the store of class 2
-    output logic hold_o,  // 1: an answer follows soon
-    output response_done_t response_done_o,  // the answer in the store is complete
+    output stage_t stage_o,  // stage at table_addr_i, two cycles later
+    // responses, class 2
+    output response_write_t response_write_o,  // byte for the queue of class 2
+    output logic hold_o,  // 1: a response follows soon
+    output response_done_t response_done_o,  // the response in the queue is complete
     output host_result_t host_result_o,  // result for the serial station
-    input wire response_queue_t response_queue_i  // answers that wait to be read
+    input wire response_queue_t response_queue_i  // responses that wait to be read
 );
 
   queue_status_t queue_status;
@@ -217,7 +217,7 @@ module ppmc312_instr_unit
       32'(table_o.first_acc), 32'(table_o.first_dec)
   ) ? table_o.first_acc : table_o.first_dec;
 
-  // ---- answers ------------------------------------------------------------------------------------
+  // ---- responses ----------------------------------------------------------------------------------
 
   ppmc312_result_data #(
       .Version(Version)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_response_format: builds the answer to an instruction from the result of its check or execution.
-// Rules:  sections 3.1, 10.1, 10.2; P312-OVR-04, P312-EVT-02, P312-CMD-FC-1..4, P312-CMD-49.
+// ppmc312_response_format: builds the response to an instruction from the result of its check or execution.
+// Rules:  docs/ppmc312/README.md, Blocks; docs/ppmc312/instructions.md; P312-OVR-04, P312-EVT-02,
+//         P312-CMD-FC-1..4, P312-CMD-49.
 // Timing: combinational.
 `default_nettype none
 
@@ -17,7 +18,7 @@ module ppmc312_response_format
     input  wire logic                at_boot_i,       // no instruction; the device leaves a reset
     input  wire logic                at_act_i,        // checked
     input  wire logic                at_setup_i,      // in the set-up
-    input  wire logic                at_copy_i,       // being copied into the store
+    input  wire logic                at_copy_i,       // being copied into the queue
     input  wire logic                at_move_i,       // a start or a rate change
     input  wire logic                fails_i,         // triggered, and cannot be executed
     input  wire logic                registers_i,     // to be registered in the command FIFO
@@ -27,7 +28,7 @@ module ppmc312_response_format
     input  wire result_data_t        result_data_i,   // data of an executed instruction
     input  wire setup_status_t       setup_status_i,  // valid with at_setup_i
     input  wire move_status_t        move_status_i,   // valid with at_move_i
-    output response_t                response_o       // answer to be written
+    output response_t                response_o       // response to be written
 );
 
   curve_progress_t progress;

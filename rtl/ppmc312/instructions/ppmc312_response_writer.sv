@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_response_writer: writes an answer byte by byte into the store of class 2.
-// Rules:  section 10.1, P312-GEN-04 (logical order), P312-RSP-10.
+// ppmc312_response_writer: writes a response byte by byte into the queue of class 2.
+// Rules:  docs/ppmc312/README.md, Blocks; P312-GEN-04 (logical order), P312-RSP-10.
 // Timing: done_o follows start_i by 3 + bytes cycles. The echo reads the instruction from its source, two
 //         cycles after echo_addr_o.
-// Assumes: answer_i is stable from start_i to done_o.
+// Assumes: response_i is stable from start_i to done_o.
 `default_nettype none
 
 module ppmc312_response_writer
@@ -13,11 +13,11 @@ module ppmc312_response_writer
 (
     input wire logic clk_i,  // clock
     input wire logic rst_ni,  // reset, asynchronous
-    input wire logic start_i,  // strobe: write answer_i
+    input wire logic start_i,  // strobe: write response_i
     input wire response_t response_i,  // stable from start_i to done_o
     input wire logic [BLOCK_BITS:0] blk_size_i,  // bytes of the instruction as written, 0 .. 32
     output logic busy_o,  // from the cycle after start_i to that of done_o
-    output logic done_o,  // strobe: the answer is written
+    output logic done_o,  // strobe: the response is written
     // sources of the last bytes
     input wire logic [31:0] value_i,  // TailPos: position
     input wire logic [5:0][7:0] sums_i,  // TailSums: pulses of both sides
@@ -28,15 +28,15 @@ module ppmc312_response_writer
     // source of the instruction
     output logic [BLOCK_BITS-1:0] echo_addr_o,  // byte number, 0 = header
     input wire logic [7:0] echo_data_i,  // byte at echo_addr_o, two cycles later
-    // store of class 2
-    output response_write_t response_write_o,  // byte of the answer
-    output logic [BLOCK_BITS:0] size_o  // bytes of the answer, 3 .. 32; with done_o
+    // queue of class 2
+    output response_write_t response_write_o,  // byte of the response
+    output logic [BLOCK_BITS:0] size_o  // bytes of the response, 3 .. 32; with done_o
 );
 
   logic [BLOCK_BITS:0] at_q;
   logic [BLOCK_BITS:0] beyond_q;  // position in the echo; negative before the echo
   logic run_q;
-  logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the answer minus two
+  logic [BLOCK_BITS:0] len_q;  // length byte: bytes of the response minus two
   logic [3:0] rest;  // bytes after the current one, without the echo
   logic [7:0] tail;
   logic in_tail;

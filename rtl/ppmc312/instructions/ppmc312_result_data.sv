@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_result_data: data that an executed instruction returns: the bytes after the code of its answer.
-// Rules:  section 3.1 (answers), P312-CMD-25/27/40..4D.
+// ppmc312_result_data: data that an executed instruction returns: the bytes after the code of its response.
+// Rules:  docs/ppmc312/instructions.md, P312-CMD-25/27/40..4D.
 // Timing: outputs are registered. All bytes are from the same cycle, so a position of four bytes is a
 //         snapshot.
 `default_nettype none

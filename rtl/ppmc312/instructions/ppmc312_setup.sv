@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_setup: converts the blocks of an initial setting or a free curve to the active table.
 // Rules:  P312-CMD-00, P312-CMD-01, P312-CMD-FC-1..10, P312-INP-31.
-// Timing: state_o.done is high for one cycle when the work requested by order_i.build or order_i.data has
-//         ended. state_o.bad, error and progress are valid in this cycle.
+// Timing: status_o.done is high for one cycle when the work requested by cmd_i.build or cmd_i.data has
+//         ended. status_o.bad, error and progress are valid in this cycle.
 `default_nettype none
 
 module ppmc312_setup
@@ -13,11 +13,11 @@ module ppmc312_setup
 (
     input  wire logic             clk_i,            // clock
     input  wire logic             rst_ni,           // reset, asynchronous
-    input  wire block_t           block_i,          // the instruction; stable until state_o.done
+    input  wire block_t           block_i,          // the instruction; stable until status_o.done
     input  wire setup_cmd_t       cmd_i,            // commands
     output setup_status_t         status_o,         // state and results
     output logic                  built_o,          // strobe: a new table becomes active
-    input  wire logic       [7:0] byte_i,           // byte at state_o.addr, two cycles later
+    input  wire logic       [7:0] byte_i,           // byte at status_o.addr, two cycles later
     // table unit
     output logic                  drop_o,           // strobe: the table becomes invalid
     output curve_t                curve_o,          // curve to be built, or description of a free curve

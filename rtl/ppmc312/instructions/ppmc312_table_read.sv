@@ -22,8 +22,8 @@ module ppmc312_table_read
     input wire table_t table_i,  // active table
     input wire logic [6:0] first_i,  // first used stage of the table
     output table_addr_t table_addr_o,  // read port of the table
-    input wire stage_t stage_i,  // stage at look_o, two cycles later
-    // store of class 2
+    input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
+    // queue of class 2
     output response_write_t response_write_o,  // byte of the block
     output logic [BLOCK_BITS:0] size_o  // bytes of the block, 5 .. 15; with done_o
 );

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_axis: motor side: settings, motion, positions, outputs.
 // Rules:  see its blocks.
-// Timing: act_i is executed at the edge that ends its cycle, an immediate stop one cycle later.
+// Timing: execute_i is executed at the edge that ends its cycle, an immediate stop one cycle later.
 `default_nettype none
 
 module ppmc312_axis
@@ -16,7 +16,7 @@ module ppmc312_axis
     input  wire logic         rst_ni,          // reset, asynchronous
     // instructions
     input  wire logic         execute_i,       // strobe: execute block_i
-    input  wire block_t       block_i,         // instruction; stable long before act_i
+    input  wire block_t       block_i,         // instruction; stable long before execute_i
     input  wire motion_req_t  motion_req_i,    // starts and rate changes
     input  wire alarm_event_t multi_i,         // multiple occurrence
     // active table
@@ -24,7 +24,7 @@ module ppmc312_axis
     input  wire table_t       table_i,         // description of the table
     input  wire target_t      start_target_i,  // look-up result of table_i.rate_acc
     output table_addr_t       table_addr_o,    // read port of the table
-    input  wire stage_t       stage_i,         // stage at look_o, two cycles later
+    input  wire stage_t       stage_i,         // stage at table_addr_o, two cycles later
     // pins
     input  wire inputs_t      inputs_i,        // input pins, synchronised
     input  wire logic         extck_i,         // external clock, asynchronous
@@ -42,7 +42,7 @@ module ppmc312_axis
   assign code = block_i.code;
 
   // The path of an immediate stop to the pulses is timing-critical, so it has a register. The code is stable
-  // long before act_i.
+  // long before execute_i.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) {halt_q, decel_q} <= '0;
     else begin

@@ -2,7 +2,7 @@
 // ppmc312_motion: controls an operation from its acceptance to the report of its end: statuses, start gate,
 //         pulses, causes, both phases of a zero return.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
-// Timing: t0 is the edge that ends the cycle of order_i.start, or of the end of the start gate. Pins and
+// Timing: t0 is the edge that ends the cycle of motion_req_i.start, or of the end of the start gate. Pins and
 //         stops act in the cycle in which they are sampled: no pulse begins in this cycle. pout_o and dir_o
 //         are registered; counted_o is high in the first cycle after the rise of pout_o.
 `include "ppmc_assert.svh"
@@ -22,10 +22,10 @@ module ppmc312_motion
     input  wire table_t           table_i,         // description of the table
     input  wire target_t          start_target_i,  // look-up result of table_i.rate_acc
     output table_addr_t           table_addr_o,    // read port of the table
-    input  wire stage_t           stage_i,         // stage at look_o, two cycles later
+    input  wire stage_t           stage_i,         // stage at table_addr_o, two cycles later
     // instructions
     input  wire motion_req_t      motion_req_i,    // starts and rate changes
-    input  wire logic             change_ramp_i,   // with order_i.change: change along the table
+    input  wire logic             change_ramp_i,   // with motion_req_i.change: change along the table
     input  wire logic             halt_i,          // strobe: immediate stop
     input  wire logic             decel_i,         // strobe: decelerate to the end
     input  wire motion_settings_t settings_i,      // high-speed limit, monitoring

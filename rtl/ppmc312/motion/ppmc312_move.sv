@@ -2,8 +2,8 @@
 // ppmc312_move: executes a checked motion or rate change: limits, look-up or plan, then the start or the
 //         change.
 // Rules:  P312-CMD-82..88, P312-CMD-10/11, P312-INP-11, P312-BLK-01 (8), P312-STA-04.
-// Timing: state_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o and change_o are
-//         asserted with it. Rate and number of pulses are held until t0, regardless of other instructions
+// Timing: result_o.done follows begin_i, by 4 cycles without a look-up (single step). start_o and change_o
+//         are asserted with it. Rate and number of pulses are held until t0, regardless of other instructions
 //         that are executed until then.
 `default_nettype none
 
@@ -13,28 +13,28 @@ module ppmc312_move
   import ppmc312_instr_pkg::*;
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                 clk_i,           // clock
-    input  wire logic                 rst_ni,          // reset, asynchronous
-    input  wire logic                 begin_i,         // strobe: begin with block_i
-    input  wire block_t               block_i,         // the instruction; stable until state_o.done
-    input  wire status_e              status_i,        // status of the device
-    input  wire table_t               table_i,         // active table
-    input  wire motor_inputs_t        levels_i,        // input pins, filtered
-    input  wire logic          [15:0] limit_rate_i,    // HSL, base clocks
-    input  wire logic                 gate_i,          // 1: a start is not held
-    input  wire logic                 elapsed_i,       // the processing time has passed
-    output move_status_t              result_o,        // result
+    input wire logic clk_i,  // clock
+    input wire logic rst_ni,  // reset, asynchronous
+    input wire logic begin_i,  // strobe: begin with block_i
+    input wire block_t block_i,  // the instruction; stable until result_o.done
+    input wire status_e status_i,  // status of the device
+    input wire table_t table_i,  // active table
+    input wire motor_inputs_t levels_i,  // input pins, filtered
+    input wire logic [15:0] limit_rate_i,  // HSL, base clocks
+    input wire logic gate_i,  // 1: a start is not held
+    input wire logic elapsed_i,  // the processing time has passed
+    output move_status_t result_o,  // result
     // motion
-    output logic                      start_o,         // strobe: start op_o along plan_o
-    output logic                      change_o,        // strobe: change the rate to plan_o.to
-    output operation_t                op_o,            // valid with start_o
-    output profile_t                  profile_o,       // stable until t0
-    output logic                      single_pulse_o,  // with start_o: start-up rate instead of plan_o.to
+    output logic start_o,  // strobe: start op_o along profile_o
+    output logic change_o,  // strobe: change the rate to profile_o.target
+    output operation_t op_o,  // valid with start_o
+    output profile_t profile_o,  // stable until t0
+    output logic single_pulse_o,  // with start_o: start-up rate instead of profile_o.target
     // planner
-    output profile_req_t              profile_req_o,   // command to the planner
-    input  wire logic                 plan_busy_i,     // the planner is busy
-    input  wire logic          [ 7:0] plan_kind_i,     // status byte of the plan
-    input  wire profile_t             profile_i        // result of the planner
+    output profile_req_t profile_req_o,  // command to the planner
+    input wire logic plan_busy_i,  // the planner is busy
+    input wire logic [7:0] plan_kind_i,  // status byte of the plan
+    input wire profile_t profile_i  // result of the planner
 );
 
   typedef enum logic [2:0] {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_window_monitor: one of the two position monitors (in-position, encode): inside or outside its range, and
-//         its reports.
+// ppmc312_window_monitor: one of the two position monitors (in-position, encode): inside or outside its
+//         range, and its reports.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
-// Timing: wait_o follows inside_i by two cycles.
+// Timing: pending_o follows inside_i by two cycles.
 // Note:   a report is pending while the state differs from the state that the host has read last.
 `default_nettype none
 

@@ -2,7 +2,7 @@
 // ppmc312_interval: determines when the next pulse of a motion begins and how long it lasts. The rate is the
 //         number of base clocks of an interval.
 // Rules:  P312-MOT-01..04, P312-CMD-00 (base clocks), P312-BAD-14.
-// Timing: due_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
+// Timing: ready_o is combinational. For pulse 1 it is asserted CYC(WidthXtal) cycles after arm_i. Each later
 //         pulse can fire exactly ceil(ticks * cycles per tick) cycles after pulse 1; with the external clock,
 //         on the tick itself. Two pulses are at least 4 cycles apart; lost time is not made up.
 // Note:   ppmc_base_clock and ppmc_rate_counter need 3 cycles per base clock; here a base clock may last one
@@ -22,7 +22,7 @@ module ppmc312_interval #(
     input  wire logic                extck_i,  // external clock pin; base_i 6 and 7 use its edges
     input  wire logic                arm_i,    // strobe: start of a motion
     input  wire logic                first_i,  // 1: the next pulse is pulse 1
-    input  wire logic                fire_i,   // strobe: a pulse, in a cycle of due_o
+    input  wire logic                fire_i,   // strobe: a pulse, in a cycle of ready_o
     input  wire logic [RateBits-1:0] rate_i,   // with fire_i: ticks until the next one, at least 2
     output logic                     ready_o,  // 1: a pulse may begin
     output logic                     high_o    // 1: a pulse is active

@@ -72,7 +72,7 @@ module ppmc312_stage_plan
   // valid_q[1]: the table outputs stage `at`. in_acc_q, in_dec_q: the side contains stage `at` ([0]) or the
   // stage before it ([1]).
   logic [1:0] valid_q, in_acc_q, in_dec_q;
-  // In StMeet. over_none: no pulse remains; one cycle late: below_q: `ahead` is negative; begins_q: first
+  // In StSearch. over_none: no pulse remains; one cycle later: below_q: `ahead` is negative; begins_q: first
   // cycle; counts_q: the stage counts.
   logic over_none, below_q, begins_q, counts_q;
   logic past, ends, step, virt, hit, hit_q, higher, counts, big, none, full, clear;
@@ -171,7 +171,7 @@ module ppmc312_stage_plan
         (state_q == StDivide && op_done);
   end
 
-  // dec_o: all deceleration pulses, or those that remain.
+  // dec_pulses_o: all deceleration pulses, or those that remain.
   assign dec_some = state_q == StShort || begins_q;
   assign dec_none = state_q == StKind || (state_q == StIdle && start_i && !ramp_i) || (begins_q && over_none);
 

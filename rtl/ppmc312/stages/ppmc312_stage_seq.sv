@@ -23,11 +23,11 @@ module ppmc312_stage_seq
     input wire logic [6:0] first_dec_i,  // first stage of the deceleration side
     input wire logic [15:0] rate_dec_i,  // R[first_dec_i], base clocks
     output table_addr_t table_addr_o,  // read port of the table
-    input wire stage_t stage_i,  // stage at look_o, two cycles later
+    input wire stage_t stage_i,  // stage at table_addr_o, two cycles later
     // operation
-    input wire logic load_i,  // strobe: start plan_i
-    input wire profile_t profile_i,  // with load_i; for a change, plan_i.to: 2 cycles later
-    input wire logic single_i,  // with load_i: one pulse, regardless of plan_i.dec
+    input wire logic load_i,  // strobe: start profile_i
+    input wire profile_t profile_i,  // with load_i; for a change, target: 2 cycles later
+    input wire logic single_i,  // with load_i: one pulse, regardless of dec_pulses
     // requests
     input wire logic change_i,  // strobe: change the rate; replaces an older change
     input wire logic change_ramp_i,  // 1: change along the table; sampled 2 cycles after change_i
@@ -41,7 +41,7 @@ module ppmc312_stage_seq
     output logic [15:0] next_rate_o,  // rate of the next interval, base clocks
     input wire logic step_i,  // strobe: boundary, and a pulse begins
     // running interval
-    output logic [15:0] rate_o,  // base clocks; before pulse 1: planned rate, one cycle late
+    output logic [15:0] rate_o,  // base clocks; before pulse 1: planned rate, registered
     output logic const_rate_o,  // 1: constant rate
     output logic final_decel_o,  // 1: deceleration to the end
     output logic first_o,  // 1: before pulse 1
@@ -57,8 +57,8 @@ module ppmc312_stage_seq
     logic from_table;  // the rate is read from the table
     logic enter;  // a stage begins, with all its pulses
     logic is_partial;  // a stage begins, with some of its pulses
-    logic change_used;  // the held change is consumed
-    logic take_target;  // the held rate becomes the constant rate
+    logic change_used;  // the pending change is consumed
+    logic take_target;  // the pending rate becomes the constant rate
     logic keep_rate;  // the rate of this stage becomes the constant rate
   } boundary_action_t;
 
@@ -119,7 +119,8 @@ module ppmc312_stage_seq
     ));
     stage_done_q <= more_q == '0;
     last_stage_q <= stage_q == last_stage_at_q;
-    // beside_q: stage next to the running one, or next to the constant rate; for pulse 1, the running stage.
+    // adjacent_q: stage next to the running one, or next to the constant rate; for pulse 1, the running
+    // stage.
     adjacent_q  <= ((mode_q.const_rate && ramp_down_q) ? target_q.gt1 : current_stage) +
         {{6{downward}}, downward || mode_q.const_rate || !first_q};
     ramp_down_q <= pending_q.rate >= rate_q;
@@ -241,7 +242,7 @@ module ppmc312_stage_seq
   // ---- search -------------------------------------------------------------------------------------
 
   // Look-up for a constant rate that was the rate of a stage: all stages are read, upward, in cycles in which
-  // no decision needs the table. A held change waits for the end of this search.
+  // no decision needs the table. A pending change waits for the end of this search.
   assign stage_ge = stage_i.rate >= rate_q;
   assign in_use = in_use_q || addr_q[1] == first_acc_i || addr_q[1] == first_dec_i;
 

@@ -2,9 +2,9 @@
 // ppmc312_stage_unit: stage table with builder, planner, the arithmetic that they share, and the description
 //         of the active table.
 // Rules:  P312-TBL-01..06, P312-CMD-FC-3/10, P312-MOT-10..13.
-// Timing: after build_i or close_i, busy_o is high until the table can be used. After plan_i.start,
+// Timing: after build_i or close_i, busy_o is high until the table can be used. After profile_req_i.start,
 //         plan_busy_o is high until the plan is valid; the plan is valid until the next start. Read-back:
-//         read_o is valid two cycles after read_i, while nothing is busy.
+//         read_stage_o is valid two cycles after read_addr_i, while nothing is busy.
 `default_nettype none
 
 module ppmc312_stage_unit
@@ -28,7 +28,7 @@ module ppmc312_stage_unit
     output table_t table_o,  // description of the table
     output target_t start_target_o,  // look-up result of table_o.rate_acc
     input wire table_addr_t read_addr_i,  // read-back address
-    output stage_t read_stage_o,  // stage at read_i, two cycles later; not while busy
+    output stage_t read_stage_o,  // stage at read_addr_i, two cycles later; not while busy
     // planning
     input wire profile_req_t profile_req_i,  // operation to be planned
     output logic plan_busy_o,  // 1: the plan is not valid yet
@@ -36,7 +36,7 @@ module ppmc312_stage_unit
     output profile_t profile_o,  // plan, valid until the next start
     // read port of the motion
     input wire table_addr_t table_addr_i,  // address
-    output stage_t stage_o  // stage at look_i, two cycles later
+    output stage_t stage_o  // stage at table_addr_i, two cycles later
 );
 
   typedef enum logic [1:0] {
@@ -236,7 +236,7 @@ module ppmc312_stage_unit
     end
   end
 
-  // No reset: home_o is used only while table_o.valid = 1.
+  // No reset: start_target_o is used only while table_o.valid = 1.
   always_ff @(posedge clk_i) if (start_found) start_target_o <= target;
 
 endmodule
