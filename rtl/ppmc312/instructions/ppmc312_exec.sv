@@ -152,7 +152,7 @@ module ppmc312_exec
   assign hold_o = act || state_q inside {StWrite, StReadback} || response_status_i.table_more;
   assign idle_o = state_q == StIdle;
 
-  // A reset is always executed. Other instructions of the host are rejected while the last response is
+  // A reset is always executed. No other instruction of the host is executed while the last response is
   // unread.
   assign reset_o = state_q == StFirst && reset_q;
   assign unread = state_q == StFirst && host && response_queue_i.full_host && !reset_o;
