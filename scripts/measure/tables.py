@@ -18,8 +18,8 @@ from cocotb_tests.harness.project import ProjectError, relative
 
 MEMORIES = {
     "ppmc312_cosine_rom": "rom",
-    "ppmc312_codebook": "rom",
-    "ppmc312_codes": "rom",
+    "ppmc312_instr_rom": "rom",
+    "ppmc312_serial_code_rom": "rom",
     "pmc006_sine_rom": "rom",
     "pmc006_base_rom": "rom",
     "pmc006_calc_words": "words",

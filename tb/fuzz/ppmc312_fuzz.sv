@@ -21,13 +21,13 @@ module ppmc312_fuzz
 
   serial_code_t info;
   logic [7:0] code, data;
-  logic we, head, poll, run, fault, strange, overrun;
-  logic [3:0] at;
+  logic we, generated, poll, run, fault, unknown_code, overrun;
+  logic [3:0] addr;
   logic [15:0] count_q;
   logic [31:0] digest_q;
 
   // 20 cycles are 20 ms.
-  ppmc312_frame #(
+  ppmc312_serial_rx #(
       .ClkHz   (1_000),
       .CharsSum(CharsSum)
   ) dut (
@@ -41,40 +41,40 @@ module ppmc312_fuzz
       .code_o   (code),
       .info_i   (info),
       .we_o     (we),
-      .head_o   (head),
-      .at_o     (at),
+      .generated_o(generated),
+      .addr_o   (addr),
       .data_o   (data),
       .poll_o   (poll),
       .run_o    (run),
       .fault_o  (fault),
-      .strange_o(strange),
+      .unknown_code_o(unknown_code),
       .overrun_o(overrun)
   );
 
-  ppmc312_codes u_codes (
+  ppmc312_serial_code_rom u_code_rom (
       .clk_i,
       .code_i(code),
       .info_o(info)
   );
 
-  assign event_o = poll || run || fault || strange;
+  assign event_o = poll || run || fault || unknown_code;
   always_comb begin
     what_o = {8'd1, 56'd0};
     if (run) what_o = {8'd2, code, count_q, digest_q};
     else if (fault) what_o = {8'd3, 56'd0};
-    else if (strange) what_o = {8'd4, code, 48'd0};
+    else if (unknown_code) what_o = {8'd4, code, 48'd0};
   end
 
   always_ff @(posedge clk_i) begin
     if (valid_i && byte_i[7]) {count_q, digest_q} <= '0;
-    else if (we && !head) begin
+    else if (we && !generated) begin
       count_q  <= count_q + 1'b1;
       digest_q <= digest_q * 32'd31 + 32'(data) + 32'd1;
     end
   end
 
   logic unused;
-  assign unused = &{1'b0, silence_i, at, overrun};
+  assign unused = &{1'b0, silence_i, addr, overrun};
 
 endmodule
 

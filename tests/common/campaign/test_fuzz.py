@@ -31,7 +31,7 @@ BROKEN_RTL = {
     ),
     "pmc006": ("rtl/pmc006/front/pmc006_frame.sv", "else if (error_i) at_q <= '0;", ""),
     "ppmc312": (
-        "rtl/ppmc312/front/ppmc312_frame.sv",
+        "rtl/ppmc312/front/ppmc312_serial_rx.sv",
         "if (error_i) state_q <= StSkip;",
         "if (1'b0) state_q <= StSkip;",
     ),

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_counts: counts framing, overrun and checksum errors since the last read (0 to 255, saturating).
+// ppmc312_serial_errors: counts framing, overrun and checksum errors since the last read (0 to 255,
+//         saturating).
 // Rules:  P312-SER-14, P312-SER-15, P312-SER-45.
 // Timing: count_o follows error_i and read_i by one cycle.
 // Assumes: at most one error per cycle, no error in the cycle of read_i.
 `include "ppmc_assert.svh"
 `default_nettype none
 
-module ppmc312_counts (
+module ppmc312_serial_errors (
     input  wire logic            clk_i,    // clock
     input  wire logic            rst_ni,   // reset, asynchronous
     input  wire logic [2:0]      error_i,  // strobes: framing, overrun, checksum error
