@@ -2,15 +2,9 @@
 // ppmc_bank_axis_port: maps the 16 registers of one axis of a bank to the four address lines of the UART
 //         bridge; register 0x3 selects the axis.
 // Rules:  register map in docs/bank/carrier.md; forwards strobes as BANK-WIN-04 requires.
-<<<<<<< HEAD:rtl/bank/ppmc_bank_view.sv
-// Timing: combinational, except for the selected axis. This axis changes during the write strobe at register
-//         0x3 and is stable from GapCycles - 1 cycles before the next strobe on. The bank receives no strobe
-//         at 0x3 and no strobe for axes 64 .. 255.
-=======
 // Timing: combinational, except for the selected axis. axis_o changes during the write strobe at register 0x3
 //         and is stable from (gap of ppmc_strobe_master - 1) cycles before the next strobe on. The bank
 //         receives no strobe at 0x3 and no strobe for axes 64 .. 255.
->>>>>>> n-rtlbank:rtl/bank/ppmc_bank_axis_port.sv
 `include "ppmc_assert.svh"
 `default_nettype none
 

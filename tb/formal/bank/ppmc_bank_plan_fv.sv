@@ -10,24 +10,6 @@ module ppmc_bank_plan_fv
   import ppmc_motion_pkg::*;
 (
     input wire logic                 clk_i,
-<<<<<<< HEAD
-    input wire walk_t                walk_i,
-    input wire pace_t                pace_i,
-    input wire setting_t             setting_i,
-    input wire rest_t                rest_i,
-    input wire logic                 over_i,
-    input wire seen_t                seen_i,
-    input wire facts_t               facts_i,
-    input wire logic                 free_i,
-    input wire logic                 extra_i,
-    input wire mail_t                mail_i,
-    input wire logic                 new_i,
-    input wire decoded_t             decoded_i,
-    input wire cmd_error_e           value_i,
-    input wire parser_state_t        asking_i,
-    input wire logic          [17:0] due_i,
-    input wire logic          [17:0] after_i
-=======
     input wire motion_state_t        motion_i,
     input wire interval_t            interval_i,
     input wire init_state_t          init_state_i,
@@ -40,22 +22,16 @@ module ppmc_bank_plan_fv
     input wire in_buf_t              in_buf_i,
     input wire logic                 in_buf_new_i,
     input wire decoded_t             decoded_i,
-    input wire cmd_error_e               value_i,
-    input wire parser_state_t              asking_i,
+    input wire cmd_error_e           value_i,
+    input wire parser_state_t        asking_i,
     input wire logic          [17:0] go_delay_i,
     input wire logic          [17:0] after_low_i
->>>>>>> n-rtlbank
 );
 
   localparam int unsigned Quantum = 25, Round = 32, WidthCycles = 20 * Quantum;  // cycles
 
-<<<<<<< HEAD
-  parser_state_t asking_o;
-  logic take_o, anew_o;
-=======
   parser_state_t asking_o;
   logic take_o, restart_time_o;
->>>>>>> n-rtlbank
   logic [7:0] code_o;
   logic [31:0] params_o;
   decision_t decision_o;
@@ -75,17 +51,12 @@ module ppmc_bank_plan_fv
   assign completes_init =
       !in_buf_i.is_command && asking_i.code[7:6] == 2'b00 && !asking_i.error && asking_i.number == 3'd1;
 
-<<<<<<< HEAD
-  `FV_ASSUME(at_rest_nothing_runs, walk_i.busy || !(walk_i.run || walk_i.low))
-  `FV_ASSUME(known_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
-=======
   logic go;  // GO acts on this axis
   logic host_action;  // an action that a host requests with a byte
   assign go = compare_i.go && pin_status_i.in_group;
   assign host_action =
       decision_o.start || decision_o.init || decision_o.exc_off || decision_o.switching || decision_o.read ||
       decision_o.halt || decision_o.flag_stop;
->>>>>>> n-rtlbank
 
   `FV_ASSUME(no_pulse_at_standstill, motion_i.busy || !(motion_i.more_pulses || motion_i.pulse_low))
   `FV_ASSUME(valid_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)

@@ -35,7 +35,8 @@ module ppmc312_arbiter_fv
   `FV_ASSERT(accepts_only_when_idle, !(start_o || missed_o) || idle_i)
   `FV_ASSERT(p312_ovr_10_never_into_an_answer, !(start_o && source_o != SrcHost) || !occupied_i)
   `FV_ASSERT(not_idle_with_work, !(idle_i && !occupied_i && (host_i || triggered)) || start_o)
-  `FV_ASSERT(only_triggered_buffer, !(start_o && source_o == SrcEvent) || queue_status_i.events_triggered[n_o])
+  `FV_ASSERT(only_triggered_buffer,
+             !(start_o && source_o == SrcEvent) || queue_status_i.events_triggered[n_o])
   `FV_COVER(host_after_event, start_o && source_o == SrcHost && triggered && triggered_starts_q == 2'd1)
 
 endmodule
