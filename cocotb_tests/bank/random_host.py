@@ -16,7 +16,7 @@ from cocotb_tests.harness.random_host import Builds, MovingPins, RandomHost
 from openppmc.model.bank.group import SWITCHES
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Lab
+from .env import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Lab
 
 build = Builds("bank", ((B32, 50), (B8, 18), (B64, 12), (F100, 12), (B4, 8)))
 INTERVALS = 50_000

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cocotb_tests.harness import BUSY, IBF, OBF, directed
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import DATA, INIT_A, STATUS, Lab
+from .env import DATA, INIT_A, STATUS, Lab
 
 UNDEFINED, WHILE_BUSY, NOT_READY, NOT_WANTED = 0, 1, 2, 3
 LONG = (0x0A, 255, 1, 4)

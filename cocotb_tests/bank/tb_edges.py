@@ -8,9 +8,9 @@ from itertools import product
 from cocotb_tests.harness import IBF, OBF, directed
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import DATA, GO, MASK, STATUS, STOP, SYNC, Axis, Lab
+from .env import DATA, GO, MASK, STATUS, STOP, SYNC, Axis, Lab
 from .tb_group import due
-from .tb_rest import CHOPPED, ON
+from .tb_standstill import CHOPPED, ON
 
 STOP_BIT, ALARM_BIT, LIMIT_BIT, SLOW_BIT = 0x40, 0x20, 0x10, 0x08
 

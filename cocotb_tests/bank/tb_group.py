@@ -5,7 +5,7 @@ from __future__ import annotations
 from cocotb_tests.harness import BUSY, directed
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import GO, INIT_A, MASK, STATUS, STOP, SYNC, Axis, Lab
+from .env import GO, INIT_A, MASK, STATUS, STOP, SYNC, Axis, Lab
 
 
 def due(lab: Lab, g: int) -> int:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from itertools import product
 
 from cocotb_tests.harness import directed
+from cocotb_tests.harness.axis_driver import steps
 from cocotb_tests.harness.checks import BOTH, two_causes
-from cocotb_tests.harness.drive import steps
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import GO, STATUS, STOP, SYNC, Axis, Lab
+from .env import GO, STATUS, STOP, SYNC, Axis, Lab
 
 N = 4
 OFFSETS = range(-2, 3)

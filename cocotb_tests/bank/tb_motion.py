@@ -7,10 +7,10 @@ from __future__ import annotations
 from itertools import product
 
 from cocotb_tests.harness import BUSY, directed
-from cocotb_tests.harness.drive import indices, rates, steps
+from cocotb_tests.harness.axis_driver import indices, rates, steps
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import CONFIG, DATA, INIT_A, POSITION, STATUS, SYNC, Lab
+from .env import CONFIG, DATA, INIT_A, POSITION, STATUS, SYNC, Lab
 
 RAMP = (20, 0, 30)
 

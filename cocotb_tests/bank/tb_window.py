@@ -9,7 +9,7 @@ from itertools import product
 from cocotb_tests.harness import BUSY, IBF, OBF, directed
 
 from .bench import B4, B8, B16, B32, B64, F100
-from .lab import CONFIG, DATA, GO, INFO, INIT_A, MAP, MASK, POSITION, STATUS, STOP, Axis, Lab
+from .env import CONFIG, DATA, GO, INFO, INIT_A, MAP, MASK, POSITION, STATUS, STOP, Axis, Lab
 
 NOWHERE = (0x3, 0xD, 0xE, 0xF)
 REGISTERS = range(16)

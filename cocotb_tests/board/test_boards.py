@@ -17,7 +17,7 @@ from .tb_blocks import BLOCKS
 PART = Part("boards", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
-LAMP_ITEMS = cocotb_items("cocotb_tests.board", "tb_lamps", part=PART)
+LAMP_ITEMS = cocotb_items("cocotb_tests.board", "tb_leds", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"

@@ -7,7 +7,7 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness import PARTS, Bench, HostBus
-from cocotb_tests.harness.clock import clockwork
+from cocotb_tests.harness.sim_backend import clockwork
 
 
 @cocotb.test()

@@ -12,7 +12,7 @@ import pytest
 from cocotb.triggers import Timer
 
 from ..harness import inside
-from ..harness.clock import clockwork
+from ..harness.sim_backend import clockwork
 
 LEFT: list[str] = []
 

@@ -2,8 +2,8 @@
 
     # cocotb_tests/ppmc104/tb_stops.py                       (runs inside the simulator)
     from cocotb_tests.harness import F11, F16, directed
-    from .figures import INIT_A
-    from .lab import Lab
+    from .expected_timing import INIT_A
+    from .env import Lab
 
     @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; the default is F16 only
     async def p104_stp_01_immediate_stop(dut):
@@ -41,40 +41,40 @@ from typing import TYPE_CHECKING
 from openppmc.lazy import lazy
 
 if TYPE_CHECKING:
-    from .bench import Bench
+    from .axis_driver import Drive
+    from .block_driver import Block, Unit, rng, same
     from .build import check_ranges
     from .bus import BUSY, COMMAND, DATA, ERR, IBF, OBF, STATUS, BlockHost, HostBus
     from .collect import cocotb_items, inside, verifies
     from .config import D11, D16, F8, F11, F16, F25, F48, F50, F100, Config, configs
-    from .drive import Drive
+    from .dut_bench import Side
     from .isa import IsaHost
     from .line import SerialLine
     from .model_bench import ModelBench, OnModel, on_model, rtl_only
     from .part import PARTS, BusStyle, Part
     from .random_items import RandomItems, generating
+    from .rtl_bench import Bench
+    from .run_context import directed, random_test, start_bench
     from .runner import SimOptions, run_item
-    from .running import directed, random_test, start_bench
-    from .side import Side
-    from .unit import Block, Unit, rng, same
 else:
     __getattr__, __dir__ = lazy(
         __name__,
         """
-        .bench Bench
+        .axis_driver Drive
+        .block_driver Block Unit rng same
         .build check_ranges
         .bus BUSY COMMAND DATA ERR IBF OBF STATUS BlockHost HostBus
         .collect cocotb_items inside verifies
         .config D11 D16 F8 F11 F16 F25 F48 F50 F100 Config configs
-        .drive Drive
+        .dut_bench Side
         .isa IsaHost
         .line SerialLine
         .model_bench ModelBench OnModel on_model rtl_only
         .part PARTS BusStyle Part
         .random_items RandomItems generating
+        .rtl_bench Bench
+        .run_context directed random_test start_bench
         .runner SimOptions run_item
-        .running directed random_test start_bench
-        .side Side
-        .unit Block Unit rng same
         """,
     )
 

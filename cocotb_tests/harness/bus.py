@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterable, Mapping
 
 from openppmc.check.records import Access
 
-from .bench import Bench
+from .dut_bench import Side
 from .part import BusStyle
-from .side import Side
+from .rtl_bench import Bench
 
 
 class SideHost:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import accumulate, cycle, islice
 from random import Random
 
-from .drive import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
+from .axis_driver import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
 
 # From this interval on the rules apply to the exact cycle (P104-BCK-05).
 EXACT = 16

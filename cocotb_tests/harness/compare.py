@@ -22,8 +22,8 @@ from openppmc.check.records import Edge, Recording
 from openppmc.check.report import write_report
 
 from .crosses import leave
+from .dut_bench import Follower, new_model
 from .part import recorded
-from .side import Follower, new_model
 
 TALLY = "OPENPPMC_TALLY"
 

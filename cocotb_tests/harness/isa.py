@@ -8,9 +8,9 @@ from cocotb.triggers import Lock, Timer
 
 from openppmc.check.records import Access
 
-from .bench import Bench
 from .bus import HostBus
 from .part import BusStyle
+from .rtl_bench import Bench
 
 STROBES_ISA = BusStyle(
     write_on={"iow_n": 0},

@@ -11,7 +11,7 @@ from typing import Any
 import cocotb
 from cocotb.triggers import FallingEdge, Timer
 
-from .side import Side
+from .dut_bench import Side
 
 BITS = 8
 

@@ -15,8 +15,8 @@ from typing import Any, TypeVar
 from openppmc.check.records import Change
 
 from .config import F16, Config
+from .dut_bench import TIMEOUT, PinChange, Side, new_model
 from .part import Part
-from .side import TIMEOUT, PinChange, Side, new_model
 
 T = TypeVar("T")
 F = TypeVar("F")

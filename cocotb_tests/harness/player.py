@@ -25,7 +25,7 @@ from typing import Any
 
 from .bus import BUSY, DATA, IBF, OBF, HostBus
 from .config import Config
-from .side import PinChange, Side
+from .dut_bench import PinChange, Side
 
 Action = tuple[Any, ...]
 

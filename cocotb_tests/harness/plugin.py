@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 
 from .build import locked
-from .clock import collect_seldom
 from .collect import PREFIXES, Item, part_of_rule, rules_of, unknown_rules
 from .model_tests import run_on_model
 from .paths import TRACE
 from .runner import SimOptions, Summary, notes
 from .schedule import Groups, Sender, item_of, params_of
+from .sim_backend import collect_seldom
 from .variants import mutant_present
 
 RESULTS = TRACE / "results.jsonl"

@@ -9,10 +9,10 @@ from typing import Any, Protocol, TypeVar
 
 from cocotb.triggers import Timer
 
-from .bench import Bench
 from .config import Config
+from .dut_bench import Handle, PinChange, Side
 from .player import Action
-from .side import Handle, PinChange, Side
+from .rtl_bench import Bench
 
 
 class MovingPins:

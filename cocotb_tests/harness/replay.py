@@ -13,9 +13,9 @@ import cocotb
 from openppmc.check.comparison import Comparison
 from openppmc.check.records import Change, Edge, Recording
 
-from .bench import Bench
 from .compare import compare_recording, write_report
 from .part import PARTS
+from .rtl_bench import Bench
 from .shrink import Act, Shrinker, acts_of, changes_of, told
 
 

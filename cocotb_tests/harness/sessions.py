@@ -19,9 +19,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from .bench import Bench
 from .bus import HostBus
 from .paths import ROOT
+from .rtl_bench import Bench
 
 LINE = re.compile(r"^(?:(c|d|w) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|(p?) +st ([0-9A-F]{2}))\b")
 

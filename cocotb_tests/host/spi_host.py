@@ -11,7 +11,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from ..harness import Unit, rng
-from .busses.strobe_slave import Registers, StrobeSlave
+from .buses.strobe_slave import Registers, StrobeSlave
 
 WRITE, NEXT_AXIS, NEXT = 0x8000, 0x4000, 0x2000
 FAST, CUT, REFUSED, INT = 8, 4, 2, 1

@@ -9,8 +9,8 @@ import cocotb
 from cocotb_tests.harness import Bench
 from cocotb_tests.harness.sessions import Story
 
+from .demo_program import tell
 from .stepping import MotorHost
-from .story import tell
 
 
 @cocotb.test()

@@ -15,8 +15,8 @@ from .builds import D8E, F8B, ODD
 from .chip import Chip
 from .host import Host
 from .programs import image, page
+from .random_collisions import Meetings
 from .random_faults import Faults
-from .random_meeting import Meetings
 from .random_pins import Pins
 from .random_program import some_program
 

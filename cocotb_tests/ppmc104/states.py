@@ -4,8 +4,8 @@ external clock.
 
 from __future__ import annotations
 
-from .figures import INIT_EXT
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_EXT
 
 # Ramp PA of INIT_EXT: interval I(PA + 1), the one after pulse PA + 1, is the first on the plateau.
 PLATEAU = INIT_EXT[3] + 1

@@ -6,8 +6,8 @@ from itertools import repeat
 
 from cocotb_tests.harness import BUSY, COMMAND, D16, F11, IBF, directed
 
-from .figures import INIT_A, INIT_B, differences
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B, differences
 
 A_DATA = (9, 4, 4)
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, IBF, OBF, STATUS, directed
 
-from .figures import INIT_A, INIT_B
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B
 
 A_DATA = "d 09 d 04 d 04 d 00"
 A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import ERR, OBF, directed
 
-from .figures import INIT_A, INIT_B, STEP_CODES, rates, steps
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B, STEP_CODES, rates, steps
 
 A_DATA = "d 09 d 04 d 04 d 00"
 A_INTERVALS = [320, 256, 192, 192, *[160] * 5, 192, 192, 256, 320]

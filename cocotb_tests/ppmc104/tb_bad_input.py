@@ -6,8 +6,8 @@ import random
 
 from cocotb_tests.harness import BUSY, D16, DATA, F8, F16, F100, IBF, OBF, directed
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A
 from .tb_acceptance_moves import kind_of
 
 

@@ -7,8 +7,8 @@ from itertools import chain, repeat
 from cocotb_tests.harness import BUSY, F8, F11, F16, F25, F50, F100, Config, directed
 from cocotb_tests.harness.config import F16X1
 
-from .figures import INIT_A, differences, rates
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, differences, rates
 
 EXTERNAL = (0x1A, 9, 4, 4)
 

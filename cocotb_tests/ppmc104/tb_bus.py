@@ -10,8 +10,8 @@ from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import COMMAND, DATA, F8, F16, F50, F100, IBF, STATUS, directed, rtl_only
 
-from .figures import INIT_A
-from .lab import PINS_LATEST, Lab
+from .env import PINS_LATEST, Lab
+from .expected_timing import INIT_A
 
 
 async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:

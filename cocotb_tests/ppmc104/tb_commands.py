@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, DATA, ERR, directed
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A
 from .states import CONSTANT, MOVING, enter
 from .tb_acceptance_moves import kind_of
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 from cocotb_tests.harness import BUSY, D11, D16, DATA, IBF, directed
 from cocotb_tests.harness.config import D25X8
 
-from .figures import INIT_A
-from .lab import WRITE_EVENT
-from .sheet import PIN, TOLERANCE, US, Sheet
+from .datasheet_env import PIN, TOLERANCE, US, Sheet
+from .env import WRITE_EVENT
+from .expected_timing import INIT_A
 
 
 @directed("P104-DS-01", "P104-INI-07", builds=(D16, D11))

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, D11, D16, IBF, directed
 
-from .figures import INIT_B, forced, rates
-from .lab import WRITE_EVENT
-from .sheet import TOLERANCE, US, Sheet
+from .datasheet_env import TOLERANCE, US, Sheet
+from .env import WRITE_EVENT
+from .expected_timing import INIT_B, forced, rates
 
 
 @directed("P104-DS-08", "P104-DS-10", "P104-END-03", "P104-FDC-02", builds=(D16, D11))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import F8, F11, F16, F25, F50, directed
 
-from .figures import INIT_A, STEP_CODES, steps
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, STEP_CODES, steps
 
 A_VALUES = (9, 4, 4)
 

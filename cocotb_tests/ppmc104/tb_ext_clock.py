@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from cocotb_tests.harness import F8, F16, F25, directed
+from cocotb_tests.harness.axis_driver import differences
 from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
-from cocotb_tests.harness.drive import differences
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A
 from .tb_baseclock import EXTERNAL, carried
 
 

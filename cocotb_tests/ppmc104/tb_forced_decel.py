@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import F16, F25, F100, directed
 
-from .figures import INIT_B, forced, indices, rates
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_B, forced, indices, rates
 
 RAMP = INIT_B[1:]
 LIMITS = {0: "l3_n", 1: "l4_n"}

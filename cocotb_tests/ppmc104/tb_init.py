@@ -5,8 +5,8 @@ from __future__ import annotations
 from cocotb_tests.harness import DATA, F16, F50, IBF, directed
 from cocotb_tests.harness.config import F16X1
 
-from .figures import INIT_A, INIT_B, rates, steps
-from .lab import PINS_LATEST, Lab
+from .env import PINS_LATEST, Lab
+from .expected_timing import INIT_A, INIT_B, rates, steps
 
 ALL_PINS = 0x1F
 

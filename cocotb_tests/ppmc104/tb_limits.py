@@ -7,8 +7,8 @@ from itertools import repeat
 from cocotb_tests.harness import BUSY, F16, F50, F100, directed
 from cocotb_tests.harness.checks import BOTH, two_causes
 
-from .figures import INIT_A, INIT_B, forced, rates
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B, forced, rates
 from .states import PLATEAU, enter
 
 ALL = 1 << 24

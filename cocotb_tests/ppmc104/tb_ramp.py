@@ -7,8 +7,8 @@ from math import isqrt
 
 from cocotb_tests.harness import F8, F16, F100, directed
 
-from .figures import INIT_A, INIT_B, forced, indices, rate, rates
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B, forced, indices, rate, rates
 
 
 async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness import BUSY, IBF, Bench, HostBus, random_test, start_bench
 from cocotb_tests.harness.player import describe
 from cocotb_tests.harness.random_host import UNCOMPARED
-from cocotb_tests.harness.running import note
+from cocotb_tests.harness.run_context import note
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
 from cocotb_tests.ppmc104.random_player import HostPlayer

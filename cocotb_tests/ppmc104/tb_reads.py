@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import DATA, F16, F25, F50, OBF, directed
 
-from .figures import INIT_A, STEP_CODES, steps
-from .lab import PINS_LATEST, Lab
+from .env import PINS_LATEST, Lab
+from .expected_timing import INIT_A, STEP_CODES, steps
 
 READS = (0x80, 0x81, 0x82, 0x83, 0x85)
 

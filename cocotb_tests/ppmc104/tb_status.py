@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, COMMAND, D16, DATA, F16, F100, IBF, OBF, directed
 
-from .figures import INIT_A, INIT_B
-from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab
+from .env import C_EVENT_LATEST, WRITE_EVENT, Lab
+from .expected_timing import INIT_A, INIT_B
 from .states import enter
 
 LONGEST_BUILD = (0x0A, 255, 0, 11220)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, ERR, F8, F16, F100, directed
 
-from .figures import INIT_A, INIT_B, forced, rates, steps
-from .lab import PINS_LATEST, Lab
+from .env import PINS_LATEST, Lab
+from .expected_timing import INIT_A, INIT_B, forced, rates, steps
 
 ALL = 1 << 24
 

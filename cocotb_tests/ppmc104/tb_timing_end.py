@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, F8, F11, F16, F25, F50, F100, IBF, directed
 
-from .figures import INIT_A, INIT_B
-from .lab import C_EVENT_LATEST, PINS_LATEST, Lab
+from .env import C_EVENT_LATEST, PINS_LATEST, Lab
+from .expected_timing import INIT_A, INIT_B
 
 ALL = 1 << 24
 OPERATIONS = ((0x42, None, None), (0x43, 6, None), (0x44, 6, 9), (0x45, None, 9), (0x46, None, None))

@@ -6,7 +6,7 @@ from cocotb.triggers import Timer
 
 from cocotb_tests.harness import BusStyle
 
-from .lab import Lab
+from .env import Lab
 
 # Limits of the old chip in ns (P2104-BUS-20).
 WIDTH, DATA_SETUP, DATA_HOLD, ADDRESS_SETUP, ADDRESS_HOLD = 120, 80, 10, 20, 5

@@ -6,10 +6,10 @@ from itertools import repeat
 from typing import Any
 
 from cocotb_tests.harness import IBF, OBF, directed
-from cocotb_tests.harness.drive import NO_PULSES_DONE, steps
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE, steps
 
-from .figures import BUSY1, CMND1, INIT_B, STEP_CODES
-from .lab import Lab
+from .env import Lab
+from .expected_timing import BUSY1, CMND1, INIT_B, STEP_CODES
 from .tb_acceptance_moves import AC_09, B1
 
 US = 16

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import F8, F11, F16, F48, F100, OBF, directed, rtl_only
+from cocotb_tests.harness.axis_driver import differences
 from cocotb_tests.harness.config import F16X8
-from cocotb_tests.harness.drive import differences
 
-from .figures import CMND2, INIT_B
-from .lab import Lab
+from .env import Lab
+from .expected_timing import CMND2, INIT_B
 from .tb_acceptance_errors import EX_03, clk
 from .tb_acceptance_moves import AC_09
 

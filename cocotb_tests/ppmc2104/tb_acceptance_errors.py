@@ -7,8 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import OBF, directed
 
-from .figures import BUSY1, INIT_B
-from .lab import Axis, Lab
+from .env import Axis, Lab
+from .expected_timing import BUSY1, INIT_B
 from .tb_acceptance_moves import AC_09, B1
 
 E7 = "d E7 d 03 d 00"

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import F8, IBF, directed, rtl_only
-from cocotb_tests.harness.drive import indices, rates
+from cocotb_tests.harness.axis_driver import indices, rates
 
-from .figures import (
+from .env import Lab
+from .expected_timing import (
     BUILD_LATEST,
     CMND1,
     DATA_BYTES,
@@ -17,7 +18,6 @@ from .figures import (
     axis_of,
     kind_of,
 )
-from .lab import Lab
 from .nanoseconds import PHASES, SlowBus
 
 B1 = "c 02 d 63 d 13 d 0A d 00"

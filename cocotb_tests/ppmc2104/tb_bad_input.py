@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import D16, F11, F16, IBF, OBF, directed
-from cocotb_tests.harness.drive import indices, rates
+from cocotb_tests.harness.axis_driver import indices, rates
 
-from .figures import CMND1, ERROR, INIT_A, kind_of
-from .lab import Lab
+from .env import Lab
+from .expected_timing import CMND1, ERROR, INIT_A, kind_of
 
 SWITCHES = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
 

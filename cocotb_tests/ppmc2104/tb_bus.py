@@ -7,8 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import COMMAND, DATA, F8, F11, F16, F48, F100, IBF, OBF, STATUS, directed, rtl_only
 
-from .figures import INIT_A
-from .lab import PINS_LATEST, Lab
+from .env import PINS_LATEST, Lab
+from .expected_timing import INIT_A
 from .nanoseconds import SlowBus
 
 STYLES = (0, 1)

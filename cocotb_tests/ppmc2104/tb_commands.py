@@ -7,7 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import IBF, OBF, directed
 
-from .figures import (
+from .env import Axis, Lab
+from .expected_timing import (
     CMND1,
     DATA_BYTES,
     ERROR,
@@ -17,7 +18,6 @@ from .figures import (
     axis_of,
     kind_of,
 )
-from .lab import Axis, Lab
 from .states import MOVING, RAMP, RESTING, enter, leave
 
 # One code of each row of the table.

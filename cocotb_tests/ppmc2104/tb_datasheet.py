@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import D11, D16, IBF, OBF, directed
-from cocotb_tests.harness.drive import bytes_of, rates
+from cocotb_tests.harness.axis_driver import bytes_of, rates
 
-from .figures import ERROR, INIT_A, INIT_B, slowed
-from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab
-from .sheet import ON, PIN, READ, TOLERANCE, after, last_byte, opens, rest
+from .datasheet_timing import ON, PIN, READ, TOLERANCE, after, last_byte, opens, rest
+from .env import C_EVENT_LATEST, WRITE_EVENT, Lab
+from .expected_timing import ERROR, INIT_A, INIT_B, slowed
 
 BOTH = (D16, D11)
 

@@ -6,11 +6,11 @@ from itertools import repeat
 from typing import Any
 
 from cocotb_tests.harness import D11, D16, F16, IBF, directed
-from cocotb_tests.harness.drive import NO_PULSES_DONE
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE
 
-from .figures import INIT_B
-from .lab import Axis, Lab
-from .sheet import last_byte, opens, rest
+from .datasheet_timing import last_byte, opens, rest
+from .env import Axis, Lab
+from .expected_timing import INIT_B
 
 # Smallest accepted rates: other axis idle, other axis operating, by kind and csel (P2104-DS-30).
 LIMITS = {

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, directed
-from cocotb_tests.harness.drive import NO_PULSES_DONE
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE
 
-from .figures import INIT_A, INIT_B
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B
 
 
 @directed(

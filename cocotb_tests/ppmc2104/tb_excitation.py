@@ -6,10 +6,10 @@ from itertools import product
 from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, directed
-from cocotb_tests.harness.drive import differences, steps
+from cocotb_tests.harness.axis_driver import differences, steps
 
-from .figures import INIT_A, STEP_CODES
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, STEP_CODES
 
 FULL, OFF = 0b11100, 0b11111
 

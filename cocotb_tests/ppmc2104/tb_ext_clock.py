@@ -9,7 +9,7 @@ from typing import Any
 from cocotb_tests.harness import F8, F16, F48, directed
 from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
 
-from .lab import Lab
+from .env import Lab
 
 # Setting with EXTCK, otherwise with the ramp of INIT_A.
 EXTERNAL = (0x0A, 9, 4, 4)

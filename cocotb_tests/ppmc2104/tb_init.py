@@ -6,10 +6,10 @@ from itertools import product, repeat
 from typing import Any
 
 from cocotb_tests.harness import IBF, directed
-from cocotb_tests.harness.drive import indices, rates, steps
+from cocotb_tests.harness.axis_driver import indices, rates, steps
 
-from .figures import INIT_A, INIT_B, STEP_CODES
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B, STEP_CODES
 from .states import MOVING, enter, leave
 
 FULL, OFF = 0b11100, 0b11111

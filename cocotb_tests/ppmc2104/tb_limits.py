@@ -6,11 +6,11 @@ from itertools import product
 from typing import Any
 
 from cocotb_tests.harness import F16, F48, F100, directed
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE, forced, rates
 from cocotb_tests.harness.checks import BOTH, two_causes
-from cocotb_tests.harness.drive import NO_PULSES_DONE, forced, rates
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A
 from .states import MOVING, enter, leave
 
 PINS = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")

@@ -6,11 +6,11 @@ from itertools import product, repeat
 from typing import Any
 
 from cocotb_tests.harness import F8, F11, F16, F48, F100, directed
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE, indices, rates
 from cocotb_tests.harness.config import F16X8
-from cocotb_tests.harness.drive import NO_PULSES_DONE, indices, rates
 
-from .figures import ERROR, INIT_A, INIT_EXT
-from .lab import Lab
+from .env import Lab
+from .expected_timing import ERROR, INIT_A, INIT_EXT
 
 CLOCKS = (F8, F11, F16, F16X8, F48, F100)
 

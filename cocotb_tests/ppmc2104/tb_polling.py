@@ -8,9 +8,9 @@ import cocotb
 
 from cocotb_tests.harness import D11, D16, directed
 
-from .figures import INIT_B
-from .lab import Axis, Lab
-from .sheet import CONSTANT, REGULAR, SETTING, detection, last_byte, rest
+from .datasheet_timing import CONSTANT, REGULAR, SETTING, detection, last_byte, rest
+from .env import Axis, Lab
+from .expected_timing import INIT_B
 
 KPPS_10, KPPS_20 = 49, 24
 """Rates at 500 kHz."""

@@ -11,8 +11,8 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness import COMMAND, D16, DATA, F16, F48, F100, STATUS, directed, rtl_only
 from cocotb_tests.harness.config import F16X8
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A
 
 
 @rtl_only("glitches between two clk edges, which the model never sees")

@@ -6,10 +6,10 @@ from itertools import product
 from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, directed
-from cocotb_tests.harness.drive import indices, rate, rates
+from cocotb_tests.harness.axis_driver import indices, rate, rates
 
-from .figures import INIT_A, INIT_B, slowed
-from .lab import Axis, Lab
+from .env import Axis, Lab
+from .expected_timing import INIT_A, INIT_B, slowed
 
 RAMPS = (
     (9, 4, 4),

@@ -6,7 +6,7 @@ from typing import Any
 
 from cocotb_tests.harness import random_test, start_bench
 from cocotb_tests.harness.player import describe
-from cocotb_tests.harness.running import note
+from cocotb_tests.harness.run_context import note
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_player import HostPlayer
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, F100, IBF, directed
 
-from .figures import INIT_A, INIT_B, STEP_CODES
-from .lab import Lab
+from .env import Lab
+from .expected_timing import INIT_A, INIT_B, STEP_CODES
 
 CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3, 3), (0xC6, 6))
 

@@ -6,10 +6,10 @@ from itertools import product
 from typing import Any
 
 from cocotb_tests.harness import COMMAND, DATA, F11, F16, IBF, OBF, directed
-from cocotb_tests.harness.drive import indices, rates
+from cocotb_tests.harness.axis_driver import indices, rates
 
-from .figures import BUILD_LATEST, ERROR, INIT_A, INIT_B
-from .lab import Lab
+from .env import Lab
+from .expected_timing import BUILD_LATEST, ERROR, INIT_A, INIT_B
 from .states import MOVING, RESTING, enter, leave
 
 # The largest table has all rates and all steps.

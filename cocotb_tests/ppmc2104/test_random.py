@@ -28,7 +28,7 @@ pair_item = RandomItems(
 )
 chaos_item = RandomItems(
     "ppmc2104",
-    "tb_chaos",
+    "tb_noise_recovery",
     "p2104_random_chaos",
     CHAOS_SEEDS,
     in_turn(F16, F16, F11, F100, F16, D16),

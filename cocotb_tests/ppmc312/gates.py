@@ -31,7 +31,7 @@ PART = PartTests(
         "tb_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
         "tb_positions": "1 million clk; the other modules have positions and their reports, too",
         **{f"tb_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
-        "tb_checks_motion": "15 million clk; tb_motion_walks and tb_bounds have shorter moves of all kinds",
+        "tb_checks_motion": "15 million clk; tb_motion_walks, tb_time_limits have shorter moves of all kinds",
     },
     quick=frozenset(
         {

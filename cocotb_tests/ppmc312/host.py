@@ -9,7 +9,7 @@ from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, WAR,
 from openppmc.check.records import Access
 
 from .bench import PPMC312
-from .side_host import SideHost
+from .directed_host import SideHost
 
 LATE = 10_000
 """Cycles by which a response may follow that of the golden model."""

@@ -6,12 +6,12 @@ import random
 from typing import Any
 
 from cocotb_tests.harness.bus import CSR, DWR, MREF, MWEF, WAR, WCR
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import HOST_PINS, INPUTS, WIDTHS, Code
 
 from .blocks import TF
 from .host import Host
-from .rough_host import reset_by_bus
+from .misuse_host import reset_by_bus
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))
 BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86, 0x80, 0x00, 0x00, 0xFF)

@@ -13,10 +13,10 @@ from cocotb_tests.harness.random_host import Builds, MovingPins
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
-from .aware import Aware
 from .builds import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
 from .serial_host import SerialHost
+from .state_aware_host import Aware
 
 build = Builds("p312 serial", ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4)))
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")

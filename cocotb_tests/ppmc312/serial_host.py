@@ -15,8 +15,8 @@ from cocotb_tests.harness.bus import clean
 from cocotb_tests.harness.line import characters
 
 from .bench import PPMC312
+from .directed_host import SideHost
 from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
-from .side_host import SideHost
 
 SLACK = 64
 """Cycles by which a reply may be late."""

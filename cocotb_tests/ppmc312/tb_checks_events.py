@@ -10,7 +10,7 @@ from cocotb_tests.harness import D16, F16, directed
 from cocotb_tests.harness.bus import CSR, MWEF
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 STOP = message(Code.STOP, "00")

@@ -10,7 +10,7 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, T2, T3, T4, TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, rates, stopped
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 MOVES = [

@@ -14,7 +14,7 @@ from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.blocks import T1, TF, TG
 from cocotb_tests.ppmc312.builds import F8V
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")

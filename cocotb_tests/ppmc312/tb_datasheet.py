@@ -10,7 +10,7 @@ from cocotb_tests.harness import D16, directed
 from cocotb_tests.harness.bus import CSR, MREF
 from cocotb_tests.ppmc312.blocks import T1, T2, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 STOP = message(Code.STOP, "00")

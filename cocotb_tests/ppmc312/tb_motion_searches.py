@@ -6,10 +6,10 @@ from typing import Any
 
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF, TG
+from cocotb_tests.ppmc312.directed_host import TICK
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import SLOW_STOP, STOP
-from cocotb_tests.ppmc312.side_host import TICK
-from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 

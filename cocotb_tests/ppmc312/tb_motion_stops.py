@@ -7,8 +7,8 @@ from typing import Any
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, SLOW_STOP, STOP, change
-from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 

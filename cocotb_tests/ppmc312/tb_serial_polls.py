@@ -8,7 +8,7 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness import directed
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code
 
 from .serial_frames import TS, summed

@@ -8,7 +8,7 @@ import cocotb
 
 from cocotb_tests.harness import D16, directed
 from cocotb_tests.harness.bus import CSR
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code
 
 from .host import Host

@@ -9,7 +9,7 @@ from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.builds import F27
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 CLEAR = 393_216

@@ -10,8 +10,8 @@ from cocotb_tests.harness.isa import IsaMaster
 from cocotb_tests.harness.project import include_dirs, part, sources
 
 from .bench import J105_STMC
-from .figures import Init
-from .lab import Lab
+from .env import Lab
+from .expected_timing import Init
 
 BASE = 0x3B0
 

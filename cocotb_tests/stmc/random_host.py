@@ -12,7 +12,7 @@ from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.harness.random_host import HostWriter
 
-from .figures import F8X20, F12, F200, ODD, SHEET, SWITCHES
+from .expected_timing import F8X20, F12, F200, ODD, SHEET, SWITCHES
 
 # The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [

@@ -5,7 +5,7 @@ A moving core stays in its state because `ext_clk` is stopped; the tests make it
 
 from __future__ import annotations
 
-from .lab import Lab
+from .env import Lab
 
 # D1 = 3 and D2 = 1 make gaps of few ticks. The level is 1 from gap 3 on.
 SMALL = (0x1A, 3, 1, 4)

@@ -6,8 +6,8 @@ from typing import Any
 
 from cocotb_tests.harness import F16, directed
 
-from .figures import EXT, F10, F12, INTERNAL, STANDARD, T0
-from .lab import Lab
+from .env import Lab
+from .expected_timing import EXT, F10, F12, INTERNAL, STANDARD, T0
 
 W1 = [20, 12, 9, 8, 7, 6, 6, 5, 5, 5, 5, 5, 6, 6, 7, 8, 9, 12, 20]
 W2 = [20, 12, 9, 8, 7, 6, 7, 8, 9, 12, 20]

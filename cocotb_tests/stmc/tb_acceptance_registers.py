@@ -6,8 +6,8 @@ from typing import Any
 
 from cocotb_tests.harness import BUSY, D16, DATA, IBF, OBF, directed
 
-from .figures import INTERNAL, MOST, SHEET, STANDARD
-from .lab import WRITE_EVENT, Lab
+from .env import WRITE_EVENT, Lab
+from .expected_timing import INTERNAL, MOST, SHEET, STANDARD
 
 
 @directed("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")

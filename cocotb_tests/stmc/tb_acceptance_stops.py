@@ -6,8 +6,8 @@ from typing import Any
 
 from cocotb_tests.harness import directed
 
-from .figures import MOST
-from .lab import Lab
+from .env import Lab
+from .expected_timing import MOST
 from .tb_acceptance_moves import W1, W2
 
 W14 = [20, 12, 9, 8, 9, 12, 20]

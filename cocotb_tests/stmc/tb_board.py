@@ -10,7 +10,7 @@ from cocotb_tests.harness import F8, F16, IBF, OBF, directed, rtl_only
 from cocotb_tests.harness.isa import Times
 
 from .board import OTHER, BoardLab
-from .figures import A, gaps
+from .expected_timing import A, gaps
 from .tb_acceptance_moves import W1
 
 NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edges"

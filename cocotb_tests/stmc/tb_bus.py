@@ -8,8 +8,8 @@ from cocotb.triggers import Timer
 
 from cocotb_tests.harness import BUSY, COMMAND, D16, DATA, F16, IBF, OBF, STATUS, directed, rtl_only
 
-from .figures import F8X20, F200, INTERNAL, STANDARD
-from .lab import C_EVENT_LATEST, PINS_LATEST, Lab
+from .env import C_EVENT_LATEST, PINS_LATEST, Lab
+from .expected_timing import F8X20, F200, INTERNAL, STANDARD
 
 OFF = {"cs_n": 1, "rd_n": 1, "wr_n": 1}
 

@@ -6,8 +6,8 @@ from typing import Any
 
 from cocotb_tests.harness import F16, directed
 
-from .figures import F12, INTERNAL, ODD, SHEET, T0
-from .lab import Lab
+from .env import Lab
+from .expected_timing import F12, INTERNAL, ODD, SHEET, T0
 
 CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
 

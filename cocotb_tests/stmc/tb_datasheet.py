@@ -7,8 +7,8 @@ from typing import Any
 from cocotb_tests.harness import BUSY, D16, IBF, OBF, directed
 from cocotb_tests.harness.config import D25X8
 
-from .figures import INTERNAL, gaps, slowed
-from .lab import WRITE_EVENT, Lab
+from .env import WRITE_EVENT, Lab
+from .expected_timing import INTERNAL, gaps, slowed
 
 TOLERANCE = 16
 PIN = 2

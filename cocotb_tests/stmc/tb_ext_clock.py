@@ -8,8 +8,8 @@ from typing import Any
 from cocotb_tests.harness import F16, directed
 from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, sweep
 
-from .figures import F8X20, Ramp, divisor
-from .lab import Lab
+from .env import Lab
+from .expected_timing import F8X20, Ramp, divisor
 
 
 def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:

@@ -6,8 +6,8 @@ from typing import Any
 
 from cocotb_tests.harness import BUSY, D16, DATA, F16, IBF, OBF, directed
 
-from .figures import SHEET, STANDARD, STEPS, gaps, steps
-from .lab import BUILD_LATEST, C_EVENT_LATEST, Lab
+from .env import BUILD_LATEST, C_EVENT_LATEST, Lab
+from .expected_timing import SHEET, STANDARD, STEPS, gaps, steps
 
 WRONG = ((0, 0, 8), (0, 5, 8), (20, 0, 8), (5, 20, 8), (19, 20, 0), (254, 255, 65535))
 

@@ -7,8 +7,22 @@ from typing import Any
 
 from cocotb_tests.harness import BUSY, F16, directed
 
-from .figures import ALL, EXT, F8X20, F12, F200, INTERNAL, MOST, ODD, STANDARD, SWITCHES, T0, divisor, gaps
-from .lab import END_LATEST, Lab
+from .env import END_LATEST, Lab
+from .expected_timing import (
+    ALL,
+    EXT,
+    F8X20,
+    F12,
+    F200,
+    INTERNAL,
+    MOST,
+    ODD,
+    STANDARD,
+    SWITCHES,
+    T0,
+    divisor,
+    gaps,
+)
 
 # Commands 2 to 7; those with a count have n = 4.
 MOTIONS = (

@@ -7,10 +7,10 @@ from typing import Any
 from cocotb_tests.harness import BUSY, IBF, OBF, Bench, HostBus, random_test, start_bench
 from cocotb_tests.harness.player import SinglePlayer, describe
 from cocotb_tests.harness.random_host import UNCOMPARED, Noise
-from cocotb_tests.harness.running import note
+from cocotb_tests.harness.run_context import note
 
 from .bench import STMC
-from .figures import gaps, internal_offsets
+from .expected_timing import gaps, internal_offsets
 from .random_host import scenario
 
 STROBES = ("wr_n", "wr_n", "wr_n", "rd_n", "cs_n")

@@ -6,8 +6,8 @@ from typing import Any
 
 from cocotb_tests.harness import BUSY, COMMAND, DATA, ERR, F16, IBF, OBF, directed
 
-from .figures import SHEET, STANDARD
-from .lab import Lab
+from .env import Lab
+from .expected_timing import SHEET, STANDARD
 from .states import MOVING, RESTING, enter, leave
 
 READS = {"SHEET": (0x80, 0x82, 0x83, 0x84), "FAMILY": (0x80, 0x81, 0x82, 0x83)}

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import BUSY, directed
+from cocotb_tests.harness.axis_driver import differences
 from cocotb_tests.harness.checks import BOTH, two_causes
-from cocotb_tests.harness.drive import differences
 
-from .figures import ALL, EXT, MOST, SWITCHES, gaps, slowed
-from .lab import END_LATEST, PINS_LATEST, Lab
+from .env import END_LATEST, PINS_LATEST, Lab
+from .expected_timing import ALL, EXT, MOST, SWITCHES, gaps, slowed
 
 REQUESTS = (("c 41", 0x40), ("l3_n", 0x08))
 

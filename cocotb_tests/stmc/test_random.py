@@ -9,7 +9,7 @@ from cocotb_tests.harness import D16, F16, RandomItems, SimOptions, generating
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.random_host import in_turn
 
-from .figures import F12, ODD
+from .expected_timing import F12, ODD
 from .random_host import DATASHEET_WEIGHTS, WEIGHTS, scenario
 
 SEEDS = range(1, 151)

@@ -6,7 +6,7 @@ It runs with the main program of cocotb as well, without `directed` and without 
 import cocotb
 
 from cocotb_tests.harness.compare import check_against_model
-from cocotb_tests.ppmc104.lab import Lab
+from cocotb_tests.ppmc104.env import Lab
 
 
 @cocotb.test()

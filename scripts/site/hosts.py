@@ -9,7 +9,7 @@ from itertools import count, islice
 from cocotb_tests.bank.random_host import in_motion
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.random_items import RandomItems
-from cocotb_tests.harness.running import ended
+from cocotb_tests.harness.run_context import ended
 from openppmc.check.records import Recording
 from scripts.site.webparts import WebPart
 

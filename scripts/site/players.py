@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.bank.lab import WindowBus
+from cocotb_tests.bank.env import WindowBus
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR, HostBus
 from cocotb_tests.harness.line import SerialLine
 from openppmc.model.pmc006.line import command

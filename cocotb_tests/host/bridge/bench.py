@@ -13,7 +13,7 @@ from cocotb.triggers import Event, FallingEdge, RisingEdge, Timer, ValueChange, 
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import Config, watchdog
-from cocotb_tests.harness.clock import clockwork
+from cocotb_tests.harness.sim_backend import clockwork
 from openppmc.host.frames import Broken, Deframer, encode
 
 from .settings import baud_of

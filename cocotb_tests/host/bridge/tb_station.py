@@ -11,7 +11,7 @@ from cocotb.handle import Immediate
 from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
 from cocotb_tests.harness import PARTS, BusStyle, Config, configs
-from cocotb_tests.harness.clock import clockwork
+from cocotb_tests.harness.sim_backend import clockwork
 
 from .bench import SECOND, same
 

@@ -9,7 +9,7 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness import D16, F16, F25, IsaHost, configs
-from cocotb_tests.harness.drive import rates
+from cocotb_tests.harness.axis_driver import rates
 
 from .models import check_both
 from .setting import BUSY1, BUSY2, CMND1, CMND2, ERROR, SOURCE, Setting

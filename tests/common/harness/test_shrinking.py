@@ -11,9 +11,10 @@ import pytest
 
 from cocotb_tests.harness import PARTS, Config, HostBus, ModelBench, OnModel, on_model
 from cocotb_tests.harness.compare import compare_recording
+from cocotb_tests.harness.dut_bench import new_model
 from cocotb_tests.harness.random_items import replay_item, shortened
 from cocotb_tests.harness.replay import REPLAY
-from cocotb_tests.harness.running import running_test
+from cocotb_tests.harness.run_context import running_test
 from cocotb_tests.harness.shrink import (
     Act,
     Shrinker,
@@ -25,7 +26,6 @@ from cocotb_tests.harness.shrink import (
     together,
     told,
 )
-from cocotb_tests.harness.side import new_model
 from cocotb_tests.pmc006 import random_host as talker
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc312 import random_host, random_noise, random_serial

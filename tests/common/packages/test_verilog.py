@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import cocotb
 import pytest
 
-from cocotb_tests.harness.clock import Stock
 from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.sim_backend import Stock
 from openppmc import __version__
 from scripts.fpga import verilog
 from scripts.fpga.flow import plain

@@ -11,7 +11,7 @@ from cocotb_tests.harness import D16, F16, OnModel, on_model
 from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.blocks import TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.drive import Ramp, forced, rates
+from cocotb_tests.harness.axis_driver import Ramp, forced, rates
 
 Init = tuple[int, int, int, int]
 

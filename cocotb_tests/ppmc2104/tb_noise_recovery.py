@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import IBF, Bench, HostBus, random_test
-from cocotb_tests.harness.drive import indices, offsets, rates
+from cocotb_tests.harness.axis_driver import indices, offsets, rates
 from cocotb_tests.harness.random_host import UNCOMPARED
-from cocotb_tests.ppmc2104.figures import BUSY1, BUSY2, CMND1, CMND2, OBF
+from cocotb_tests.ppmc2104.expected_timing import BUSY1, BUSY2, CMND1, CMND2, OBF
 from cocotb_tests.ppmc2104.random_noise import noise
 
 from .bench import PPMC2104

@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness import BUSY, Drive, HostBus, Side, start_bench
 
 from .bench import PPMC104
-from .figures import INIT_A
+from .expected_timing import INIT_A
 
 Init = tuple[int, int, int, int]
 

@@ -6,7 +6,7 @@ import importlib
 import re
 from typing import Any
 
-from cocotb_tests.bank.lab import WORDS as BANK_REGISTERS
+from cocotb_tests.bank.env import WORDS as BANK_REGISTERS
 from cocotb_tests.harness.bus import MREF, MWEF
 from cocotb_tests.harness.bus import NAMES as NAMES312
 from openppmc.capture.common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, Words

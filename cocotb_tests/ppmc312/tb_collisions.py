@@ -10,7 +10,7 @@ from cocotb_tests.harness import D16, directed
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MWEF, RAR, WAR, WCR, clean
 from cocotb_tests.ppmc312.blocks import RATES, T1, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")

@@ -18,10 +18,10 @@ from cocotb.triggers import First, Timer
 from cocotb_tests.harness import watchdog
 from openppmc.check.records import Change
 
-from .clock import clockwork, collect_seldom
 from .config import F16, Config
+from .dut_bench import TIMEOUT, PinChange, Side
 from .part import Part
-from .side import TIMEOUT, PinChange, Side
+from .sim_backend import clockwork, collect_seldom
 
 
 class Bench(Side):

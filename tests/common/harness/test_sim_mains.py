@@ -1,6 +1,6 @@
 """Our main program of simulations and cocotb's own produce the same pins, accesses and output edges.
 
-`python -m scripts.measure.mains WORD` compares any other test in the same way.
+`python -m scripts.measure.sim_mains WORD` compares any other test in the same way.
 """
 
 from __future__ import annotations

@@ -11,25 +11,25 @@ from cocotb_tests.harness.build import Design, part_design
 from cocotb_tests.harness.paths import ROOT
 
 ITEMS = cocotb_items(
-    "cocotb_tests.host.busses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("busses", {}), shared=True
+    "cocotb_tests.host.buses", "tb_axil", "tb_wishbone", "tb_resets", part=Part("buses", {}), shared=True
 )
 
 # The verilated.mk of the wheel cannot build a design that is split into several C++ files.
 ONE_FILE = ("--output-split", "0")
 
 
-def busses_design(item) -> Design:
+def buses_design(item) -> Design:
     """Return the design: the sources of a PPMC-104, the templates of both bridges and the test top."""
     part = part_design("ppmc104", item.config)
     templates = [
         ROOT / "packages" / "templates" / f"ppmc104_example_{bus}.sv" for bus in ("axil", "wishbone")
     ]
-    top = Path(__file__).with_name("busses_top.sv")
+    top = Path(__file__).with_name("buses_top.sv")
     sources = [*part.sources, *templates, top]
-    return Design("busses_top", sources, part.includes, dict(item.config.extra), ONE_FILE)
+    return Design("buses_top", sources, part.includes, dict(item.config.extra), ONE_FILE)
 
 
 @pytest.mark.parametrize("item", ITEMS)
 def test_bus(item, sim_options):
     """Run one simulation."""
-    run_item(item, sim_options, design=busses_design(item))
+    run_item(item, sim_options, design=buses_design(item))

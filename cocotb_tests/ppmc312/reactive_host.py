@@ -7,11 +7,11 @@ operations fit into a run. Sometimes it behaves like a rough host.
 from __future__ import annotations
 
 from cocotb_tests.harness.bus import CSR, MREF, MWEF
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code, State
 
 from .host import Host
-from .scenes import Scenes
+from .scenario_host import Scenes
 
 
 class Lively(Scenes):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cocotb_tests.harness import IBF, directed
 
 from .bench import B4, B8, B32, F100
-from .lab import CONFIG, DATA, STATUS, Lab
+from .env import CONFIG, DATA, STATUS, Lab
 
 ON, OFF = 260, 435
 """Default phases of the chopper in quanta (P104-SW-04)."""

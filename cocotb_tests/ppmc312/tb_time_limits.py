@@ -8,7 +8,7 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T3, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import INPUTS, OUTPUTS, SPONTANEOUS, WIDTHS, Answer, Code, Source
 
 BRISK = ("02 03 01 00 03", "00 06 0004 0190 0320", "01 09 000005 000005 000005")

@@ -15,11 +15,11 @@ from itertools import repeat
 from typing import Any
 
 from cocotb_tests.harness import BUSY, IBF, Drive, HostBus, Side, start_bench
-from cocotb_tests.harness.drive import differences
-from cocotb_tests.harness.side import TIMEOUT
+from cocotb_tests.harness.axis_driver import differences
+from cocotb_tests.harness.dut_bench import TIMEOUT
 
 from .bench import STMC
-from .figures import EXT, STANDARD, TICK, Init, internal_offsets
+from .expected_timing import EXT, STANDARD, TICK, Init, internal_offsets
 
 # Limits of the rules in cycles, counted from edge 0 of a host write (STMC-BUS-12, -13).
 WRITE_EVENT = 2

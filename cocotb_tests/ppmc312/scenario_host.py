@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from cocotb_tests.harness.bus import CSR, DRR, MREF, MWEF, RAR
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code, State
 from openppmc.model.ppmc312.stages import ramped
 
-from .rough_host import Player, some_equal
+from .misuse_host import Player, some_equal
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 ASKED = (

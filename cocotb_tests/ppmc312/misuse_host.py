@@ -1,6 +1,6 @@
 """Rough random host of the PPMC-312: wrong order, unread answers, invalid blocks, resets, changing pins.
 
-The hosts of `lively_host` use the same blocks, tables and times near a boundary.
+The hosts of `reactive_host` use the same blocks, tables and times near a boundary.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ import random
 
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
 from cocotb_tests.harness.random_host import MovingPins
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
-from .aware import Aware
 from .host import Host
+from .state_aware_host import Aware
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)

@@ -6,7 +6,7 @@ from math import ceil
 
 from cocotb_tests.harness import IBF
 
-from .lab import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
+from .env import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
 
 # Cycles by which a documented time may be exceeded, and by which a pin may follow the internal event.
 TOLERANCE = 16

@@ -14,8 +14,8 @@ from cocotb_tests.harness import project
 from cocotb_tests.harness.build import MAINS, build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import replay
+from cocotb_tests.harness.dut_bench import new_model
 from cocotb_tests.harness.runner import run_sim
-from cocotb_tests.harness.side import new_model
 from openppmc.check.records import Recording
 from scripts.demo.demos import Demo
 from scripts.fpga.flow import plain_sim

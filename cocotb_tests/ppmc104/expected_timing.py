@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.drive import (
+from cocotb_tests.harness.axis_driver import (
     NO_PULSES_DONE,
     STEPS,
     Ramp,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, IBF
 
-from .lab import WRITE_EVENT, Lab
+from .env import WRITE_EVENT, Lab
 
 TOLERANCE = 16
 # A pin may follow the internal event by up to 2 cycles (P104-HSK-03).

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.side import Given
+from cocotb_tests.harness.dut_bench import Given
 from openppmc.check.records import Change
 
 

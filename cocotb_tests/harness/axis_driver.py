@@ -11,7 +11,7 @@ from math import isqrt
 
 from .bus import BUSY, COMMAND, DATA, HostBus
 from .config import Config
-from .side import Side
+from .dut_bench import Side
 
 Ramp = tuple[int, int, int]
 

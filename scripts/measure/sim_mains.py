@@ -1,4 +1,4 @@
-"""Run tests of the parts on both main programs of simulations: `python -m scripts.measure.mains WORD`.
+"""Run tests of the parts on both main programs of simulations: `python -m scripts.measure.sim_mains WORD`.
 
 Both must record the same pins, host accesses and output edges. WORD is a part of a test name, as for
 `make test T=`.
@@ -37,7 +37,7 @@ def compare(item: Item) -> Result:
 
 def main() -> int:
     """Run the command line."""
-    parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.mains")
+    parser = argparse.ArgumentParser(description=__doc__, prog="python -m scripts.measure.sim_mains")
     parser.add_argument("word")
     add_arguments(parser)
     args = parser.parse_args()

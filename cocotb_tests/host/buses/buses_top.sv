@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// busses_top: both bus bridges with ModelBits address lines and bare strobe pins (model_*), and both with a
+// buses_top: both bus bridges with ModelBits address lines and bare strobe pins (model_*), and both with a
 //         PPMC-104, as the templates of packages/templates instantiate them (part_*).
 // Timing: one clock for all.
 `default_nettype none
 
-module busses_top #(
+module buses_top #(
     parameter int unsigned ModelBits = 3  // address lines of the bridges with bare pins
 ) (
     input wire logic clk,

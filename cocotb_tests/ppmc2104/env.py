@@ -17,7 +17,7 @@ from typing import Any
 from cocotb_tests.harness import IBF, Config, Drive, HostBus, Side, start_bench
 
 from .bench import PPMC2104
-from .figures import ALL, BUSY1, CMND1, INIT_A, Init
+from .expected_timing import ALL, BUSY1, CMND1, INIT_A, Init
 
 # Limits of the rules in cycles, counted from edge 0 of a host write (P2104-BUS-05, P2104-HSK-03).
 WRITE_EVENT = 2

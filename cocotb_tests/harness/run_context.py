@@ -26,13 +26,13 @@ from typing import Any, cast
 
 import cocotb
 
-from .bench import Bench
 from .collect import verifies
 from .compare import add_counts, check_against_model
 from .config import F16, Config, configs, each_seed
+from .dut_bench import Side
 from .model_bench import ModelBench, OnModel
 from .part import Part
-from .side import Side
+from .rtl_bench import Bench
 
 TAIL = 24
 """Cycles for which the bench continues before the comparison, so that the last action has its effects."""
