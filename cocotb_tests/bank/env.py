@@ -1,10 +1,10 @@
-"""`Lab`: a bank on the test bench with its host and its axes.
+"""`Env`: a bank on the test bench with its host and its axes.
 
 @directed("BANK-MOT-01", builds=(B8, F100))
 async def bank_mot_01_exact(dut):
     "The intervals of a move are exact to the cycle (BANK-MOT-01)."
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     await axis.move(0x43, 14)
     axis.check_train("BANK-MOT-01", rates(INIT_A[1:], indices(14, 4)))
 """
@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from cocotb_tests.harness import IBF, Config, Drive, HostBus, Side, start_bench
+from cocotb_tests.harness import IBF, AxisDriver, Config, DutBench, HostBus, start_bench
 
 from .bench import BANK, axes_of, round_of
 
@@ -57,14 +57,14 @@ class WindowBus(HostBus):
 
     names = NAMES
 
-    def __init__(self, bench: Side, axis: int = 0, pause: Callable[[], int] | None = None) -> None:
+    def __init__(self, bench: DutBench, axis: int = 0, pause: Callable[[], int] | None = None) -> None:
         super().__init__(bench, 2, 6, 3, pause=pause, lead=1, base=axis << 4)
 
 
-class Axis(Drive):
+class Axis(AxisDriver):
     """Axis n with its codes, pins and status. `released` and R determine its visits."""
 
-    def __init__(self, bench: Side, n: int) -> None:
+    def __init__(self, bench: DutBench, n: int) -> None:
         super().__init__(bench, WindowBus(bench, n), f"pout_n[{n}]")
         self.n = n
         self.round = round_of(bench.config)
@@ -180,10 +180,10 @@ class Axis(Drive):
             self.check_train(rule, rates)
 
 
-class Lab:
-    """Test bench, window and axes of a bank; created with `await Lab.start(dut)`."""
+class Env:
+    """Test bench, window and axes of a bank; created with `await Env.start(dut)`."""
 
-    def __init__(self, bench: Side) -> None:
+    def __init__(self, bench: DutBench) -> None:
         self.bench = bench
         self.cfg: Config = bench.config
         self.axes = [Axis(bench, n) for n in range(axes_of(bench.config))]
@@ -193,7 +193,7 @@ class Lab:
         self.check = bench.check
 
     @classmethod
-    async def start(cls, dut: Any, **pins: int) -> Lab:
+    async def start(cls, dut: Any, **pins: int) -> Env:
         """Reset the bank with the input levels `pins` and wait until it is ready (BANK-GEN-05)."""
         bench = await start_bench(dut, BANK, settle=0, **pins)
         await bench.until(round_of(bench.config) + 8)

@@ -12,7 +12,7 @@ import pytest
 from cocotb.triggers import Timer
 
 from ..harness import inside
-from ..harness.sim_backend import clockwork
+from ..harness.sim_backend import sim_backend
 
 LEFT: list[str] = []
 
@@ -86,7 +86,7 @@ async def shows(dut):
 @cocotb.parametrize(edge=[1, 2])
 async def clocked(dut: Any, edge: int) -> None:
     """An assertion fires at one rising edge of a running clock."""
-    work = clockwork()
+    work = sim_backend()
     dut.fire.value = dut.die.value = 0
     work.clock(work.port("clk"), 10)
     await Timer(20 * edge - 15, "step")

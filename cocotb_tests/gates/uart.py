@@ -6,12 +6,12 @@ from typing import Any
 
 from cocotb.triggers import Event, First, Timer
 
-from cocotb_tests.harness.line import Wire
+from cocotb_tests.harness.line import UartBfm
 from openppmc.host.frames import REQUEST_LIMIT, Broken, Deframer, Frame, encode
 from openppmc.host.script import Answer, Script, parse_answer
 
 
-class Uart(Wire):
+class Uart(UartBfm):
     """The line on `uart_rxd` (to the board) and `uart_txd`; `frames` holds the received frames, oldest
     first.
     """

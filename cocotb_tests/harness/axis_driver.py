@@ -1,7 +1,7 @@
-"""`Drive`: one axis as its host uses it: operations, pulses, results, and checks of a pulse train.
+"""`AxisDriver`: one axis as its host uses it: operations, pulses, results, and checks of a pulse train.
 
-A device with one axis has one `Drive`; a device with two has one for each, on one `HostBus`. Times are in
-cycles.
+A device with one axis has one `AxisDriver`; a device with two has one for each, on one `HostBus`. Times are
+in cycles.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from math import isqrt
 
 from .bus import BUSY, COMMAND, DATA, HostBus
 from .config import Config
-from .dut_bench import Side
+from .dut_bench import DutBench
 
 Ramp = tuple[int, int, int]
 
@@ -93,7 +93,7 @@ def bytes_of(value: int) -> list[int]:
     return [value & 0xFF, value >> 8 & 0xFF, value >> 16 & 0xFF]
 
 
-class Drive:
+class AxisDriver:
     """An axis: pins `pout`, `phases` and `clock`, BUSY bit `busy`, and `axis_bit`, or-ed into every code.
 
     `since` is the edge from which pulses of the present operation count.
@@ -101,7 +101,7 @@ class Drive:
 
     def __init__(
         self,
-        bench: Side,
+        bench: DutBench,
         host: HostBus,
         pout: str = "pout_n",
         phases: str = "s",

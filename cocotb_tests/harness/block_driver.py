@@ -98,7 +98,7 @@ async def _end(test: FrameType, clk: int) -> None:
     raise AssertionError(f"not finished within {clk} cycles; the test waits in {place}")
 
 
-class Unit:
+class BlockDriver:
     """One instance. `edges` counts the rising edges of `clk` since reset.
 
     The first unit of a test limits the whole test, because a block that does not respond would stall it for
@@ -125,8 +125,8 @@ class Unit:
         self.inputs = [port for port, _, _ in block.ports if is_input(port)]
         self.watch = [self.pins[port] for port in watch.split()]
         self.edges = 0
-        if Unit._limited is not (test := _test_frame()):
-            Unit._limited = test
+        if BlockDriver._limited is not (test := _test_frame()):
+            BlockDriver._limited = test
             cocotb.start_soon(_end(test, limit))
 
     def get(self, port: str) -> int:

@@ -104,7 +104,7 @@ def verilate(
             character.
     """
     # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
-    # `-rdynamic`: `Native` looks up the functions of our main program by name.
+    # `-rdynamic`: `CppBackend` looks up the functions of our main program by name.
     libs = seen_from(folder, cocotb_tools.config.libs_dir)
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import accumulate, cycle, islice
 from random import Random
 
-from .axis_driver import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
+from .axis_driver import NO_PULSES_DONE, AxisDriver, Ramp, differences, forced, indices, rates
 
 # From this interval on the rules apply to the exact cycle (P104-BCK-05).
 EXACT = 16
@@ -97,7 +97,7 @@ class ExtMoves:
         delay: cycles from an edge at the pin to its pulse.
     """
 
-    def __init__(self, axis: Drive, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
+    def __init__(self, axis: AxisDriver, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
         self.axis = axis
         self.slow_pin = slow_pin
         self.lows = lows
@@ -106,7 +106,7 @@ class ExtMoves:
 
     @classmethod
     async def of(
-        cls, axis: Drive, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
+        cls, axis: AxisDriver, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
         """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, the rest to the pin."""
         moves = cls(axis, slow_pin, lows, rate_of, 0)
@@ -177,7 +177,7 @@ The counts lie on the acceleration, the constant speed and the deceleration of a
 """
 
 
-async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
+async def two_causes(axis: AxisDriver, rule: str, pins: Sequence[str]) -> None:
     """Check that limit and alarm on the same edge are both reported, for all operations CW.
 
     Args:

@@ -1,8 +1,8 @@
-"""`Side`: the interface of a test, lab or host to the device under test: the RTL or the golden model.
+"""`DutBench`: the interface of a test or host to the device under test, the RTL or the golden model.
 
 Time is the index of rising edges of `clk`; edge 0 is the first one that samples rst_n = 1 after the first
 reset. A pin change made now is stamped `now`, the next rising edge; an output edge is stamped with the rising
-edge that caused it. Most methods use a few primitives, which `Bench` (RTL) and `ModelBench` (golden model)
+edge that caused it. Most methods use a few primitives, which `RtlBench` (RTL) and `ModelBench` (golden model)
 define.
 """
 
@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol
 
 from openppmc.check import replay
 from openppmc.check.records import Access, Change, Edge, Recording, bit_changes, level_at
-from openppmc.check.replay import Follower
+from openppmc.check.replay import ModelRunner
 
 from .config import Config
 from .crosses import watch
@@ -29,7 +29,7 @@ def new_model(part: str, params: Mapping[str, object]) -> Any:
     return replay.new_model(part, params)
 
 
-class Given:
+class StimulusLog:
     """Collects pin changes. `changes` is in order of time; later additions follow the earlier ones."""
 
     def __init__(self) -> None:
@@ -75,7 +75,7 @@ class Handle(Protocol):
         """Stop the changes."""
 
 
-class Side(ABC):
+class DutBench(ABC):
     """A device under test.
 
     `part`, `config` (its build), `seed`, `rng` (random.Random(seed)), `pins` (present level of each input and
@@ -96,8 +96,8 @@ class Side(ABC):
         self.stimulus: list[Change] = []
         self.accesses: list[Access] = []
         self.initial: dict[str, int] = {}
-        self.follower: Follower | None = None
-        self._given = Given()
+        self.follower: ModelRunner | None = None
+        self._given = StimulusLog()
         self._later: list[Handle] = []
 
     # ---------------------------------------------------------------- primitives
@@ -164,13 +164,13 @@ class Side(ABC):
 
     @property
     def golden(self) -> Any:
-        """The golden model at edge `now` - 1, with the pin changes so far; never ahead of this side.
+        """The golden model at edge `now` - 1, with the pin changes so far; never ahead of this bench.
 
-        Use it only to choose moments (its `next_event`, position, state): a test checks values of the side
+        Use it only to choose moments (its `next_event`, position, state): a test checks values of the bench
         itself.
         """
         if self.follower is None:
-            self.follower = Follower(new_model(self.part.name, self.part.params(self.config)))
+            self.follower = ModelRunner(new_model(self.part.name, self.part.params(self.config)))
         return self.follower.catch_up(self.pin_changes(), self.now - 1)
 
     def pin_changes(self) -> list[Change]:

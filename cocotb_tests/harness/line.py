@@ -1,4 +1,4 @@
-"""A serial line on two pins: `Wire` with a simulator's pins, `SerialLine` on a `Side`."""
+"""A serial line on two pins: `UartBfm` with a simulator's pins, `SerialLine` on a `DutBench`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from typing import Any
 import cocotb
 from cocotb.triggers import FallingEdge, Timer
 
-from .dut_bench import Side
+from .dut_bench import DutBench
 
 BITS = 8
 
 
-class Wire:
+class UartBfm:
     """An 8N1 line: `rxd` is the receive pin of the board, `txd` its transmit pin.
 
     `rate` in baud may be changed between characters.
@@ -124,13 +124,13 @@ class LineTimes:
 
 
 class SerialLine(LineTimes):
-    """A sender for hosts on a `Side`.
+    """A sender for hosts on a `DutBench`.
 
-    After each method, the next one continues at `t`. The side itself is then at the last change of the pin,
+    After each method, the next one continues at `t`. The bench itself is then at the last change of the pin,
     so that the test can do something else within the stop bit.
     """
 
-    side: Side
+    bench: DutBench
 
     async def character(
         self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
@@ -146,9 +146,9 @@ class SerialLine(LineTimes):
 
     async def _drive(self, changes: Changes) -> None:
         for edge, level in changes:
-            if self.side.pin("rxd") != level:
-                await self.side.until(max(edge, self.side.now))
-                self.side.set(rxd=level)
+            if self.bench.pin("rxd") != level:
+                await self.bench.until(max(edge, self.bench.now))
+                self.bench.set(rxd=level)
 
     async def send(self, line: Iterable[int], gap: float = 0) -> None:
         """Send characters without errors.

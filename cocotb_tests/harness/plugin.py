@@ -1,4 +1,4 @@
-"""pytest side of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
+"""pytest plugin of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
 
 The conftest.py at the project root loads it, so it also handles the plain Python tests below tests/.
 """

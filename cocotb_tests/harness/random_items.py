@@ -45,7 +45,7 @@ def attempt_random(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> str:
-    """Do the same as `attempt`; the message of a failing run ends with its shortest list of acts.
+    """Do the same as `attempt`; the message of a failing run ends with its shortest list of transactions.
 
     That list is found on the device alone.
     """
@@ -72,7 +72,7 @@ def replay_line(file: Path) -> str:
 
 
 def shortened(folder: Path, design: Design | None = None) -> str:
-    """Shrink the recording that a failing run left in its folder; return the shortest list of acts as text.
+    """Shrink the recording of a failing run in its folder; return the shortest list of transactions as text.
 
     `design` (default: the recorded device) is simulated. The files are in its subfolder `short`.
     """

@@ -1,7 +1,7 @@
-"""`Bench`: the RTL of one device in a simulation, with clock, reset, pin driver and edge monitors.
+"""`RtlBench`: the RTL of one device in a simulation, with clock, reset, pin driver and edge monitors.
 
 Pins are driven on falling edges. A change made now has the stamp `bench.now`, the next rising edge. Clock,
-pins and the recorder of output edges belong to the main program of the simulation (`Clockwork`).
+pins and the recorder of output edges belong to the main program of the simulation (`SimBackend`).
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from cocotb_tests.harness import watchdog
 from openppmc.check.records import Change
 
 from .config import F16, Config
-from .dut_bench import TIMEOUT, PinChange, Side
+from .dut_bench import TIMEOUT, DutBench, PinChange
 from .part import Part
-from .sim_backend import clockwork, collect_seldom
+from .sim_backend import collect_seldom, sim_backend
 
 
-class Bench(Side):
-    """A device on the test bench. Create one with `await Bench.start(dut, part)`.
+class RtlBench(DutBench):
+    """A device on the test bench. Create one with `await RtlBench.start(dut, part)`.
 
-    Members in addition to those of `Side`: `out` (Path for the files of this run) and `repro` (the command
-    that repeats the run).
+    Members in addition to those of `DutBench`: `out` (Path for the files of this run) and `repro` (the
+    command that repeats the run).
     """
 
     def __init__(self, dut: Any, part: Part, seed: int | None = None) -> None:
@@ -47,9 +47,9 @@ class Bench(Side):
         self._watched: dict[int, list[tuple[int, int]]] = {}
         part = self.part
         self._handles = {name: getattr(dut, name) for name in (*part.inputs, "rst_n", *part.outputs)}
-        self._clockwork = clockwork()
-        self._time = self._clockwork.now
-        self._ports = {name: self._clockwork.port(name) for name in self._handles}
+        self._backend = sim_backend()
+        self._time = self._backend.now
+        self._ports = {name: self._backend.port(name) for name in self._handles}
         self._t0 = 0
 
     # ---------------------------------------------------------------- start
@@ -63,7 +63,7 @@ class Bench(Side):
         settle: int = 4,
         seed: int | None = None,
         **pins: int,
-    ) -> Bench:
+    ) -> RtlBench:
         """Start clk, pulse rst_n 1-0-1 and return with `now` = settle.
 
         The devices accept bytes from edge 4 on (P104-PORT-03). With settle = 0, the method returns before
@@ -86,7 +86,7 @@ class Bench(Side):
         await Timer(bench.half, "ps")
         dut.rst_n.value = 0
         # Each falling edge is half a period after a rising edge; the first edge is a rising one.
-        bench._clockwork.clock(bench._clockwork.port("clk"), bench.half)
+        bench._backend.clock(bench._backend.port("clk"), bench.half)
         await Timer(bench.period * max(2, reset_clk), "ps")
         bench._t0 = bench._time() + bench.half
         bench._handles["rst_n"].value = 1
@@ -94,7 +94,7 @@ class Bench(Side):
         for pin, level in pins.items():
             if level != part.inputs[pin]:
                 bench.stimulus.append(Change(0, pin, level))
-        bench._clockwork.seen()  # discards changes recorded for an earlier bench
+        bench._backend.seen()  # discards changes recorded for an earlier bench
         for name in part.watched:
             bench.watch(name)
         if settle:
@@ -107,7 +107,7 @@ class Bench(Side):
         self._edges[output] = []
         port = self._ports[output]
         self._watched[port] = self._edges[output]
-        self._clockwork.watch(port)
+        self._backend.watch(port)
 
     # ---------------------------------------------------------------- time
 
@@ -121,11 +121,11 @@ class Bench(Side):
 
     @property
     def now(self) -> int:
-        """See `Side.now`."""
+        """See `DutBench.now`."""
         return (self._time() - self._t0) // self.period + 1
 
     async def until(self, edge: int) -> int:
-        """See `Side.until`."""
+        """See `DutBench.until`."""
         target = self._t0 + (edge - 1) * self.period + self.half
         delta = target - self._time()
         if delta < 0:
@@ -137,7 +137,7 @@ class Bench(Side):
         return edge
 
     async def align(self) -> int:
-        """See `Side.align`."""
+        """See `DutBench.align`."""
         target = self._t0 + (self.now - 1) * self.period + self.half
         delta = target - self._time()
         if delta > 0:
@@ -147,10 +147,10 @@ class Bench(Side):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """See `Side.set`."""
+        """See `DutBench.set`."""
         stamp = self.now
         if self._t0 + (stamp - 1) * self.period + self.half > self._time():
-            raise RuntimeError("Bench.set() in the high half of clk: await bench.align() first")
+            raise RuntimeError("RtlBench.set() in the high half of clk: await bench.align() first")
         for pin, level in levels.items():
             if self.pin(pin) != level:
                 self._drive(stamp, pin, level)
@@ -159,7 +159,7 @@ class Bench(Side):
     def _drive(self, stamp: int, pin: str, level: int) -> None:
         port, level = self._levelled(pin, level)
         self.pins[port] = level
-        self._clockwork.put(self._ports[port], level)
+        self._backend.put(self._ports[port], level)
         self.stimulus.append(Change(stamp, port, level))
 
     def set_between_edges(self, **levels: int) -> int:
@@ -170,7 +170,7 @@ class Bench(Side):
         return stamp
 
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """See `Side.set_between`."""
+        """See `DutBench.set_between`."""
         await self.align()
         await Timer(max(2, int(self.half * share) // 2 * 2), "ps")
         stamp = self.set_between_edges(**levels)
@@ -178,7 +178,7 @@ class Bench(Side):
         return stamp
 
     def drive(self, changes: Iterable[PinChange]) -> Any:
-        """See `Side.drive`. Return the task."""
+        """See `DutBench.drive`. Return the task."""
 
         async def run() -> None:
             fall = self._t0 - self.half
@@ -212,9 +212,9 @@ class Bench(Side):
         return -((self._t0 - time) // self.period)
 
     def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """See `Side._seen`."""
+        """See `DutBench._seen`."""
         t0, period, watched = self._t0, self.period, self._watched
-        for time, port, value in self._clockwork.seen():
+        for time, port, value in self._backend.seen():
             changes, t = watched[port], -((t0 - time) // period)
             if changes and changes[-1][0] == t:
                 changes[-1] = (t, value)
@@ -228,12 +228,12 @@ class Bench(Side):
         return tuple(self.part.outputs)
 
     def _port_level(self, port: str) -> int:
-        return self._clockwork.read(self._ports[port])
+        return self._backend.read(self._ports[port])
 
     # ---------------------------------------------------------------- waiting for outputs
 
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """See `Side.edge`."""
+        """See `DutBench.edge`."""
         end = self.now + timeout
         handle = self._handles[self.part.locate(output)[0]]
         before = self.level(output)

@@ -3,12 +3,12 @@
     @directed("P104-STP-01", "AC-20", builds=(F16, F100))
     async def p104_stp_01_immediate(dut):
         "After 0x40 in a constant-speed move, no further pulse is output."
-        lab = await Lab.start(dut, INIT_A)
+        env = await Env.start(dut, INIT_A)
 
     @random_test("P312-GEN-01", least=200)
     async def p312_random_host(dut, seed):
         "All outputs change as in the golden model for every random host."
-        await Lively(await Host.start(dut), seed).play()
+        await ReactiveHost(await Host.start(dut), seed).play()
 
 Both are `cocotb.test()`, so `cocotb.parametrize`, `skip` and `xfail` work with them. The golden model gets
 the pin changes that the test makes; at the end, and before each further `start_bench`, every edge of every
@@ -29,10 +29,10 @@ import cocotb
 from .collect import verifies
 from .compare import add_counts, check_against_model
 from .config import F16, Config, configs, each_seed
-from .dut_bench import Side
+from .dut_bench import DutBench
 from .model_bench import ModelBench, OnModel
 from .part import Part
-from .rtl_bench import Bench
+from .rtl_bench import RtlBench
 
 TAIL = 24
 """Cycles for which the bench continues before the comparison, so that the last action has its effects."""
@@ -40,7 +40,7 @@ Judge = Callable[[Any], Any]
 """Compares the recording of a bench with the golden model; raises AssertionError at a difference."""
 
 
-class Running:
+class RunContext:
     """One running test: its present bench, if any, and the function that compares it (None: no comparison).
 
     Args:
@@ -53,21 +53,21 @@ class Running:
     def __init__(self, judge: Judge | None, seed: int | None = None) -> None:
         self._judge = judge
         self.seed = seed
-        self.side: Side | None = None
+        self.bench: DutBench | None = None
         self.differs = False
 
     async def judge(self) -> None:
         """Compare the recording of the present bench; raise AssertionError at a difference."""
-        if self._judge and self.side and self.side.simulated:
-            await self.side.align()
-            await self.side.clocks(TAIL)
+        if self._judge and self.bench and self.bench.simulated:
+            await self.bench.align()
+            await self.bench.clocks(TAIL)
             self.differs = True
-            self._judge(self.side)
+            self._judge(self.bench)
             self.differs = False
 
     async def opinion(self) -> str:
         """Return the result of the golden model for a run in which a check of the test has failed."""
-        if not (self._judge and self.side and self.side.simulated):
+        if not (self._judge and self.bench and self.bench.simulated):
             return "the outputs of this test are not compared with the golden model"
         try:
             await self.judge()
@@ -77,38 +77,38 @@ class Running:
 
     async def put_away(self) -> None:
         """Compare the present bench, if any, and stop its pin changes, because another bench starts."""
-        if self.side:
+        if self.bench:
             await self.judge()
-            self.side.close()
-            self.side = None
+            self.bench.close()
+            self.bench = None
 
 
-_now: list[Running] = []
-_ended: list[Running] = []
+_now: list[RunContext] = []
+_ended: list[RunContext] = []
 
 
-def present() -> Running | None:
+def present() -> RunContext | None:
     """Return the directed or random test that is running; None outside of one."""
     return _now[-1] if _now else None
 
 
 @contextmanager
-def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[Running]:
-    """Provide the context of a test whose benches `judge` compares; see `Running`."""
-    _now.append(Running(judge, seed))
+def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[RunContext]:
+    """Provide the context of a test whose benches `judge` compares; see `RunContext`."""
+    _now.append(RunContext(judge, seed))
     try:
         yield _now[-1]
     finally:
         _ended[:] = [_now.pop()]
 
 
-def ended() -> Running | None:
+def ended() -> RunContext | None:
     """Return the directed or random test that ended last, with its bench; None before the first."""
     return _ended[-1] if _ended else None
 
 
-async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Side:
-    """Return a `Bench` on the simulator's `dut`, or a `ModelBench` for `OnModel`; both with `now` = `settle`.
+async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> DutBench:
+    """Return an `RtlBench` on `dut`, or a `ModelBench` for `OnModel`; both with `now` = `settle`.
 
     A directed test may call it again: the recording of the previous bench is compared with the golden model,
     its scheduled pin changes stop, and the device starts again from a reset.
@@ -118,12 +118,12 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Sid
         await test.put_away()
     seed = test.seed if test else None
     if isinstance(dut, OnModel):
-        side: Side = ModelBench(part, dut if seed is None else replace(dut, seed=seed), settle, **pins)
+        bench: DutBench = ModelBench(part, dut if seed is None else replace(dut, seed=seed), settle, **pins)
     else:
-        side = await Bench.start(dut, part, settle=settle, seed=seed, **pins)
+        bench = await RtlBench.start(dut, part, settle=settle, seed=seed, **pins)
     if test:
-        test.side = side
-    return side
+        test.bench = bench
+    return bench
 
 
 def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "") -> Callable[[Any], Any]:
@@ -144,7 +144,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
             with running_test(None if uncompared else check_against_model) as running:
                 await judged(running, function(dut, **arguments))
 
-        # The simulator side must see the arguments of `run`.
+        # The simulator must see the arguments of `run`.
         del run.__wrapped__  # type: ignore[attr-defined]
         run._openppmc_directed = True  # type: ignore[attr-defined]
         run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
@@ -157,7 +157,7 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
     return mark
 
 
-async def judged(running: Running, test: Any) -> None:
+async def judged(running: RunContext, test: Any) -> None:
     """Run the test, then compare; after a failed check, add whether the golden model shows the same edges."""
     try:
         await test
@@ -172,7 +172,7 @@ RandomTest = Callable[[Any, int], Awaitable[None]]
 
 
 def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[RandomTest], Any]:
-    """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one side.
+    """Make a cocotb test that verifies `rules` from a coroutine that plays one seed on one bench.
 
     Args:
         least: minimum number of output edges that a seed must make; all are compared.
@@ -185,16 +185,16 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
         async def one(dut: Any, seed: int) -> str:
             compared = 0
 
-            def judge(side: Side) -> None:
+            def judge(bench: DutBench) -> None:
                 nonlocal compared
-                comparison = check_against_model(side)
+                comparison = check_against_model(bench)
                 compared += comparison.edges_compared
                 add_counts(edges=comparison.edges_compared, pulses=comparison.pulses)
 
             with running_test(None if uncompared else judge, seed) as running:
                 await judged(running, test(dut, seed))
-                digest = pins_digest(running.side) if running.side else ""
-                if running.side and running.side.simulated:
+                digest = pins_digest(running.bench) if running.bench else ""
+                if running.bench and running.bench.simulated:
                     assert compared >= least, (
                         f"seed {seed}: {compared} output edges, expected {least} or more"
                     )
@@ -209,7 +209,7 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
             await each_seed(name, functools.partial(one, dut))
             return ""
 
-        # The simulator side must see the argument of `run`, not those of the test.
+        # The simulator must see the argument of `run`, not those of the test.
         del run.__wrapped__  # type: ignore[attr-defined]
         run._openppmc_uncompared = uncompared  # type: ignore[attr-defined]
         return cocotb.test()(verifies(*rules)(run))
@@ -217,12 +217,12 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
     return mark
 
 
-def pins_digest(side: Side) -> str:
+def pins_digest(bench: DutBench) -> str:
     """Return a digest of all pin changes of a bench: equal for the same host on RTL and golden model."""
-    return sha256(repr(sorted(map(tuple, side.stimulus))).encode()).hexdigest()[:12]
+    return sha256(repr(sorted(map(tuple, bench.stimulus))).encode()).hexdigest()[:12]
 
 
-def note(side: Side, text: str) -> None:
+def note(bench: DutBench, text: str) -> None:
     """Write the plan of the host to the folder of the run."""
-    if side.simulated:
-        (cast(Bench, side).out / "plan.txt").write_text(text + "\n", encoding="utf-8")
+    if bench.simulated:
+        (cast(RtlBench, bench).out / "plan.txt").write_text(text + "\n", encoding="utf-8")

@@ -1,7 +1,7 @@
-"""`Clockwork`: the frequent operations of a bench: clock, pins, levels, edges of outputs.
+"""`SimBackend`: the frequent operations of a bench: clock, pins, levels, edges of outputs.
 
-`clockwork()` returns `Native` on our own main program and `Stock` on that of cocotb (`build.MAINS`). Both
-record the same; `Native` is faster, `Stock` needs only cocotb.
+`sim_backend()` returns `CppBackend` on our own main program and `CocotbBackend` on that of cocotb
+(`build.MAINS`). Both record the same; `CppBackend` is faster, `CocotbBackend` needs only cocotb.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from cocotb.task import Task
 PICOSECOND = -12
 
 
-class Stock:
-    """`Clockwork` with cocotb alone. Clock and recorder are tasks of the running test and end with it."""
+class CocotbBackend:
+    """`SimBackend` with cocotb alone. Clock and recorder are tasks of the running test and end with it."""
 
     def __init__(self) -> None:
         if simtime.time_precision != PICOSECOND:
@@ -38,14 +38,14 @@ class Stock:
         self._rows: dict[tuple[int, int], int] = {}
 
     def port(self, name: str) -> int:
-        """See `Clockwork.port`."""
+        """See `SimBackend.port`."""
         if name not in self._numbers:
             self._handles.append(getattr(cocotb.top, name))
             self._numbers[name] = len(self._handles) - 1
         return self._numbers[name]
 
     def read(self, port: int) -> int:
-        """See `Clockwork.read`.
+        """See `SimBackend.read`.
 
         The call raises AssertionError if a bit has no level (X), which only some simulators report.
 
@@ -62,11 +62,11 @@ class Stock:
             raise AssertionError(f"{name} = {value} at {self.now():.0f} ps: a bit without a level") from None
 
     def put(self, port: int, level: int) -> None:
-        """See `Clockwork.put`."""
+        """See `SimBackend.put`."""
         self._handles[port].value = level
 
     def clock(self, port: int, half: int) -> None:
-        """See `Clockwork.clock`."""
+        """See `SimBackend.clock`."""
         if self._clock is not None:
             self._clock.stop()
         self._clock = Clock(self._handles[port], 2 * half, impl="gpi")
@@ -81,7 +81,7 @@ class Stock:
             record.clear()
 
     def watch(self, port: int) -> None:
-        """See `Clockwork.watch`."""
+        """See `SimBackend.watch`."""
         self._levels[port] = self.read(port)
         if port not in self._recorders or self._recorders[port].done():
             self._recorders[port] = cocotb.start_soon(self._record(port))
@@ -96,7 +96,7 @@ class Stock:
         self._rows[self.now(), port] = self.read(port)
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
-        """See `Clockwork.seen`."""
+        """See `SimBackend.seen`."""
         # A change of this moment may not have woken its recorder yet.
         for port in self._recorders:
             self._note(port)
@@ -113,7 +113,7 @@ _ROW = struct.Struct("=QQQ")
 _WORD = 64
 _ONES = (1 << _WORD) - 1
 _OTHER = 1 << 20
-"""Added to the numbers of ports that `Stock` handles."""
+"""Added to the numbers of ports that `CocotbBackend` handles."""
 
 
 def _function(name: str, result: Any, *arguments: Any) -> Any:
@@ -122,11 +122,11 @@ def _function(name: str, result: Any, *arguments: Any) -> Any:
     return function
 
 
-class Native:
-    """`Clockwork` with our main program. Clock and watches continue until the clock is started again."""
+class CppBackend:
+    """`SimBackend` with our main program. Clock and watches continue until the clock is started again."""
 
     def __init__(self) -> None:
-        self._others = Stock()
+        self._others = CocotbBackend()
         self._numbers: dict[str, int] = {}
         self._words: dict[int, int] = {}
         """Number of words of the wide ports."""
@@ -148,7 +148,7 @@ class Native:
         return hasattr(ctypes.CDLL(None), "openppmc_time")
 
     def port(self, name: str) -> int:
-        """See `Clockwork.port`."""
+        """See `SimBackend.port`."""
         if name not in self._numbers:
             words = ctypes.c_int()
             number = self._port(name.encode(), ctypes.byref(words))
@@ -161,7 +161,7 @@ class Native:
         return self._numbers[name]
 
     def read(self, port: int) -> int:
-        """See `Clockwork.read`."""
+        """See `SimBackend.read`."""
         if port >= _OTHER:
             return self._others.read(port - _OTHER)
         if port not in self._words:
@@ -170,7 +170,7 @@ class Native:
         return sum(self._read(port + word) << _WORD * word for word in range(self._words[port]))
 
     def put(self, port: int, level: int) -> None:
-        """See `Clockwork.put`."""
+        """See `SimBackend.put`."""
         if port >= _OTHER:
             self._others.put(port - _OTHER, level)
             return
@@ -178,12 +178,12 @@ class Native:
             self._put(port + word, level >> _WORD * word & _ONES)
 
     def clock(self, port: int, half: int) -> None:
-        """See `Clockwork.clock`."""
+        """See `SimBackend.clock`."""
         self._clock(port, half)
         self._others.unwatch()
 
     def watch(self, port: int) -> None:
-        """See `Clockwork.watch`."""
+        """See `SimBackend.watch`."""
         if port >= _OTHER:
             self._others.watch(port - _OTHER)
             return
@@ -193,7 +193,7 @@ class Native:
             self._levels[port] = self.read(port)
 
     def seen(self) -> Iterable[tuple[int, int, int]]:
-        """See `Clockwork.seen`."""
+        """See `SimBackend.seen`."""
         count = ctypes.c_uint64()
         rows = self._seen(ctypes.byref(count))
         found = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
@@ -220,7 +220,7 @@ def collect_seldom() -> None:
     gc.set_threshold(100_000, 50, 50)
 
 
-class Clockwork(Protocol):
+class SimBackend(Protocol):
     """Clock, pins and recorder.
 
     Times are steps of the simulation, that is, ps. Ports are those of the top module, by the numbers that
@@ -256,6 +256,6 @@ class Clockwork(Protocol):
 
 
 @cache
-def clockwork() -> Clockwork:
-    """Return the clockwork of this simulation."""
-    return Native() if Native.offered() else Stock()
+def sim_backend() -> SimBackend:
+    """Return the backend of this simulation."""
+    return CppBackend() if CppBackend.offered() else CocotbBackend()

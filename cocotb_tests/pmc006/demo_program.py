@@ -8,7 +8,7 @@ because its comparators change often.
 from __future__ import annotations
 
 from cocotb_tests.harness import Config
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness.sessions import DemoLog
 from cocotb_tests.pmc006.stepping import MotorHost
 from openppmc.model.pmc006.bench.motor import Motor
 from openppmc.model.pmc006.program import assemble
@@ -56,24 +56,24 @@ again:  ROT   {50 * FINE}
 """
 
 
-async def tell(host: MotorHost, story: Story) -> None:
+async def run_program(host: MotorHost, demo_log: DemoLog) -> None:
     """Run the whole program on a part that has just booted."""
     host.attach(MOTOR)
-    with story.chapter("set", "settings"):
+    with demo_log.chapter("set", "settings"):
         await host.ask("j")
         await host.ok(e=CURRENT, f=1)
         await host.ms(5)
     for number, (fine, coefficient) in enumerate(MOVES):
-        with story.chapter(f"move{fine}", f"{WAY} full steps in {fine} microsteps each"):
+        with demo_log.chapter(f"move{fine}", f"{WAY} full steps in {fine} microsteps each"):
             await move(host, fine, coefficient, forward=number != 1)
-    with story.chapter("load", "load a program"):
+    with demo_log.chapter("load", "load a program"):
         await host.ok(A=0)
         for word in assemble(PROGRAM).words[: 2 * PROGRAM.count("\n")]:
             await host.ask("W", word)
         await host.ok(A=0, L=START * FINE, S=START * FINE)
     host.detach()
     await host.pins(cmp_a=0, cmp_b=0)
-    with story.chapter("program", "home and shuttle without a host"):
+    with demo_log.chapter("program", "home and shuttle without a host"):
         await host.ask("z")
         await homing(host)
         await host.until("gpo[0]", 0, LONG)
@@ -99,9 +99,9 @@ async def move(host: MotorHost, fine: int, coefficient: int, forward: bool) -> N
 
 async def homing(host: MotorHost) -> None:
     """Drive the switch, which is closed beyond its position, until the program has set GPO1."""
-    side, steps = host.side, host.steps()
+    bench, steps = host.bench, host.steps()
     place = (len(MOVES) % 2) * WAY * FINE
-    while not side.level("gpo[0]"):
-        place += sum(1 if side.level_at("mon_dir", t) else -1 for t in steps)
+    while not bench.level("gpo[0]"):
+        place += sum(1 if bench.level_at("mon_dir", t) else -1 for t in steps)
         await host.pins(ext1=int(place > -LEAD * FINE))
         steps = await host.next_steps(host.t + host.us(LONG))

@@ -7,7 +7,7 @@ from math import ceil, gcd
 
 from .host import ACT
 from .random_frames import DATA
-from .random_motion import Motions
+from .random_motion import MotionHost
 
 LIMIT_US = 6_000
 """Time for which a motion is observed for events, in microseconds."""
@@ -22,7 +22,7 @@ RUN = (("v", 300), ("L", 300), ("S", 65))
 Course = tuple[tuple[str, int], ...]
 
 
-class Meetings(Motions):
+class CollisionHost(MotionHost):
     """Random host that makes two things coincide."""
 
     async def meeting(self) -> None:
@@ -40,7 +40,7 @@ class Meetings(Motions):
         least = e + ceil(82 * host.bit) + e - host.said + 2 * NEAR
         with suppress(TimeoutError):
             await host.until("mon_busy", 0, LIMIT_US)
-        await host.go(max(host.t, host.side.now))
+        await host.go(max(host.t, host.bench.now))
         found = {name: [t - e for t, _ in host.edges(name, least)] for name in set(SIGNALS)}
         period = host.clk_hz // gcd(host.clk_hz, 1_000_000)  # of the cycles in which microseconds begin
         for _ in range(4):
@@ -82,7 +82,7 @@ class Meetings(Motions):
     def _pins(self, t: int) -> None:
         """Add a pin change of the machine at edge t."""
         pin = self.rng.choice(("ext1", "ext2", "cmp_a", "bemf_valid"))
-        level = 1 - self.host.side.pin(pin)
+        level = 1 - self.host.bench.pin(pin)
         self.background.add(t, **{pin: level})
         if pin == "bemf_valid":
             self.background.add(t + 1, bemf_valid=0)

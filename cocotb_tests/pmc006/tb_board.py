@@ -10,7 +10,7 @@ from cocotb.triggers import ClockCycles, Event, FallingEdge, RisingEdge, Timer, 
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import same
-from cocotb_tests.harness.line import Wire
+from cocotb_tests.harness.line import UartBfm
 from cocotb_tests.pmc006.frames import command, of_reply
 
 BAUD, ADDRESS = 115_200, 255
@@ -20,7 +20,7 @@ INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
 LINE, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
-class Host(Wire):
+class Host(UartBfm):
     """A PC on one of the two lines."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:

@@ -28,8 +28,8 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
     await host.pause(int(host.bit * 20))
     await host.pins(rst_n=0)
     await host.sync()
-    wanted = host.side.part.reset_levels()
-    assert {pin: host.side.level(pin) for pin in wanted} == wanted
+    wanted = host.bench.part.reset_levels()
+    assert {pin: host.bench.level(pin) for pin in wanted} == wanted
     await host.pause(10)
     await host.pins(rst_n=1, ext2=1)
     await host.forget()
@@ -46,7 +46,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
     """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)
-    if host.side.simulated:
+    if host.bench.simulated:
         for state in range(64):
             await host.pins(rst_n=0)
             await host.pause(4)

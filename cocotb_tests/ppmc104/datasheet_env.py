@@ -1,10 +1,10 @@
-"""`Sheet`: a `Lab` for the DATASHEET timing model, with the measurements of its tests."""
+"""`DatasheetEnv`: an `Env` for the DATASHEET timing model, with the measurements of its tests."""
 
 from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, IBF
 
-from .env import WRITE_EVENT, Lab
+from .env import WRITE_EVENT, Env
 
 TOLERANCE = 16
 # A pin may follow the internal event by up to 2 cycles (P104-HSK-03).
@@ -13,8 +13,8 @@ PIN = 2
 US = 16
 
 
-class Sheet(Lab):
-    """`Lab` with the measurements that all these tests use."""
+class DatasheetEnv(Env):
+    """`Env` with the measurements that all these tests use."""
 
     def after(self, rule: str, what: str, got: int, xtal_cycles: int, pin: int = PIN) -> None:
         """Check that `got` cycles are CYC(xtal_cycles), -0/+16, plus the delay to the pin."""

@@ -1,10 +1,10 @@
-"""`Lab`: a PPMC-104 on the test bench with its host, and the helpers that all tests of this part use."""
+"""`Env`: a PPMC-104 on the test bench with its host, and the helpers that all tests of this part use."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import BUSY, Drive, HostBus, Side, start_bench
+from cocotb_tests.harness import BUSY, AxisDriver, DutBench, HostBus, start_bench
 
 from .bench import PPMC104
 from .expected_timing import INIT_A
@@ -17,24 +17,24 @@ C_EVENT_LATEST = 10
 PINS_LATEST = 12
 
 
-class Lab(Drive):
-    """Test bench and host; created with `await Lab.start(dut, INIT_A)`.
+class Env(AxisDriver):
+    """Test bench and host; created with `await Env.start(dut, INIT_A)`.
 
     `None` leaves the core in its reset state.
     """
 
-    def __init__(self, bench: Side) -> None:
+    def __init__(self, bench: DutBench) -> None:
         super().__init__(bench, HostBus(bench))
 
     @classmethod
-    async def start(cls, dut: Any, init: Init | None = INIT_A, **pins: int) -> Lab:
+    async def start(cls, dut: Any, init: Init | None = INIT_A, **pins: int) -> Env:
         """Reset with the input levels `pins`, then initialise (code, RL, RH, PA) if an initialisation
         is given.
         """
-        lab = cls(await start_bench(dut, PPMC104, **pins))
+        env = cls(await start_bench(dut, PPMC104, **pins))
         if init:
-            await lab.init(*init)
-        return lab
+            await env.init(*init)
+        return env
 
     async def init(self, code: int, rl: int, rh: int, pa: int) -> None:
         """Initialise and wait for the end of the table build."""

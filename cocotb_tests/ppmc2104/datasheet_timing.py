@@ -6,7 +6,7 @@ from math import ceil
 
 from cocotb_tests.harness import IBF
 
-from .env import C_EVENT_LATEST, WRITE_EVENT, Axis, Lab
+from .env import C_EVENT_LATEST, WRITE_EVENT, Axis, Env
 
 # Cycles by which a documented time may be exceeded, and by which a pin may follow the internal event.
 TOLERANCE = 16
@@ -34,26 +34,26 @@ def detection(processing: int, first: int, second: int, period: int = 0) -> int:
     return interrupts * (first + second) + cycle
 
 
-def after(lab: Lab, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:
+def after(env: Env, rule: str, what: str, got: int, edge0: int, micros: int, extra: int = 0) -> None:
     """Check that edge `got` is `micros` us plus `extra` cycles after the C-event of the byte with that
     edge 0.
     """
-    nominal = lab.cfg.us(micros) + extra
-    lab.window(rule, what, got - edge0, WRITE_EVENT + nominal, C_EVENT_LATEST + nominal + TOLERANCE + PIN)
+    nominal = env.cfg.us(micros) + extra
+    env.window(rule, what, got - edge0, WRITE_EVENT + nominal, C_EVENT_LATEST + nominal + TOLERANCE + PIN)
 
 
-async def opens(lab: Lab, rule: str, edge0: int, micros: int) -> None:
+async def opens(env: Env, rule: str, edge0: int, micros: int) -> None:
     """Check that a byte written now waits until `micros` us have passed since the C-event."""
-    nominal = edge0 + WRITE_EVENT + lab.cfg.us(micros)
+    nominal = edge0 + WRITE_EVENT + env.cfg.us(micros)
     # An undefined code is rejected and has no processing window.
-    await lab.host.command(0x87, poll=False)
-    await lab.bench.until(max(lab.bench.now, nominal - 60))
-    while lab.bench.now < nominal - 2:
-        lab.check(rule, "IBF in the window", await lab.host.status() & IBF, IBF)
-    await lab.host.poll(IBF, 0, dense=100)
+    await env.host.command(0x87, poll=False)
+    await env.bench.until(max(env.bench.now, nominal - 60))
+    while env.bench.now < nominal - 2:
+        env.check(rule, "IBF in the window", await env.host.status() & IBF, IBF)
+    await env.host.poll(IBF, 0, dense=100)
     latest = C_EVENT_LATEST - WRITE_EVENT + TOLERANCE + READ
-    lab.window(
-        rule, f"clk beyond {micros} us until the next byte is taken", lab.bench.now - nominal, 0, latest
+    env.window(
+        rule, f"clk beyond {micros} us until the next byte is taken", env.bench.now - nominal, 0, latest
     )
 
 
@@ -66,11 +66,11 @@ async def last_byte(axis: Axis, code: int, *data: int) -> int:
     return await axis.host.data(data[-1], poll=False)
 
 
-async def rest(lab: Lab) -> None:
+async def rest(env: Env) -> None:
     """Wait until no window is open and both axes are at rest; then clear errors and interrupts."""
-    await lab.host.poll(IBF | 0x3C, 0)
-    for axis in lab.axes:
+    await env.host.poll(IBF | 0x3C, 0)
+    for axis in env.axes:
         await axis.finish()
         await axis.error()
     # Wait for the windows of these reads.
-    await lab.bench.clocks(lab.cfg.us(60))
+    await env.bench.clocks(env.cfg.us(60))

@@ -1,10 +1,10 @@
-"""`Lab`: a PPMC-2104AFP on the test bench with its host and its two axes.
+"""`Env`: a PPMC-2104AFP on the test bench with its host and its two axes.
 
 @directed("AC-09", "P2104-EX-01", builds=(F16, F11))
 async def p2104_ac_09_trapezoid(dut):
     "With ramp B, 25 pulses have the trapezoidal profile of EX-01 (AC-09)."
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.move(0x43, 25)
     axis.check_train("AC-09", rates(INIT_B[1:], indices(25, 10)))
 """
@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from cocotb_tests.harness import IBF, Config, Drive, HostBus, Side, start_bench
+from cocotb_tests.harness import IBF, AxisDriver, Config, DutBench, HostBus, start_bench
 
 from .bench import PPMC2104
 from .expected_timing import ALL, BUSY1, CMND1, INIT_A, Init
@@ -27,10 +27,10 @@ PINS_LATEST = 12
 END_LATEST = 4
 
 
-class Axis(Drive):
+class Axis(AxisDriver):
     """One of the two axes with its codes, pins and status bits."""
 
-    def __init__(self, bench: Side, host: HostBus, n: int) -> None:
+    def __init__(self, bench: DutBench, host: HostBus, n: int) -> None:
         super().__init__(bench, host, f"pout_n[{n}]", f"s{n}_n", f"extck[{n}]", BUSY1 << n - 1, (n - 1) << 5)
         self.n = n
         self.cmnd = CMND1 << n - 1
@@ -111,10 +111,10 @@ class Axis(Drive):
             self.check_train(rule, rates)
 
 
-class Lab:
-    """Test bench, host and axes `x1`, `x2`; created with `await Lab.start(dut)`."""
+class Env:
+    """Test bench, host and axes `x1`, `x2`; created with `await Env.start(dut)`."""
 
-    def __init__(self, bench: Side) -> None:
+    def __init__(self, bench: DutBench) -> None:
         self.bench = bench
         self.host = HostBus(bench)
         self.x1, self.x2 = (Axis(bench, self.host, n) for n in (1, 2))
@@ -127,7 +127,7 @@ class Lab:
         self.statuses = self.x1.statuses
 
     @classmethod
-    async def start(cls, dut: Any, **pins: int) -> Lab:
+    async def start(cls, dut: Any, **pins: int) -> Env:
         """Reset with these input levels; no axis has a setting."""
         return cls(await start_bench(dut, PPMC2104, **pins))
 

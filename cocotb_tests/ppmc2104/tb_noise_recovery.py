@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import IBF, Bench, HostBus, random_test
+from cocotb_tests.harness import IBF, HostBus, RtlBench, random_test
 from cocotb_tests.harness.axis_driver import indices, offsets, rates
 from cocotb_tests.harness.random_host import UNCOMPARED
 from cocotb_tests.ppmc2104.expected_timing import BUSY1, BUSY2, CMND1, CMND2, OBF
@@ -27,7 +27,7 @@ RAMP = (0x33, 0x25, 4)
 )
 async def p2104_random_chaos(dut: Any, seed: int) -> None:
     """After noise on all pins, stops, Excitation OFF and a setting make both axes work again."""
-    bench = await Bench.start(dut, PPMC2104, seed=seed, busc=seed & 1)
+    bench = await RtlBench.start(dut, PPMC2104, seed=seed, busc=seed & 1)
     din = noise(bench)
     await din.make(bench.rng.choice((2_000, 10_000, 40_000)))
     await din.stop()

@@ -35,6 +35,6 @@ from .bench import PPMC2104
 async def p2104_random_host(dut: Any, seed: int) -> None:
     """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
-    side = await start_bench(dut, PPMC2104, **plan.pins)
-    note(side, describe(plan.actions))
-    await HostPlayer(side, plan).run()
+    bench = await start_bench(dut, PPMC2104, **plan.pins)
+    note(bench, describe(plan.actions))
+    await HostPlayer(bench, plan).run()

@@ -13,7 +13,7 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
 from .host import Host
-from .state_aware_host import Aware
+from .state_aware_host import StateAwareHost
 
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
 MOTIONS = (0x82, 0x82, 0x82, 0x83, 0x83, 0x84, 0x85, 0x86, 0x86, 0x10, 0x11, 0x11)
@@ -41,14 +41,14 @@ async def reset_by_bus(host: Host) -> None:
     assert await host.response() == message(Code.RESET) and host.condition == State.INI, "FF does not help"
 
 
-class Player(Aware):
+class MisuseHost(StateAwareHost):
     """One random host. It acts on data that it reads; the golden model only decides when it acts."""
 
     def __init__(self, host: Host, seed: int) -> None:
         super().__init__("p312", seed)
         self.host = host
-        self.slow = host.side.config.datasheet
-        self.background = MovingPins(host.side, ("mode", "mod", "adr"))
+        self.slow = host.bench.config.datasheet
+        self.background = MovingPins(host.bench, ("mode", "mod", "adr"))
         self.reads = self.rng.choice((0.3, 0.9, 0.97, 1.0, 1.0, 1.0))
         self.rates = [100, 200, 400]
         self.end = self.host.t + (900_000 if self.slow else 130_000)

@@ -13,8 +13,8 @@ from cocotb_tests.harness import D16, F16, F50, Config
 from cocotb_tests.harness.random_host import Builds
 
 from .host import Host
-from .misuse_host import Player
-from .reactive_host import Lively
+from .misuse_host import MisuseHost
+from .reactive_host import ReactiveHost
 
 ODD = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
 build = Builds("p312", ((F16, 110), (F50, 22), (ODD, 22), (D16, 8)))
@@ -25,4 +25,4 @@ ROUGH = 0.15
 async def play(dut: Any, seed: int) -> None:
     """Play one seed; raise AssertionError if the device hangs or returns an invalid answer."""
     rough = random.Random(f"p312 manners {seed}").random() < ROUGH
-    await (Player if rough else Lively)(await Host.start(dut), seed).play()
+    await (MisuseHost if rough else ReactiveHost)(await Host.start(dut), seed).play()

@@ -35,7 +35,7 @@ async def play(dut: Any, seed: int) -> None:
                 changes.setdefault(at, {}).update(levels)
                 t = at
             t += rng.choice((1, 1, 1, 2, 2, 3, 3, 4, 7, 20))
-    host.side.drive(sorted(changes.items()))
+    host.bench.drive(sorted(changes.items()))
     await host.go(max(changes) + 4)
     await host.pins(**{pin: level for pin, level in INPUTS.items() if pin != "rst_n"})
     await host.pause(20)

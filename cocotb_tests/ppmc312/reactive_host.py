@@ -11,10 +11,10 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code, State
 
 from .host import Host
-from .scenario_host import Scenes
+from .scenario_host import ScenarioHost
 
 
-class Lively(Scenes):
+class ReactiveHost(ScenarioHost):
     """One well-behaved random host."""
 
     def __init__(self, host: Host, seed: int) -> None:
@@ -78,7 +78,7 @@ class Lively(Scenes):
         """Bring the device to standstill, mostly in NOR, with everything read."""
         host, rng = self.host, self.rng
         for pin in ("run", "end_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "alm_n", "org_n"):
-            if not host.side.pin(pin) and rng.random() < 0.95:
+            if not host.bench.pin(pin) and rng.random() < 0.95:
                 await host.pins(**{pin: 1})
         for attempt in range(8):
             if self.state in (State.ACC, State.FIX):

@@ -7,7 +7,7 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code, State
 from openppmc.model.ppmc312.stages import ramped
 
-from .misuse_host import Player, some_equal
+from .misuse_host import MisuseHost, some_equal
 
 LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 ASKED = (
@@ -25,7 +25,7 @@ POLL = 60
 """Cycles between two polls of a host that waits for responses."""
 
 
-class Scenes(Player):
+class ScenarioHost(MisuseHost):
     """Host that plays scenes.
 
     Attributes:

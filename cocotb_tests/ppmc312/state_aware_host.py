@@ -6,7 +6,7 @@ from cocotb_tests.harness.random_host import RandomHost
 from openppmc.model.ppmc312.codes import State
 
 
-class Aware(RandomHost):
+class StateAwareHost(RandomHost):
     """Random host that chooses its next action from the state of the device."""
 
     @property

@@ -296,7 +296,7 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
     await host.pause(2000)
     mark = host.t
     await host.pause(20_000)
-    assert not host.side.rises("pout", mark) and await host.read(CSR) & MWEF
+    assert not host.bench.rises("pout", mark) and await host.read(CSR) & MWEF
     # The bus ignores writes now; after one answer is read it accepts them, and FF needs no further read.
     await host.put(message(Code.RESET))
     assert (

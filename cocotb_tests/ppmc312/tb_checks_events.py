@@ -140,7 +140,7 @@ async def p312_reset_and_setting_from_events(dut: Any) -> None:
     host = await Host.start(dut, *TF, "03 0D 49 00" + T1)
     await host.blip("evt0_n", gap=50_000)
     assert await host.response() == message(Code.INITIAL, source=Source.EVENT)
-    assert host.side.golden.core.table is not None and host.side.golden.core.table.na == 2000
+    assert host.bench.golden.core.table is not None and host.bench.golden.core.table.na == 2000
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
 
 
@@ -195,7 +195,7 @@ async def p312_override_interruption(dut: Any) -> None:
     assert await host.response() == message(Answer.OVERRIDE_FAILED, "01", source=Source.OVERRIDE)
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 08 00")
     await host.ask(STOP)
-    position = host.side.golden.position
+    position = host.bench.golden.position
     assert await host.response() == stopped(0x04, position)
     host.mark = mark
     assert len(host.pulses()) == position
@@ -258,7 +258,7 @@ async def p312_a_stop_does_not_wait_for_a_read(dut: Any) -> None:
     assert await host.response() == message(Code.INPUT, "FF", source=Source.EVENT)
     assert await host.response() == message(Code.STOP)
     assert not await host.read(CSR) & MWEF
-    assert await host.response() == stopped(0x04, host.side.golden.position)
+    assert await host.response() == stopped(0x04, host.bench.golden.position)
     host.mark = mark
     assert host.pulses()[-1] <= header + 64
     assert await host.quiet()

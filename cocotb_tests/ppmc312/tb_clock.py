@@ -17,7 +17,7 @@ STOP = message(Code.STOP, "00")
 
 def highs(host: Host) -> list[int]:
     """Return the high times of pout since `mark`."""
-    changes = host.side.edges("pout", host.mark)
+    changes = host.bench.edges("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
 
 

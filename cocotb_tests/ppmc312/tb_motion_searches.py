@@ -45,7 +45,7 @@ async def p312_searches_in_every_form(dut: Any) -> None:
             await host.pins(org_n=1, index_n=1)
             await host.pulse(22, 20)
             assert host.out("dir") == 1 - ccw and host.out("zclmp_n") == 1
-            assert not host.side.falls("zclmp_n", mark)
+            assert not host.bench.falls("zclmp_n", mark)
             await host.pins(org_n=0, index_n=1 - index)
             assert await host.response() == stopped(0x20, (19 - 3) * sign)
             edges = host.pulses()

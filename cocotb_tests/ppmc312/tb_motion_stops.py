@@ -28,7 +28,7 @@ async def p312_causes_that_come_together(dut: Any) -> None:
         if cause == 0x80:
             assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert await host.response() == stopped(cause, 3)
-        assert host.side.falls("pout", low)[0] - host.pulses()[2] == 80
+        assert host.bench.falls("pout", low)[0] - host.pulses()[2] == 80
     # Instruction 81 and a high-speed limit apply to the same boundary.
     host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "FFFF"))
     await host.ask(f"{ALWAYS} 0064")

@@ -30,9 +30,9 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
             await host.go(host.header + after)
             mark = host.t
             await host.strobe(12, 6, cs_n=0, oe_n=0, rs=reg)
-            (rise,), (fall,) = host.side.rises("d_oe", mark), host.side.falls("d_oe", mark)
+            (rise,), (fall,) = host.bench.rises("d_oe", mark), host.bench.falls("d_oe", mark)
             assert rise - mark in range(0, 5) and fall - mark - 12 in range(0, 5), after
-            assert not [edge for edge in host.side.edges("d_o", mark) if edge[0] > rise], after
+            assert not [edge for edge in host.bench.edges("d_o", mark) if edge[0] > rise], after
             seen.append(host.out("d_o"))
             await host.pause(40)
             # No effect of the strobe remains after the reset.
@@ -90,10 +90,10 @@ async def p312_reset_in_the_middle_of_a_block(dut: Any) -> None:
     await host.write(WCR, 0x20)
     await host.write(WAR, 0x1D)
     await host.write(DWR, 0x40)
-    host.side.set(rst_n=0, cs_n=0, oe_n=0, rs=CSR)
+    host.bench.set(rst_n=0, cs_n=0, oe_n=0, rs=CSR)
     await host.pause(12)
     await host.pins(rst_n=1)
-    host.side.set(cs_n=1, oe_n=1)
+    host.bench.set(cs_n=1, oe_n=1)
     await host.pause(17)
     assert (await host.read(CSR), await host.read(RAR), host.condition) == (0x04, 0x40, 0x01)
     levels = {"auxo_n": 0x3F, "exon_n": 1, "zclmp_n": 1, "irq_n": 1, "dir": 0, "pout": 0, "out_oe": 1}
@@ -164,16 +164,16 @@ async def p312_mode_is_taken_at_the_end_of_a_reset(dut: Any) -> None:
     await host.pins(mode=0, mod=5, adr=9)
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
-    await host.side.reset(12, settle=18)
-    host.side.set(mode=1)
+    await host.bench.reset(12, settle=18)
+    host.bench.set(mode=1)
     await host.pause(30)
     mark = host.t
     await host.write(CSR, 0x70)
     await host.put(message(Code.VERSION))
     assert await host.read(CSR) == 0 and await host.quiet(500) is False
-    assert not host.side.rises("d_oe", mark) and host.out("irq_n") == host.out("wrq_n") == 1
+    assert not host.bench.rises("d_oe", mark) and host.out("irq_n") == host.out("wrq_n") == 1
     assert (host.out("txd"), host.out("snd")) == (1, 0)
-    await host.side.reset(12, settle=28)
+    await host.bench.reset(12, settle=28)
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
 
 

@@ -108,7 +108,7 @@ async def p312_an_event_edge_during_00_and_01_is_dropped(dut: Any) -> None:
                 for rest in TF[1:]:
                     await host.ask(rest)
             elif cond == 0x01:
-                host = Host(host.side)
+                host = Host(host.bench)
                 for block_ in TF:
                     await host.ask(block_)
             assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")

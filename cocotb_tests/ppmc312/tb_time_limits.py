@@ -30,7 +30,7 @@ async def p312_ports(dut: Any) -> None:
     assert {"d_i": 8, "rs": 3, "mod": 3, "adr": 4, "auxi": 8}.items() <= dict(WIDTHS).items()
     high = {"wrq_n", "irq_n", "txd", "exon_n", "cclr_n", "aclr_n", "zclmp_n", "cd_n", "intlk_n"}
     assert OUTPUTS == {name: 0x3F if name == "auxo_n" else int(name in high) for name in outputs.split()}
-    assert (await Host.start(dut)).side.initial == OUTPUTS
+    assert (await Host.start(dut)).bench.initial == OUTPUTS
 
 
 @directed("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
@@ -103,7 +103,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
         longest = max(longest, took)
         assert took <= T_TRIG, after
         answers = [await host.response() for _ in range(3)]
-        position = f"{host.side.golden.position:08X}"
+        position = f"{host.bench.golden.position:08X}"
         if answers[0] == message(
             Code.STOP, source=Source.OVERRIDE
         ):  # the event was first; then there is no motion to change

@@ -6,7 +6,7 @@ from math import ceil
 
 import cocotb
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 KINDS = "undefined init halt decel operation read switching aux_out exc_off aux_on aux_off".split()
 ACTIONS = "init start halt decel exc_off aux_on aux_off aux_out switching read".split()
@@ -115,7 +115,7 @@ def judge_code(kind: str, params: int, state: dict[str, int]) -> tuple[int | Non
 async def command_random(dut):
     """For random codes, data and states, status, actions and parameters are those of the tables."""
     rand = rng()
-    u = Unit(dut, "command", BLOCKS, "take_o act_o")
+    u = BlockDriver(dut, "command", BLOCKS, "take_o act_o")
     await u.reset()
     error, number, code, kind, data = 0, 0, 0, "undefined", []
     finished = 0
@@ -172,7 +172,7 @@ async def command_random(dut):
 async def setup_frozen(dut, idle):
     """The first initialisation sets everything; later ones do not change the frozen bits until off_i."""
     rand = rng()
-    u = Unit(dut, f"setup{idle}", BLOCKS, "setup_o initialised_o")
+    u = BlockDriver(dut, f"setup{idle}", BLOCKS, "setup_o initialised_o")
     await u.reset()
     chop, positive, half, motor, ready = 0, 1 - idle, 0, 0, 0
     same("reset", await u.settle(), (positive << 3, 0))
@@ -202,7 +202,7 @@ async def setup_frozen(dut, idle):
 async def finish_answers(dut, fresh):
     """For random motions and reads, status, answers and interrupt are those of the rules."""
     rand = rng()
-    u = Unit(dut, f"finish{fresh}", BLOCKS, "answer_o int_no")
+    u = BlockDriver(dut, f"finish{fresh}", BLOCKS, "answer_o int_no")
     await u.reset()
     unread, silent, op, pending = 0, 0, 0, 0
     for n in range(800):
@@ -233,7 +233,7 @@ async def finish_answers(dut, fresh):
             unread, pending = 0, 0
 
 
-async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
+async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
     """Return the clock edges until act_o outputs an action.
 
     With `closed`, check that the mailbox is closed until then.
@@ -250,7 +250,7 @@ async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
 @cocotb.test()
 async def pace_fast(dut):
     """In FAST, actions pass in the same cycle; an initialisation is complete with its table."""
-    u = Unit(dut, "fast", BLOCKS, "act_o open_o go_o linger_o home_o ready_o")
+    u = BlockDriver(dut, "fast", BLOCKS, "act_o open_o go_o linger_o home_o ready_o")
     await u.reset()
     for name in ACTIONS:
         home = name == "init"
@@ -269,7 +269,9 @@ async def pace_fast(dut):
 async def pace_datasheet(dut, name):
     """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their times."""
     clk, xtal, bits, low, high, timed = PACES[name]
-    u = Unit(dut, f"pace_{name}", BLOCKS, "act_o open_o go_o linger_o home_o ready_o", Unit.FREE)
+    u = BlockDriver(
+        dut, f"pace_{name}", BLOCKS, "act_o open_o go_o linger_o home_o ready_o", BlockDriver.FREE
+    )
     await u.reset()
 
     def cyc(microseconds: float) -> int:

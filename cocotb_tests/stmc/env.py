@@ -1,11 +1,11 @@
-"""`Lab`: an STMC core on the test bench with its host.
+"""`Env`: an STMC core on the test bench with its host.
 
 @directed("AC-05", "STMC-MOV-02")
 async def stmc_ac_05_trapezoid(dut):
     "A move of 20 steps has the gaps of W1 (AC-05)."
-    lab = await Lab.start(dut, STANDARD, clock=16)
-    await lab.move(0x43, 20)
-    lab.train("AC-05", gaps(20))
+    env = await Env.start(dut, STANDARD, clock=16)
+    await env.move(0x43, 20)
+    env.train("AC-05", gaps(20))
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness import BUSY, IBF, Drive, HostBus, Side, start_bench
+from cocotb_tests.harness import BUSY, IBF, AxisDriver, DutBench, HostBus, start_bench
 from cocotb_tests.harness.axis_driver import differences
 from cocotb_tests.harness.dut_bench import TIMEOUT
 
@@ -33,31 +33,31 @@ LONGEST = 200 * TICK
 BUILD_LATEST = 40_000
 
 
-class Lab(Drive):
+class Env(AxisDriver):
     """Test bench and host.
 
     `pulses` are the steps, as edges of `s`; `period` is that of `ext_clk`, 0 = stopped.
     """
 
-    def __init__(self, bench: Side, host: HostBus | None = None, clock: str = "ext_clk") -> None:
+    def __init__(self, bench: DutBench, host: HostBus | None = None, clock: str = "ext_clk") -> None:
         limit = max(TIMEOUT, bench.config.cyc(LONGEST))
         super().__init__(bench, host or HostBus(bench, timeout=limit), pout="s", clock=clock)
         self.period = 0
         self.sheet = dict(self.cfg.extra).get("READ_MAP") == "SHEET"
 
     @classmethod
-    async def start(cls, dut: Any, init: Init | None = STANDARD, clock: int = EXT, **pins: int) -> Lab:
+    async def start(cls, dut: Any, init: Init | None = STANDARD, clock: int = EXT, **pins: int) -> Env:
         """Reset with the input levels `pins`, then initialise (None: the core stays in its reset
         state).
 
         Args: clock: period of `ext_clk` in cycles from the reset on, 0 = stopped.
         """
-        lab = cls(await start_bench(dut, STMC, **pins))
+        env = cls(await start_bench(dut, STMC, **pins))
         if clock:
-            lab.run_clock(clock)
+            env.run_clock(clock)
         if init:
-            await lab.init(*init)
-        return lab
+            await env.init(*init)
+        return env
 
     def run_clock(self, period: int) -> Any:
         """Start `ext_clk` with a constant period; return the task."""

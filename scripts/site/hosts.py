@@ -39,5 +39,5 @@ def recorded(part: WebPart, seed: int) -> Recording:
     test = getattr(importlib.import_module(item.module), item.test)
     on_model(test.func(OnModel(item.config, seed)))
     last = ended()
-    assert last is not None and last.side is not None
-    return last.side.recording()
+    assert last is not None and last.bench is not None
+    return last.bench.recording()

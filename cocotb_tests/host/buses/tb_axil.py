@@ -135,7 +135,7 @@ async def axil_reads_and_writes_at_once(dut):
     assert [(a, v) for kind, a, v in done if kind == "w"] == written
     assert [(a, v) for kind, a, v in done if kind == "r"] == list(zip(fetched, expected, strict=True))
     kinds = "".join(kind for kind, _, _ in done)
-    assert "www" not in kinds[:280] and "rrr" not in kinds[:280], f"one side waited: {kinds}"
+    assert "www" not in kinds[:280] and "rrr" not in kinds[:280], f"one channel waited: {kinds}"
 
 
 @cocotb.test()

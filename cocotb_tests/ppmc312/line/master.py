@@ -6,7 +6,7 @@ from collections.abc import Coroutine
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from cocotb_tests.harness import Bench
+from cocotb_tests.harness import RtlBench
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL, checksum, frame
 
 from .setting import BIT
@@ -41,7 +41,7 @@ class Port(Protocol):
 class RtlPort:
     """The bench of `ppmc312_line`."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: RtlBench) -> None:
         self.bench = bench
 
     @property

@@ -10,7 +10,7 @@ from cocotb.triggers import FallingEdge, RisingEdge, Timer, with_timeout
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import same
-from cocotb_tests.harness.line import Wire
+from cocotb_tests.harness.line import UartBfm
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL
 
@@ -19,7 +19,7 @@ INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "fl_n": 1, "alm_n": 1, "aux
 LINK, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
-class Master(Wire):
+class Master(UartBfm):
     """Master on one of the two lines."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:

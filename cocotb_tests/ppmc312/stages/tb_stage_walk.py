@@ -11,7 +11,7 @@ from openppmc.model.ppmc312.codes import Cause
 from openppmc.model.ppmc312.motion.sequence import Change, Sequence
 from openppmc.model.ppmc312.stages import STAGES, Plan, Table, constant, curve, ramped
 
-from ...harness import Unit, rng, same
+from ...harness import BlockDriver, rng, same
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start
 
@@ -52,11 +52,11 @@ def some_rate(rand: random.Random, table: Table) -> int:
 class Walker:
     """The sequencer during a motion, with a table that responds two cycles after the address."""
 
-    def __init__(self, u: Unit, table: Table, plan: Plan, rand: random.Random) -> None:
+    def __init__(self, u: BlockDriver, table: Table, plan: Plan, rand: random.Random) -> None:
         self.u, self.table, self.plan, self.rand = u, table, plan, rand
         self.asked = deque([(0, 0), (0, 0)])
         self.sequence = Sequence(plan)
-        self.story: list[str] = []
+        self.history: list[str] = []
         self.busy = rand.choice((0.1, 0.4))
         self.flat_for, self.slow, self.searched = SEARCH, 0, 0
         self.what = f"{brief(table)}: {plan.n} pulses at {plan.rate}, {plan.up} up, {plan.down} down"
@@ -125,13 +125,13 @@ class Walker:
         for left in range(longest - 1, 0, -1):
             what = requests.get(left)
             if what:
-                self.story.append(f"{what} after pulse {self.sequence.done}")
+                self.history.append(f"{what} after pulse {self.sequence.done}")
             if what == "slow":
                 slow = 1
                 self.sequence.request(Cause.SLOW)
             elif what:
                 rate = self.aim()
-                self.story[-1] += f" to {rate}"
+                self.history[-1] += f" to {rate}"
                 self.sequence.change(Change(rate, what == "ramp"))
                 plan = self.plan_word(Target.of(self.table, rate).packed)
                 target = {left - TARGET_CLK: {"plan_i": plan, "change_ramp_i": what == "ramp"}}
@@ -143,7 +143,7 @@ class Walker:
         """Output all pulses; return the reason why they end."""
         for _ in range(limit):
             await self.interval()
-            where = f"{self.what}, {self.story}, boundary {self.sequence.done + 1}"
+            where = f"{self.what}, {self.history}, boundary {self.sequence.done + 1}"
             end, low, count, rate = await self.look()
             self.slow = self.u.get("slow_i") and not self.u.get("next_slow_o")
             flat_for = self.flat_for - SEARCH * self.sequence.sought
@@ -177,7 +177,7 @@ def some_plan(rand: random.Random, table: Table) -> Plan:
 async def stage_seq_walks(dut):
     """For random curves, operations and requests, each pulse and the end equal those of the model."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, WATCH)
+    u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
     ends: dict[str, int] = {}
     for _ in range(220):
@@ -208,7 +208,7 @@ class Meeting(Walker):
         return self.table.high if before == self.ramp else self.table.rates[self.table.first]
 
     @classmethod
-    def some(cls, u: Unit, rand: random.Random) -> Meeting:
+    def some(cls, u: BlockDriver, rand: random.Random) -> Meeting:
         """Return a table and an operation with a deceleration of enough pulses for several requests."""
         while True:
             table = small_curve(rand)
@@ -228,7 +228,7 @@ class Meeting(Walker):
 async def stage_seq_searches(dut):
     """When a stage becomes a constant rate, t(rate) is found for the requests that follow."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, WATCH)
+    u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
     searched = 0
     for _ in range(240):
@@ -266,7 +266,7 @@ async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
     Otherwise it waits for the 88.
     """
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, WATCH)
+    u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
     table = curve([169, 250, 332, 169, 363], [5, 5, 6, 6, 6], [4, 2])
     ends = set()

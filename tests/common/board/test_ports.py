@@ -48,7 +48,7 @@ def test_busy_port(board: SimBoard) -> None:
         assert axis.status().busy is False
 
 
-class Stranger:
+class NonBridgeDevice:
     """A pseudo-terminal with a device that is not a board."""
 
     def __init__(self, reply: Reply) -> None:
@@ -80,10 +80,10 @@ class Stranger:
 @pytest.fixture
 def stranger() -> Iterator[MakeStranger]:
     """Create such devices and remove them after the test."""
-    made: list[Stranger] = []
+    made: list[NonBridgeDevice] = []
 
     def make(reply: Reply) -> str:
-        made.append(Stranger(reply))
+        made.append(NonBridgeDevice(reply))
         return made[-1].path
 
     yield make

@@ -7,7 +7,7 @@ from typing import Any
 import cocotb
 import pytest
 
-from cocotb_tests.harness import D16, F16, ModelBench, OnModel, Side, directed, on_model, start_bench
+from cocotb_tests.harness import D16, F16, DutBench, ModelBench, OnModel, directed, on_model, start_bench
 from cocotb_tests.harness.collect import rules_of
 from cocotb_tests.harness.run_context import present
 from cocotb_tests.ppmc104.bench import PPMC104
@@ -20,21 +20,21 @@ class Simulated(ModelBench):
 
 
 class Judge:
-    """Compares nothing; stores the sides, and fails on request."""
+    """Compares nothing; stores the benches, and fails on request."""
 
     def __init__(self) -> None:
-        self.sides: list[Any] = []
+        self.benches: list[Any] = []
         self.finds = ""
 
-    def __call__(self, side: Any) -> None:
-        self.sides.append(side)
+    def __call__(self, bench: Any) -> None:
+        self.benches.append(bench)
         if self.finds:
             raise AssertionError(self.finds)
 
 
 @pytest.fixture
 def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
-    """Replace the comparison; `start_bench` returns sides that must be compared."""
+    """Replace the comparison; `start_bench` returns benches that must be compared."""
     found = Judge()
     monkeypatch.setattr("cocotb_tests.harness.run_context.check_against_model", found)
     monkeypatch.setattr("cocotb_tests.harness.run_context.ModelBench", Simulated)
@@ -55,10 +55,10 @@ def test_a_test_is_compared_at_its_end(judge: Judge) -> None:
     async def good(dut: Any) -> None:
         assert dut.config == F16
         await start()
-        assert not judge.sides
+        assert not judge.benches
 
     run(good)
-    assert len(judge.sides) == 1
+    assert len(judge.benches) == 1
     assert present() is None
     assert rules_of(good) == ("P104-STP-01",)
     assert good.func._openppmc_configs == (F16, D16)
@@ -71,11 +71,11 @@ def test_a_second_start_compares_the_first_side_and_stills_it(judge: Judge) -> N
         first = await start()
         task = first.at(100, csel=0)
         second = await start()
-        assert judge.sides == [first] and task.over
-        assert second is not first and present().side is second  # type: ignore[union-attr]
+        assert judge.benches == [first] and task.over
+        assert second is not first and present().bench is second  # type: ignore[union-attr]
 
     run(twice)
-    assert len(judge.sides) == 2
+    assert len(judge.benches) == 2
 
 
 def test_a_difference_fails_the_test(judge: Judge) -> None:
@@ -99,7 +99,7 @@ def test_a_difference_before_a_second_start_is_told_once(judge: Judge) -> None:
 
     with pytest.raises(AssertionError, match="^pout_n differs$"):
         run(twice)
-    assert len(judge.sides) == 1
+    assert len(judge.benches) == 1
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_uncompared_is_not_compared(judge: Judge) -> None:
         AssertionError, match="^wrong\nthe outputs of this test are not compared with the golden model$"
     ):
         run(free)
-    assert not judge.sides
+    assert not judge.benches
     assert free.func._openppmc_uncompared == "no rule fixes it"
 
 
@@ -163,12 +163,12 @@ def test_parameters_go_with_it(judge: Judge) -> None:
         assert [case.name.rpartition("/")[2] for case in cases] == ["count=1", "count=2"]
         for case in cases:
             on_model(case.func(OnModel(), **case.kwargs))
-    assert len(judge.sides) == 4
+    assert len(judge.benches) == 4
 
 
 def test_golden_follows_and_is_never_ahead() -> None:
-    """`golden` has the pins of its side so far, and has run up to the edge before the next one."""
-    bench, golden = ModelBench(PPMC104, OnModel()), Side.golden.fget
+    """`golden` has the pins of its bench so far, and has run up to the edge before the next one."""
+    bench, golden = ModelBench(PPMC104, OnModel()), DutBench.golden.fget
     model = golden(bench)
     assert model.now == bench.now - 1
     on_model(bench.clocks(10))

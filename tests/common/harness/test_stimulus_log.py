@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness.dut_bench import Given
+from cocotb_tests.harness.dut_bench import StimulusLog
 from openppmc.check.records import Change
 
 
@@ -11,7 +11,7 @@ def test_what_comes_later_stands_behind() -> None:
 
     Otherwise a model that counts the changes it has received would miss one.
     """
-    given, driven = Given(), [Change(3, "rxd", 0)]
+    given, driven = StimulusLog(), [Change(3, "rxd", 0)]
     made = {"sda_i": [(4, 0), (7, 1)], "scl_i": [(6, 0)]}
     fed = list(given.add(driven, made))
     assert fed == [Change(3, "rxd", 0), Change(5, "sda_i", 0), Change(7, "scl_i", 0), Change(8, "sda_i", 1)]
@@ -23,7 +23,7 @@ def test_what_comes_later_stands_behind() -> None:
 
 def test_a_level_that_has_changed_within_its_edge() -> None:
     """If the last level of a pin changes again within its edge, the new level is added after it."""
-    given = Given()
+    given = StimulusLog()
     given.add([], {"sda_i": [(4, 0)]})
     assert given.add([], {"sda_i": [(4, 1)]}) == [Change(5, "sda_i", 0), Change(5, "sda_i", 1)]
     assert given.add([], {"sda_i": [(4, 1), (6, 0)]})[2:] == [Change(7, "sda_i", 0)]

@@ -85,7 +85,7 @@ MOVES = {
 
 def step_times(play: Player, motor: Motor) -> list[int]:
     """Return the cycles of a motor's steps on the golden model; phases at standstill are not steps."""
-    edges = play.side.edges(play.output(motor))
+    edges = play.bench.edges(play.output(motor))
     if not motor.phases:
         return [t for t, level in edges if level == motor.edge]
     return steps(edges)

@@ -26,7 +26,7 @@ def load(folder: Path) -> LineRun:
     told = json.loads((folder / "talk.json").read_text())
     return LineRun(
         Recording.from_json((folder / "recording.json").read_text()),
-        json.loads((folder / "story.json").read_text()),
+        json.loads((folder / "chapters.json").read_text()),
         exchanges(told["talk"]),
         told["positions"],
     )
