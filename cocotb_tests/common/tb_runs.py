@@ -11,7 +11,7 @@ import cocotb
 import pytest
 from cocotb.triggers import Timer
 
-from ..harness import inside
+from ..harness import probe
 from ..harness.sim_backend import sim_backend
 
 LEFT: list[str] = []
@@ -163,7 +163,7 @@ async def pries(dut):
 
 
 @cocotb.test()
-@inside("u_inner.count")
+@probe("u_inner.count")
 async def looks(dut):
     """The test reads a signal that it has requested."""
     first = int(dut.u_inner.count.value)

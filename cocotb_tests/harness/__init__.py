@@ -40,12 +40,14 @@ from typing import TYPE_CHECKING
 
 from openppmc.lazy import lazy
 
+from .deprecated import with_old_names
+
 if TYPE_CHECKING:
     from .axis_driver import AxisDriver
     from .block_driver import Block, BlockDriver, rng, same
     from .build import check_ranges
     from .bus import BUSY, COMMAND, DATA, ERR, IBF, OBF, STATUS, BlockHost, HostBus
-    from .collect import cocotb_items, inside, verifies
+    from .collect import cocotb_items, probe, verifies
     from .config import D11, D16, F8, F11, F16, F25, F48, F50, F100, Config, configs
     from .dut_bench import DutBench
     from .isa import IsaHost
@@ -57,14 +59,14 @@ if TYPE_CHECKING:
     from .run_context import directed, random_test, start_bench
     from .runner import SimOptions, run_item
 else:
-    __getattr__, __dir__ = lazy(
+    _load, __dir__ = lazy(
         __name__,
         """
         .axis_driver AxisDriver
         .block_driver Block BlockDriver rng same
         .build check_ranges
         .bus BUSY COMMAND DATA ERR IBF OBF STATUS BlockHost HostBus
-        .collect cocotb_items inside verifies
+        .collect cocotb_items probe verifies
         .config D11 D16 F8 F11 F16 F25 F48 F50 F100 Config configs
         .dut_bench DutBench
         .isa IsaHost
@@ -76,6 +78,17 @@ else:
         .run_context directed random_test start_bench
         .runner SimOptions run_item
         """,
+    )
+    __getattr__ = with_old_names(
+        __name__,
+        {
+            "Bench": "RtlBench",
+            "Drive": "AxisDriver",
+            "Side": "DutBench",
+            "Unit": "BlockDriver",
+            "inside": "probe",
+        },
+        _load,
     )
 
 __all__ = [
@@ -117,7 +130,7 @@ __all__ = [
     "configs",
     "directed",
     "generating",
-    "inside",
+    "probe",
     "on_model",
     "random_test",
     "rng",

@@ -4,8 +4,8 @@ The pin changes of the run are replayed into the model; each output of RTL and m
 level on the same rising edges of `clk`. Only outputs forced by an asynchronous reset may differ by one cycle,
 because rst_n can fall between two edges. A difference produces a text report, a VCD and a PNG.
 
-If TALLY in the environment names a file, a simulation appends the counts of its comparisons to it, one JSON
-object per line.
+If OPENPPMC_COUNTS in the environment names a file, a simulation appends the counts of its comparisons to
+it, one JSON object per line.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ from .crosses import leave
 from .dut_bench import ModelRunner, new_model
 from .part import recorded
 
-TALLY = "OPENPPMC_TALLY"
+COUNTS_FILE = "OPENPPMC_COUNTS"
 
 
 def add_counts(**counts: int) -> None:
-    """Add these counts to the tally of the run."""
-    if name := os.environ.get(TALLY):
+    """Add these counts to the counts file of the run."""
+    if name := os.environ.get(COUNTS_FILE):
         with open(name, "a", encoding="ascii") as file:
             file.write(json.dumps(counts) + "\n")
 
 
 def total_counts(file: Path) -> Counter[str]:
-    """Return the sums of all counts in the tally of a run; empty if there are no counts."""
+    """Return the sums of all counts in the counts file of a run; empty if there are no counts."""
     sums: Counter[str] = Counter()
     if file.is_file():
         for line in file.read_text(encoding="ascii").splitlines():

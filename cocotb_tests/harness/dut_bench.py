@@ -97,7 +97,7 @@ class DutBench(ABC):
         self.accesses: list[Access] = []
         self.initial: dict[str, int] = {}
         self.follower: ModelRunner | None = None
-        self._given = StimulusLog()
+        self._stimulus_log = StimulusLog()
         self._later: list[Handle] = []
 
     # ---------------------------------------------------------------- primitives
@@ -183,7 +183,7 @@ class DutBench(ABC):
             return self.stimulus
         seen = self._seen()
         driven = [change for change in self.stimulus if change.pin not in part.aside]
-        return self._given.add(driven, {name: seen[name] for name in part.fed})
+        return self._stimulus_log.add(driven, {name: seen[name] for name in part.fed})
 
     def close(self) -> None:
         """Stop all scheduled pin changes."""

@@ -25,12 +25,12 @@ _GROUPS = pytest.StashKey[Groups]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the options of `make test`: SEED, CLK_HZ, WAVES, INSIDE and MODEL."""
+    """Add the options of `make test`: SEED, CLK_HZ, WAVES, PROBE and MODEL."""
     group = parser.getgroup("openppmc")
     group.addoption("--seed", type=int, default=None, help="seed of all simulations and random tests")
     group.addoption("--clk-hz", type=int, default=None, help="run only simulations with this CLK_HZ")
     group.addoption("--waves", action="store_true", help="keep the waveforms of each simulation")
-    group.addoption("--inside", action="store_true", help="show inner signals in every simulation")
+    group.addoption("--probe", "--inside", action="store_true", help="show inner signals in every simulation")
     group.addoption("--model", action="store_true", help="run directed tests on the golden model alone")
 
 
@@ -155,7 +155,7 @@ def pytest_configure(config: pytest.Config) -> None:
     options = SimOptions(
         seed=config.getoption("--seed"),
         waves=config.getoption("--waves"),
-        inside=config.getoption("--inside"),
+        probe=config.getoption("--probe"),
     )
     config.stash[_GROUPS] = Groups(options)
     config.pluginmanager.register(config.stash[_GROUPS], "openppmc-groups")

@@ -26,7 +26,7 @@ from openppmc.check.records import Recording
 
 from .build import Design, SimError, part_design
 from .collect import Item, cocotb_items
-from .compare import TALLY, total_counts
+from .compare import COUNTS_FILE, total_counts
 from .config import SEEDS, Config
 from .model_bench import OnModel, on_model
 from .part import PARTS
@@ -186,8 +186,8 @@ def play(items: Sequence[Item], design: Callable[[Item], Design | None], size: i
 
 def _attempt(played: Played, item: Item, env: dict[str, str], design: Design | None) -> str:
     with TemporaryDirectory(prefix="openppmc-") as folder:
-        file = Path(folder) / f"tally-{os.getpid()}"
-        message = attempt_random(item, env={**env, TALLY: str(file)}, design=design)
+        file = Path(folder) / f"counts-{os.getpid()}"
+        message = attempt_random(item, env={**env, COUNTS_FILE: str(file)}, design=design)
         if not message:
             played.compared.update(total_counts(file))
     return message

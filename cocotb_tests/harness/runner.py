@@ -42,14 +42,14 @@ from .variants import mutant_present
 _VAR = re.compile(r"\$var \w+ +(\d+) \S+ (\S+)(?: (\[\S+\]))? \$end")
 
 _UNKNOWN = re.compile(r"AttributeError: .*contains no (child )?object")
-HINT = "hidden in this build: @inside(…) or INSIDE=1"
+HINT = "hidden in this build: @probe(…) or PROBE=1"
 
 
 def seen(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
     """Return the design with these inner signals visible, or with all signals visible."""
     if everything:
         return replace(design, ports=())
-    return replace(design, inside=paths) if paths and design.ports else design
+    return replace(design, probes=paths) if paths and design.ports else design
 
 
 def hint(text: str, design: Design) -> str:
@@ -278,14 +278,14 @@ class SimOptions:
 
     Attributes:
         waves: True if a VCD of each test is kept, also of passing ones.
-        inside: True if every signal is visible.
+        probe: True if every signal is visible.
         group: the items that share a simulator process, in order.
     """
 
     seed: int | None = None
     waves_on_failure: bool = True
     waves: bool = False
-    inside: bool = False
+    probe: bool = False
     group: tuple[Item, ...] = ()
     done: dict[tuple[Item, ...], dict[Item, tuple[Outcome, Job]]] = field(default_factory=dict, compare=False)
 
@@ -317,7 +317,7 @@ def run_sim(
 
 def _job(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Job:
     seed = item.seed if options.seed is None else options.seed
-    design = seen(design or part_design(item.part, item.config), item.inside, options.inside)
+    design = seen(design or part_design(item.part, item.config), item.probes, options.probe)
     group = options.group if item in options.group else (item,)
     return Job(design, group, seed, options.waves, env)
 

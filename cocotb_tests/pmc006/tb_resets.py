@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import inside
+from cocotb_tests.harness import probe
 
 from .builds import directed
 from .host import Host
@@ -42,7 +42,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 
 
 @directed("P006-BAD-24", "P006-CMD-15")
-@inside("u_control.u_settings.u_values.count_q")
+@probe("u_control.u_settings.u_values.count_q")
 async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
     """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness import Part, SimOptions, cocotb_items, inside, run_item
+from cocotb_tests.harness import Part, SimOptions, cocotb_items, probe, run_item
 from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import BUILD, FAILURES, ROOT, relative
@@ -152,16 +152,16 @@ def test_a_hidden_signal_says_so(design: Design) -> None:
         text = said(design, *names)
         assert "AttributeError: runs_top contains no child object named u_inner" in text and HINT in text
         assert "not reproduced" not in text
-    assert attempt(ITEMS["pries"], SimOptions(inside=True), design=design) == ""
+    assert attempt(ITEMS["pries"], SimOptions(probe=True), design=design) == ""
 
 
 def test_a_test_may_look_inside(design: Design) -> None:
     """The signals that a test names are visible; other signals stay hidden."""
-    assert ITEMS["looks"].inside == ("u_inner.count",)
+    assert ITEMS["looks"].probes == ("u_inner.count",)
     assert attempt(ITEMS["looks"], design=design) == ""
     assert seen(design, ()) == design and not seen(design, ("q",), True).ports
     with pytest.raises(ValueError, match="expected paths"):
-        inside("u_inner/count")
+        probe("u_inner/count")
 
 
 def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,7 +18,7 @@ def left_out(part: str, ends: Sequence[int], most: int, why: str) -> str:
     return f"; without {', '.join(long)}: {why}" if long else ""
 
 
-def told(line: str) -> None:
+def add(line: str) -> None:
     """Store a line."""
     FILE.parent.mkdir(parents=True, exist_ok=True)
     with FILE.open("a", encoding="utf-8") as out:
