@@ -215,6 +215,12 @@ def texts() -> str:
     return "\n".join(found)
 
 
+def spelling() -> str:
+    """Check the text files with codespell; `[tool.codespell]` in pyproject.toml has its settings."""
+    files = [relative(path) for path in text_files()]
+    return tool(sys.executable, "-m", "codespell_lib", *files, ok_output=True)
+
+
 def locked() -> str:
     """Check that every installed package has the version of requirements.lock."""
     lines = (project.ROOT / "requirements.lock").read_text(encoding="utf-8").splitlines()
@@ -328,6 +334,7 @@ def checks() -> list[Check]:
         Check("requirements.lock", "installed packages", locked),
         Check("texts", "marks, tabs, line ends", texts),
         Check("prose", "lint/prose.txt", prose.errors),
+        Check("codespell", "spelling", spelling),
     ]
 
 

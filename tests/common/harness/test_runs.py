@@ -111,7 +111,7 @@ def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
-    assert "determin" not in text and "not reproduced" not in text and "behind" not in text
+    assert "deterministic" not in text and "not reproduced" not in text and "behind" not in text
 
 
 def test_a_failure_leaves_log_and_waves(design: Design) -> None:
@@ -143,7 +143,7 @@ def test_waves_may_hide_a_failure(design: Design) -> None:
     """A failure that disappears with waves is reported as not reproduced, not as not deterministic."""
     text = said(design, "shy")
     assert "nobody looks" in text and "(not reproduced with waves: there it passed)" in text
-    assert "determin" not in text
+    assert "deterministic" not in text
 
 
 def test_a_hidden_signal_says_so(design: Design) -> None:
