@@ -60,7 +60,7 @@ class Goal:
         self.given = {name: given.get(name, os.environ.get(name) or None) for name in self.known}
         self.old_variables = []
         for old, new in OLD_VARIABLES.items():
-            value = given.get(old, os.environ.get(old) or None)
+            value = given[old] if old in given else os.environ.get(old) or None
             if new in self.known and self.given[new] is None and value is not None:
                 self.given[new] = value
                 self.old_variables.append(old)

@@ -119,7 +119,7 @@ class Axis(AxisDriver):
         start = self.released + self.n + 8 + self.round
         return start + max(0, -(-(edge - start) // self.round)) * self.round
 
-    def taken(self, edge0: int) -> int:
+    def accepting_visit(self, edge0: int) -> int:
         """Return the visit that accepts a byte whose write has this edge 0, provided that it accepts
         bytes (BANK-HSK-01).
         """

@@ -168,7 +168,7 @@ async def bank_hsk_02_end_takes_the_visit(dut):
     axis = await env.ready(4)
     address = axis.n << 4 | STATUS
     edge0 = await axis.go(0x42, poll=False)
-    start = axis.taken(edge0)
+    start = axis.accepting_visit(edge0)
     end = axis.visit(start + 2 * env.cfg.w + 1)
     await env.write_at(end - 7, address, 0x80)
     env.check("BANK-HSK-02", "status after the end", await env.as_of(end + 1, address), IBF)
@@ -318,7 +318,9 @@ async def bank_gen_05_reset_in_a_build(dut):
         edge0 = await axis.host.write(DATA, 0)
         await env.bench.clocks(2 * env.round + 8)
         changes = axis.patterns(edge0)
-        env.check("BANK-GEN-05", f"pattern of {axis.n}", changes[:1], [(axis.taken(edge0), 0b00011)])
+        env.check(
+            "BANK-GEN-05", f"pattern of {axis.n}", changes[:1], [(axis.accepting_visit(edge0), 0b00011)]
+        )
         await axis.opened()
         await env.reset()
 

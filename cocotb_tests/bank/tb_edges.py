@@ -157,14 +157,14 @@ async def bank_ini_01_duration_of_a_build(dut):
         pulses = rng.randrange(4, 11_221)
         await axis.host.send(0x2A, (slow, fast, pulses & 0xFF))
         await axis.host.poll(IBF, 0)
-        visit = axis.taken(await axis.host.write(DATA, pulses >> 8))
+        visit = axis.accepting_visit(await axis.host.write(DATA, pulses >> 8))
         complete = axis.visit(visit + build_cycles(slow, fast) + 3)
         await env.bench.until(max(visit, env.bench.now))  # a byte written earlier would replace the last one
-        read = axis.taken(await axis.host.write(STATUS, 0x82))
+        read = axis.accepting_visit(await axis.host.write(STATUS, 0x82))
         # The visit that completes the initialisation accepts no byte.
-        taken, offset = max(complete + env.round, read), number % 2 - 1
-        if taken + offset > env.bench.now + 8:
-            got = await env.as_of(taken + offset, axis.n << 4 | STATUS)
+        accepting_visit, offset = max(complete + env.round, read), number % 2 - 1
+        if accepting_visit + offset > env.bench.now + 8:
+            got = await env.as_of(accepting_visit + offset, axis.n << 4 | STATUS)
             what = f"status, RL {slow}, RH {fast}, PA {pulses}, {offset:+}"
             env.check("BANK-INI-02", what, got, IBF if offset < 0 else OBF)
         off = complete + env.cfg.quanta(ON)
@@ -190,7 +190,7 @@ async def bank_grp_02_go_while_an_axis_is_initialised(dut):
             await axis.command(0xC0)
         await axis.host.send(0x0A, (slow, fast, 4))
         await axis.host.poll(IBF, 0)
-        visit = axis.taken(await axis.host.write(DATA, 0))
+        visit = axis.accepting_visit(await axis.host.write(DATA, 0))
         complete = axis.visit(visit + build_cycles(slow, fast) + 3)
         g = complete + offset * env.round - 5
         await env.write_at(g, GO, 0)

@@ -310,7 +310,7 @@ async def bank_mot_02_after_a_forced_end(dut):
     axis = await env.ready(2)
     for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
         edge0 = await axis.go(0x43, 100, poll=False)
-        last = axis.taken(edge0) + env.cfg.w  # requested before pulse 1: only this pulse is left
+        last = axis.accepting_visit(edge0) + env.cfg.w  # requested before pulse 1: only this pulse is left
         await axis.host.poll(2, 0)
         await axis.command(0x41)
         axis.at(last + offset - SYNC, l1_n=0)

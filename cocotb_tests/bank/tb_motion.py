@@ -33,7 +33,7 @@ async def bank_mot_01_all_axes_at_once(dut):
         else:
             wanted[axis.n] = rates(RAMP, indices(90, RAMP[2]))
             edge0 = await axis.go(0x43 | ccw, 90, poll=False)
-        start = axis.taken(edge0)
+        start = axis.accepting_visit(edge0)
         await env.bench.level_is(axis.pin("hold"), 0)
         env.check("BANK-MOT-01", "hold falls at the visit", axis.edges("hold"), [(start, 0)])
         axis.since = start
@@ -125,7 +125,7 @@ async def bank_mot_04_busy_falls(dut):
         await axis.init(*INIT_A)
         for n, offset, want in ((1, -1, BUSY), (1, 0, 0), (3, -1, BUSY), (3, 0, 0)):
             edge0 = await axis.go(0x44, n, 1, poll=False)
-            last = axis.taken(edge0) + env.cfg.w + env.cfg.quanta(16 * (n - 1))
+            last = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(16 * (n - 1))
             end = axis.visit(last + env.cfg.w + 1)
             got = await env.as_of(end + offset, axis.n << 4 | STATUS)
             env.check("BANK-MOT-04", f"status of {axis.n} at V {offset:+}", got, want)
@@ -241,7 +241,7 @@ async def bank_mot_05_which_pulse_counts(dut):
     for code in (0x41, 0):
         for late in range(-2, 3):
             edge0 = await axis.go(0x43, 1_000, poll=False)
-            first = axis.taken(edge0) + env.cfg.w
+            first = axis.accepting_visit(edge0) + env.cfg.w
             second = first + env.cfg.quanta(8 * (1 + INIT_A[1]))
             visit = axis.visit(second + late * env.round // 2)
             if code:
@@ -267,7 +267,7 @@ async def bank_mot_02_taken_back(dut):
     axis = await env.ready(6)
     for number in range(3):
         edge0 = await axis.go(0x45, rate=9, poll=False)
-        second = axis.taken(edge0) + env.cfg.w + env.cfg.quanta(80)
+        second = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(80)
         ordered = axis.visit(second - env.round + 1)
         axis.at(second - SYNC, l1_n=0)
         axis.at(second - SYNC + 3, l1_n=1)

@@ -29,8 +29,8 @@ async def bank_chp_01_phases(dut):
         env.check("BANK-CHP-01", "phases", len(axis.stretches(since)) >= 4, True)
     axis = axes[1]
     edge0 = await axis.go(0x42, poll=False)
-    end = axis.visit(axis.taken(edge0) + 2 * env.cfg.w + 1)
-    if axis.visit(edge0 + 9) == axis.taken(edge0):
+    end = axis.visit(axis.accepting_visit(edge0) + 2 * env.cfg.w + 1)
+    if axis.visit(edge0 + 9) == axis.accepting_visit(edge0):
         await env.bench.until(end + (ON + OFF + 5) * quantum)
         off, on = axis.patterns(end)[:2]
         env.check(

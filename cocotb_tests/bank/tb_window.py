@@ -228,7 +228,7 @@ async def bank_win_07_counted_at_the_visit(dut):
     for number, offset in enumerate((-1, 0, 1)):
         await axis.set_config(1, 0)  # 30 quanta more: not a multiple of R at 100 MHz
         edge0 = await axis.go(0x44, 3, 20, poll=False)
-        second = axis.taken(edge0) + env.cfg.w + env.cfg.quanta(21 * 8 + 30)
+        second = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(21 * 8 + 30)
         ordered = axis.visit(second - env.round + 1)
         got = await env.as_of(ordered + offset, axis.n << 4 | POSITION)
         env.check("BANK-WIN-07", f"position at V {offset:+}", got, 3 * number + 1 + (offset >= 0))

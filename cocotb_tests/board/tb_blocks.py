@@ -74,7 +74,7 @@ async def board_reset_assertion(dut):
 
 
 @cocotb.test()
-async def board_lamp_stretch(dut):
+async def board_led_stretch(dut):
     """A single-cycle pulse lights the LED for 1/32 to 1/16 s, and a new pulse during this time extends
     it.
     """

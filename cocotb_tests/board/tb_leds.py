@@ -47,7 +47,7 @@ async def write(dut, part: str, a0: int, byte: int) -> None:
 
 @cocotb.test()
 @cocotb.parametrize(part=[*LIT])
-async def lamp_of_the_switches(dut, part: str):
+async def led_of_the_switches(dut, part: str):
     """Each limit and the alarm (MON of the STMC) of each axis lights led_switch alone; other switches
     do not.
     """
@@ -67,7 +67,7 @@ async def lamp_of_the_switches(dut, part: str):
 
 @cocotb.test()
 @cocotb.parametrize(part=[*STROBES])
-async def lamp_of_the_motion(dut, part: str):
+async def led_of_the_motion(dut, part: str):
     """During a move of each axis, led_moving is lit from the start until the hold time is over."""
     await start(dut, part)
     for axis, bit in enumerate(AXES.get(part, (0,))):

@@ -18,7 +18,7 @@ async def benches_leave_one_watch_a_port(dut: Any) -> None:
     for _ in range(3):
         bench = await RtlBench.start(dut, PARTS["ppmc104"])
     await HostBus(bench).status()
-    rows = list(sim_backend().seen())
+    rows = list(sim_backend().changes())
     assert [level for _, port, level in rows if port == sim_backend().port("d_oe")] == [1, 0]
     assert len(rows) == len(set(rows)), rows
 
@@ -32,4 +32,4 @@ async def a_bench_records_what_it_watches_itself(dut: Any) -> None:
     bench = await RtlBench.start(dut, PARTS["ppmc104"])
     bench.set(d_i=1)
     await bench.clocks(2)
-    assert more not in {port for _, port, _ in sim_backend().seen()}
+    assert more not in {port for _, port, _ in sim_backend().changes()}

@@ -173,7 +173,7 @@ class AxisDriver:
             await self.bench.until(fall + plus)
         return fall
 
-    async def ended(self, timeout: int = 1_000_000) -> int:
+    async def wait_end(self, timeout: int = 1_000_000) -> int:
         """Return the edge on which int_n fell after the last `go`; wait for it (I = 0 and no INT pending)."""
         if falls := self.bench.falls("int_n", self.since):
             await self.bench.align()

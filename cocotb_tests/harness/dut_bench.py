@@ -159,7 +159,7 @@ class DutBench(ABC):
         """Return the present level of an output."""
 
     @abstractmethod
-    def _seen(self) -> Mapping[str, list[tuple[int, int]]]:
+    def _output_changes(self) -> Mapping[str, list[tuple[int, int]]]:
         """Return the changes (edge, level) of all recorded outputs up to now; of each edge only the last."""
 
     @property
@@ -181,7 +181,7 @@ class DutBench(ABC):
         part = self.part
         if not part.fed:
             return self.stimulus
-        seen = self._seen()
+        seen = self._output_changes()
         driven = [change for change in self.stimulus if change.pin not in part.aside]
         return self._stimulus_log.add(driven, {name: seen[name] for name in part.fed})
 
@@ -276,7 +276,7 @@ class DutBench(ABC):
     def edges(self, output: str, since: int = 0) -> list[tuple[int, int]]:
         """Return the changes (edge, level) of an output, or of one bit of it, from edge `since` on."""
         port, place = self.part.locate(output)
-        changes = self._seen()[port]
+        changes = self._output_changes()[port]
         if place is not None:
             changes = bit_changes(changes, place, self.initial[port])
         return changes[bisect_left(changes, (since, 0)) :]
@@ -308,7 +308,7 @@ class DutBench(ABC):
     def level_at(self, output: str, edge: int) -> int:
         """Return the level of an output just after rising edge `edge`."""
         port, place = self.part.locate(output)
-        level = level_at(self._seen()[port], edge, self.initial[port])
+        level = level_at(self._output_changes()[port], edge, self.initial[port])
         return level if place is None else level >> place & 1
 
     # ---------------------------------------------------------------- waiting for outputs
@@ -363,7 +363,9 @@ class DutBench(ABC):
         )
 
     def _all_edges(self) -> list[Edge]:
-        rows = (Edge(t, name, value) for name, changes in self._seen().items() for t, value in changes)
+        rows = (
+            Edge(t, name, value) for name, changes in self._output_changes().items() for t, value in changes
+        )
         return sorted(rows, key=lambda edge: edge.t)
 
 

@@ -55,9 +55,9 @@ class UartBfm:
                 byte |= int(self._in.value) << bit
             await self._time(1)
             assert int(self._in.value) == 1, f"the line is low in the stop bit of {byte:#04x}"
-            self.came(byte)
+            self.on_char(byte)
 
-    def came(self, byte: int) -> None:
+    def on_char(self, byte: int) -> None:
         """Process a received character; called in the middle of its stop bit."""
         raise NotImplementedError
 
@@ -111,7 +111,7 @@ class LineTimes:
         self.t, self._free = ceil(end), end
         return [(ceil(at), level) for at, level in changes]
 
-    def _rest(self, gap: float) -> None:
+    def _idle(self, gap: float) -> None:
         """Leave the line idle for `gap` bits."""
         self._free += Fraction(gap) * self.bit
 
@@ -158,7 +158,7 @@ class SerialLine(LineTimes):
         """
         for byte in line:
             await self.character(byte)
-            self._rest(gap)
+            self._idle(gap)
         self.t = ceil(self._free)
 
     async def raw(self, text: str) -> None:

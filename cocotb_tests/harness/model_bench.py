@@ -148,8 +148,8 @@ class ModelBench(DutBench):
         level: int = self.model.outputs[port]
         return level
 
-    def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """See `DutBench._seen`. The effect of an asynchronous reset at `now` is added with the next edge."""
+    def _output_changes(self) -> dict[str, list[tuple[int, int]]]:
+        """See `DutBench`. The effect of an asynchronous reset at `now` is added with the next edge."""
         edges = self.model.edges
         while self._taken < len(edges) and edges[self._taken].t < self._now:
             t, signal, value = edges[self._taken]

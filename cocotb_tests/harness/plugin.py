@@ -53,13 +53,13 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Deselect plain Python tests and other clocks (--clk-hz); all except directed tests (--model)."""
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
-    keep = [test for test in items if _wanted(item_of(test), clk_hz, model)]
+    keep = [test for test in items if _is_selected(item_of(test), clk_hz, model)]
     if len(keep) < len(items):
         config.hook.pytest_deselected(items=[test for test in items if test not in set(keep)])
         items[:] = keep
 
 
-def _wanted(item: Item | None, clk_hz: int | None, model: bool) -> bool:
+def _is_selected(item: Item | None, clk_hz: int | None, model: bool) -> bool:
     """Return whether a test runs at this clock, and on the golden model."""
     if item is None:
         return clk_hz is None and not model

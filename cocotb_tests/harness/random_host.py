@@ -250,7 +250,7 @@ class HostWriter(RandomHost, ABC):
         for reg, byte in writes:
             self.add("write", reg, byte, self.rng.randint(2, 3), gap)
 
-    def told(self, code: int, data: list[int], polled: float) -> None:
+    def send_command(self, code: int, data: list[int], polled: float) -> None:
         """Send a command with its data bytes, polled with the probability `polled`, else without polling."""
         if self.rng.random() < polled:
             self.add("send", code, data)

@@ -4,7 +4,7 @@
     pytest_generate_tests = generating(test_random=random_item)
 
 Several seeds share a simulation (`batches`), each after a reset. A failing simulation reports the shortest
-stimulus found that still fails (`shortened`).
+stimulus found that still fails (`shrink_report`).
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def attempt_random(
     if not message or mutant_present():
         return message
     seed = options.seed if options and options.seed is not None else item.seed
-    return f"{message}\n{shortened(FAILURES / f'{safe(item.id)}-s{seed}')}"
+    return f"{message}\n{shrink_report(FAILURES / f'{safe(item.id)}-s{seed}')}"
 
 
 def replay_item(recording: Recording, test: str = "replay") -> Item:
@@ -71,7 +71,7 @@ def replay_line(file: Path) -> str:
     return f"make replay FILE={relative(file)}"
 
 
-def shortened(folder: Path, design: Design | None = None) -> str:
+def shrink_report(folder: Path, design: Design | None = None) -> str:
     """Shrink the recording of a failing run in its folder; return the shortest list of transactions as text.
 
     `design` (default: the recorded device) is simulated. The files are in its subfolder `short`.

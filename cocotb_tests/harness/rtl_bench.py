@@ -94,7 +94,7 @@ class RtlBench(DutBench):
         for pin, level in pins.items():
             if level != part.inputs[pin]:
                 bench.stimulus.append(Change(0, pin, level))
-        bench._backend.seen()  # discards changes recorded for an earlier bench
+        bench._backend.changes()  # discards changes recorded for an earlier bench
         for name in part.watched:
             bench.watch(name)
         if settle:
@@ -204,17 +204,17 @@ class RtlBench(DutBench):
     def forget(self) -> None:
         """Discard all output edges and pin changes recorded so far, for runs of many devices."""
         self.stimulus.clear()
-        for changes in self._seen().values():
+        for changes in self._output_changes().values():
             changes.clear()
 
     def _index(self, time: int) -> int:
         """Return the edge at which a change becomes visible (for asynchronous changes: the next edge)."""
         return -((self._t0 - time) // self.period)
 
-    def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """See `DutBench._seen`."""
+    def _output_changes(self) -> dict[str, list[tuple[int, int]]]:
+        """See `DutBench._output_changes`."""
         t0, period, watched = self._t0, self.period, self._watched
-        for time, port, value in self._backend.seen():
+        for time, port, value in self._backend.changes():
             changes, t = watched[port], -((t0 - time) // period)
             if changes and changes[-1][0] == t:
                 changes[-1] = (t, value)

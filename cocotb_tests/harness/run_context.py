@@ -36,7 +36,7 @@ from .rtl_bench import RtlBench
 
 TAIL = 24
 """Cycles for which the bench continues before the comparison, so that the last action has its effects."""
-Judge = Callable[[Any], Any]
+Comparer = Callable[[Any], Any]
 """Compares the recording of a bench with the golden model; raises AssertionError at a difference."""
 
 
@@ -50,61 +50,61 @@ class RunContext:
         differs: True if a comparison has failed.
     """
 
-    def __init__(self, judge: Judge | None, seed: int | None = None) -> None:
-        self._judge = judge
+    def __init__(self, compare: Comparer | None, seed: int | None = None) -> None:
+        self._compare = compare
         self.seed = seed
         self.bench: DutBench | None = None
         self.differs = False
 
-    async def judge(self) -> None:
+    async def compare(self) -> None:
         """Compare the recording of the present bench; raise AssertionError at a difference."""
-        if self._judge and self.bench and self.bench.simulated:
+        if self._compare and self.bench and self.bench.simulated:
             await self.bench.align()
             await self.bench.clocks(TAIL)
             self.differs = True
-            self._judge(self.bench)
+            self._compare(self.bench)
             self.differs = False
 
-    async def opinion(self) -> str:
+    async def model_result(self) -> str:
         """Return the result of the golden model for a run in which a check of the test has failed."""
-        if not (self._judge and self.bench and self.bench.simulated):
+        if not (self._compare and self.bench and self.bench.simulated):
             return "the outputs of this test are not compared with the golden model"
         try:
-            await self.judge()
+            await self.compare()
         except Exception as other:  # any error of the model is secondary: the failed check counts
             return f"the golden model differs: {other}"
         return "up to here the golden model shows the same edges"
 
-    async def put_away(self) -> None:
+    async def close_bench(self) -> None:
         """Compare the present bench, if any, and stop its pin changes, because another bench starts."""
         if self.bench:
-            await self.judge()
+            await self.compare()
             self.bench.close()
             self.bench = None
 
 
-_now: list[RunContext] = []
-_ended: list[RunContext] = []
+_running: list[RunContext] = []
+_last: list[RunContext] = []
 
 
-def present() -> RunContext | None:
+def current_test() -> RunContext | None:
     """Return the directed or random test that is running; None outside of one."""
-    return _now[-1] if _now else None
+    return _running[-1] if _running else None
 
 
 @contextmanager
-def running_test(judge: Judge | None, seed: int | None = None) -> Iterator[RunContext]:
-    """Provide the context of a test whose benches `judge` compares; see `RunContext`."""
-    _now.append(RunContext(judge, seed))
+def running_test(compare: Comparer | None, seed: int | None = None) -> Iterator[RunContext]:
+    """Provide the context of a test whose benches `compare` compares; see `RunContext`."""
+    _running.append(RunContext(compare, seed))
     try:
-        yield _now[-1]
+        yield _running[-1]
     finally:
-        _ended[:] = [_now.pop()]
+        _last[:] = [_running.pop()]
 
 
-def ended() -> RunContext | None:
+def last_test() -> RunContext | None:
     """Return the directed or random test that ended last, with its bench; None before the first."""
-    return _ended[-1] if _ended else None
+    return _last[-1] if _last else None
 
 
 async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> DutBench:
@@ -113,9 +113,9 @@ async def start_bench(dut: Any, part: Part, settle: int = 4, **pins: int) -> Dut
     A directed test may call it again: the recording of the previous bench is compared with the golden model,
     its scheduled pin changes stop, and the device starts again from a reset.
     """
-    test = present()
+    test = current_test()
     if test:
-        await test.put_away()
+        await test.close_bench()
     seed = test.seed if test else None
     if isinstance(dut, OnModel):
         bench: DutBench = ModelBench(part, dut if seed is None else replace(dut, seed=seed), settle, **pins)
@@ -141,8 +141,8 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
 
         @functools.wraps(function)
         async def run(dut: Any, **arguments: Any) -> None:
-            with running_test(None if uncompared else check_against_model) as running:
-                await judged(running, function(dut, **arguments))
+            with running_test(None if uncompared else check_against_model) as context:
+                await run_and_compare(context, function(dut, **arguments))
 
         # The simulator must see the arguments of `run`.
         del run.__wrapped__  # type: ignore[attr-defined]
@@ -157,15 +157,15 @@ def directed(*rules: str, builds: Sequence[Config] = (F16,), uncompared: str = "
     return mark
 
 
-async def judged(running: RunContext, test: Any) -> None:
+async def run_and_compare(context: RunContext, test: Any) -> None:
     """Run the test, then compare; after a failed check, add whether the golden model shows the same edges."""
     try:
         await test
     except (AssertionError, TimeoutError) as error:
-        if not running.differs:
-            error.args = (f"{error}\n{await running.opinion()}",)
+        if not context.differs:
+            error.args = (f"{error}\n{await context.model_result()}",)
         raise
-    await running.judge()
+    await context.compare()
 
 
 RandomTest = Callable[[Any, int], Awaitable[None]]
@@ -185,16 +185,16 @@ def random_test(*rules: str, least: int = 0, uncompared: str = "") -> Callable[[
         async def one(dut: Any, seed: int) -> str:
             compared = 0
 
-            def judge(bench: DutBench) -> None:
+            def compare(bench: DutBench) -> None:
                 nonlocal compared
                 comparison = check_against_model(bench)
                 compared += comparison.edges_compared
                 add_counts(edges=comparison.edges_compared, pulses=comparison.pulses)
 
-            with running_test(None if uncompared else judge, seed) as running:
-                await judged(running, test(dut, seed))
-                digest = pins_digest(running.bench) if running.bench else ""
-                if running.bench and running.bench.simulated:
+            with running_test(None if uncompared else compare, seed) as context:
+                await run_and_compare(context, test(dut, seed))
+                digest = pins_digest(context.bench) if context.bench else ""
+                if context.bench and context.bench.simulated:
                     assert compared >= least, (
                         f"seed {seed}: {compared} output edges, expected {least} or more"
                     )

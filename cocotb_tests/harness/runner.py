@@ -45,7 +45,7 @@ _UNKNOWN = re.compile(r"AttributeError: .*contains no (child )?object")
 HINT = "hidden in this build: @probe(…) or PROBE=1"
 
 
-def seen(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
+def with_probes(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
     """Return the design with these inner signals visible, or with all signals visible."""
     if everything:
         return replace(design, ports=())
@@ -140,7 +140,7 @@ def fails(job: Job, items: Sequence[Item]) -> bool:
     return not outcome.good
 
 
-def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
+def shortest_prefix(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
     """Return the smallest list of the tests `before` after which `item` fails.
 
     The list is halved as long as one half is sufficient.
@@ -157,7 +157,7 @@ def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
     return culprits
 
 
-def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
+def failure_message(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
     """Return the message about an item that failed in `job`.
 
     The log, and with `waves` a VCD, stay in build/failures/.
@@ -173,7 +173,7 @@ def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
     elif len(job.items) == 1:
         text = _message(item, first, alone, ["the same run, once more, passed: it is not deterministic"])
     else:
-        text = _behind(item, first, job, waves, kept)
+        text = _after_others(item, first, job, waves, kept)
     return text
 
 
@@ -195,19 +195,19 @@ def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> s
         return _message(item, outcome, job, [*said, told], kept)
     if waves and outcome.kind != MISSING and not outcome.text.startswith(TIMEOUT):
         try:
-            seen = simulate(replace(job, waves=True), kept / "waves")[item]
+            repeated = simulate(replace(job, waves=True), kept / "waves")[item]
         except SimError as error:
-            seen = Outcome(MISSING, str(error).splitlines()[0])
-        if seen.good:
-            said.append(f"not reproduced with waves: there it {seen.kind}")
-        elif seen.kind == MISSING:
-            said.append(f"no waves: {seen.text}")
-        elif seen.headline != outcome.headline:
-            said.append(f"not reproduced with waves: there it says {seen.headline}")
+            repeated = Outcome(MISSING, str(error).splitlines()[0])
+        if repeated.good:
+            said.append(f"not reproduced with waves: there it {repeated.kind}")
+        elif repeated.kind == MISSING:
+            said.append(f"no waves: {repeated.text}")
+        elif repeated.headline != outcome.headline:
+            said.append(f"not reproduced with waves: there it says {repeated.headline}")
     return _message(item, outcome, job, said, kept)
 
 
-def _behind(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
+def _after_others(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
     """Return the message about a test that passes alone but failed in a process with others."""
     again = tried(job)[item]
     if again.good:
@@ -216,7 +216,7 @@ def _behind(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> st
     before = job.items[: job.items.index(item)]
     if not before:
         return _message(item, again, job, [f"alone it passes; fails only before {_names(job.items[1:])}"])
-    culprits = (*narrowed(job, before, item), item)
+    culprits = (*shortest_prefix(job, before, item), item)
     return _fails(item, again, replace(job, items=culprits), waves, kept)
 
 
@@ -317,7 +317,7 @@ def run_sim(
 
 def _job(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Job:
     seed = item.seed if options.seed is None else options.seed
-    design = seen(design or part_design(item.part, item.config), item.probes, options.probe)
+    design = with_probes(design or part_design(item.part, item.config), item.probes, options.probe)
     group = options.group if item in options.group else (item,)
     return Job(design, group, seed, options.waves, env)
 
@@ -336,7 +336,7 @@ def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: 
         outcome, ran = options.done[job.items][item]
         if outcome.good:
             return outcome
-        return Outcome(outcome.kind, judged(item, outcome, ran, options.waves_on_failure))
+        return Outcome(outcome.kind, failure_message(item, outcome, ran, options.waves_on_failure))
     except SimError as error:
         repro = env.get(REPRO) or repro_line([item], item.seed if options.seed is None else options.seed)
         return Outcome("failed", f"{item.id}: {error}\nrepeat with: {repro}")

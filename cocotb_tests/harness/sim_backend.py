@@ -95,8 +95,8 @@ class CocotbBackend:
     def _note(self, port: int) -> None:
         self._rows[self.now(), port] = self.read(port)
 
-    def seen(self) -> Iterable[tuple[int, int, int]]:
-        """See `SimBackend.seen`."""
+    def changes(self) -> Iterable[tuple[int, int, int]]:
+        """See `SimBackend.changes`."""
         # A change of this moment may not have woken its recorder yet.
         for port in self._recorders:
             self._note(port)
@@ -192,12 +192,12 @@ class CppBackend:
         if port in self._words:
             self._levels[port] = self.read(port)
 
-    def seen(self) -> Iterable[tuple[int, int, int]]:
-        """See `SimBackend.seen`."""
+    def changes(self) -> Iterable[tuple[int, int, int]]:
+        """See `SimBackend.changes`."""
         count = ctypes.c_uint64()
         rows = self._seen(ctypes.byref(count))
         found = _ROW.iter_unpack(ctypes.string_at(rows, _ROW.size * count.value))
-        others = [(time, _OTHER + port, level) for time, port, level in self._others.seen()]
+        others = [(time, _OTHER + port, level) for time, port, level in self._others.changes()]
         return chain(self._whole(found) if self._levels else found, others)
 
     def _whole(self, rows: Iterable[tuple[int, int, int]]) -> Iterator[tuple[int, int, int]]:
@@ -248,7 +248,7 @@ class SimBackend(Protocol):
         One call is enough for each port.
         """
 
-    def seen(self) -> Iterable[tuple[int, int, int]]:
+    def changes(self) -> Iterable[tuple[int, int, int]]:
         """Return (time, port, level) of all changes of watched ports since the last call, until now.
 
         The changes of a port are in order; only the last level of each time step counts.

@@ -70,10 +70,10 @@ def failure_text(text: str, lines: int = 100) -> str:
     if chosen.lstrip().startswith("Traceback"):
         chosen = chosen.split("\n", 1)[-1]
     rows = [*last_seed(text), *textwrap.dedent(chosen.rstrip()).splitlines()]
-    return "\n".join(rows if len(rows) <= lines else _shortened(rows, lines))
+    return "\n".join(rows if len(rows) <= lines else _abridged(rows, lines))
 
 
-def _shortened(rows: list[str], lines: int) -> list[str]:
+def _abridged(rows: list[str], lines: int) -> list[str]:
     """Return about `lines` rows: the begin, the failure, the end."""
     what = next((n for n, row in enumerate(rows) if _FAILED_LINE.match(row)), 0)
     middle = range(max(6, what), min(max(6, what) + lines // 3, len(rows)))

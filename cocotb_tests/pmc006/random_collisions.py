@@ -25,7 +25,7 @@ Course = tuple[tuple[str, int], ...]
 class CollisionHost(MotionHost):
     """Random host that makes two things coincide."""
 
-    async def meeting(self) -> None:
+    async def collision(self) -> None:
         """Make a short motion, then repeat it with a frame or pin edge near an edge of the first one."""
         rng, host = self.rng, self.host
         course: Course = (("s", rng.choice((5, 6, 8, 12))),)
@@ -49,9 +49,9 @@ class CollisionHost(MotionHost):
             await host.pause(rng.choice((1, 2, 500)))
             await host.go(host.t + (begin - host.t) % period)
             times = found[rng.choice(SIGNALS)] or found["mon_busy"]
-            await self._meet(course, rng.choice(times))
+            await self._collide(course, rng.choice(times))
 
-    async def _meet(self, course: Course, after: int) -> None:
+    async def _collide(self, course: Course, after: int) -> None:
         """Repeat the motion with a frame about `after` cycles after the end of its last frame."""
         rng, host = self.rng, self.host
         _, e = await self._start(course)

@@ -87,7 +87,7 @@ class RandomSerialHost(CollisionHost, PinHost, FaultHost):
         actions = (
             (self.setting, 12),
             (self.start, 22),
-            (self.meeting, 11),
+            (self.collision, 11),
             (self.meddle, 14),
             (self.read, 6),
             (self.ext, 8),

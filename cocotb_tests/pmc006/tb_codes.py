@@ -75,22 +75,22 @@ async def p006_register(dut: Any, row: Row) -> None:
     """Accepted data is echoed; rejected data does not change the register, whose value is the reply."""
     host = await Host.start(dut)
 
-    async def shown(value: int) -> None:
+    async def check_value(value: int) -> None:
         if row.read:
             got = await host.ask(row.read, -1)
             assert (got & row.mask) >> row.shift == value if row.mask else got == value
 
-    await shown(row.factory)
+    await check_value(row.factory)
     value = row.factory
     for data in row.bad:
         assert await host.ask(row.code, data) == value, f"{row.code} {data}"
     for data in row.good:
         value = data & 0xFFFFFFFF
         assert await host.ask(row.code, data) == value, f"{row.code} {data}"
-        await shown(value)
+        await check_value(value)
     for data in row.bad[:3]:
         assert await host.ask(row.code, data) == value, f"{row.code} {data}"
-    await shown(value)
+    await check_value(value)
 
 
 @directed("P006-CMD-48", "P006-BAD-07", "P006-FRM-03")

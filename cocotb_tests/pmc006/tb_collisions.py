@@ -18,7 +18,7 @@ TICKS = 1001
 HIGH, KEY1, KEY2 = 0x1F, 0x1E, 0x1D
 
 
-async def meet(host: Host, code: str, data: int, shift: int, **levels: int) -> int:
+async def collide(host: Host, code: str, data: int, shift: int, **levels: int) -> int:
     """Send a frame; the pins take effect inside `shift` cycles after the frame. Return the reply."""
     begin = host.t
     await host.say(code, data)
@@ -55,7 +55,7 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
     replies = []
     for code, data, good in (("s", 100, host.accepted(100)), ("N", 1, 1)):
         for shift in NEAR:
-            reply = await meet(host, code, data, shift, ext1=0)
+            reply = await collide(host, code, data, shift, ext1=0)
             assert not await host.busy() and reply in (0, good) and await host.status() == DECAY | EXT1
             replies.append(bool(reply))
             assert await host.ask("b") == 0
@@ -78,7 +78,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
     await host.ok(f=1)
     left = []
     for shift in NEAR:
-        assert await meet(host, "b", 0, shift, ext1=0) == 0
+        assert await collide(host, "b", 0, shift, ext1=0) == 0
         left.append(await host.status() & EXT1)
         await host.pins(ext1=1)
         assert await host.ask("b") == 0
@@ -88,7 +88,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         seen = []
         for shift in NEAR:
             # The input is enabled, or changed to the rising edge, near a falling edge.
-            assert await meet(host, code, data, shift, ext1=0) == data
+            assert await collide(host, code, data, shift, ext1=0) == data
             seen.append(bool(await host.status() & EXT1))
             assert await host.ask("f", 0) == 0
             await host.pins(ext1=1)
@@ -204,7 +204,7 @@ async def p006_single_try_and_emergency_stop(dut: Any) -> None:
     await host.ok(f=1)
     await download(host, [Op(1, 0, 50)])
     for shift in range(-1, 10):
-        assert await meet(host, "E", 0, shift, ext1=0) == 1
+        assert await collide(host, "E", 0, shift, ext1=0) == 1
         assert not await host.busy() and await host.status() == DECAY | EXT1 and not host.steps(0)
         await host.pins(ext1=1)
         assert await host.ask("b") == 0

@@ -39,7 +39,7 @@ async def p104_ac_45_chopping(dut):
     started = env.bench.falls("hold", env.since)[0]
     env.window("AC-45", "full pattern before the pulse", pulse - started, 80, 82)
     env.check("AC-45", "s from the start on", env.bench.level_at("s", started), on)
-    await env.ended()
+    await env.wait_end()
     env.check("AC-45", "edges of s in the step", env.bench.edges("s", started + 1), [(pulse, 0b00110)])
     env.check("AC-45", "0x82 after the step", await env.host.run("c 82 r"), [0x60])
 
@@ -49,7 +49,7 @@ async def p104_ac_46_chopper_starts_with_on(dut):
     """With S = 1, the first OFF phase begins 1040 cycles after the end of a single step (AC-46)."""
     env = await Env.start(dut, (0x2A, *A_DATA))
     await env.go(0x42)
-    end = await env.ended()
+    end = await env.wait_end()
     off = await env.bench.edge("s", 0)
     env.window("AC-46", "INT to the first OFF phase", off - end, 1034, 1046)
 
@@ -185,7 +185,7 @@ async def p104_ac_53_constant_speed_times(dut):
     last = await env.pulse(3)
     await env.bench.until(last + 10)
     await env.host.command(0x80, poll=False)
-    env.window("AC-53", "INT after the last fall", await env.ended() - last, 416, 432)
+    env.window("AC-53", "INT after the last fall", await env.wait_end() - last, 416, 432)
     taken = await env.bench.edge("int_n", 1)
     env.window("AC-53", "0x80 taken after the last fall", taken - last, 2496, 2514)
 
@@ -196,7 +196,7 @@ async def p104_ac_54_single_step_times(dut):
     env = await Env.start(dut, INIT_A)
     event = await env.go(0x42, poll=False) + 2
     env.window("AC-54", "pulse", await env.pulse(1) - event, 1376, 1392)
-    env.window("AC-54", "INT", await env.ended() - event, 1792, 1808)
+    env.window("AC-54", "INT", await env.wait_end() - event, 1792, 1808)
 
 
 @directed("AC-55", "P104-DS-05", builds=(D16,))

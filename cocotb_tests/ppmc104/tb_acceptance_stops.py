@@ -90,7 +90,7 @@ async def p104_ac_31_hard_limit(dut):
     await env.go(0x45, rate=0x63)
     await env.pulse(5, 400)
     hit = env.bench.set(l1_n=0)
-    late = await env.ended() - hit
+    late = await env.wait_end() - hit
     env.window("AC-31", "int_n after the pin edge", late, 0, 8)
     env.check("AC-31", "BUSY", await env.host.status() & 4, 0)
     await env.result("AC-31", 5, 0x95, 0xFFFFFA)

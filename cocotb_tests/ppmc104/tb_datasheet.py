@@ -189,7 +189,7 @@ async def p104_ds_06_single_step(dut):
     env.after("P104-DS-06", "pulse", fall - event, 86 * US)
     env.check("P104-TIM-05", "BUSY at the pulse", await env.host.status() & BUSY, BUSY)
     await env.opens("P104-DS-06", event, 112 * US)
-    end = await env.ended()
+    end = await env.wait_end()
     env.after("P104-DS-06", "INT", end - event, 112 * US)
     env.check("P104-TIM-05", "low time", env.bench.low_times(env.since), [env.cfg.w])
     off = await env.bench.edge("s", 0)
@@ -209,7 +209,7 @@ async def p104_ds_07_normal_end(dut):
         await env.event(code, n, rate)
         last = await env.pulse(n, 20)
         await env.opens("P104-DS-07", last, 156 * US)
-        end = await env.ended()
+        end = await env.wait_end()
         env.after("P104-DS-07", f"INT of {code:#x}", end - last, 26 * US)
         off = [t for t, v in env.bench.edges("s", end) if v == 0][0]
         env.full_on_phase("P104-SW-02", end, off)
@@ -256,7 +256,7 @@ async def p104_ds_08_immediate_end(dut):
                 env.cfg.us(closed) + 48,
             )
             low = env.cfg.us(quiet)
-            end = await env.ended() - decided
+            end = await env.wait_end() - decided
             env.window("P104-DS-08", f"INT of {code:#x}, {cause}", end, low, low + TOLERANCE + slack + PIN)
             env.bench.set(alm_n=1)
             await env.result(
@@ -277,7 +277,7 @@ async def p104_ds_08_cause_at_start(dut):
         (0x42, None, None, 27, 26),
     ):
         event = await env.event(code, n, rate)
-        end = await env.ended()
+        end = await env.wait_end()
         nominal = env.cfg.us(busy) + env.cfg.us(quiet)
         env.window("P104-DS-08", f"INT of {code:#x}", end - event, nominal, nominal + 2 * TOLERANCE + PIN)
         await env.host.poll(IBF, 0)

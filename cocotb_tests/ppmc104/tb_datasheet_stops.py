@@ -31,7 +31,7 @@ async def p104_ds_10_decelerating_stop(dut):
         which = forced(200, 10, interval)
         last = await env.pulse(len(which) + 1, 20)
         await env.opens("P104-DS-08", last, 200 * US, 0xC2)
-        end = await env.ended()
+        end = await env.wait_end()
         env.after("P104-DS-08", "INT after the last fall", end - last, 200 * US)
         await env.idle()
         env.check_train("P104-DS-10", rates(ramp, which))

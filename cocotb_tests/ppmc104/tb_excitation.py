@@ -156,7 +156,7 @@ async def p104_sw_02_start_and_stop(dut):
         since = env.bench.now
         await env.go(0x4B, 3)
         first = await env.pulse(1)
-        end = await env.ended()
+        end = await env.wait_end()
         off = await env.bench.edge("s", 0)
         env.check("P104-SW-03", "s just before pulse 1", env.bench.level_at("s", first - w) != 0, True)
         inside = [t for t, _ in env.bench.edges("s", first - w + 1) if t < off]

@@ -140,7 +140,7 @@ async def p104_lim_03_every_phase(dut):
             for pin in ("alm_n", "l2_n" if ccw else "l1_n"):
                 await enter(env, state, 0x43 | ccw, 0x44 | ccw)
                 hit = env.bench.set(**{pin: 0})
-                end = await env.ended()
+                end = await env.wait_end()
                 env.window("P104-END-02", f"{pin} to the end in {state}", end - hit, 0, 8)
                 op = 4 if "CONST" in state.upper() else 3
                 total = 8 if state == "DEC natural" else 1000

@@ -55,7 +55,7 @@ async def p104_rmp_04_longest_ramp(dut):
     await env.init(0x0A, *ramp)
     n = 2 * ramp[2] + 4
     await env.go(0xC3, n)
-    await env.ended(4_000_000)
+    await env.wait_end(4_000_000)
     env.check_train("P104-RMP-04", rates(ramp, indices(n, ramp[2])))
 
 

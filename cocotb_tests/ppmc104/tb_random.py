@@ -49,7 +49,7 @@ async def random_host(dut: Any, seed: int) -> None:
     "P104-TIM-06",
     uncompared=UNCOMPARED,
 )
-async def random_chaos(dut: Any, seed: int) -> None:
+async def random_noise(dut: Any, seed: int) -> None:
     """After noise on all input pins, 0x40, 0xC0 and an initialisation make the core work again."""
     bench = await RtlBench.start(dut, PPMC104, seed=seed)
     noise = make_noise(bench)

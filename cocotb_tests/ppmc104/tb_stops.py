@@ -28,7 +28,7 @@ async def p104_stp_01_immediate(dut):
             await env.go(code, n, rate)
             fall = await env.pulse(3, delay)
             edge0 = await env.host.command(0x40, poll=False)
-            end = await env.ended()
+            end = await env.wait_end()
             await env.idle()
             late = end - max(edge0, fall + w)
             env.window(
@@ -53,7 +53,7 @@ async def p104_stp_01_no_pulse_after_the_c_event(dut):
         fall = await env.pulse(3)
         await env.bench.until(fall + 320 - before - 2)
         edge0 = await env.host.write(1, 0x40)
-        await env.ended()
+        await env.wait_end()
         await env.idle()
         count = len(env.pulses)
         seen.add(count)
@@ -242,7 +242,7 @@ async def p104_opr_05_pout_mode_unchopped(dut):
     await env.bench.edge("s", 0)
     await env.go(0xC3, 30)
     started = env.bench.falls("hold", env.since)[0]
-    await env.ended()
+    await env.wait_end()
     env.check("P104-OPR-05", "s from the start on", env.bench.level_at("s", started), 0b00011)
     env.check("P104-OPR-05", "edges of s in the move", env.bench.edges("s", started + 1), [])
 

@@ -98,7 +98,7 @@ async def p104_tim_05_end_in_the_low_time(dut):
             await env.go(0x44, 30, rate)
             await env.pulse(3, delay)
             hit = env.bench.set(l1_n=0)
-            end = await env.ended()
+            end = await env.wait_end()
             await env.idle()
             rise = env.bench.rises("pout_n", env.since)[-1]
             count = len(env.pulses)
@@ -120,7 +120,7 @@ async def p104_tim_05_last_pulse_of_a_deceleration(dut):
         await env.go(0x43, 200)
         await env.pulse(j)
         await env.host.command(0x41)
-        end = await env.ended()
+        end = await env.wait_end()
         await env.idle()
         lows = env.bench.low_times(env.since)
         env.check("P104-TIM-05", "last low time", lows[-1], env.cfg.w)
@@ -160,7 +160,7 @@ async def p104_end_01_normal_end(dut):
     env = await Env.start(dut, INIT_A)
     for code, n, rate in ((0x42, None, None), (0x43, 9, None), (0x44, 3, 0), (0x44, 3, 30), (0xC3, 9, None)):
         await env.go(code, n, rate)
-        end = await env.ended()
+        end = await env.wait_end()
         status = await env.host.status()
         env.check("P104-END-01", "BUSY after INT", status & BUSY, 0)
         lows = env.bench.low_times(env.since)
@@ -197,7 +197,7 @@ async def p104_end_02_reaction_time(dut):
             await env.go(0x47, None, 9)
             await env.pulse(2, delay)
             hit = env.bench.set(**{pin: 0})
-            end = await env.ended()
+            end = await env.wait_end()
             rise = env.bench.rises("pout_n")[-1]
             if delay > w:
                 env.window("P104-END-02", f"{pin} to the end", end - hit, 0, 8)
@@ -305,7 +305,7 @@ async def p104_end_08_hold(dut):
         env.bench.set(alm_n=alarm)
         await env.bench.clocks(4)
         await env.go(0x42)
-        end = await env.ended()
+        end = await env.wait_end()
         await env.finish()
         await env.host.command(0x81)
         rise = await env.bench.edge("hold", 1, us(35_000))
@@ -319,11 +319,11 @@ async def p104_end_08_hold_restarts(dut):
     env = await Env.start(dut, INIT_A)
     us = env.cfg.us
     await env.go(0x42)
-    first = await env.ended()
+    first = await env.wait_end()
     await env.finish()
     await env.bench.until(first + us(33_900))
     await env.go(0x42)
-    second = await env.ended()
+    second = await env.wait_end()
     await env.bench.until(first + us(34_200))
     env.check("P104-END-08", "hold 34.2 ms after the first end", env.bench.level("hold"), 0)
     rise = await env.bench.edge("hold", 1, us(35_000))

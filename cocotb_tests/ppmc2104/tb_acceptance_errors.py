@@ -20,7 +20,7 @@ def clk(rates: list[int]) -> list[int]:
     return [32 * (rate + 1) for rate in rates]
 
 
-async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
+async def stop_after_pulse(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
     """Start a move of n pulses and send a stop code 100 cycles after pulse j; return the status after
     the code.
     """
@@ -165,7 +165,7 @@ async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
     await axis.refused("AC-31", "41 in RUN wait", 8, 0x41)
     axis.set(run=1)
     await axis.result("AC-31", 1, 0x82, 0)
-    await asked_in(axis, 17, n=25)
+    await stop_after_pulse(axis, 17, n=25)
     env.check("AC-31", "41 in deceleration", await axis.error(), 8)
     await axis.result("AC-31", 25, 0x83, 0)
     env.check("AC-31", "intervals of 43", axis.intervals, AC_09)
@@ -219,7 +219,7 @@ async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
     for j, pulses, low in ((5, 10, 0xDD), (2, 4, 0xE3), (1, 1, 0xE6)):
-        await asked_in(axis, j)
+        await stop_after_pulse(axis, j)
         await axis.result("AC-35", pulses, 0xC3, 0x300 | low)
         env.check("AC-35", f"intervals, asked in I({j})", axis.intervals, clk(EX_03[j]))
         env.check("AC-35", "83", await env.run("c 83 rrr"), [low, 3, 0])
@@ -241,7 +241,7 @@ async def p2104_ac_36_around_the_peak(dut: Any) -> None:
         (25, 14, 25, 0x83, 0, 0),
         (25, 15, 25, 0x83, 0, 8),
     ):
-        await asked_in(axis, j, n=n)
+        await stop_after_pulse(axis, j, n=n)
         env.check("AC-36", f"error, N = {n}, I({j})", await axis.error(), error)
         await axis.result(f"AC-36, N = {n}, I({j})", pulses, finish, left)
         if (n, j) == (11, 5):
@@ -254,7 +254,7 @@ async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
     env = await Env.start(dut)
     axis = await env.ready(1, (0x02, 14, 12, 16))
     for j, pulses, left in ((3, 3, [0xE4, 3, 0]), (5, 10, [0xDD, 3, 0])):
-        await asked_in(axis, j)
+        await stop_after_pulse(axis, j)
         await axis.result("AC-37", pulses, 0xC3)
         env.check("AC-37", "83", await env.run("c 83 rrr"), left)
     env.check("AC-37", "intervals", axis.intervals, clk([14, 14, 14, 14, 13, 14, 14, 14, 14]))
@@ -316,7 +316,7 @@ async def p2104_ac_41_immediate_stop(dut: Any) -> None:
     """With N = 1000, 40 in I(7) leads to 7 pulses; the remaining pulses complete the move (AC-41)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)
-    await asked_in(axis, 7, 0x40)
+    await stop_after_pulse(axis, 7, 0x40)
     await axis.result("AC-41", 7, 0xC3)
     env.check("AC-41", "83", await env.run("c 83 rrr"), [0xE0, 3, 0])
     env.check("AC-41", "intervals", axis.intervals, AC_09[:6])

@@ -141,7 +141,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     nominal = env.cfg.us(400)
     await env.bench.until(edge0 + 2 + nominal - 20)
     env.check("AC-72", "status just before", await env.host.status() & (IBF | axis.busy), IBF | axis.busy)
-    end = await axis.ended()
+    end = await axis.wait_end()
     after(env, "AC-72", "end", end, edge0, 400)
     # BUSY fell on the edge before int_n at the latest; D1 is accepted then.
     env.check("AC-72", "BUSY", await env.host.status() & axis.busy, 0)
@@ -156,7 +156,7 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     await axis.go(0x42)
     fall = await axis.pulse(1, 4)
     edge0 = await axis.command(0x40, poll=False)
-    end = await axis.ended()
+    end = await axis.wait_end()
     env.window("P2104-DS-15", "normal end after the fall", end - fall, env.cfg.w, env.cfg.w + 4)
     await opens(env, "P2104-DS-02", edge0, 400)
     env.check("P2104-STP-05", "end status", await axis.finish(), 0x82)
@@ -187,7 +187,7 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
         await rest(env)
     # In I(1), at the rate RL, the motion ends with the window.
     await ask(1, 100)
-    end = await axis.ended()
+    end = await axis.wait_end()
     after(env, "P2104-DS-03", "end at RL", end, edge0, 32)
     await axis.result("P2104-DS-03", 1, 0xC3, 98)
     await rest(env)
@@ -281,7 +281,7 @@ async def p2104_ds_15_as_fast(dut: Any) -> None:
     axis.check_train("P2104-DS-15", rates(INIT_B[1:], which))
     env.check("P2104-DS-15", "low times", set(axis.low_times), {env.cfg.w})
     rise = env.bench.rises(axis.pout, axis.since)[-1]
-    env.window("P2104-DS-15", "int_n after pout_n", await axis.ended() - rise, 0, 4)
+    env.window("P2104-DS-15", "int_n after pout_n", await axis.wait_end() - rise, 0, 4)
     since = env.bench.now
     await env.x1.go(0x42)
     env.check("P2104-DS-15", "end status", await axis.finish(), 0x83)

@@ -29,7 +29,7 @@ async def p2104_end_01_normal_end(dut: Any) -> None:
             status = await env.host.status()
             env.check("P2104-END-01", "BUSY after int_n", status & axis.busy, 0)
             rise = env.bench.rises(axis.pout, axis.since)[-1]
-            end = await axis.ended()
+            end = await axis.wait_end()
             env.window("P2104-END-01", "pout_n to int_n", end - rise, 0, 4)
             pattern = axis.phases_now
             off = await env.bench.edge(axis.phases, 0x1F)
@@ -55,7 +55,7 @@ async def p2104_end_02_pulse_finishes(dut: Any) -> None:
         fall = await axis.pulse(3)
         await env.bench.until(fall + after)
         pin = axis.set(alm_n=0)
-        end = await axis.ended()
+        end = await axis.wait_end()
         env.check("P2104-END-02", f"low times, {after} clk", axis.low_times, [w] * 3)
         last = max(pin, fall + w)
         env.window("P2104-END-02", f"end, {after} clk", end - last, 0, 8)

@@ -203,7 +203,7 @@ async def p2104_lim_03_every_state(dut: Any) -> None:
         name = pin if pin == "alm_n" else ("fl_n", "bl_n")[ccw]
         await enter(axis, state, ccw)
         stamp = axis.set(**{name: 0})
-        end = await axis.ended()
+        end = await axis.wait_end()
         env.window("P2104-END-02", f"{name} to the end in {state}", end - stamp, 0, 8)
         axis.set(**{name: 1}, run=1)
         low = 4 if "CONST" in state.upper() else 3

@@ -25,7 +25,7 @@ RAMP = (0x33, 0x25, 4)
     "P2104-BAD-26",
     uncompared=UNCOMPARED,
 )
-async def p2104_random_chaos(dut: Any, seed: int) -> None:
+async def p2104_random_noise(dut: Any, seed: int) -> None:
     """After noise on all pins, stops, Excitation OFF and a setting make both axes work again."""
     bench = await RtlBench.start(dut, PPMC2104, seed=seed, busc=seed & 1)
     din = noise(bench)

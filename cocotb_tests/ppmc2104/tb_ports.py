@@ -65,7 +65,7 @@ async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
             await axis.go(code, rate=99)
             await axis.pulse(1, env.cfg.w + 20)
             stamp = axis.set(**{pin: 0})
-            times.setdefault("end", set()).add(await axis.ended() - stamp)
+            times.setdefault("end", set()).add(await axis.wait_end() - stamp)
             axis.set(**{pin: 1})
             await axis.finish()
         axis.set(run=0)

@@ -99,7 +99,7 @@ async def p2104_pro_01_every_length(dut: Any) -> None:
             await axis.result("P2104-PRO-01", n, 0x83, 0)
 
 
-async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> None:
+async def start_and_decelerate(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> None:
     """Start a move of n pulses and request a deceleration `plus` cycles after pulse j."""
     await axis.go(code, n)
     await axis.pulse(j, plus)
@@ -126,7 +126,7 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
         ((0x43, "stop", 14), (0xCB, "bhl_n", 14), (0xC3, "fhl_n", 9), (0x4B, "stop", 9)),
     ):
         for j in range(1, n):
-            await asked(axis, pin, n, j, 40, code)
+            await start_and_decelerate(axis, pin, n, j, 40, code)
             # Natural deceleration begins with the first interval that has a lower index than an acceleration
             # would have.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
@@ -151,13 +151,13 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
         await axis.init(0x02, *ramp)
         bit = 0x40 if how == "stop" else 0x08
         for j in (1, 2, 3, 4, 5, 6, 17):
-            await asked(axis, how, 60, j, 200, 0x43)
+            await start_and_decelerate(axis, how, 60, j, 200, 0x43)
             wanted = slowed(ramp, 60, j)
             env.check("P2104-FDC-02", "figures", len(wanted) + 1, j if j <= 4 else 2 * j)
             await axis.result(f"P2104-FDC-02 I({j})", len(wanted) + 1, 0x83 | bit, 60 - len(wanted) - 2)
             axis.check_train("P2104-FDC-02", wanted)
         # In the flat part while decelerating, the flag is already set: the deceleration runs to its end.
-        await asked(axis, how, 60, 6, 200, 0x43)
+        await start_and_decelerate(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)
         await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
         await axis.result("P2104-FDC-03", 12, 0x83 | bit, 47)

@@ -1,4 +1,4 @@
-"""Rough random host of the PPMC-312: wrong order, unread answers, invalid blocks, resets, changing pins.
+"""Random host that misuses the PPMC-312: wrong order, unread answers, invalid blocks, resets, changing pins.
 
 The hosts of `reactive_host` use the same blocks, tables and times near a boundary.
 """

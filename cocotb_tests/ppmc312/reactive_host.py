@@ -1,7 +1,7 @@
 """Well-behaved random host of the PPMC-312, which keeps the device active, scene by scene.
 
 It reads its answers (a minority reads only some of them), clears alarms, and uses short tables, so that whole
-operations fit into a run. Sometimes it behaves like a rough host.
+operations fit into a run. Sometimes it misuses the device.
 """
 
 from __future__ import annotations
@@ -32,23 +32,23 @@ class ReactiveHost(ScenarioHost):
         scenes = (
             (self.finite, 26),
             (self.endless, 14),
-            (self.meeting_point, 6),
+            (self.changes_near_deceleration, 6),
             (self.walk_change, 3),
             (self.start_on_a_limit, 3),
             (self.overrides, 16),
             (self.events, 12),
-            (self.meeting, 8),
+            (self.coincident_events, 8),
             (self.origin, 6),
             (self.slow_limit, 7),
             (self.inputs, 5),
             (self.encoder, 8),
             (self.interlock, 4),
-            (self.held, 4),
+            (self.start_while_run_is_low, 4),
             (self.end_wait, 5),
             (self.alarm, 3),
             (self.several, 8),
             (self.unread, 4),
-            (self.rough, 5),
+            (self.misuse, 5),
             (self.curve, 4),
         )
         while host.t < self.end:
@@ -56,8 +56,8 @@ class ReactiveHost(ScenarioHost):
             await self.settle()
         await self.recover()
 
-    async def rough(self) -> None:
-        """Perform one action of a rough host."""
+    async def misuse(self) -> None:
+        """Perform one action of a host that misuses the device."""
         await self.rng.choices(
             (self.bad_block, self.registers, self.reset, self.setting, self.motion, self.registration),
             (3, 2, 1, 1, 1, 1),
@@ -67,7 +67,7 @@ class ReactiveHost(ScenarioHost):
         """Send any instructions, one after the other."""
         for _ in range(self.rng.randint(1, 5)):
             if self.rng.random() < 0.5:
-                await self.tell(
+                await self.send_block(
                     self.block(self.rng.choice((0x26, 0x42, 0x4D, 0x25, 0x27, 0x47, 0x84, 0x43))).hex()
                 )
             else:
@@ -84,7 +84,7 @@ class ReactiveHost(ScenarioHost):
             if self.state in (State.ACC, State.FIX):
                 await self.attend(2_500 if self.model.motion.active and attempt < 3 else 400)
             if self.state in (State.ACC, State.FIX) and attempt in (2, 4, 6):
-                await self.tell(
+                await self.send_block(
                     rng.choice(
                         (
                             message(Code.STOP, "00"),
@@ -95,11 +95,11 @@ class ReactiveHost(ScenarioHost):
                 )
             elif self.state is State.ABN:
                 await self.attend(60)
-                await self.tell(message(Code.ALARM_CLEAR))
+                await self.send_block(message(Code.ALARM_CLEAR))
             elif self.state is State.INI:
                 await self.curve()
             elif self.state is State.WRN:
-                await self.tell(message(Code.RUN_MONITOR))
+                await self.send_block(message(Code.RUN_MONITOR))
             elif self.state is State.NOR:
                 break
         await self.attend(rng.choice((0, 60, 600)))

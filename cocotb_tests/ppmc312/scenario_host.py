@@ -66,7 +66,7 @@ class ScenarioHost(MisuseHost):
             await host.pause(self.rng.randint(1, 4))
             await host.pins(epin=0)
 
-    async def tell(self, text: str) -> None:
+    async def send_block(self, text: str) -> None:
         """Write a block as soon as it is accepted, and mostly read until its answer arrives."""
         host, rng = self.host, self.rng
         for _ in range(40):
@@ -89,7 +89,7 @@ class ScenarioHost(MisuseHost):
             # RS 300, RH 100; most of them begin with stages of 2 pulses, the fewest that are legal.
             self.rates = [100, 200, 300]
             pulses = rng.choice((508, 509, 560, 700, 1200))
-            await self.tell(f"03 09 00 0{rng.choice('08')} 012C 0064 {pulses:06X}")
+            await self.send_block(f"03 09 00 0{rng.choice('08')} 012C 0064 {pulses:06X}")
             self.background.external(host.t + 2, False, rng)
             return
         clk = rng.choice((0, 0, 0, 0, 0, 0, 0, 1, 2, 6, 7)) if not self.slow else rng.choice((0, 1))
@@ -106,10 +106,10 @@ class ScenarioHost(MisuseHost):
         )
         lists = [(2, self.rates), *((3, [rng.randint(2, 4) for _ in range(n)])
                                     for n in ((up, down) if separate else (up,)))]  # fmt: skip
-        await self.tell(head)
+        await self.send_block(head)
         for number, (width, values) in enumerate(lists):
             data = b"".join(value.to_bytes(width, "big") for value in values)
-            await self.tell(f"{int(number == len(lists) - 1):02X} {len(data):02X} {data.hex()}")
+            await self.send_block(f"{int(number == len(lists) - 1):02X} {len(data):02X} {data.hex()}")
         self.background.external(host.t + 2, clk >= 6, rng)
 
     # ------------------------------------------------------------ numbers
@@ -183,9 +183,9 @@ class ScenarioHost(MisuseHost):
             if what < 0.4:
                 await self.aligned()
             elif what < 0.65:
-                await self.tell(self.change_block().hex())
+                await self.send_block(self.change_block().hex())
             elif what < 0.8:
-                await self.tell(rng.choice(ASKED))
+                await self.send_block(rng.choice(ASKED))
             elif what < 0.84:
                 pin = rng.choice((*LIMITS, "org_n", "end_n", "alm_n", "index_n"))
                 self.background.blip(host.t + rng.randint(1, 900), pin, 0, rng.choice((1, 4, 400)))
@@ -197,26 +197,26 @@ class ScenarioHost(MisuseHost):
         if rng.random() < 0.35:
             await self.changed()
             return
-        await self.tell(self.finite_block().hex())
+        await self.send_block(self.finite_block().hex())
         await self.meanwhile(rng.choice((0, 0, 1, 2, 4)))
         await self.attend(4_000)
 
     async def changed(self) -> None:
         """Make a move with speed changes; it must recompute its deceleration point."""
         rng = self.rng
-        await self.tell(self.finite_block(rng.randint(12, 40)).hex())
+        await self.send_block(self.finite_block(rng.randint(12, 40)).hex())
         for _ in range(rng.choice((1, 1, 2, 3))):
             if not self.model.motion.active:
                 break
             await self.attend(rng.choice((0, 200, 900)))
             if rng.random() < 0.7:
-                await self.tell(self.change_block(codes=(0x87, 0x88)).hex())
+                await self.send_block(self.change_block(codes=(0x87, 0x88)).hex())
             else:
                 await self.aligned()
                 await self.attend(120)
         await self.attend(6_000)
 
-    async def meeting_point(self) -> None:
+    async def changes_near_deceleration(self) -> None:
         """Send 88 to a rate with a long ramp, then 87 twice shortly before the deceleration point."""
         host, rng, table = self.host, self.rng, self.model.core.table
         if table is None:
@@ -224,44 +224,44 @@ class ScenarioHost(MisuseHost):
         rate = rng.choice(self.rates)
         full = ramped(table, rate, None).up + sum(table.pd[table.sd : table.stage(rate) + 1])
         count = full + rng.randint(16, 24)
-        await self.tell(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
+        await self.send_block(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
         before = rng.randint(6, 12)
         while (motion := self.model.motion).active and host.t < self.end:  # it may wait for a start
             if count - motion.sequence.done <= motion.sequence.plan.down + before:
                 break
             await self.attend(30)
-        await self.tell(message(Code.CHANGE, f"00 {max(self.rates):04X}"))
+        await self.send_block(message(Code.CHANGE, f"00 {max(self.rates):04X}"))
         await self.attend(rng.choice((30, 200)))
-        await self.tell(message(Code.RAMP_CHANGE, f"00 {min(self.rates):04X}"))
+        await self.send_block(message(Code.RAMP_CHANGE, f"00 {min(self.rates):04X}"))
         motion = self.model.motion
         if motion.active and motion.due and rng.random() < 0.8:
             await host.go(max(host.t, motion.due - rng.randint(70, 150)))
-        await self.tell(message(Code.RAMP_CHANGE, f"00 {self.speed():04X}"))
+        await self.send_block(message(Code.RAMP_CHANGE, f"00 {self.speed():04X}"))
         await self.attend(3_000)
 
     async def walk_change(self) -> None:
         """Send instruction 88 while the motor decelerates for instruction 81."""
-        await self.tell(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
+        await self.send_block(message(Code.FOREVER_RAMP, f"00 {min(self.rates):04X}"))
         await self.attend(self.rng.choice((1_000, 2_500)))
-        await self.tell(message(Code.SLOW_STOP, "00"))
-        await self.tell(message(Code.CHANGE, f"00 {self.speed():04X}"))
+        await self.send_block(message(Code.SLOW_STOP, "00"))
+        await self.send_block(message(Code.CHANGE, f"00 {self.speed():04X}"))
         await self.attend(800)
-        await self.tell(message(Code.STOP, "00"))
+        await self.send_block(message(Code.STOP, "00"))
 
     async def start_on_a_limit(self) -> None:
         """Start a motion while a limit of the same or the other direction is asserted (low)."""
         pin = self.rng.choice((*LIMITS, *SLOW_LIMITS))
         await self.host.pins(**{pin: 0})
-        await self.tell(self.finite_block().hex())
+        await self.send_block(self.finite_block().hex())
         await self.attend(300)
         await self.host.pins(**{pin: 1})
 
     async def endless(self) -> None:
         """Run instruction 85 or 86 with changes of speed, then stop the motion."""
-        await self.tell(self.endless_block().hex())
+        await self.send_block(self.endless_block().hex())
         await self.meanwhile(self.rng.choice((2, 4, 7)))
         if self.model.motion.active:
-            await self.tell(self.rng.choice((STOPS[0], STOPS[1], STOPS[1])))
+            await self.send_block(self.rng.choice((STOPS[0], STOPS[1], STOPS[1])))
         await self.attend(1_500)
 
     async def overrides(self) -> None:
@@ -270,7 +270,7 @@ class ScenarioHost(MisuseHost):
         before = rng.random() < 0.4
         start = self.endless_block() if rng.random() < 0.6 else self.finite_block()
         if not before:
-            await self.tell(start.hex())
+            await self.send_block(start.hex())
         ahead, pins = 0, []
         for _ in range(rng.choice((1, 2, 3, 3, 5, 9))):
             trigger = rng.choice((0, 0, 0, 0, 2, 1, 3))
@@ -280,11 +280,11 @@ class ScenarioHost(MisuseHost):
                 pins.append("evt0_n" if trigger == 1 else "evt1_n")
                 if rng.random() < 0.3:
                     block = self.finite_block() if rng.random() < 0.6 else self.endless_block()
-                    await self.tell((block[:3] + bytes([block[3] | 4 | trigger]) + block[4:]).hex())
+                    await self.send_block((block[:3] + bytes([block[3] | 4 | trigger]) + block[4:]).hex())
                     continue
-            await self.tell(self.change_block(trigger, ahead).hex())
+            await self.send_block(self.change_block(trigger, ahead).hex())
         if before:
-            await self.tell(start.hex())
+            await self.send_block(start.hex())
         for pin in (*pins, *pins):
             await self.attend(rng.choice((100, 500, 1_200)))
             await self.press(pin)
@@ -317,7 +317,7 @@ class ScenarioHost(MisuseHost):
                 block = self.change_block()
             else:
                 block = bytes.fromhex(rng.choice(ASKED))
-            await self.tell(message(Code.EVENT_SET, f"{number:02X} {block.hex()}"))
+            await self.send_block(message(Code.EVENT_SET, f"{number:02X} {block.hex()}"))
 
     async def events(self) -> None:
         """Fill an event buffer and trigger its entries."""
@@ -326,23 +326,23 @@ class ScenarioHost(MisuseHost):
         for number in numbers:
             await self.register(number, rng.randint(1, 3))
         if rng.random() < 0.5:
-            await self.tell(self.endless_block().hex())
+            await self.send_block(self.endless_block().hex())
         for _ in range(rng.randint(2, 7 if not self.slow else 2)):
             await self.press(f"evt{rng.choice(numbers)}_n")
             await self.attend(rng.choice((0, 200, 700)))
         for number in numbers:
             if rng.random() < 0.4:
-                await self.tell(message(Code.EVENT_SET, f"{2 | number:02X}"))
+                await self.send_block(message(Code.EVENT_SET, f"{2 | number:02X}"))
 
-    async def meeting(self) -> None:
+    async def coincident_events(self) -> None:
         """Apply events and a host block at nearly the same time."""
         host, rng = self.host, self.rng
         for number in (0, 1):
             if rng.random() < 0.7:
                 await self.register(number, 1)
         if rng.random() < 0.7:
-            await self.tell(self.endless_block().hex())
-            await self.tell(self.change_block(rng.choice((0, 1, 3)), rng.randint(8, 16)).hex())
+            await self.send_block(self.endless_block().hex())
+            await self.send_block(self.change_block(rng.choice((0, 1, 3)), rng.randint(8, 16)).hex())
         for _ in range(rng.randint(1, 4)):
             await self.attend(200)
             block = bytes.fromhex(rng.choice((*ASKED, *STOPS))) \
@@ -360,7 +360,7 @@ class ScenarioHost(MisuseHost):
     async def origin(self) -> None:
         """Run instruction 10 or 11 with an origin input that is asserted and deasserted."""
         host, rng = self.host, self.rng
-        await self.tell(self.endless_block((0x10, 0x11, 0x11)).hex())
+        await self.send_block(self.endless_block((0x10, 0x11, 0x11)).hex())
         for _ in range(rng.randint(1, 3)):
             await self.attend(rng.choice((300, 900, 2_000)))
             if rng.random() < 0.4:
@@ -375,9 +375,11 @@ class ScenarioHost(MisuseHost):
         """Assert high-speed limits and limits while a motion is running."""
         host, rng = self.host, self.rng
         if rng.random() < 0.85:
-            await self.tell(message(Code.SPEED_LIMIT, f"{rng.choice((max(self.rates), self.speed())):04X}"))
+            await self.send_block(
+                message(Code.SPEED_LIMIT, f"{rng.choice((max(self.rates), self.speed())):04X}")
+            )
         block = self.endless_block() if rng.random() < 0.6 else self.finite_block()
-        await self.tell(block.hex())
+        await self.send_block(block.hex())
         pins = SLOW_LIMITS if rng.random() < 0.8 else LIMITS
         for _ in range(rng.randint(1, 3)):
             due = self.model.motion.due
@@ -391,11 +393,11 @@ class ScenarioHost(MisuseHost):
     async def inputs(self) -> None:
         """Send instruction 28 and change the general input, with a host that reads slowly."""
         host, rng = self.host, self.rng
-        await self.tell(
+        await self.send_block(
             message(Code.MASK, f"{rng.choice((1, 1, 1, 0)):02X} {rng.choice((0xFF, 0x0F, 0x5A, 1)):02X}")
         )
         if rng.random() < 0.5:
-            await self.tell(self.finite_block().hex())
+            await self.send_block(self.finite_block().hex())
         for _ in range(rng.randint(2, 6)):
             await host.pins(auxi=rng.randrange(256))
             await host.pause(self.model.timebase.cyc(rng.choice((30, 500, 810, 1_000))))
@@ -406,16 +408,16 @@ class ScenarioHost(MisuseHost):
         """Switch the monitors on; the encoder follows."""
         rng = self.rng
         self.follows = rng.choice((1.0, 0.9, 0.6, 0.2))
-        await self.tell(
+        await self.send_block(
             message(
                 Code.POSITION_SET, f"01 {self.model.position + rng.choice((0, 0, 1, -3)) & 0xFFFFFFFF:08X}"
             )
         )
         for code in rng.choice(((2,), (3,), (2, 3))):
             flags, distance = rng.choice((1, 3, 3, 5, 7, 7)), rng.choice((1, 2, 2, 4))
-            await self.tell(message(code, f"{flags:02X} 00 {distance:02X}"))
+            await self.send_block(message(code, f"{flags:02X} 00 {distance:02X}"))
         for _ in range(rng.randint(1, 3)):
-            await self.tell(self.finite_block().hex())
+            await self.send_block(self.finite_block().hex())
             await self.meanwhile(rng.choice((0, 1)))
             await self.attend(rng.choice((1_500, 4_000)))
         if rng.random() < 0.7:
@@ -425,19 +427,21 @@ class ScenarioHost(MisuseHost):
         """Switch the interlock control on and move past its position."""
         rng = self.rng
         step = rng.choice((1, 3, 9, -2, -5))
-        await self.tell(message(Code.INTERLOCK_POSITION, f"{self.model.position + step & 0xFFFFFFFF:08X}"))
-        await self.tell(message(Code.INTERLOCK))
+        await self.send_block(
+            message(Code.INTERLOCK_POSITION, f"{self.model.position + step & 0xFFFFFFFF:08X}")
+        )
+        await self.send_block(message(Code.INTERLOCK))
         await self.finite()
 
-    async def held(self) -> None:
+    async def start_while_run_is_low(self) -> None:
         """Start a motion while RUN is low, so that the motion waits."""
         host, rng = self.host, self.rng
         await host.pins(run=0)
-        await self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
+        await self.send_block((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
         for _ in range(rng.randint(0, 2)):
-            await self.tell(rng.choice((*ASKED, message(Code.ALARM_CLEAR), message(Code.STOP, "00"))))
+            await self.send_block(rng.choice((*ASKED, message(Code.ALARM_CLEAR), message(Code.STOP, "00"))))
         if rng.random() < 0.2:
-            await self.tell(message(Code.RUN_MONITOR))
+            await self.send_block(message(Code.RUN_MONITOR))
         if rng.random() < 0.1:
             self.background.blip(host.t + 2, "alm_n", 0, 50)
         await self.attend(300)
@@ -447,32 +451,32 @@ class ScenarioHost(MisuseHost):
     async def end_wait(self) -> None:
         """Monitor the positioning end."""
         host, rng = self.host, self.rng
-        await self.tell(message(Code.END_TERMINAL, "01"))
-        await self.tell(self.finite_block().hex())
+        await self.send_block(message(Code.END_TERMINAL, "01"))
+        await self.send_block(self.finite_block().hex())
         await self.meanwhile(rng.choice((0, 1)))
         await self.attend(4_000)
         for _ in range(rng.randint(0, 2)):
-            await self.tell(self.change_block().hex())
+            await self.send_block(self.change_block().hex())
         if rng.random() < 0.7:
             self.background.blip(host.t + 3, "end_n", 0, 60)
             await self.attend(200)
-        await self.tell(message(Code.END_TERMINAL, "00"))
+        await self.send_block(message(Code.END_TERMINAL, "00"))
 
     async def alarm(self) -> None:
         """Assert alm_n during an operation; clear the alarm, sometimes while the pin is still low."""
         host, rng = self.host, self.rng
         if rng.random() < 0.8:
-            await self.tell((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
+            await self.send_block((self.finite_block() if rng.random() < 0.6 else self.endless_block()).hex())
         self.background.blip(host.t + rng.randint(1, 600), "alm_n", 0, rng.choice((3, 200, 1_500)))
         await self.attend(rng.choice((300, 700)))
-        await self.tell(message(Code.ALARM_CLEAR))
+        await self.send_block(message(Code.ALARM_CLEAR))
 
     async def unread(self) -> None:
         """Leave reports unread until there are more of their class than places (P312-RSP-20)."""
         host, rng = self.host, self.rng
-        held = rng.random() < 0.4
+        start_while_run_is_low = rng.random() < 0.4
         for _ in range(rng.randint(2, 3)):
-            if held:
+            if start_while_run_is_low:
                 await host.pins(run=0)
             for _ in range(12):
                 if not await host.read(CSR) & MWEF:

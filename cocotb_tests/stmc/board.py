@@ -55,7 +55,7 @@ class BoardEnv(Env):
         assert isinstance(bench, RtlBench)
         return cls(bench)
 
-    async def ended(self, timeout: int = 1_000_000) -> int:
+    async def wait_end(self, timeout: int = 1_000_000) -> int:
         """Wait for the end of the last `go` and return the edge on which irq rises."""
         if rises := self.bench.rises("irq", self.since):
             await self.bench.align()

@@ -104,7 +104,7 @@ async def stmc_ac_41_chopper(dut: Any) -> None:
         await env.bench.edge("s")
     await env.go(0x42)
     begin = env.bench.falls("hold")[0]
-    end = await env.ended()
+    end = await env.wait_end()
     env.check("AC-41", "full pattern with hold", env.bench.level_at("s", begin), 0b00011)
     step = next(t for t, level in env.bench.edges("s", begin) if level == 0b00110)
     env.window("AC-41", "hold to the step", step - begin, 80, 82)
@@ -167,7 +167,7 @@ async def stmc_ac_48_datasheet_times(dut: Any) -> None:
     env.window("AC-48", "first step", first - edge0, 3104, 3104 + 24)
     last = await env.pulse(2)
     env.check("AC-48", "gap", last - first, 12_800)
-    end = await env.ended()
+    end = await env.wait_end()
     env.window("AC-48", "int_n", end - last, 416, 416 + 16)
     await env.host.write(1, 0x80)
     await bench.until(last + 2_400)

@@ -13,7 +13,7 @@ from .tb_acceptance_moves import W1, W2
 W14 = [20, 12, 9, 8, 9, 12, 20]
 
 
-async def asked_in(env: Env, gap: int, n: int = 100, code: int = 0x41, plus: int = 30) -> int:
+async def stop_in_gap(env: Env, gap: int, n: int = 100, code: int = 0x41, plus: int = 30) -> int:
     """Start command 3 with n steps, send a stop command in that gap, and return the status after it."""
     await env.go(0x43, n)
     await env.in_gap(gap, plus)
@@ -26,7 +26,7 @@ async def stmc_ac_21_the_rest_of_a_stopped_move(dut: Any) -> None:
     (AC-21).
     """
     env = await Env.start(dut)
-    await asked_in(env, 3)
+    await stop_in_gap(env, 3)
     await env.outcome("AC-21", 8, 0xC3, 0x5B, W14)
     env.since = env.bench.now
     await env.host.run("c 43 d 5B d 00 d 00")
@@ -38,7 +38,7 @@ async def stmc_ac_22_requests_at_other_speeds(dut: Any) -> None:
     """In a move of 100 steps, 41 in gap 10, 1 or 0 leads to W15, W16, W17 (AC-22)."""
     env = await Env.start(dut)
     for gap, ticks, rest in ((10, W1, 79), (1, [20, 12, 20], 95), (0, [], 98)):
-        await asked_in(env, gap)
+        await stop_in_gap(env, gap)
         await env.outcome("AC-22", len(ticks) + 1, 0xC3, rest, ticks)
 
 
@@ -49,7 +49,7 @@ async def stmc_ac_23_around_the_turn(dut: Any) -> None:
     """
     env = await Env.start(dut)
     for gap, status in ((5, 0x04), (6, 0xF4)):
-        env.check("AC-23", f"status in gap {gap}", await asked_in(env, gap, 12), status)
+        env.check("AC-23", f"status in gap {gap}", await stop_in_gap(env, gap, 12), status)
         await env.outcome("AC-23", 12, 0x83, 0, W2)
 
 
@@ -57,7 +57,7 @@ async def stmc_ac_23_around_the_turn(dut: Any) -> None:
 async def stmc_ac_24_emergency_stop(dut: Any) -> None:
     """In a move of 100 steps, no step follows 40 in gap 10 (AC-24)."""
     env = await Env.start(dut)
-    await asked_in(env, 10, code=0x40)
+    await stop_in_gap(env, 10, code=0x40)
     await env.outcome("AC-24", 11, 0xC3, 0x58)
 
 
@@ -101,7 +101,7 @@ async def stmc_ac_28_stop_limit_in_the_ramp_down(dut: Any) -> None:
     env.set(l3_n=0)
     await env.in_gap(33)
     stamp = env.set(l1_n=0)
-    fell = await env.ended()
+    fell = await env.wait_end()
     env.window("AC-28", "pin to the interrupt", fell - stamp, 0, 8)
     await env.outcome("AC-28", 34, 0x9E, MOST - 34)
 

@@ -26,7 +26,7 @@ async def j105_ac_46_a_move(dut: Any) -> None:
     env.check("AC-46", "irq", bench.level("irq"), 0)
     env.since = bench.now
     await env.host.run("c 43 d 13 d 00 d 00")
-    end = await env.ended(600_000)
+    end = await env.wait_end(600_000)
     env.window("J105-05", "last step to irq", end - env.pulses[-1], 0, 10)
     ticks = [round(gap * 48_675 / 16_000_000) for gap in env.intervals]
     env.check("AC-46", "gaps in ticks", ticks, W1)
@@ -97,7 +97,7 @@ async def j105_ac_47_step_clock(dut: Any) -> None:
     await env.init(0x1A, 141, 141, 0)
     env.since = env.bench.now
     await env.host.run("c 43 d 14 d 00 d 00")
-    await env.ended(1_500_000)
+    await env.wait_end(1_500_000)
     steps = env.pulses
     env.check("AC-47", "steps", len(steps), 21)
     env.window("AC-47", "sum of the gaps", steps[-1] - steps[0], 926_963, 926_966)
@@ -114,7 +114,7 @@ async def j105_06_other_clocks(dut: Any) -> None:
     await env.init(0x1A, 20, 5, 8)
     env.since = env.bench.now
     await env.host.run("c 43 d 0B d 00 d 00")
-    await env.ended(2_000_000)
+    await env.wait_end(2_000_000)
     ticks = 0
     for step, gap in zip(env.pulses[1:], gaps(12), strict=True):
         ticks += gap
@@ -228,7 +228,7 @@ async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
     env.check("STMC-INI-07", "FIN", await env.host.read(0), 0x80)
     env.since = bench.now
     await env.host.run("c 43 d 03 d 00 d 00")
-    await env.ended(600_000)
+    await env.wait_end(600_000)
     ticks = [round(gap * 48_675 / 16_000_000) for gap in env.intervals]
     env.check("J105-01", "gaps in ticks", ticks, gaps(4, (255, 1, 60)))
 
@@ -244,7 +244,7 @@ async def j105_all_parameters(dut: Any) -> None:
     await env.init(0x2A, 9, 3, 3)
     env.check("STMC-INP-01", "inputs by the sister parts' code", await env.inputs(), 0xCF)
     await env.move(0x42)
-    end = await env.ended()
+    end = await env.wait_end()
     delay = env.cfg.cyc(2_500)
     env.window("STMC-HLD-01", "hold", await bench.edge("hold", 1) - end, delay - 2, delay + 16)
     await bench.clocks(env.cfg.cyc(3 * 1_012))

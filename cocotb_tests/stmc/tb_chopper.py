@@ -64,7 +64,7 @@ async def stmc_chp_02_motion(dut: Any) -> None:
         await env.bench.clocks(wait)
         begin = env.bench.now
         edge0 = await env.go(0x42, poll=False)
-        end = await env.ended()
+        end = await env.wait_end()
         low = [t for t, _ in env.bench.edges("s", begin) if t <= edge0 + 14]
         for t in range(edge0 + 14, end, 7):
             env.check("STMC-CHP-02", "s while BUSY", env.bench.level_at("s", t) > 0, True)
@@ -112,7 +112,7 @@ async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
     for wait in (0, 900, 1_700):
         await env.bench.clocks(wait)
         await env.go(0x42)
-        end = await env.ended()
+        end = await env.wait_end()
         off = await env.bench.edge("s", 0)
         env.window("STMC-CHP-01", "first on-time", off - end, 1_035, 1_047)
         await env.finish()
@@ -144,7 +144,7 @@ async def stmc_hld_01_hold(dut: Any) -> None:
     delay = env.cfg.cyc(xt(env, "HOLD_XT", 544_000))
     for code, n, rate in ((0x42, None, None), (0x44, 3, 1), (0x43, 1, None)):
         await env.go(code, n, rate)
-        end = await env.ended()
+        end = await env.wait_end()
         rise = await env.bench.edge("hold", 1)
         env.window("STMC-HLD-01", "hold", rise - end, delay, delay + 16)
         await env.finish()
@@ -158,7 +158,7 @@ async def stmc_hld_01_hold(dut: Any) -> None:
     await env.pins(mon=0)
     await env.bench.level_is("hold", 1)
     await env.go(0x42)
-    end = await env.ended()
+    end = await env.wait_end()
     env.check("STMC-HLD-01", "falls without a step", env.bench.level("hold"), 0)
     rise = await env.bench.edge("hold", 1)
     env.window("STMC-HLD-01", "hold without a step", rise - end, delay, delay + 16)
@@ -169,6 +169,6 @@ async def stmc_hld_01_default(dut: Any) -> None:
     """With the default, hold rises 34 ms after a step (STMC-HLD-01)."""
     env = await Env.start(dut, INTERNAL, clock=0)
     await env.go(0x42)
-    end = await env.ended()
+    end = await env.wait_end()
     rise = await env.bench.edge("hold", 1)
     env.window("STMC-HLD-01", "hold", rise - end, 544_000, 544_016)

@@ -26,7 +26,7 @@ async def event(env: Env, code: int, n: int | None = None, rate: int | None = No
     return await env.go(code, n, rate, poll=False) + WRITE_EVENT
 
 
-async def taken(env: Env, rule: str, since: int, xt: int, code: int = 0x80) -> None:
+async def check_accepted(env: Env, rule: str, since: int, xt: int, code: int = 0x80) -> None:
     """Check that a command written now is accepted CYC(xt) cycles after `since`, not before."""
     nominal = since + env.cfg.cyc(xt)
     await env.host.write(1, code)
@@ -109,12 +109,12 @@ async def stmc_ds_06_single_step(dut: Any) -> None:
     env = await Env.start(dut, INTERNAL, clock=0)
     t = await event(env, 0x42)
     await env.pulse(1)
-    end = await env.ended()
+    end = await env.wait_end()
     after(env, "STMC-DS-06", "int_n", end - t, 1_792, PIN + 4)
     await rest(env)
     t = await event(env, 0x4A)
     await env.pulse(1)
-    await taken(env, "STMC-DS-06", t + PIN + 3, 1_792)
+    await check_accepted(env, "STMC-DS-06", t + PIN + 3, 1_792)
     env.check("STMC-DS-13", "answer", await env.host.read_data(), 0x82)
 
 
@@ -131,10 +131,10 @@ async def stmc_ds_07_normal_ends(dut: Any) -> None:
             await env.bench.clocks(200)
             last = env.bench.now
             env.set(cnp_n=0)
-        end = await env.ended()
+        end = await env.wait_end()
         after(env, "STMC-DS-07", f"int_n of {code:#x}", end - last, 416, PIN + 3)
         env.check("STMC-DS-07", "BUSY", await env.host.status() & BUSY, 0)
-        await taken(env, "STMC-DS-08", last, 2_496)
+        await check_accepted(env, "STMC-DS-08", last, 2_496)
         env.check("STMC-DS-13", "answer", await env.host.read_data(), 0x80 | code & 7)
 
 
@@ -159,10 +159,10 @@ async def stmc_ds_09_stops(dut: Any) -> None:
             t = await env.host.write(1, 0x40) + WRITE_EVENT
         else:
             await env.blip(stop, 3)
-        end = await env.ended()
+        end = await env.wait_end()
         after(env, "STMC-DS-09", f"int_n of {code:#x} by {stop}", end - t, end_xt, PIN + 4)
         env.check("STMC-DS-11", "steps", len(env.pulses), 3)
-        await taken(env, "STMC-DS-10", t, open_xt)
+        await check_accepted(env, "STMC-DS-10", t, open_xt)
         env.check("STMC-DS-13", "answer", await env.host.read_data() & 0x87, 0x80 | code & 7)
 
 
@@ -180,7 +180,7 @@ async def stmc_ds_09_ramp_down(dut: Any) -> None:
             await env.blip(how)
         ticks = slowed(n, i)
         last = await env.pulse(len(ticks) + 1)
-        end = await env.ended()
+        end = await env.wait_end()
         env.train("STMC-DS-11", ticks)
         after(env, "STMC-DS-09", "int_n", end - last, 3_200 if len(ticks) + 1 < n else 416)
         await rest(env)
@@ -197,14 +197,14 @@ async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
         (0x42, None, None, 432, 416),
     ):
         t = await event(env, code, n, rate)
-        end = await env.ended()
+        end = await env.wait_end()
         after(env, "STMC-DS-12", f"int_n of {code:#x}", end - t, start + end_xt, PIN + 8)
         env.check("STMC-DS-12", "steps", env.pulses, [])
         await rest(env)
     await env.pins(l1_n=1)
     t = await event(env, 0x43, 9)
-    await taken(env, "STMC-DS-14", t, 1_792, 0x40)
-    await env.ended()
+    await check_accepted(env, "STMC-DS-14", t, 1_792, 0x40)
+    await env.wait_end()
     await env.result("STMC-DS-14", 0, 0xC3, 8)
 
 

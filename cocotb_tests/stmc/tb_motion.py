@@ -68,7 +68,7 @@ async def stmc_mot_08_normal_end(dut: Any) -> None:
         (0x4B, 20, None),
     ):
         await env.go(code, n, rate)
-        end = await env.ended()
+        end = await env.wait_end()
         env.window("STMC-MOT-08", "last step to int_n", end - env.pulses[-1], 0, END_LATEST)
         env.check("STMC-MOT-08", "BUSY", await env.host.status() & BUSY, 0)
         pattern = env.bench.level("s")
@@ -258,7 +258,7 @@ async def stmc_clk_05_a_clock_that_stops(dut: Any) -> None:
     await env.bench.clocks(120)
     await env.tick_until(6)
     stamp = env.set(l1_n=0)
-    end = await env.ended()
+    end = await env.wait_end()
     env.window("STMC-IN-02", "limit to int_n", end - stamp, 0, 8)
     await env.result("STMC-CLK-05", 6, 0x96, MOST - 6)
 

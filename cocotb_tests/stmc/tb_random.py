@@ -45,7 +45,7 @@ async def stmc_random_host(dut: Any, seed: int) -> None:
 
 
 @random_test("STMC-BAD-13", "STMC-BAD-14", "STMC-BAD-15", "STMC-CLK-04", "STMC-INI-04", uncompared=UNCOMPARED)
-async def stmc_random_chaos(dut: Any, seed: int) -> None:
+async def stmc_random_noise(dut: Any, seed: int) -> None:
     """After noise on all input pins, 40 and an initialisation make the core work again."""
     bench = await RtlBench.start(dut, STMC, seed=seed)
     noise = PinNoise(bench, STROBES, CODES)

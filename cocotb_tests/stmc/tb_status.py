@@ -28,7 +28,7 @@ def expected(kind: str) -> int:
     return {"init": 0x40, "ramp": 0x30, "steady": 0x40, "limit": 0x10, "search": 0x10}.get(kind, 0x00)
 
 
-def verdict(kind: str, state: str) -> int:
+def expected_status(kind: str, state: str) -> int:
     """Return the status of a code in a state without BUSY, from the accept/reject table."""
     moving = state in MOVING
     if kind == "undefined":
@@ -62,7 +62,7 @@ async def stmc_all_codes_before_the_initialisation(dut: Any) -> None:
         kind = kind_of(code, reads)
         count += kind == "undefined"
         got = await env.host.command(code)
-        env.check("STMC-BAD-01", f"status after {code:#04x}", got & ~OBF, verdict(kind, "U") & ~OBF)
+        env.check("STMC-BAD-01", f"status after {code:#04x}", got & ~OBF, expected_status(kind, "U") & ~OBF)
         if kind == "read":
             while await env.host.status() & OBF:
                 await env.host.read(DATA)
@@ -81,7 +81,7 @@ async def stmc_fsm_01_accept_table(dut: Any) -> None:
             await enter(env, state)
             got = await env.host.command(code)
             moving = BUSY if state in MOVING else 0
-            wanted = verdict(kind, state)
+            wanted = expected_status(kind, state)
             if ends or (not moving and kind in ("single", "ramp0")):
                 env.check("STMC-FSM-01", f"{code:#04x} in {state}", got & ~BUSY, wanted)
             else:

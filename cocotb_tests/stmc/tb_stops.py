@@ -72,7 +72,7 @@ async def stmc_dec_03_stop_at_once_is_at_once(dut: Any) -> None:
         await env.in_gap(0, 60)
         stamp = env.bench.now
         await request(env, how)
-        end = await env.ended()
+        end = await env.wait_end()
         writes = [a.t for a in env.bench.accesses if a.kind == "write"]
         edge0 = writes[-1] if how == "c 41" else stamp
         env.window("STMC-DEC-03", f"{how} to int_n", end - edge0, 0, latest)
@@ -130,7 +130,7 @@ async def stmc_stp_01_emergency_stop(dut: Any) -> None:
             await env.go(code, n, rate)
             await env.in_gap(8, 5 * EXT - before)
             edge0 = await env.host.command(stop, poll=False)
-            end = await env.ended()
+            end = await env.wait_end()
             late = [t for t in env.pulses if t > edge0 + 12]
             env.check("STMC-STP-01", f"steps later than 12 clk, {before} clk before", late, [])
             made = len(env.pulses)
@@ -158,7 +158,7 @@ async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
             await env.bench.until(step + 6 * EXT - before)
             stamp = env.bench.now
             await env.blip(pin, 2)
-            end = await env.ended()
+            end = await env.wait_end()
             made = len(env.pulses)
             env.window("STMC-IN-02", f"{pin}, {before} clk before", made, 4, 4 if before >= 4 else 5)
             env.window("STMC-IN-02", "pin to int_n", end - stamp, 0, 8)

@@ -144,7 +144,7 @@ def test_full_rom() -> None:
 
 def test_files_are_fresh() -> None:
     """The files of the tree are those that `make rom` writes."""
-    for path, text in calc_rom.wanted().items():
+    for path, text in calc_rom.generated_files().items():
         assert path.read_text() == text, path
 
 
@@ -152,7 +152,7 @@ def test_message_names_file_and_line(monkeypatch: pytest.MonkeyPatch) -> None:
     """The message of an error in the listing is one line with file, line and error."""
     monkeypatch.setattr(calc_rom, "ASM", calc_rom.PACKAGE)
     with pytest.raises(ProjectError, match=r"^rtl/pmc006/motion/\w+\.sv:1: // is not an instruction$"):
-        calc_rom.wanted()
+        calc_rom.generated_files()
 
 
 def test_package_without_marks() -> None:

@@ -49,12 +49,12 @@ def some_rate(rand: random.Random, table: Table) -> int:
     return rand.choice((min(max(near, low), high), rand.randint(low, high)))
 
 
-class Walker:
+class SequencerRun:
     """The sequencer during a motion, with a table that responds two cycles after the address."""
 
     def __init__(self, u: BlockDriver, table: Table, plan: Plan, rand: random.Random) -> None:
         self.u, self.table, self.plan, self.rand = u, table, plan, rand
-        self.asked = deque([(0, 0), (0, 0)])
+        self.requested = deque([(0, 0), (0, 0)])
         self.sequence = Sequence(plan)
         self.history: list[str] = []
         self.busy = rand.choice((0.1, 0.4))
@@ -63,15 +63,15 @@ class Walker:
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
         """Run one cycle; return the watched outputs before its edge."""
-        out = await self.look(**inputs)
-        self.asked.popleft()
-        self.asked.append(divmod(self.u.get("look_o"), 128))
+        out = await self.sample(**inputs)
+        self.requested.popleft()
+        self.requested.append(divmod(self.u.get("look_o"), 128))
         await self.u.clk()
         return out
 
-    async def look(self, **inputs: int) -> tuple[int, ...]:
+    async def sample(self, **inputs: int) -> tuple[int, ...]:
         """Return the watched outputs with these inputs and the response of the table in this cycle."""
-        side, i = self.asked[0]
+        side, i = self.requested[0]
         table, i = self.table, min(i, STAGES - 1)
         pulses = table.pd if side else table.pa
         self.u.put(stage_i=pack((table.rates[i], 16), (pulses[i], 24)))
@@ -144,7 +144,7 @@ class Walker:
         for _ in range(limit):
             await self.interval()
             where = f"{self.what}, {self.history}, boundary {self.sequence.done + 1}"
-            end, low, count, rate = await self.look()
+            end, low, count, rate = await self.sample()
             self.slow = self.u.get("slow_i") and not self.u.get("next_slow_o")
             flat_for = self.flat_for - SEARCH * self.sequence.sought
             was_stage = self.sequence.in_table
@@ -182,14 +182,14 @@ async def stage_seq_walks(dut):
     ends: dict[str, int] = {}
     for _ in range(220):
         table = small_curve(rand)
-        walker = Walker(u, table, some_plan(rand, table), rand)
-        await walker.load()
-        end = await walker.run(60)
+        run = SequencerRun(u, table, some_plan(rand, table), rand)
+        await run.load()
+        end = await run.run(60)
         ends[end] = ends.get(end, 0) + 1
     same("ends that occurred", sorted(ends), ["LOW", "NORMAL", "SLOW", "endless"])
 
 
-class Meeting(Walker):
+class CollisionRun(SequencerRun):
     """A ramp of instruction 87 collides with the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
@@ -208,7 +208,7 @@ class Meeting(Walker):
         return self.table.high if before == self.ramp else self.table.rates[self.table.first]
 
     @classmethod
-    def some(cls, u: BlockDriver, rand: random.Random) -> Meeting:
+    def some(cls, u: BlockDriver, rand: random.Random) -> CollisionRun:
         """Return a table and an operation with a deceleration of enough pulses for several requests."""
         while True:
             table = small_curve(rand)
@@ -219,9 +219,9 @@ class Meeting(Walker):
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
                 # often with stages that only the acceleration ramp has, where no final deceleration starts
                 break
-        walker = cls(u, table, plan, rand)
-        walker.jump, walker.ramp, walker.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
-        return walker
+        run = cls(u, table, plan, rand)
+        run.jump, run.ramp, run.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
+        return run
 
 
 @cocotb.test()
@@ -232,14 +232,14 @@ async def stage_seq_searches(dut):
     await u.reset()
     searched = 0
     for _ in range(240):
-        walker = Meeting.some(u, rand)
-        await walker.load()
-        await walker.run(120)
-        searched += walker.searched
+        run = CollisionRun.some(u, rand)
+        await run.load()
+        await run.run(120)
+        searched += run.searched
     assert searched > 100, f"a search ran in {searched} intervals only"
 
 
-class Forgotten(Walker):
+class LateStopRun(SequencerRun):
     """A change is decided during a search, and a deceleration stop follows.
 
     A stage of the acceleration ramp becomes a constant rate. 88 is decided during the search for this rate,
@@ -271,11 +271,11 @@ async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
     table = curve([169, 250, 332, 169, 363], [5, 5, 6, 6, 6], [4, 2])
     ends = set()
     for before in (*range(-8, 4), 40):
-        walker = Forgotten(u, table, ramped(table, 169, 52), rand)
-        walker.jump = SEARCH + FOUND + before
-        await walker.load()
-        end = await walker.run(80)
-        ends.add((end, walker.searched > 0))
+        run = LateStopRun(u, table, ramped(table, 169, 52), rand)
+        run.jump = SEARCH + FOUND + before
+        await run.load()
+        end = await run.run(80)
+        ends.add((end, run.searched > 0))
     # At 363, loaded where 81 waits, no deceleration is left; the final deceleration lasts
     # until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])

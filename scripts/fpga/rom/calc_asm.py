@@ -88,20 +88,20 @@ def assemble(text: str, names: Names) -> Program:
     """Return words and labels of a program; raise AsmError for the first wrong line."""
     program, lines = Program(), []
     for line, whole in enumerate(text.splitlines(), 1):
-        told = whole.partition(";")[0].strip()
-        if told.endswith(":"):
-            name = told[:-1]
+        code = whole.partition(";")[0].strip()
+        if code.endswith(":"):
+            name = code[:-1]
             if not re.fullmatch(r"[A-Za-z]\w*", name):
                 raise AsmError(line, f"{name!r} is not a valid label")
             if name in program.labels:
                 raise AsmError(line, f"label {name} stands twice")
             program.labels[name] = len(lines)
-        elif told:
-            lines.append((line, " ".join(told.split())))
+        elif code:
+            lines.append((line, " ".join(code.split())))
             if len(lines) > WORDS:
                 raise AsmError(line, f"the program is too long: more than {WORDS} words")
     coder = Coder(names, program.labels)
-    program.words = [Word(line, told, coder.word(line, told)) for line, told in lines]
+    program.words = [Word(line, code, coder.word(line, code)) for line, code in lines]
     check_end(program)
     for name, at in program.labels.items():
         if at not in coder.used and not name.startswith(ENTRY):
@@ -136,9 +136,9 @@ class Coder:
     labels: Mapping[str, int]
     used: set[int] = field(default_factory=set)
 
-    def word(self, line: int, told: str) -> int:
+    def word(self, line: int, code: str) -> int:
         """Return the code of one instruction."""
-        head, *rest = told.split()
+        head, *rest = code.split()
         name, *variants = head.split(".")
         try:
             op, aux, low = self.parts(name, variants, rest)

@@ -75,7 +75,7 @@ def package_text(package: str, program: Program) -> str:
     return "\n".join([before + BEGIN.ljust(WIDTH, "-"), "", *body, "", END]) + after
 
 
-def wanted() -> dict[Path, str]:
+def generated_files() -> dict[Path, str]:
     """Return the required content of the files."""
     package = PACKAGE.read_text(encoding="utf-8")
     try:
@@ -92,7 +92,7 @@ def main() -> int:
         "--check", action="store_true", help="write nothing, list the files that are outdated"
     )
     check = parser.parse_args().check
-    texts = wanted()
+    texts = generated_files()
     stale = [path for path, text in texts.items() if not path.is_file() or path.read_text("utf-8") != text]
     if check:
         for path in stale:

@@ -12,7 +12,7 @@ from cocotb_tests.harness import Part, SimOptions, cocotb_items, probe, run_item
 from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import BUILD, FAILURES, ROOT, relative
-from cocotb_tests.harness.runner import HINT, attempt, outcome_of, run_group, seen
+from cocotb_tests.harness.runner import HINT, attempt, outcome_of, run_group, with_probes
 from cocotb_tests.harness.simulate import Job
 from cocotb_tests.harness.variants import MUTANT
 
@@ -159,7 +159,7 @@ def test_a_test_may_look_inside(design: Design) -> None:
     """The signals that a test names are visible; other signals stay hidden."""
     assert ITEMS["looks"].probes == ("u_inner.count",)
     assert attempt(ITEMS["looks"], design=design) == ""
-    assert seen(design, ()) == design and not seen(design, ("q",), True).ports
+    assert with_probes(design, ()) == design and not with_probes(design, ("q",), True).ports
     with pytest.raises(ValueError, match="expected paths"):
         probe("u_inner/count")
 

@@ -12,7 +12,7 @@ import pytest
 from cocotb_tests.harness import PARTS, Config, HostBus, ModelBench, OnModel, on_model
 from cocotb_tests.harness.compare import compare_recording
 from cocotb_tests.harness.dut_bench import new_model
-from cocotb_tests.harness.random_items import replay_item, shortened
+from cocotb_tests.harness.random_items import replay_item, shrink_report
 from cocotb_tests.harness.replay import REPLAY
 from cocotb_tests.harness.run_context import running_test
 from cocotb_tests.harness.shrink import (
@@ -256,7 +256,7 @@ def test_what_is_left_out_takes_nothing_along() -> None:
 
 
 def test_a_run_without_a_recording_says_so(tmp_path: Any) -> None:
-    assert shortened(tmp_path) == "not shrunk: no difference from the golden model was recorded"
+    assert shrink_report(tmp_path) == "not shrunk: no difference from the golden model was recorded"
 
 
 def test_replay_needs_a_recording(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:
