@@ -134,7 +134,7 @@ async def bank_hsk_04_queue(dut):
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
-async def bank_hsk_04_answer_meets_a_read(dut):
+async def bank_hsk_04_answer_coincides_with_a_read(dut):
     """The end of a read strobe around the visit of a new answer does not remove the new answer
     (BANK-HSK-04).
     """
@@ -343,7 +343,7 @@ async def bank_hsk_03_replaced_many_times(dut):
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
-async def bank_hsk_04_answers_that_nobody_reads(dut):
+async def bank_hsk_04_answers_that_are_not_read(dut):
     """After one to nine answers, of which the host has read none, the last answer is available
     (BANK-HSK-04).
     """

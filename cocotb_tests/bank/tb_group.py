@@ -153,7 +153,7 @@ async def bank_grp_03_second_go_waits(dut):
 
 
 @directed("BANK-GRP-03", "BANK-GRP-02", builds=(B8, B32, B64))
-async def bank_grp_03_mask_meanwhile(dut):
+async def bank_grp_03_mask_during_go(dut):
     """While GO acts, each visit uses the MASK of 5 cycles before it (BANK-GRP-03)."""
     env = await Env.start(dut)
     axes = await env.all_ready()

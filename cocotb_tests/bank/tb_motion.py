@@ -259,7 +259,7 @@ async def bank_mot_05_which_pulse_counts(dut):
 
 
 @directed("BANK-MOT-02", "BANK-WIN-07", "BANK-MOT-03", builds=(B8, B32, F100))
-async def bank_mot_02_taken_back(dut):
+async def bank_mot_02_pulse_cancelled(dut):
     """If a counted pulse is suppressed, the position is corrected when the end is detected
     (BANK-WIN-07).
     """

@@ -111,7 +111,7 @@ async def bank_win_04_short_reads(dut):
 
 
 @directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
-async def bank_win_04_strange_strobes(dut):
+async def bank_win_04_irregular_strobes(dut):
     """Bytes of 1-cycle writes, of both strobes together and of strobes without cs_n are written
     completely or not at all (BANK-WIN-04).
     """

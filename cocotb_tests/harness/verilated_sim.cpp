@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program of all simulations under cocotb. In addition to the callbacks of VPI it has a clock and a recorder
-// of output levels that need no callbacks: a cycle costs only two evaluations of the design. `Native` in
+// of output levels that need no callbacks: a cycle costs only two evaluations of the design. `CppBackend` in
 // sim_backend.py calls it. Compiled once for all designs: `top.cpp` contains the calls of one design.
 // The makefile optimises for size.
 #pragma GCC optimize("O2")

@@ -29,5 +29,5 @@ PART = PartTests(
     },
     quick=frozenset({"tb_sequence"}),
     quick_build=F8B.name,
-    four_state=frozenset({"p006_tour"}),
+    four_state=frozenset({"p006_sequence"}),
 )

@@ -107,7 +107,7 @@ async def p006_unknown_codes(dut: Any) -> None:
 
 
 @directed("P006-CMD-15", "P006-CMD-12", "P006-CMD-31", "P006-CMD-45", "P006-CMD-19", "P006-CMD-57")
-async def p006_reads_do_not_look_at_their_data(dut: Any) -> None:
+async def p006_reads_ignore_their_data(dut: Any) -> None:
     host = await Host.start(dut)
     for data in (0, -1):
         assert [await host.ask(code, data) for code in "ROjxXKcknqrh"] == [

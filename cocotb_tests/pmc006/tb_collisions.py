@@ -115,7 +115,7 @@ async def p006_position_and_step(dut: Any) -> None:
 
 
 @directed("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
-async def p006_speed_mode_taken_up_again_at_its_end(dut: Any) -> None:
+async def p006_speed_mode_restarted_at_its_end(dut: Any) -> None:
     """N 1 up to the edge at which the motion would end prolongs it; after this edge it starts another."""
     host = await Host.start(dut)
     await host.ok(v=300, L=300, S=65, o=5)

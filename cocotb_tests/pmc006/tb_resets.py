@@ -43,7 +43,7 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 
 @directed("P006-BAD-24", "P006-CMD-15")
 @probe("u_control.u_settings.u_values.count_q")
-async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
+async def p006_reset_restores_any_state(dut: Any) -> None:
     """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)
     if host.bench.simulated:

@@ -19,7 +19,7 @@ BUILDS = (F8B, F16, D8E)
 @directed(
     "P006-UART-01", "P006-FRM-02", "P006-FRM-03", "P006-MOT-03", "P006-MOT-05", "P006-EXC-12", builds=BUILDS
 )
-async def p006_tour(dut: Any) -> None:
+async def p006_sequence(dut: Any) -> None:
     """All kinds of blocks of the part work in one sequence.
 
     It has a register, a frame with an error, a move, a stop by EXT1, and a program.
@@ -44,7 +44,7 @@ async def p006_tour(dut: Any) -> None:
 
 
 @directed("P006-FRM-10", "P006-CMD-44", builds=BUILDS)
-async def p006_tour_of_another_address(dut: Any) -> None:
+async def p006_sequence_at_another_address(dut: Any) -> None:
     host = await Host.start(dut, error=0.01)
     assert await host.ask("w", 17) == 17
     await host.send(command(16, "y", 0xF8))

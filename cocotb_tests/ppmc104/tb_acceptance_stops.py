@@ -55,7 +55,7 @@ async def p104_ac_28_pout_mode_limit(dut):
 
 
 @directed("AC-29", "P104-LIM-04")
-async def p104_ac_29_pout_mode_lost_limit(dut):
+async def p104_ac_29_pout_mode_missed_limit(dut):
     """In POUT mode, L3 low only between pulses 3 and 8 has no effect: all 1000 pulses are output
     (AC-29).
     """

@@ -128,7 +128,7 @@ async def p104_pro_03_shapes_in_full(dut):
 
 
 @directed("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
-async def p104_pro_04_forced_meets_the_end(dut):
+async def p104_pro_04_forced_coincides_with_the_end(dut):
     """With N near the length of the mirrored ramp, a forced deceleration ends by index or by count
     (P104-PRO-04).
     """

@@ -71,7 +71,7 @@ async def p2104_ac_47_limit_in_run_wait(dut: Any) -> None:
 
 
 @directed("AC-48", "P2104-LIM-07")
-async def p2104_ac_48_origin_when_run_comes(dut: Any) -> None:
+async def p2104_ac_48_origin_when_run_rises(dut: Any) -> None:
     """An origin search that waits for run on the origin ends without a pulse when run rises (AC-48)."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

@@ -49,7 +49,7 @@ async def p2104_ac_02_reads_after_reset(dut: Any) -> None:
 
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-03", "P2104-BUS-05", "P2104-BUS-20", "P2104-BUS-21", "P2104-BUS-01", "P2104-BUS-02")
-async def p2104_ac_03_write_times_of_the_sheet(dut: Any) -> None:
+async def p2104_ac_03_write_times_of_the_data_sheet(dut: Any) -> None:
     """Writes with 120 ns strobes and 80 ns of data act at any phase, in both styles (AC-03)."""
     env = await Env.start(dut)
     bus = SlowBus(env)
@@ -66,7 +66,7 @@ async def p2104_ac_03_write_times_of_the_sheet(dut: Any) -> None:
 
 @rtl_only("nanoseconds of the bus, which the model counts in clk")
 @directed("AC-04", "P2104-BUS-06", "P2104-BUS-20", "P2104-BUS-21")
-async def p2104_ac_04_read_times_of_the_sheet(dut: Any) -> None:
+async def p2104_ac_04_read_times_of_the_data_sheet(dut: Any) -> None:
     """With 120 ns read strobes, the status is valid from 100 ns to the end (AC-04)."""
     env = await Env.start(dut)
     bus = SlowBus(env)

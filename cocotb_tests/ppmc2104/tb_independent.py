@@ -75,7 +75,7 @@ class Run:
 
 
 @random_test("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05", least=1)
-async def p2104_axis_2_alone_and_beside_axis_1(dut: Any, seed: int) -> None:
+async def p2104_axis_2_alone_and_with_axis_1(dut: Any, seed: int) -> None:
     """Traffic to axis 1 between the accesses to axis 2 does not change the edges of axis 2
     (P2104-OPR-10).
     """

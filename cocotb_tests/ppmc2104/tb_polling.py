@@ -95,7 +95,7 @@ async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) ->
 
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
-async def p2104_polling_example_4_setting_beside_20_kpps(dut: Any) -> None:
+async def p2104_polling_example_4_setting_during_20_kpps(dut: Any) -> None:
     """At 20 kpps, while the other axis processes its setting, the limit is detected within 295 995 us."""
     env = await Env.start(dut)
     axis = await env.ready(1, INIT_B)

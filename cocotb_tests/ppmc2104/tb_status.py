@@ -202,7 +202,7 @@ async def p2104_hsk_04_what_waits(dut: Any) -> None:
 
 
 @directed("P2104-HSK-04", "P2104-ERR-02", "P2104-FSM-01")
-async def p2104_hsk_04_data_wait_beside_a_table(dut: Any) -> None:
+async def p2104_hsk_04_data_wait_during_a_table_build(dut: Any) -> None:
     """During a table build and a data wait, a code that would wait for the table sets error 3
     (P2104-HSK-04).
     """
@@ -242,7 +242,7 @@ async def p2104_hsk_05_longest_tables(dut: Any) -> None:
 
 
 @directed("P2104-HSK-05", "P2104-OPR-10", "P2104-INI-06")
-async def p2104_hsk_05_beside_a_motion(dut: Any) -> None:
+async def p2104_hsk_05_during_a_motion(dut: Any) -> None:
     """The build of a table does not disturb the pulse train of the other axis on its ramp
     (P2104-HSK-05).
     """

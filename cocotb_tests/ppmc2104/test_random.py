@@ -22,7 +22,7 @@ random_item = RandomItems(
 pair_item = RandomItems(
     "ppmc2104",
     "tb_independent",
-    "p2104_axis_2_alone_and_beside_axis_1",
+    "p2104_axis_2_alone_and_with_axis_1",
     PAIR_SEEDS,
     lambda seed: pair(seed).config,
 )

@@ -6,7 +6,9 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PARAMETERS
 
 from . import test_part, test_random
 
-SAME_BLOCKS = "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks"
+SAME_BLOCKS = (
+    "4 to 15 million clk; p312_serial_sequence and the random hosts of the line have the same blocks"
+)
 OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "motions", "polls", "resets")
 
 PART = PartTests(
@@ -38,7 +40,7 @@ PART = PartTests(
             "p312_reads_drive_the_bus",
             "p312_write_window_in_any_order",
             "p312_forms_of_the_starts",
-            "p312_serial_tour",
+            "p312_serial_sequence",
         }
     ),
     four_state=frozenset({"p312_reads_drive_the_bus"}),

@@ -1,4 +1,4 @@
-"""Scenes of a random host of the PPMC-312: typical operations of a machine, each with interruptions."""
+"""Scenarios of a random host of the PPMC-312: typical operations of a machine, each with interruptions."""
 
 from __future__ import annotations
 

@@ -122,7 +122,7 @@ async def p312_second_stop_report_while_the_first_is_half_read(dut: Any) -> None
 
 
 @directed("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
-async def p312_reports_come_in_the_order_of_their_classes(dut: Any) -> None:
+async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
     """All classes wait for the one that is being read; they are created from the last class to the first."""
     host = await Host.start(
         dut,

@@ -85,7 +85,7 @@ async def p312_evt_in_use(dut: Any) -> None:
 
 
 @directed("P312-CHK-28", "P312-EVT-01", "P312-EVT-02")
-async def p312_event_buffer_goes_round(dut: Any) -> None:
+async def p312_event_buffer_wraps(dut: Any) -> None:
     host = await Host.start(
         dut,
         *TF,
@@ -218,7 +218,7 @@ async def p312_a_position_passed_one_pulse_later_is_not_missed(dut: Any) -> None
 
 
 @directed("P312-OVR-02")
-async def p312_equality_that_stands_is_no_trigger(dut: Any) -> None:
+async def p312_equality_that_persists_is_no_trigger(dut: Any) -> None:
     host = await Host.start(dut, *TF, at(0))
     await host.ask(message(Code.CONSTANT, "00 0190 00000002"))
     assert await host.response() == stopped(0x40, 2)
@@ -265,7 +265,7 @@ async def p312_a_stop_does_not_wait_for_a_read(dut: Any) -> None:
 
 
 @directed("P312-RSP-20")
-async def p312_an_event_behind_an_unread_answer_is_an_alarm(dut: Any) -> None:
+async def p312_an_event_after_an_unread_answer_is_an_alarm(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
     await host.issue(message(Code.VERSION))
     await host.pause(200)
@@ -278,7 +278,7 @@ async def p312_an_event_behind_an_unread_answer_is_an_alarm(dut: Any) -> None:
 
 
 @directed("P312-CHK-72")
-async def p312_position_stop_behind_an_unread_answer(dut: Any) -> None:
+async def p312_position_stop_after_an_unread_answer(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.CHANGE, "04 00C8 00000012"), at(19))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     await host.pulse(19)

@@ -28,7 +28,7 @@ async def put_with(host: Host, text: str, **pins: int) -> None:
 
 
 @directed("P312-OVR-10")
-async def p312_host_goes_next_after_one_event(dut: Any) -> None:
+async def p312_host_is_next_after_one_event(dut: Any) -> None:
     host = await Host.start(
         dut,
         *TF,
@@ -45,7 +45,7 @@ async def p312_host_goes_next_after_one_event(dut: Any) -> None:
 
 @cocotb.parametrize(gap=range(20, 44))
 @directed("P312-OVR-10", "P312-BLK-01")
-async def p312_host_block_that_comes_as_a_triggered_one_ends(dut: Any, gap: int) -> None:
+async def p312_host_block_that_arrives_as_a_triggered_one_ends(dut: Any, gap: int) -> None:
     host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
     block = bytes([0x15, 0x26, 2, 3])
     await host.write(WCR, 0x20)
@@ -204,7 +204,7 @@ async def p312_event_buffer_before_an_override_on_the_same_edge(dut: Any) -> Non
 
 
 @directed("P312-RSP-20", "P312-PAR-06")
-async def p312_an_answer_due_as_the_one_before_it_is_read(dut: Any) -> None:
+async def p312_an_answer_pending_while_the_one_before_it_is_read(dut: Any) -> None:
     """An answer is delivered whether it is ready before, when or after the previous one is read.
 
     The read of the last byte ends some cycles before, at and after the end of the host's instruction.

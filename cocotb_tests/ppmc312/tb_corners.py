@@ -22,7 +22,7 @@ FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
 
 @directed("P312-CMD-80", "P312-OVR-03")
-async def p312_position_stop_that_comes_after_the_end(dut: Any) -> None:
+async def p312_position_stop_after_the_end(dut: Any) -> None:
     """A stop at the last pulse of a fast motion is processed only after the end and fails in state NOR."""
     host = await Host.start(
         dut, *FAST_CURVE, message(Code.STOP, "04 0000000A"), message(Code.STOP, "04 0000FFFF")
@@ -34,7 +34,7 @@ async def p312_position_stop_that_comes_after_the_end(dut: Any) -> None:
 
 
 @directed("P312-CMD-20", "P312-BAD-09")
-async def p312_reset_while_running_leaves_nothing_behind(dut: Any) -> None:
+async def p312_reset_while_running_leaves_no_state(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.RESET)))
     await host.ask(message(Code.FOREVER_CONSTANT, "40 0064"))
     await host.pulse(10, 20)
@@ -305,7 +305,7 @@ async def p312_version_of_the_build(dut: Any) -> None:
 
 @cocotb.parametrize(form=[message(Code.STEP, "00"), message(Code.RAMP, "00 0000 00000003")])
 @directed("P312-INP-20", "P312-TIM-12", builds=(F16, D16))
-async def p312_run_is_judged_on_one_clk(dut: Any, form: str) -> None:
+async def p312_run_is_sampled_in_one_cycle(dut: Any, form: str) -> None:
     """RUN low for one cycle holds the operation only if it is the cycle before t0."""
     host = await Host.start(dut, *TF)
     await host.issue(form)

@@ -106,7 +106,7 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
 
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
-async def p312_zero_return_whose_origin_meets_a_slow_stop(dut: Any) -> None:
+async def p312_zero_return_whose_origin_coincides_with_a_slow_stop(dut: Any) -> None:
     # The rate is too low for a deceleration. If stop and origin occur in one interval, the stop has priority,
     # and there is no return.
     for origin_first in (False, True):

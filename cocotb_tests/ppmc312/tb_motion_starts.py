@@ -25,7 +25,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
     "P312-GEN-06",
     "P312-CMD-8V",
 )
-async def p312_rates_that_may_be_asked_for(dut: Any) -> None:
+async def p312_rates_that_may_be_requested(dut: Any) -> None:
     host = await Host.start(dut, *TG)
     for code, tail in (
         (0x82, "00000001"),

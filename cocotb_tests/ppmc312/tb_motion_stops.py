@@ -13,7 +13,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 @directed("P312-MOT-34", "P312-MOT-06", "P312-MOT-03", "P312-INP-12")
-async def p312_causes_that_come_together(dut: Any) -> None:
+async def p312_causes_in_the_same_cycle(dut: Any) -> None:
     for start, levels, cause in (
         (f"{ALWAYS} 0190", {"alm_n": 0, "fl_n": 0, "org_n": 0}, 0x80),
         (message(Code.ORIGIN_SEARCH, "00 0190"), {"fl_n": 0, "org_n": 0, "fhl_n": 0}, 0x01),

@@ -13,7 +13,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 @directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
-async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
+async def p312_a_read_during_the_software_reset(dut: Any) -> None:
     """A read strobe that coincides with a software reset drives one value in time and until its end.
 
     The strobes begin up to 40 cycles after the header of FF.
@@ -46,7 +46,7 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
 
 
 @directed("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
-async def p312_a_write_that_meets_the_software_reset(dut: Any) -> None:
+async def p312_a_write_during_the_software_reset(dut: Any) -> None:
     """A write to CSR at any time is cleared if it is before the reset and is kept if it is after it."""
     seen = []
     for after in range(1, 41):
@@ -159,7 +159,7 @@ async def p312_software_reset_clears_all(dut: Any) -> None:
 
 
 @directed("P312-PRT-03", "P312-PRT-01")
-async def p312_mode_is_taken_at_the_end_of_a_reset(dut: Any) -> None:
+async def p312_mode_is_sampled_at_the_end_of_a_reset(dut: Any) -> None:
     host = await Host.start(dut)
     await host.pins(mode=0, mod=5, adr=9)
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")

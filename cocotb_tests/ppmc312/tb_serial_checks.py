@@ -69,7 +69,7 @@ ANSWERS = {
 
 @cocotb.parametrize(checksum=["09", "4D"])
 @directed("P312-CHK-57", "P312-SER-13", "P312-SER-41", builds=(F16, CHARS))
-async def p312_serial_frame_of_the_sheet(dut: Any, checksum: str) -> None:
+async def p312_serial_frame_of_the_data_sheet(dut: Any, checksum: str) -> None:
     """The frame of the data sheet is valid with exactly one of the two checksums in each build."""
     host = await SerialHost.start(dut)
     assert await exchange(host, f"{SHEET} {checksum}") == ANSWERS[host.sum_mode][checksum]

@@ -13,7 +13,7 @@ from .serial_host import SerialHost
 @directed(
     "P312-SER-01", "P312-SER-02", "P312-SER-13", "P312-SER-18", "P312-SER-20", "P312-SER-30", "P312-SER-45"
 )
-async def p312_serial_tour(dut: Any) -> None:
+async def p312_serial_sequence(dut: Any) -> None:
     """All kinds of frames and replies work in one sequence.
 
     It has a motion, an event, an override, and errors of all three counters.

@@ -34,7 +34,7 @@ async def p312_ports(dut: Any) -> None:
 
 
 @directed("P312-PRT-04", "P312-MOT-01", "P312-CMD-00")
-async def p312_answers_come_in_time(dut: Any) -> None:
+async def p312_answers_within_their_limits(dut: Any) -> None:
     host = await Host.start(dut)
     for setting in (T3, T3.replace("00 11", "00 19")):
         await host.issue(setting)
@@ -59,7 +59,7 @@ async def p312_answers_come_in_time(dut: Any) -> None:
 
 
 @directed("P312-PRT-04", "P312-MOT-34", "P312-MOT-41", "P312-INP-12", "P312-INP-30")
-async def p312_stops_come_in_time(dut: Any) -> None:
+async def p312_stops_within_their_limits(dut: Any) -> None:
     for pin in ("fl_n", "alm_n", "org_n"):
         host = await Host.start(dut, *BRISK)
         await host.ask(message(Code.ORIGIN_SEARCH, "00 0004"))
@@ -137,7 +137,7 @@ async def p312_a_stop_by_an_event_during_an_88(dut: Any) -> None:
 
 
 @directed("P312-PRT-04", "P312-OVR-11", "P312-OVR-02", "P312-CMD-88", "P312-CMD-87", "P312-CMD-81")
-async def p312_changes_come_in_time(dut: Any) -> None:
+async def p312_changes_within_their_limits(dut: Any) -> None:
     """A direct or triggered change takes effect on the coming intervals within 512 cycles."""
     for code, rest in (("88", "0320"), ("87", "0320"), ("81", "")):
         for trigger in ("direct", "pin", "position"):

@@ -75,7 +75,7 @@ async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
 
 
 @directed("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
-async def stmc_ac_40_bytes_meet_the_build(dut: Any) -> None:
+async def stmc_ac_40_bytes_during_the_build(dut: Any) -> None:
     """If 40 and then 80 are written during a table build, only 80 is executed, without an error (AC-40)."""
     env = await Env.start(dut)
     await env.host.init(0x1A, 255, 5, 400)
@@ -149,7 +149,7 @@ async def stmc_ac_44_family_codes(dut: Any) -> None:
 
 
 @directed("AC-45", "STMC-RD-01", "STMC-BAD-01", builds=(SHEET,))
-async def stmc_ac_45_sheet_codes(dut: Any) -> None:
+async def stmc_ac_45_data_sheet_codes(dut: Any) -> None:
     """With READ_MAP "SHEET", 81 is error 0 and 84 returns three bytes (AC-45)."""
     env = await Env.start(dut)
     env.check("AC-45", "answers", await env.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])

@@ -85,7 +85,7 @@ async def stmc_ac_26_deceleration_limit(dut: Any) -> None:
 
 
 @directed("AC-27", "STMC-IN-03")
-async def stmc_ac_27_limits_behind(dut: Any) -> None:
+async def stmc_ac_27_limits_of_the_other_direction(dut: Any) -> None:
     """l4_n and l2_n, low all the time, do not affect a cw move (AC-27)."""
     env = await Env.start(dut, l4_n=0, l2_n=0)
     await env.go(0x43, 100)

@@ -76,7 +76,7 @@ async def stmc_ini_04_frozen_bits(dut: Any) -> None:
 
 
 @directed("STMC-INI-04", "STMC-INI-07")
-async def stmc_ini_04_data_taken_anew(dut: Any) -> None:
+async def stmc_ini_04_data_loaded_again(dut: Any) -> None:
     """After a second initialisation, the next move uses its divisors and clock (STMC-INI-04)."""
     env = await Env.start(dut)
     await env.init(0x1A, 30, 10, 4)

@@ -1,4 +1,4 @@
-"""Scenes on a line of sixteen stations, valid and disturbed; each has a master and a random generator.
+"""Scenarios on a line of sixteen stations, valid and disturbed; each has a master and a random generator.
 
 After each disturbance the first poll recovers every station.
 """

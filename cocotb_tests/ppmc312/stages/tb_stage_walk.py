@@ -260,7 +260,7 @@ class LateStopRun(SequencerRun):
 
 
 @cocotb.test()
-async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
+async def stage_seq_stop_during_a_search_for_a_change(dut):
     """Instruction 81 discards an 88 that was decided within a search if the search has ended.
 
     Otherwise it waits for the 88.

@@ -89,7 +89,7 @@ def test_a_difference_fails_the_test(comparer: Comparer) -> None:
         run(fine)
 
 
-def test_a_difference_before_a_second_start_is_told_once(comparer: Comparer) -> None:
+def test_a_difference_before_a_second_start_is_reported_once(comparer: Comparer) -> None:
     comparer.finds = "pout_n differs"
 
     @directed()
@@ -109,7 +109,7 @@ def test_a_difference_before_a_second_start_is_told_once(comparer: Comparer) -> 
         ("d_o is 3", "the golden model differs: d_o is 3"),
     ],
 )
-def test_a_failed_check_tells_what_the_model_shows(comparer: Comparer, finds: str, opinion: str) -> None:
+def test_a_failed_check_states_the_result_of_the_model(comparer: Comparer, finds: str, opinion: str) -> None:
     comparer.finds = finds
 
     @directed()

@@ -153,7 +153,7 @@ def test_boards_without_yaml() -> None:
     assert boards() == found
 
 
-def test_the_old_name_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_old_name_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """`make test-lab` prints a note and runs the same as `make test WITH=ophyd`."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     note, _, command = run.plan(["test-lab", "T=a"]).partition(" >&2; ")
@@ -161,7 +161,7 @@ def test_the_old_name_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     assert command == run.plan(["test", "WITH=ophyd", "T=a"])
 
 
-def test_the_old_variable_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_old_variable_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """`make test INSIDE=1` prints a note and runs the same as `make test PROBE=1`."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     note, _, command = run.plan(["test", "INSIDE=1"]).partition(" >&2; ")

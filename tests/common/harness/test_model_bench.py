@@ -14,8 +14,8 @@ from cocotb_tests.harness.collect import all_tests, rules_of
 from cocotb_tests.harness.model_tests import model_tests
 
 RTL_ONLY = {
-    "p2104_ac_03_write_times_of_the_sheet",
-    "p2104_ac_04_read_times_of_the_sheet",
+    "p2104_ac_03_write_times_of_the_data_sheet",
+    "p2104_ac_04_read_times_of_the_data_sheet",
     "p2104_ac_05_no_invisible_write",
     "p2104_ac_66_clk_o",
 }
@@ -52,7 +52,7 @@ def test_pins_change_at_their_stamps() -> None:
     assert bench.pin("fl_n[2]") == 0 and bench.pin("fl_n") == 0b01
 
 
-def test_an_external_clock_runs_beside_the_test() -> None:
+def test_an_external_clock_runs_during_the_test() -> None:
     """An external clock of 20 cycles has its edges at the correct times until it is stopped."""
     bench = new_bench()
     clock = bench.external_clock(repeat(20), high=5)
@@ -84,7 +84,7 @@ def test_waits_end_at_the_edge_or_after_their_time() -> None:
     assert bench.now == now + 500
 
 
-def test_a_wait_for_the_simulator_is_told() -> None:
+def test_a_wait_for_the_simulator_is_reported() -> None:
     """A coroutine that suspends is closed, and the error reports it."""
     with pytest.raises(RuntimeError, match="only a simulator has"):
         on_model(asyncio.sleep(0))

@@ -131,7 +131,7 @@ def test_what_needs_another_test_names_it(design: Design) -> None:
 
 
 @pytest.mark.parametrize("others", [(), ("passes",)])
-def test_only_the_same_run_once_more_tells_of_chance(
+def test_only_the_same_run_again_shows_nondeterminism(
     design: Design, tmp_path: Path, others: tuple[str, ...]
 ) -> None:
     """A test that fails only the first time, alone or in a group, is called not deterministic."""
@@ -146,7 +146,7 @@ def test_waves_may_hide_a_failure(design: Design) -> None:
     assert "deterministic" not in text
 
 
-def test_a_hidden_signal_says_so(design: Design) -> None:
+def test_a_hidden_signal_is_reported(design: Design) -> None:
     """A hidden signal is reported as such, alone and in a group; with all signals visible the test passes."""
     for names in (("pries",), ("passes", "pries")):
         text = said(design, *names)
@@ -155,7 +155,7 @@ def test_a_hidden_signal_says_so(design: Design) -> None:
     assert attempt(ITEMS["pries"], SimOptions(probe=True), design=design) == ""
 
 
-def test_a_test_may_look_inside(design: Design) -> None:
+def test_a_test_may_probe_signals(design: Design) -> None:
     """The signals that a test names are visible; other signals stay hidden."""
     assert ITEMS["looks"].probes == ("u_inner.count",)
     assert attempt(ITEMS["looks"], design=design) == ""

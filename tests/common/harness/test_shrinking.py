@@ -199,7 +199,7 @@ def access(t: int, kind: str, byte: int, reg: int = 0) -> Transaction:
     return Transaction(word, strobe, Access(t, kind, reg, byte))
 
 
-def test_a_message_is_told_in_a_line() -> None:
+def test_a_message_is_described_in_a_line() -> None:
     """A block, a response or polls are one line; an access after a pause has its own time."""
     block = [access(20, "WCR :=", 0x20, 2), access(28, "WAR :=", 0x1E, 3)]
     block += [access(36, "DWR :=", 0x40, 5), access(44, "DWR :=", 0x03, 5)]
@@ -227,7 +227,7 @@ def line(t: int, byte: int) -> list[tuple[int, str, int]]:
     return [(t + 192 * k, "rxd", bit) for k, bit in enumerate(bits) if bit != [1, *bits][k]]
 
 
-def test_acts_are_told_in_words() -> None:
+def test_transactions_are_described_as_text() -> None:
     """Acts are shown as text: pin names, bit numbers, resets, bytes of a frame, groups of clock periods."""
     assert rows("ppmc104", (40, "alm_n", 0), (50, "rst_n", 0), (62, "rst_n", 1)) == [
         "alm_n = 0 at 40", "reset for 12 clk at 50",
@@ -255,7 +255,7 @@ def test_what_is_left_out_takes_nothing_along() -> None:
     assert moved.access and one.access and moved.access.t == one.access.t + 5
 
 
-def test_a_run_without_a_recording_says_so(tmp_path: Any) -> None:
+def test_a_run_without_a_recording_is_reported(tmp_path: Any) -> None:
     assert shrink_report(tmp_path) == "not shrunk: no difference from the golden model was recorded"
 
 

@@ -18,8 +18,8 @@ DIRECTED = {
     "ppmc104": "p104_ac_57_reset_in_motion-f16",
     "ppmc2104": "p2104_ac_30_what_refuses-f16",
     "stmc": "stmc_ini_07_reset_in_the_build-f16",
-    "ppmc312": "p312_reset_while_running_leaves_nothing_behind-f16",
-    "pmc006": "p006_tour-f8b",
+    "ppmc312": "p312_reset_while_running_leaves_no_state-f16",
+    "pmc006": "p006_sequence-f8b",
 }
 
 

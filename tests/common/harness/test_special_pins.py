@@ -39,7 +39,7 @@ def describe(name: str) -> dict[str, set[str]]:
 
 
 @pytest.mark.parametrize("name", sorted({board(file) for file in USED}))
-def test_second_jobs_are_told(name: str) -> None:
+def test_second_functions_are_documented(name: str) -> None:
     """Every used pin that has another function is in the board's table, in the row of that function."""
     used = {(special.job, pin) for file in USED if board(file) == name for _, pin, special in uses(file)}
     page = {(job, pin) for job, names in describe(name).items() for pin in names}

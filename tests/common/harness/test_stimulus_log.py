@@ -6,7 +6,7 @@ from cocotb_tests.harness.dut_bench import StimulusLog
 from openppmc.check.records import Change
 
 
-def test_what_comes_later_stands_behind() -> None:
+def test_later_changes_follow_earlier_ones() -> None:
     """A change driven by a test is added after those already in the list, even at the same edge.
 
     Otherwise a model that counts the changes it has received would miss one.
