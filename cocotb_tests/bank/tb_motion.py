@@ -23,15 +23,15 @@ async def bank_mot_01_all_axes_at_once(dut):
     env = await Env.start(dut)
     for axis in env.axes:
         await axis.init(0x0A, *RAMP, opened=False)
-    wanted = {}
+    expected = {}
     for axis in env.axes:
         await axis.opened()
         ccw = axis.n % 2 << 3
         if axis.n % 4 == 3:
-            wanted[axis.n] = [axis.n % 5] * 99
+            expected[axis.n] = [axis.n % 5] * 99
             edge0 = await axis.go(0x44 | ccw, 100, axis.n % 5, poll=False)
         else:
-            wanted[axis.n] = rates(RAMP, indices(90, RAMP[2]))
+            expected[axis.n] = rates(RAMP, indices(90, RAMP[2]))
             edge0 = await axis.go(0x43 | ccw, 90, poll=False)
         start = axis.accepting_visit(edge0)
         await env.bench.level_is(axis.pin("hold"), 0)
@@ -41,9 +41,9 @@ async def bank_mot_01_all_axes_at_once(dut):
     for axis in env.axes:
         await axis.idle()
         env.check("BANK-MOT-01", f"pulse 1 of {axis.n}", axis.pulses[0] - axis.started, env.cfg.w)
-        axis.check_train("BANK-MOT-01", wanted[axis.n])
-        axis.check_lows("BANK-MOT-01", wanted[axis.n])
-        count = len(wanted[axis.n]) + 1
+        axis.check_train("BANK-MOT-01", expected[axis.n])
+        axis.check_lows("BANK-MOT-01", expected[axis.n])
+        count = len(expected[axis.n]) + 1
         env.check("BANK-WIN-07", "position", await axis.position(), -count if axis.n % 2 else count)
         place = axis.pulses[0]
         seen = axis.patterns(place)

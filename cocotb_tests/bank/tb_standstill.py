@@ -58,10 +58,10 @@ async def bank_chp_01_settings(dut):
             since = env.bench.now
             length = 12 * (on + off) + (240 if vsel else 215)
             await env.bench.clocks(env.cfg.quanta(3 * length))
-            wanted = {0: 12 * off + (132 if vsel else 115), 1: 12 * on + (108 if vsel else 100)}
+            expected = {0: 12 * off + (132 if vsel else 115), 1: 12 * on + (108 if vsel else 100)}
             for value, clk in axis.stretches(since):
                 env.check(
-                    "BANK-CHP-01", f"phase, {on} {off}, vsel {vsel}", clk, wanted[bool(value)] * quantum
+                    "BANK-CHP-01", f"phase, {on} {off}, vsel {vsel}", clk, expected[bool(value)] * quantum
                 )
     await axis.host.send(0x84, (0, 0))
     for early in (8, 7, 6):

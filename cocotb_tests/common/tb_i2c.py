@@ -193,15 +193,15 @@ async def i2c_access_time(dut):
         late = ceil(Fraction(ACCESS_NS * clk, 10**9))
         levels = [int(bit) for byte in SENT for bit in f"{byte:08b}1"]
         before = waits = 0
-        sda = wanted = 1
+        sda = expected = 1
         for byte in SENT:
             done = 0
             while not done:
                 done, pulled = await u.clk(scl_i=int(not before), sda_i=sda)
                 if pulled and not before:
-                    waits, wanted = late, levels.pop(0) if levels else 1
+                    waits, expected = late, levels.pop(0) if levels else 1
                 elif waits:
                     waits -= 1
-                    sda = sda if waits else wanted
+                    sda = sda if waits else expected
                 before = pulled
             same(f"{clk} Hz: byte", u.get("byte_o"), byte)

@@ -18,7 +18,7 @@ EXACT_LOW = 6
 # (P104-TIM-05 c).
 BRISK = 128
 # Reason why a `sweep` is not also compared with the golden model.
-TOO_MANY = "each pulse is held against the formula; 800,000 changes of a clock are too many for the model"
+TOO_MANY = "each pulse is compared with the formula; 800,000 changes of a clock are too many for the model"
 
 RateOf = Callable[[Ramp, Sequence[int]], list[int]]
 
@@ -124,10 +124,10 @@ class ExtMoves:
 
     async def _train(self, move: Move) -> Train:
         axis, bench = self.axis, self.axis.bench
-        wanted = move.rates(self.rate_of)
+        expected = move.rates(self.rate_of)
         await axis.go(0x43 if move.rate is None else 0x44, move.n, move.rate)
         # Allow for the set-up time, and for short intervals that are longer than requested.
-        count = axis.cfg.w // min(move.gaps) + sum(wanted) + 8 * move.n + 8
+        count = axis.cfg.w // min(move.gaps) + sum(expected) + 8 * move.n + 8
         start = await bench.align() + 1
         rises = list(accumulate(islice(cycle(move.gaps), count), initial=start))
         clock = bench.drive(
@@ -190,5 +190,5 @@ async def two_causes(axis: AxisDriver, rule: str, pins: Sequence[str]) -> None:
             axis.bench.set(**dict.fromkeys(pins, 0))
             await axis.idle()
             axis.bench.set(**dict.fromkeys(pins, 1))
-            what = f"{rule}: {code:#x} behind pulse {made}"
+            what = f"{rule}: {code:#x} after pulse {made}"
             await axis.result(what, made, BOTH | code & 7, (n or NO_PULSES_DONE) - made - 1)

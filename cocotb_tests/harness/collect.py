@@ -226,5 +226,5 @@ def all_tests(module: ModuleType) -> list[Any]:
 
 def configs_of(test: Any) -> tuple[Config, ...]:
     """Return the build configurations that a cocotb test names, or the default one."""
-    wanted: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
-    return wanted
+    builds: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
+    return builds

@@ -178,10 +178,10 @@ def failure_message(item: Item, first: Outcome, job: Job, waves: bool = True) ->
 
 
 def _message(
-    item: Item, outcome: Outcome, job: Job, said: Sequence[str] = (), kept: Path | None = None
+    item: Item, outcome: Outcome, job: Job, reasons: Sequence[str] = (), kept: Path | None = None
 ) -> str:
-    """Return the message about a failure: what failed, the results `said` of the other runs, the files."""
-    lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in said)]
+    """Return the message about a failure: what failed, the results `reasons` of the other runs, the files."""
+    lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in reasons)]
     lines.append(f"seed {job.seed}" + (f", log {relative(kept / 'log.txt')}" if kept else ""))
     if kept and (kept / "waves" / VCD).is_file():
         lines.append(f"waves in {relative(kept / 'waves' / VCD)}")
@@ -190,29 +190,29 @@ def _message(
 
 def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> str:
     """Return the message about a failure that `job` reproduces; it needs all items before `item`."""
-    said = [f"fails only behind {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
-    if told := hint(outcome.text, job.design):
-        return _message(item, outcome, job, [*said, told], kept)
+    reasons = [f"fails only after {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
+    if unknown_name := hint(outcome.text, job.design):
+        return _message(item, outcome, job, [*reasons, unknown_name], kept)
     if waves and outcome.kind != MISSING and not outcome.text.startswith(TIMEOUT):
         try:
             repeated = simulate(replace(job, waves=True), kept / "waves")[item]
         except SimError as error:
             repeated = Outcome(MISSING, str(error).splitlines()[0])
         if repeated.good:
-            said.append(f"not reproduced with waves: there it {repeated.kind}")
+            reasons.append(f"not reproduced with waves: there it {repeated.kind}")
         elif repeated.kind == MISSING:
-            said.append(f"no waves: {repeated.text}")
+            reasons.append(f"no waves: {repeated.text}")
         elif repeated.headline != outcome.headline:
-            said.append(f"not reproduced with waves: there it says {repeated.headline}")
-    return _message(item, outcome, job, said, kept)
+            reasons.append(f"not reproduced with waves: there it says {repeated.headline}")
+    return _message(item, outcome, job, reasons, kept)
 
 
 def _after_others(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
     """Return the message about a test that passes alone but failed in a process with others."""
     again = tried(job)[item]
     if again.good:
-        said = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
-        return _message(item, first, job, said)
+        reasons = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
+        return _message(item, first, job, reasons)
     before = job.items[: job.items.index(item)]
     if not before:
         return _message(item, again, job, [f"alone it passes; fails only before {_names(job.items[1:])}"])

@@ -77,11 +77,11 @@ def plug_in(bench: DutBench, chip: Chip, clk_hz: int, device: int) -> Eeprom:
     Args:
         device: address that the part uses.
     """
-    wanted = device ^ chip.other
+    address = device ^ chip.other
     if isinstance(bench, ModelBench):
-        return _OnModel(bench, chip, clk_hz, wanted)
+        return _OnModel(bench, chip, clk_hz, address)
     assert isinstance(bench, RtlBench)
-    return _OnBench(bench, chip, clk_hz, wanted)
+    return _OnBench(bench, chip, clk_hz, address)
 
 
 class _Bussed:

@@ -93,10 +93,10 @@ async def p006_every_code(dut: Any, name: str) -> None:
             await enter(host, state)
         if code in AT:
             await host.ok(A=AT[code])
-        wanted = reply(code, name, state.speeds, host.accepted(9))
-        data = 9 if code == "s" else UNLIKE.get(code, wanted or 0)
+        expected = reply(code, name, state.speeds, host.accepted(9))
+        data = 9 if code == "s" else UNLIKE.get(code, expected or 0)
         got = await host.ask(code, data)
-        assert wanted in (None, got), f"{code} {data} {name}: {got:#x} instead of {wanted:#x}"
+        assert expected in (None, got), f"{code} {data} {name}: {got:#x} instead of {expected:#x}"
         if code not in "NIs":
             assert await host.busy() == (state.begun in MOVING), f"{code} {name}"
         disturbed = code in DISTURBS

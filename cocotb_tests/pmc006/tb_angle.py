@@ -43,8 +43,8 @@ async def p006_angle_of_every_step(dut: Any, m: int) -> None:
             ahead = lead(1000 if m > 1 else 600, m, 300) * (1 if direction else -1)
             after = edge + REFS
             raised = min(255, 255 + boost(4000, 1000, m, 100))
-            wanted = {sines(angle, 255), sines(angle + ahead, raised)}
-            assert references_at(host, after) in wanted, f"angle {angle}"
+            expected = {sines(angle, 255), sines(angle + ahead, raised)}
+            assert references_at(host, after) in expected, f"angle {angle}"
             assert len({t for name in NAMES for t, _ in host.edges(name, edge) if t <= after}) <= 1
         assert await host.refs() == sines(angle, 255)
 

@@ -81,7 +81,7 @@ async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
     old, new = page(a04=4, a03=7), page(a04=32, a03=9, a0B=1)
     torn, wild, short = bytearray(old), page(a04=6), page(a02=2)
     torn[3] ^= 1
-    for number, (first, copy, wanted) in enumerate(
+    for number, (first, copy, expected) in enumerate(
         (
             (old, new, (4, 7)),
             (bytes(torn), new, (32, 9)),
@@ -96,11 +96,11 @@ async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
     ):
         good = number % 3 != 1
         content = image(first, BLINK, 0x5A if good else 0) + bytes(0x1D) + copy
-        host = await booted(dut, content, wanted[1])
-        assert host.t < host.us(60_000) and await host.ask("k") == wanted[0], number
-        assert host.replied == wanted[1] and await host.ask("V") == 0
+        host = await booted(dut, content, expected[1])
+        assert host.t < host.us(60_000) and await host.ask("k") == expected[0], number
+        assert host.replied == expected[1] and await host.ask("V") == 0
         assert await host.ask("G") == (words(BLINK)[0] if good else 0)
-        runs = good and copy == new and wanted[1] == 9
+        runs = good and copy == new and expected[1] == 9
         assert await host.out("gpo") == runs and not host.eeprom.writes
 
 

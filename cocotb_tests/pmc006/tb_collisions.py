@@ -83,7 +83,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         await host.pins(ext1=1)
         assert await host.ask("b") == 0
     assert left == [0] * 3 + [EXT1] * 4
-    for code, data, back, wanted in (("f", 1, 0, 3), ("J", 1, 0, 3)):
+    for code, data, back, expected in (("f", 1, 0, 3), ("J", 1, 0, 3)):
         await host.ok(f=int(code == "J"), J=0)
         seen = []
         for shift in NEAR:
@@ -94,7 +94,7 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
             await host.pins(ext1=1)
             assert await host.ask("b") == 0
             await host.ok(f=int(code == "J"), J=back)
-        assert sum(seen) in (wanted, wanted + 1) and len(set(seen)) == 2
+        assert sum(seen) in (expected, expected + 1) and len(set(seen)) == 2
 
 
 @directed("P006-STA-15", "P006-CMD-30", "P006-CMD-52")

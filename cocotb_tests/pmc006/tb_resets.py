@@ -28,8 +28,8 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
     await host.pause(int(host.bit * 20))
     await host.pins(rst_n=0)
     await host.sync()
-    wanted = host.bench.part.reset_levels()
-    assert {pin: host.bench.level(pin) for pin in wanted} == wanted
+    expected = host.bench.part.reset_levels()
+    assert {pin: host.bench.level(pin) for pin in expected} == expected
     await host.pause(10)
     await host.pins(rst_n=1, ext2=1)
     await host.forget()

@@ -22,9 +22,9 @@ def test_p006_ports() -> None:
     There is no port for supply or CAN; mon_* are additional to those of the original.
     """
     found = ports(part_design("pmc006", F8B))
-    wanted = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
-    wanted |= {name: ("output", PMC006.width(name) - 1, 0) for name in PMC006.outputs}
-    assert found == wanted
+    expected = {name: ("input", PMC006.width(name) - 1, 0) for name in (*PMC006.inputs, "clk", "rst_n")}
+    expected |= {name: ("output", PMC006.width(name) - 1, 0) for name in PMC006.outputs}
+    assert found == expected
 
 
 @verifies("P006-PAR-01")

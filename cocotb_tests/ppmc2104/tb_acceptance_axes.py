@@ -156,8 +156,8 @@ async def p2104_ac_53_step_lists(dut: Any) -> None:
                 for _ in range(count):
                     await axis.move(op)
                     got.append(axis.phases_now)
-                wanted = [patterns[direction * i % len(patterns)] for i in range(1, count + 1)]
-                env.check("AC-53", f"{name} by {op:#x}, axis {axis.n}", got, wanted)
+                want = [patterns[direction * i % len(patterns)] for i in range(1, count + 1)]
+                env.check("AC-53", f"{name} by {op:#x}, axis {axis.n}", got, want)
 
 
 @directed("AC-54", "P2104-SW-02", "P2104-SW-03", "P2104-SW-04", "P2104-SW-05", "P2104-INI-07")

@@ -56,7 +56,7 @@ async def p2104_ac_66_clk_o(dut: Any) -> None:
     edges = [t - release for t, _ in bench.edges("clk_o")]
     expected = [env.cfg.cyc(2 * t) for t in range(1, len(edges) + 1)]
     env.check("AC-66", "first level", bench.edges("clk_o")[0][1], 1)
-    offsets = {got - wanted for got, wanted in zip(edges, expected, strict=True)}
+    offsets = {got - want for got, want in zip(edges, expected, strict=True)}
     env.check("AC-66", "offset is constant", len(offsets), 1)
     env.window("AC-66", "offset", offsets.pop(), -2, 2)
     env.window("AC-66", "last toggle", edges[-1], 4_000 - 20, 4_002)

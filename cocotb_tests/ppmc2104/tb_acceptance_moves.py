@@ -117,8 +117,8 @@ async def p2104_ac_06_all_codes(dut: Any) -> None:
             env.check("AC-06", f"status after {code:#04x}", status, CMND1 << axis - 1)
             continue
         env.check("AC-06", f"ERROR after {code:#04x}", status & 0xBC, ERROR if error else 0)
-        wanted = (error, 0) if axis == 1 else (0, error)
-        env.check("AC-06", f"errors after {code:#04x}", await env.errors(), wanted)
+        want = (error, 0) if axis == 1 else (0, error)
+        env.check("AC-06", f"errors after {code:#04x}", await env.errors(), want)
     wanted_counts = {"undefined": 107, "initial": 80, "data": 52, "free": 17}
     env.check("AC-06", "codes", {group: count // 2 for group, count in counts.items()}, wanted_counts)
 

@@ -66,23 +66,23 @@ def reaction(row: str, state: str) -> int | str:
 async def react(env: Env, axis: Axis, row: str, state: str) -> None:
     """Check one cell of the table; the axis is in that state."""
     code = ROWS[row] | axis.axis_bit * (row not in ("auxout", "auxin"))
-    wanted = reaction(row, state)
+    want = reaction(row, state)
     what = f"{row} ({code:#x}) in {state}, axis {axis.n}"
     edge0 = await env.host.command(code, poll=False)
     await env.bench.until(edge0 + 10)
     status = await env.host.status()
-    env.check("P2104-FSM-01", f"IBF after {what}", status & IBF, IBF if wanted == "waits" else 0)
-    if wanted == "waits":
+    env.check("P2104-FSM-01", f"IBF after {what}", status & IBF, IBF if want == "waits" else 0)
+    if want == "waits":
         env.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, 0)
         return
-    env.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, ERROR if wanted else 0)
+    env.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, ERROR if want else 0)
     kind = kind_of(code)
-    if not wanted and kind in ("read", "read3", "error", "auxin"):
+    if not want and kind in ("read", "read3", "error", "auxin"):
         env.check("P2104-FSM-01", f"OBF after {what}", status & OBF, OBF)
-    data = kind in DATA_BYTES and not wanted
+    data = kind in DATA_BYTES and not want
     if state != "INITP":
         env.check("P2104-FSM-01", f"CMND after {what}", status & axis.cmnd, axis.cmnd if data else 0)
-    errors = (wanted, 0) if axis.n == 1 or not wanted else (0, wanted)
+    errors = (want, 0) if axis.n == 1 or not want else (0, want)
     if data:
         # An Error code read would end the data wait.
         return
@@ -207,8 +207,8 @@ async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
             await env.host.command(0x87)
             env.check("P2104-CMD-01", f"errors after {code:#04x}", await env.errors(), (3, 0))
         else:
-            wanted = (error, 0) if axis == 1 else (0, error)
-            env.check("P2104-CMD-01", f"errors after {code:#04x}", await env.errors(), wanted)
+            want = (error, 0) if axis == 1 else (0, error)
+            env.check("P2104-CMD-01", f"errors after {code:#04x}", await env.errors(), want)
         if axis == 2 and kind in OPERATIONS and not outstanding:
             env.check("P2104-CMD-01", f"BUSY2 after {code:#04x}", bool(status & second.busy), True)
             await second.halt()

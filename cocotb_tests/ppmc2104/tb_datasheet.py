@@ -181,9 +181,9 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
     for plus, flagged in ((100, 6), (600, 7)):
         await ask(6, plus)
         await opens(env, "P2104-DS-03", edge0, 32)
-        wanted = slowed(INIT_B[1:], 100, flagged)
-        await axis.result("P2104-DS-03", len(wanted) + 1, 0xC3, 98 - len(wanted))
-        axis.check_train("P2104-DS-03", wanted)
+        expected = slowed(INIT_B[1:], 100, flagged)
+        await axis.result("P2104-DS-03", len(expected) + 1, 0xC3, 98 - len(expected))
+        axis.check_train("P2104-DS-03", expected)
         await rest(env)
     # In I(1), at the rate RL, the motion ends with the window.
     await ask(1, 100)
@@ -226,8 +226,8 @@ async def p2104_ac_74_reads(dut: Any) -> None:
         late = env.bench.now - edge0
         env.window("AC-74", f"OBF of {code:#x}", late, 2 + nominal, 10 + nominal + TOLERANCE + READ)
         got = [await env.host.read_data() for _ in range(3 if code == 0x83 else 1)]
-        wanted = {0x81: [0x4F], 0x82: [0xFC], 0x83: [0] * 3, 0xA1: [0xCF], 0x86: [1]}.get(code, [0])
-        env.check("AC-74", f"answer of {code:#x}", got, wanted)
+        expected = {0x81: [0x4F], 0x82: [0xFC], 0x83: [0] * 3, 0xA1: [0xCF], 0x86: [1]}.get(code, [0])
+        env.check("AC-74", f"answer of {code:#x}", got, expected)
         if code == 0x86:
             up = [t for t, v in env.bench.edges("int_n", edge0) if v][0]
             after(env, "P2104-DS-10", "int_n", up, edge0, micros)

@@ -28,9 +28,9 @@ async def p2104_phs_01_lists_in_motion(dut: Any) -> None:
             await axis.go(op, n, 5 if op == 0x54 else None)
             await axis.idle()
             places = [(place + direction * i) % len(patterns) for i in range(1, n + 1)]
-            wanted = list(zip(axis.pulses, [patterns[i] for i in places], strict=True))
+            expected = list(zip(axis.pulses, [patterns[i] for i in places], strict=True))
             got = env.bench.edges(axis.phases, axis.since)
-            env.check("P2104-PHS-04", f"{name} by {op:#x}, axis {axis.n}", got, wanted)
+            env.check("P2104-PHS-04", f"{name} by {op:#x}, axis {axis.n}", got, expected)
             place = places[-1]
         half = name.replace("full", "half")
         env.check("P2104-PHS-05", name, steps(half)[::2], steps(half.replace("half", "full")))

@@ -183,11 +183,11 @@ async def p2104_bck_04_external_by_hand(dut: Any) -> None:
             await other.ticks(5)
             env.check("P2104-BCK-05", "pulses by edges of the other clock", axis.pulses, [])
             begin = env.bench.now
-            wanted = [rate] * (n - 1) if rate is not None else rates((5, 2, 4), indices(n, 4))
-            await axis.ticks(sum(r + 1 for r in wanted) + 1, period)
+            expected = [rate] * (n - 1) if rate is not None else rates((5, 2, 4), indices(n, 4))
+            await axis.ticks(sum(r + 1 for r in expected) + 1, period)
             edges = axis.clock_edges(begin)
             places, place = [0], 0
-            for r in wanted:
+            for r in expected:
                 place += r + 1
                 places.append(place)
             env.check("P2104-BCK-04", "number of pulses", len(axis.pulses), n)

@@ -54,10 +54,10 @@ async def p2104_random_noise(dut: Any, seed: int) -> None:
         await host.send(0x43 | base, [13, 0, 0])
         await bench.nth_fall(14, starts[-1], f"pout_n[{axis}]")
         await host.poll(at_rest, 0)
-    wanted = offsets(bench.config, rates(RAMP, indices(14, RAMP[2])))
+    expected = offsets(bench.config, rates(RAMP, indices(14, RAMP[2])))
     for axis, base in ((1, 0x00), (2, 0x20)):
         pulses = bench.pulses(starts[axis - 1], f"pout_n[{axis}]")
-        bench.check("P2104-BAD-26", f"pulses of axis {axis}", [t - pulses[0] for t in pulses], wanted)
+        bench.check("P2104-BAD-26", f"pulses of axis {axis}", [t - pulses[0] for t in pulses], expected)
         bench.check("P2104-BAD-26", "end status", await host.fetch(0x80 | base), [0x83])
         for t, _ in bench.edges(f"dir[{axis}]"):
             held = bench.level_at(f"hold[{axis}]", t)

@@ -42,10 +42,10 @@ async def p2104_rmp_01_every_index(dut: Any) -> None:
         axis = env.axes[number & 1]
         rl, rh, pa = ramp
         which = indices(2 * pa + 5, pa)
-        wanted = rates(ramp, which)
+        expected = rates(ramp, which)
         thr = thresholds(*ramp)
         table = [rh + sum(k < t for t in thr.values()) for k in which]
-        env.check("P2104-RMP-02", f"both forms of {ramp}", wanted, table)
+        env.check("P2104-RMP-02", f"both forms of {ramp}", expected, table)
         env.check(
             "P2104-RMP-02", "thresholds do not rise", [*thr.values()], sorted(thr.values(), reverse=True)
         )
@@ -59,10 +59,10 @@ async def p2104_rmp_01_every_index(dut: Any) -> None:
             got = [
                 sum(a < e <= b for e in edges) - 1 for a, b in zip(axis.pulses, axis.pulses[1:], strict=False)
             ]
-            env.check("P2104-RMP-01", f"rates of {ramp}", got, wanted)
+            env.check("P2104-RMP-01", f"rates of {ramp}", got, expected)
         else:
             await axis.idle()
-            axis.check_train("P2104-RMP-01", wanted)
+            axis.check_train("P2104-RMP-01", expected)
         await axis.finish()
 
 
@@ -93,9 +93,9 @@ async def p2104_pro_01_every_length(dut: Any) -> None:
     for axis in await env.both(INIT_A):
         for n in range(1, 15):
             await axis.move(0x43 if n & 1 else 0xC3, n)
-            wanted = rates(INIT_A[1:], indices(n, 4))
-            axis.check_train("P2104-PRO-01", wanted)
-            env.check("P2104-PRO-06", f"intervals at RH, N = {n}", wanted.count(4), max(0, n - 9))
+            expected = rates(INIT_A[1:], indices(n, 4))
+            axis.check_train("P2104-PRO-01", expected)
+            env.check("P2104-PRO-06", f"intervals at RH, N = {n}", expected.count(4), max(0, n - 9))
             await axis.result("P2104-PRO-01", n, 0x83, 0)
 
 
@@ -130,14 +130,14 @@ async def p2104_fdc_02_every_interval(dut: Any) -> None:
             # Natural deceleration begins with the first interval that has a lower index than an acceleration
             # would have.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
-            wanted = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
+            expected = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
                 await axis.idle()
                 env.check("P2104-STP-03", f"error in I({j}) of {n}", await axis.error(), 8 if natural else 0)
-            pulses = len(wanted) + 1
+            pulses = len(expected) + 1
             bits = 0 if pulses == n else 0x40 if pin == "stop" else 0x08
             await axis.result(f"P2104-FDC-03 I({j})", pulses, 0x83 | bits, max(n - pulses - 1, 0))
-            axis.check_train("P2104-FDC-03", wanted)
+            axis.check_train("P2104-FDC-03", expected)
 
 
 @directed("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
@@ -152,10 +152,10 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
         bit = 0x40 if how == "stop" else 0x08
         for j in (1, 2, 3, 4, 5, 6, 17):
             await start_and_decelerate(axis, how, 60, j, 200, 0x43)
-            wanted = slowed(ramp, 60, j)
-            env.check("P2104-FDC-02", "figures", len(wanted) + 1, j if j <= 4 else 2 * j)
-            await axis.result(f"P2104-FDC-02 I({j})", len(wanted) + 1, 0x83 | bit, 60 - len(wanted) - 2)
-            axis.check_train("P2104-FDC-02", wanted)
+            expected = slowed(ramp, 60, j)
+            env.check("P2104-FDC-02", "figures", len(expected) + 1, j if j <= 4 else 2 * j)
+            await axis.result(f"P2104-FDC-02 I({j})", len(expected) + 1, 0x83 | bit, 60 - len(expected) - 2)
+            axis.check_train("P2104-FDC-02", expected)
         # In the flat part while decelerating, the flag is already set: the deceleration runs to its end.
         await start_and_decelerate(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)

@@ -54,8 +54,8 @@ async def p2104_rd_04_all_levels(dut: Any) -> None:
             axis.set(**dict(zip(order, own, strict=True)))
         await env.bench.clocks(4)
         for axis, own in ((env.x1, levels), (env.x2, [1 - v for v in levels])):
-            wanted = sum(level << place for level, place in zip(own, places, strict=True))
-            env.check("P2104-RD-04", f"{value:06b}, axis {axis.n}", await axis.fetch(0x81), [wanted])
+            expected = sum(level << place for level, place in zip(own, places, strict=True))
+            env.check("P2104-RD-04", f"{value:06b}, axis {axis.n}", await axis.fetch(0x81), [expected])
 
 
 @directed("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
@@ -72,10 +72,10 @@ async def p2104_rd_05_output_signal(dut: Any) -> None:
                     if settled:
                         await env.bench.level_is(axis.pin("hold"), 1)
                     pins = axis.phases_now
-                    wanted = sum((pins >> i & 1) << 7 - i for i in range(5))
-                    wanted |= settled << 2 | (op >> 3 & 1) << 1
+                    expected = sum((pins >> i & 1) << 7 - i for i in range(5))
+                    expected |= settled << 2 | (op >> 3 & 1) << 1
                     env.check(
-                        "P2104-RD-05", f"82 after {op:#x}, hold {settled}", await axis.fetch(0x82), [wanted]
+                        "P2104-RD-05", f"82 after {op:#x}, hold {settled}", await axis.fetch(0x82), [expected]
                     )
             await axis.command(0xC0)
             await axis.finish()

@@ -22,8 +22,8 @@ async def p2104_sta_01_every_bit(dut: Any) -> None:
     env = await Env.start(dut)
     for axis, state in product(env.axes, (*RESTING, *MOVING)):
         await enter(axis, state)
-        wanted = axis.busy if state in MOVING else axis.cmnd if state == "INITP" else 0
-        env.check("P2104-STA-04", f"status in {state} of axis {axis.n}", await env.host.status(), wanted)
+        want = axis.busy if state in MOVING else axis.cmnd if state == "INITP" else 0
+        env.check("P2104-STA-04", f"status in {state} of axis {axis.n}", await env.host.status(), want)
         await env.host.fetch(0xC2)
         await env.host.command(0xD1)
         await env.host.command(0x86)
@@ -129,8 +129,8 @@ async def p2104_hsk_02_over_a_waiting_code(dut: Any) -> None:
         await env.bench.until(edge0 + 10)
         status = await env.host.status()
         env.check("P2104-HSK-02", f"IBF 10 clk after {code:#x}", status & (IBF | first.cmnd), first.cmnd)
-        wanted = {0x40: (6, 0), 0x87: (1, 0), 0x55: (2, 0)}.get(code, (0, 0))
-        env.check("P2104-HSK-02", f"errors after {code:#x}", await env.errors(), wanted)
+        want = {0x40: (6, 0), 0x87: (1, 0), 0x55: (2, 0)}.get(code, (0, 0))
+        env.check("P2104-HSK-02", f"errors after {code:#x}", await env.errors(), want)
         await first.ready()
         env.check("P2104-HSK-02", "the step is lost", first.pulses, [])
         if code == 0x60:

@@ -120,14 +120,14 @@ async def command_random(dut):
     error, number, code, kind, data = 0, 0, 0, "undefined", []
     finished = 0
     for n in range(4000):
-        wanted = not error and number > 0
-        is_command = rand.random() < (0.1 if wanted else 0.8)
+        expected = not error and number > 0
+        is_command = rand.random() < (0.1 if expected else 0.8)
         pick = rand.choice(CODES) if is_command else (rand.getrandbits(8), "undefined", 0)
         byte, new_kind, params = pick
         kept, value = rand.getrandbits(8), rand.choice((0, 0, 0, 4, 5))
         state = {name: rand.randrange(2) for name in ("busy_i", "ramp_i", "decelerating_i", "initialised_i")}
         state["busy_i"] &= rand.randrange(2)
-        if wanted and kind != "aux_out":
+        if expected and kind != "aux_out":
             state["busy_i"] = 0  # no other command collects parameters during a motion
         decoded = KINDS.index(new_kind) << 3 | params
         gate = {"open_i": rand.random() < 0.8, "stops_only_i": rand.random() < 0.2}
@@ -141,7 +141,7 @@ async def command_random(dut):
             refused, act = judge_code(new_kind, params, state)
             error, number = (0, params) if refused is None else (1, refused)
             code, kind, data = byte, new_kind, []
-        elif takes and not wanted:
+        elif takes and not expected:
             error, number = 1, 6 if state["busy_i"] else 3
         elif takes:
             data.append(kept)

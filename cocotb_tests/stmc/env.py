@@ -154,8 +154,8 @@ class Env(AxisDriver):
         steps = self.pulses
         self.check(rule, "number of steps", len(steps), len(ticks) + 1)
         if self.period:
-            wanted = [gap * self.period for gap in ticks]
-            self.check(rule, "gaps in clk", differences(steps), wanted)
+            expected = [gap * self.period for gap in ticks]
+            self.check(rule, "gaps in clk", differences(steps), expected)
         else:
             got = [t - steps[0] for t in steps]
             self.check(rule, "clk from step 0", got, internal_offsets(self.cfg, list(ticks)))

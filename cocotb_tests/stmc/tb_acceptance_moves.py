@@ -174,11 +174,11 @@ async def stmc_ac_13_single_steps(dut: Any) -> None:
     env.check("AC-13", "patterns", seen, [0b00110, 0b01100, 0b01001, 0b01100])
 
 
-async def patterns(env: Env, rule: str, code: int, wanted: str) -> None:
+async def patterns(env: Env, rule: str, code: int, expected: str) -> None:
     """Reset, initialise, and check the pattern after each of the given single steps."""
     await env.reset()
     await env.init(code, 20, 5, 8)
-    words = wanted.split()
+    words = expected.split()
     seen = []
     for _ in words:
         await env.move(0x42)

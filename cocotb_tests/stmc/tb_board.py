@@ -30,8 +30,8 @@ async def j105_ac_46_a_move(dut: Any) -> None:
     env.window("J105-05", "last step to irq", end - env.pulses[-1], 0, 10)
     ticks = [round(gap * 48_675 / 16_000_000) for gap in env.intervals]
     env.check("AC-46", "gaps in ticks", ticks, W1)
-    wanted = [(t, level & 15) for t, level in bench.edges("s", env.since)]
-    env.check("J105-07", "drv", bench.edges("drv", env.since), wanted)
+    expected = [(t, level & 15) for t, level in bench.edges("s", env.since)]
+    env.check("J105-07", "drv", bench.edges("drv", env.since), expected)
     env.check("AC-46", "irq", bench.level("irq"), 1)
     env.check("AC-46", "FIN", await env.finish(), 0x83)
     env.check("AC-46", "irq after 80", bench.level("irq"), 0)
@@ -142,14 +142,14 @@ async def j105_07_drivers(dut: Any) -> None:
         await env.move(0x44, 4, 2)
         await bench.clocks(6_000)
         await env.finish()
-    wanted: list[tuple[int, int]] = []
+    expected: list[tuple[int, int]] = []
     last = 0
     for t, level in bench.edges("s"):
         if level & 15 != last:
             last = level & 15
-            wanted.append((t, last))
-    env.check("J105-07", "edges of drv", bench.edges("drv"), wanted)
-    env.check("J105-07", "edges seen", len(wanted) > 20, True)
+            expected.append((t, last))
+    env.check("J105-07", "edges of drv", bench.edges("drv"), expected)
+    env.check("J105-07", "edges seen", len(expected) > 20, True)
 
 
 @rtl_only(NANOSECONDS)

@@ -158,11 +158,11 @@ async def stmc_exc_01_all_tables(dut: Any) -> None:
             await env.init(code, 20, 5, 8)
             env.check("STMC-EXC-01", f"s of {code:#x}", env.bench.level("s"), table[0])
             await env.move(0x44, 2 * size, 1)
-            wanted = [table[i % size] for i in range(1, 2 * size + 1)]
-            env.check("STMC-EXC-02", f"cw patterns of {code:#x}", env.patterns, wanted)
+            expected = [table[i % size] for i in range(1, 2 * size + 1)]
+            env.check("STMC-EXC-02", f"cw patterns of {code:#x}", env.patterns, expected)
             await env.move(0x4C, size + 1, 1)
-            wanted = [table[-i % size] for i in range(1, size + 2)]
-            env.check("STMC-EXC-02", f"ccw patterns of {code:#x}", env.patterns, wanted)
+            expected = [table[-i % size] for i in range(1, size + 2)]
+            env.check("STMC-EXC-02", f"ccw patterns of {code:#x}", env.patterns, expected)
             level = table[-1]
             register = sum((level >> i & 1) << (7 - i) for i in range(5)) | 2
             env.check("STMC-OUT-01", f"outputs of {code:#x}", await env.out() & ~4, register)

@@ -89,8 +89,8 @@ async def stmc_clk_02_external_clock(dut: Any) -> None:
         await env.idle()
         steps, ticks = env.pulses, env.clock_edges(begin)
         used = [next(k for k, t in enumerate(ticks) if t + 3 == step) for step in steps]
-        wanted = [b - a for a, b in zip(used, used[1:], strict=False)]
-        env.check("STMC-CLK-02", f"ticks between the {n} steps", wanted, gaps(n))
+        expected = [b - a for a, b in zip(used, used[1:], strict=False)]
+        env.check("STMC-CLK-02", f"ticks between the {n} steps", expected, gaps(n))
         if falls := env.bench.falls("hold", begin):
             before = [t for t in ticks if t + 3 < steps[0] and t + 3 > falls[0] + T0 + 2]
             env.check("STMC-MOT-06", "ticks after T0 that were left out", before, [])
@@ -222,8 +222,8 @@ async def stmc_clk_04_too_fast_a_clock(dut: Any) -> None:
         await env.result("STMC-CLK-04", 50, 0x83, 0)
         table = [0b00011, 0b00110, 0b01100, 0b01001]
         first = table.index(env.patterns[0])
-        wanted = [table[(first + i) % 4] for i in range(50)]
-        env.check("STMC-CLK-04", "patterns", env.patterns, wanted)
+        expected = [table[(first + i) % 4] for i in range(50)]
+        env.check("STMC-CLK-04", "patterns", env.patterns, expected)
         await env.go(0x45, rate=1)
         await env.pulse(20)
         await env.command(0x40)
@@ -294,12 +294,12 @@ async def stmc_rmp_01_ramps(dut: Any) -> None:
         (255, 5, 4): [255, 10, 7, 6, 5],
         (50, 25, 1): [50, 25],
     }
-    for ramp, wanted in table.items():
-        env.check("STMC-RMP-01", "formula", [divisor(ramp, k) for k in range(ramp[2] + 1)], wanted)
+    for ramp, expected in table.items():
+        env.check("STMC-RMP-01", "formula", [divisor(ramp, k) for k in range(ramp[2] + 1)], expected)
         await env.init(0x1A, *ramp)
         n = 2 * ramp[2] + 3
         await env.go(0x43, n)
-        await env.outcome("STMC-RMP-01", n, 0x83, 0, [*wanted, wanted[-1], *wanted[-2::-1]])
+        await env.outcome("STMC-RMP-01", n, 0x83, 0, [*expected, expected[-1], *expected[-2::-1]])
 
 
 @directed("STMC-INI-02", "STMC-RMP-02", "STMC-MOV-02")

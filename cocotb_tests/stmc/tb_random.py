@@ -72,7 +72,7 @@ async def stmc_random_noise(dut: Any, seed: int) -> None:
     steps = [t for t, _ in bench.edges("s", start)]
     if len({level for _, level in bench.edges("s", start)}) > 2:
         steps = steps[-7:]
-    wanted = internal_offsets(bench.config, gaps(7, (5, 2, 4)))
+    expected = internal_offsets(bench.config, gaps(7, (5, 2, 4)))
     got = [t - steps[-7] for t in steps[-7:]]
-    bench.check("STMC-INI-04", "steps after recovery", got, wanted)
+    bench.check("STMC-INI-04", "steps after recovery", got, expected)
     bench.check("STMC-INI-04", "finish status", await host.fetch(0x80), [0x83])

@@ -81,11 +81,11 @@ async def stmc_fsm_01_accept_table(dut: Any) -> None:
             await enter(env, state)
             got = await env.host.command(code)
             moving = BUSY if state in MOVING else 0
-            wanted = expected_status(kind, state)
+            want = expected_status(kind, state)
             if ends or (not moving and kind in ("single", "ramp0")):
-                env.check("STMC-FSM-01", f"{code:#04x} in {state}", got & ~BUSY, wanted)
+                env.check("STMC-FSM-01", f"{code:#04x} in {state}", got & ~BUSY, want)
             else:
-                env.check("STMC-FSM-01", f"{code:#04x} in {state}", got, wanted | moving)
+                env.check("STMC-FSM-01", f"{code:#04x} in {state}", got, want | moving)
 
 
 @directed("STMC-CMD-03", "STMC-BAD-02", "STMC-BAD-03", "STMC-ST-03")
@@ -101,8 +101,8 @@ async def stmc_cmd_03_data_bytes(dut: Any) -> None:
         if state == "S single":
             env.check("STMC-CMD-03", f"data byte in {state}", got & ~BUSY, 0xE0)
             continue
-        wanted = 0xE0 | BUSY if state in MOVING else {"W from U": 0x30, "W from I": 0x20}.get(state, 0xB0)
-        env.check("STMC-CMD-03", f"data byte in {state}", got, wanted)
+        want = 0xE0 | BUSY if state in MOVING else {"W from U": 0x30, "W from I": 0x20}.get(state, 0xB0)
+        env.check("STMC-CMD-03", f"data byte in {state}", got, want)
         env.quiet("STMC-CMD-03", since)
         await leave(env)
 
@@ -123,8 +123,8 @@ async def stmc_st_03_error_field(dut: Any) -> None:
     env.check("STMC-ST-04", "status after the end", await env.host.status(), 0x90)
     await env.bench.clocks(300)
     got = await env.statuses("c 43 d 05 c C1 d 00 c 44 d 00 d 00 d 00 d 00 d 01 c 40")
-    wanted = [0x30, 0x20, 0x80, 0xB0, 0x40, 0x30, 0x20, 0x10, 0xD0, 0xB0, 0x80]
-    env.check("STMC-ST-03", "statuses at rest", got, wanted)
+    want = [0x30, 0x20, 0x80, 0xB0, 0x40, 0x30, 0x20, 0x10, 0xD0, 0xB0, 0x80]
+    env.check("STMC-ST-03", "statuses at rest", got, want)
     env.check("STMC-ST-02", "80 clears ERR", await env.host.command(0x80), OBF)
 
 

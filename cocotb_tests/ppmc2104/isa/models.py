@@ -109,12 +109,12 @@ def check_irq(bench: RtlBench) -> None:
     # Edge from which a level counts: for int_n the next edge, for the pins the edge itself.
     calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
     events = sorted(calls + [(t, "write", level) for t, level in arming_writes(bench)])
-    now, level, wanted = {"call": 0, "write": 0}, 0, []
+    now, level, expected = {"call": 0, "write": 0}, 0, []
     for t, group in groupby(events, key=lambda event: event[0]):
         now.update({name: value for _, name, value in group})
         if (new := now["call"] & ~now["write"] & 1) != level:
             level = new
-            wanted.append((t, level))
+            expected.append((t, level))
     end = bench.now - 1
     got = [edge for edge in bench.edges("irq") if edge[0] <= end]
-    bench.check("ISA-06", "edges of irq", got, [edge for edge in wanted if edge[0] <= end])
+    bench.check("ISA-06", "edges of irq", got, [edge for edge in expected if edge[0] <= end])

@@ -71,8 +71,8 @@ async def demo_line(dut: Any) -> None:
     bench = await RtlBench.start(dut, LINE, settle=8)
     master, demo_log = Master(RtlPort(bench)), DemoLog(bench)
     found = await program(master, demo_log.chapter)
-    wanted = [-pulses if ccw(station) else pulses for station, pulses in enumerate(PULSES)]
-    bench.check("P312-SER-20", "positions read back", found, wanted)
+    expected = [-pulses if ccw(station) else pulses for station, pulses in enumerate(PULSES)]
+    bench.check("P312-SER-20", "positions read back", found, expected)
     await bench.clocks(400)
     demo_log.save()
     talk = [

@@ -118,8 +118,8 @@ class SequencerRun:
         longest = max([SHORTEST, *(lead + 3 for lead in requests)]) + self.rand.choice((0, 0, 1, 5))
         if self.sequence.sought and self.rand.random() < 0.3:
             # A boundary at which the result of the search just takes effect, or just does not.
-            wanted = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
-            longest = max(longest, wanted - self.flat_for)
+            expected = SEARCH + self.rand.choice((FLAT, FOUND)) + self.rand.choice((-1, 0))
+            longest = max(longest, expected - self.flat_for)
         self.flat_for += longest
         slow, target = self.slow, {}
         for left in range(longest - 1, 0, -1):

@@ -104,9 +104,11 @@ def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
     made = model_tests(__name__, f"cocotb_tests.{part}", *names)
     modules = [importlib.import_module(f"cocotb_tests.{part}.{name}") for name in names]
     tests = {test.func.__name__: test for module in modules for test in all_tests(module)}
-    wanted = {f"test_{name.partition('_')[2]}": test for name, test in tests.items() if name not in RTL_ONLY}
-    assert set(made) == set(wanted)
-    for name, test in wanted.items():
+    expected = {
+        f"test_{name.partition('_')[2]}": test for name, test in tests.items() if name not in RTL_ONLY
+    }
+    assert set(made) == set(expected)
+    for name, test in expected.items():
         assert rules_of(made[name]) == rules_of(test) and made[name].__doc__ == test.func.__doc__
 
 

@@ -111,7 +111,7 @@ def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
-    assert "deterministic" not in text and "not reproduced" not in text and "behind" not in text
+    assert "deterministic" not in text and "not reproduced" not in text and "only after" not in text
 
 
 def test_a_failure_leaves_log_and_waves(design: Design) -> None:
@@ -126,7 +126,7 @@ def test_a_failure_leaves_log_and_waves(design: Design) -> None:
 def test_what_needs_another_test_names_it(design: Design) -> None:
     """Of three tests before a failing one, one causes the failure; the command repeats these two tests."""
     text = said(design, "passes", "leaks", "raises", "follows")
-    assert "(fails only behind leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
+    assert "(fails only after leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
     assert "repeat with: make test T=leaks-f16-own,follows-f16-own SEED=1 CLK_HZ=16000000" in text
 
 

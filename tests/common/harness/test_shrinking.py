@@ -158,11 +158,11 @@ def test_all_acts_together_are_the_run() -> None:
         assert in_time_order(messages(transactions)) == in_time_order(exchanges(transactions)) == transactions
 
 
-def place(words: Sequence[str], wanted: Sequence[str], start: int = 0) -> int | None:
+def place(words: Sequence[str], expected: Sequence[str], start: int = 0) -> int | None:
     """Return the first position where a run of words ends in a list."""
-    size = len(wanted)
+    size = len(expected)
     ends = range(start + size, len(words) + 1)
-    return next((end for end in ends if words[end - size : end] == list(wanted)), None)
+    return next((end for end in ends if words[end - size : end] == list(expected)), None)
 
 
 def test_messages_are_left_out_together() -> None:
@@ -172,14 +172,14 @@ def test_messages_are_left_out_together() -> None:
     responses = [run for run in messages(transactions) if run[-1].kind.startswith("DRR")]
     table, motion = blocks[0], blocks[len(blocks) // 2]
     answer = next(run for run in responses if run[0].begin > motion[-1].end)
-    wanted = [
+    expected = [
         [txn.what for txn in run] for run in (table, motion, [txn for txn in answer if "DRR" in txn.what])
     ]
 
     async def fails(some: Sequence[Transaction]) -> int | None:
         done = [txn for txn in some if txn.access and txn.access.kind != "CSR read"]
         words, end = [txn.what for txn in done], 0
-        for run in wanted:
+        for run in expected:
             found = place(words, run, end)
             if found is None:
                 return None
@@ -188,7 +188,7 @@ def test_messages_are_left_out_together() -> None:
 
     shrinker = Shrinker(transactions, fails)
     asyncio.run(shrinker.run())
-    assert [txn.what for txn in shrinker.transactions] == sum(wanted, [])
+    assert [txn.what for txn in shrinker.transactions] == sum(expected, [])
     assert len(transactions) > 1_000 and len(report_lines(shrinker.transactions)) == 3
     assert not shrinker.stopped and shrinker.trials < 200
 
@@ -248,8 +248,8 @@ def test_what_is_left_out_takes_nothing_along() -> None:
     """An access contains its own address and data, also if the one before it is omitted."""
     recording = busy_run()
     one = next(txn for txn in transactions_of(recording) if txn.what == "write C 81")
-    wanted = {(change.pin, change.value) for change in changes_of(PPMC104, [one])}
-    assert {("a0", 1), ("d_i", 0x81), ("wr_n", 0)} <= wanted
+    expected = {(change.pin, change.value) for change in changes_of(PPMC104, [one])}
+    assert {("a0", 1), ("d_i", 0x81), ("wr_n", 0)} <= expected
     moved = one.moved(5)
     assert (moved.begin, moved.end) == (one.begin + 5, one.end + 5)
     assert moved.access and one.access and moved.access.t == one.access.t + 5
