@@ -17,7 +17,7 @@ from importlib.util import find_spec
 from shlex import quote
 
 from scripts import env
-from scripts.targets import OLD, ROOT, TARGETS, VARIABLES, fault
+from scripts.targets import OLD, OLD_VARIABLES, ROOT, TARGETS, VARIABLES, fault
 
 MARK = re.compile(r"\{([A-Z_]+)(/or)?(?::([^}]*))?\}")
 OF_MAKE = ("MAKEFLAGS", "MAKEOVERRIDES", "MAKELEVEL")
@@ -58,6 +58,12 @@ class Goal:
         self.target = TARGETS[self.name]
         self.known = {"PYTHON", *self.switches, *self.target.defaults}
         self.given = {name: given.get(name, os.environ.get(name) or None) for name in self.known}
+        self.old_variables = []
+        for old, new in OLD_VARIABLES.items():
+            value = given[old] if old in given else os.environ.get(old) or None
+            if new in self.known and self.given[new] is None and value is not None:
+                self.given[new] = value
+                self.old_variables.append(old)
 
     def check(self) -> None:
         """Raise WrongError for the first wrong value."""
@@ -86,6 +92,9 @@ class Goal:
         text = MARK.sub(value, " ".join(text.split()).replace("{python}", quote(sys.executable)))
         if todo := env.missing(self.target.groups):
             text = f"{quote(sys.executable)} -m scripts.env {' '.join(todo)} || exit; {text}"
+        for old in self.old_variables:
+            note = f"note: use {OLD_VARIABLES[old]} for {old}; the old name is removed after the next release"
+            text = f"echo {quote(note)} >&2; {text}"
         if self.old:
             note = f"note: use `make {self.name}'; the old name is removed after the next release"
             text = f"echo {quote(note)} >&2; {text}"
@@ -122,7 +131,7 @@ def plan(words: list[str]) -> str:
     goals = [Goal(word, given) for word in words if "=" not in word]
     known = set().union(*(goal.known for goal in goals))
     for name in given:
-        if name not in known and name not in OF_MAKE:
+        if OLD_VARIABLES.get(name, name) not in known and name not in OF_MAKE:
             near, has = nearest(name, known), " ".join(sorted(known))
             raise WrongError(f"{name}: `make {goals[0].name}' has no such variable{near} (it has: {has})")
     for goal in goals:

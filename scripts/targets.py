@@ -50,7 +50,7 @@ waves | | Open the demo's waveforms in GTKWave or Surfer.
     ./scripts/waves.sh
 test | sim | Run all tests.
     [SIM_MAIN={SIM_MAIN}] {pytest} -n {J:2} [-k {T/or}] [--seed {SEED}] [--clk-hz {CLK_HZ}]
-    [--waves {WAVES}] [--inside {INSIDE}] [--model {MODEL}] {else}
+    [--waves {WAVES}] [--probe {PROBE}] [--model {MODEL}] {else}
 board | sim | Start a virtual board on a pseudo-terminal.
     {py} -m openppmc.sim [part={PART}] [{SIM}]
 bitstream | dev | Build the bitstream of a board with a part.
@@ -147,6 +147,8 @@ OLD = {
     "prove-night": "prove NIGHT=1",
 }
 """Old names of targets, which work until the next release."""
+OLD_VARIABLES = {"INSIDE": "PROBE"}
+"""Old names of variables, which work until the next release."""
 
 # Name | values | line of help, in the order of the checks: HOST and the parameters depend on PART and BOARD.
 VARIABLE_TABLE = """
@@ -161,7 +163,7 @@ CLK_HZ | 8000000..200000000 | only tests with this clock rate
 J | 1..64 | number of workers
 WITH | campaign ophyd litex fusesoc versions | tests that need other packages
 WAVES | 0..1 | 1: keep the waveforms of passing tests
-INSIDE | 0..1 | 1: record internal signals in the waveforms
+PROBE | 0..1 | 1: make internal signals visible to tests, and record them in the waveforms
 MODEL | 0..1 | 1: run directed tests on the golden model
 SIM_MAIN | own cocotb | main program of the simulations
 SCHEDULER | scheduler | use the workers of this scheduler, tcp://host:port

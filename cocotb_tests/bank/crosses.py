@@ -32,14 +32,14 @@ def _hook(count: Count) -> None:
     hook_motion(count, [Motion])
     hook_errors(count)
 
-    def gone(axis: Any, t: int, go: int) -> None:
+    def on_go(axis: Any, t: int, go: int) -> None:
         motion = axis.motion
         rest = "at rest" if axis.commands.initialised else UNINIT
         moves = "decelerating" if motion.decelerating else "in motion"
         state = "waiting for GO" if motion.held else moves if motion.busy else rest
         count(GROUP.name, GROUP.rows[not motion.in_group], state)
 
-    before(Axis, "go", gone)
+    before(Axis, "go", on_go)
 
 
 CROSSES = Crosses((*CLOCKED, ERRORS, GROUP), _hook)

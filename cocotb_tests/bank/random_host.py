@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import IBF, Side
+from cocotb_tests.harness import IBF, DutBench
 from cocotb_tests.harness.random_host import Builds, MovingPins, RandomHost
 from openppmc.model.bank.group import SWITCHES
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Lab
+from .env import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Env
 
 build = Builds("bank", ((B32, 50), (B8, 18), (B64, 12), (F100, 12), (B4, 8)))
 INTERVALS = 50_000
@@ -54,14 +54,14 @@ class BankHost(RandomHost):
 
     async def begin(self, dut: Any) -> None:
         """Start a bank and release its reset."""
-        self.lab = await Lab.start(dut)
-        self.side: Side = self.lab.bench
+        self.env = await Env.start(dut)
+        self.bench: DutBench = self.env.bench
         rng = self.rng
-        self.lab.host.pause = self._pause if rng.random() < 0.5 else None
-        for axis in self.lab.axes:
-            axis.host.pause = self.lab.host.pause
-        self.background = MovingPins(self.side)
-        self._counted, self._last, self.intervals = 0, self.side.initial["pout_n"], -self.lab.size
+        self.env.host.pause = self._pause if rng.random() < 0.5 else None
+        for axis in self.env.axes:
+            axis.host.pause = self.env.host.pause
+        self.background = MovingPins(self.bench)
+        self._counted, self._last, self.intervals = 0, self.bench.initial["pout_n"], -self.env.size
 
     @property
     def host(self) -> BankHost:  # type: ignore[override]
@@ -73,8 +73,8 @@ class BankHost(RandomHost):
 
     async def play(self) -> None:
         """Initialise axes, act, and wait for the ends of all motions."""
-        rng, lab = self.rng, self.lab
-        for n in rng.sample(range(lab.size), lab.size):
+        rng, env = self.rng, self.env
+        for n in rng.sample(range(env.size), env.size):
             if rng.random() < (0.95 if self.quick else 0.7):
                 await self.init(n)
         if self.quick:
@@ -82,24 +82,24 @@ class BankHost(RandomHost):
         else:
             for _ in range(ACTS):
                 await self.pick(self._typing())()
-                await lab.bench.clocks(rng.choice((0, 0, 5, 50, 500, rng.randrange(40 * lab.round))))
+                await env.bench.clocks(rng.choice((0, 0, 5, 50, 500, rng.randrange(40 * env.round))))
         self.background.stop()
-        await lab.bench.clocks(1)
-        await lab.host.write(STOP, 0)
-        await lab.bench.clocks(4_000)
-        for axis in rng.sample(lab.axes, min(8, lab.size)):
+        await env.bench.clocks(1)
+        await env.host.write(STOP, 0)
+        await env.bench.clocks(4_000)
+        for axis in rng.sample(env.axes, min(8, env.size)):
             await axis.position()
             await axis.command(0x83, poll=False)
         self.count()
 
     async def _in_motion(self) -> None:
-        lab, rng = self.lab, self.rng
-        end = lab.bench.now + CLK_LIMIT
-        while self.count() < INTERVALS and lab.bench.now < end:
+        env, rng = self.env, self.rng
+        end = env.bench.now + CLK_LIMIT
+        while self.count() < INTERVALS and env.bench.now < end:
             await self.keep_moving()
             for _ in range(rng.choice((0, 1, 1, 2, 4))):
                 await self.pick(self._meddling())()
-            await lab.bench.clocks(rng.choice((50, 200, 500, 1_500, 3_000)))
+            await env.bench.clocks(rng.choice((50, 200, 500, 1_500, 3_000)))
 
     def _typing(self) -> tuple[tuple[Any, float], ...]:
         return (
@@ -132,14 +132,14 @@ class BankHost(RandomHost):
 
     def axis(self) -> int:
         """Return the number of a random axis."""
-        return self.rng.randrange(self.lab.size)
+        return self.rng.randrange(self.env.size)
 
     async def send(self, n: int, code: int, *data: int) -> None:
         """Send an instruction; most bytes are written after IBF = 0 was polled.
 
         A host that stops polling is legal, too.
         """
-        bus = self.lab.axes[n].host
+        bus = self.env.axes[n].host
         for reg, byte in ((STATUS, code), *((DATA, byte) for byte in data)):
             if self.rng.random() < 0.9:
                 for _ in range(30):
@@ -190,7 +190,7 @@ class BankHost(RandomHost):
     async def keep_moving(self) -> None:
         """Start operations on axes at rest."""
         rng, model = self.rng, self.model
-        resting = [n for n in range(self.lab.size) if not model.busy(n)]
+        resting = [n for n in range(self.env.size) if not model.busy(n)]
         for n in rng.sample(resting, min(len(resting), 6)):
             if not self.model.initialised(n):
                 await self.init(n)
@@ -205,7 +205,7 @@ class BankHost(RandomHost):
         n = self.axis()
         await self.send(n, self.rng.choice((0x80, 0x81, 0x82, 0x83)))
         for _ in range(self.rng.randrange(4)):
-            await self.lab.axes[n].host.read(DATA)
+            await self.env.axes[n].host.read(DATA)
 
     async def switching(self) -> None:
         """Set the parameters of the chopper."""
@@ -221,36 +221,36 @@ class BankHost(RandomHost):
         if self.rng.random() < 0.5:
             await self.send(n, self.rng.randrange(256))
         else:
-            await self.lab.axes[n].host.write(DATA, self.rng.randrange(256))
+            await self.env.axes[n].host.write(DATA, self.rng.randrange(256))
 
     async def overrun(self) -> None:
         """Send bytes to many axes, or several to one axis, without polling."""
         one = self.axis()
-        for n in self.rng.choices(range(self.lab.size), k=6) if self.rng.random() < 0.5 else [one] * 3:
+        for n in self.rng.choices(range(self.env.size), k=6) if self.rng.random() < 0.5 else [one] * 3:
             byte = self.rng.choice((0x80, 0x83, 0x42, 0x4A, 0x41, 0x81))
-            await self.lab.axes[n].host.write(STATUS, byte)
+            await self.env.axes[n].host.write(STATUS, byte)
 
     # ------------------------------------------------------------ registers
 
     async def config(self) -> None:
         """Write CONFIG; a host that keeps the axes in motion seldom selects slow clocks."""
         rng, n = self.rng, self.axis()
-        await self.lab.axes[n].host.write(
+        await self.env.axes[n].host.write(
             CONFIG, rng.choice((3, 3, 3, 3, 1)) if self.quick else rng.randrange(4)
         )
-        await self.lab.axes[n].host.read(CONFIG)
+        await self.env.axes[n].host.read(CONFIG)
 
     async def position(self) -> None:
         """Read the position register, all of it or a part."""
         n = self.axis()
         for k in range(self.rng.choice((1, 1, 4))):
-            await self.lab.axes[n].host.read(POSITION + k)
+            await self.env.axes[n].host.read(POSITION + k)
 
     async def mask(self) -> None:
         """Write a byte of MASK."""
-        k = self.rng.randrange(max(1, self.lab.size // 8))
+        k = self.rng.randrange(max(1, self.env.size // 8))
         few = 1 << self.rng.randrange(8)
-        await self.lab.host.write(k << 4 | MASK, self.rng.choice((0, few, few, 255, self.rng.randrange(256))))
+        await self.env.host.write(k << 4 | MASK, self.rng.choice((0, few, few, 255, self.rng.randrange(256))))
 
     async def go(self) -> None:
         """Write GO once or more.
@@ -258,28 +258,28 @@ class BankHost(RandomHost):
         A host that keeps the axes in motion seldom lets a held operation wait for long.
         """
         for _ in range(self.rng.choice((1, 1, 1, 2, 3))):
-            await self.lab.host.write(GO, 0)
+            await self.env.host.write(GO, 0)
         if self.quick and self.rng.random() < 0.7:
-            for k in range(max(1, self.lab.size // 8)):
-                await self.lab.host.write(k << 4 | MASK, 0)
+            for k in range(max(1, self.env.size // 8)):
+                await self.env.host.write(k << 4 | MASK, 0)
 
     async def stop_all(self) -> None:
         """Write STOP."""
-        await self.lab.host.write(STOP, 0)
+        await self.env.host.write(STOP, 0)
 
     async def look(self) -> None:
         """Read the interrupt map or any register."""
-        k = self.rng.randrange(max(1, self.lab.size // 8))
-        await self.lab.host.read(self.rng.choice((k << 4 | MAP, self.rng.randrange(1024))))
+        k = self.rng.randrange(max(1, self.env.size // 8))
+        await self.env.host.read(self.rng.choice((k << 4 | MAP, self.rng.randrange(1024))))
 
     # ------------------------------------------------------------ pins
 
     async def switch(self) -> None:
         """Move some switches soon; most of them return."""
-        rng, side = self.rng, self.side
+        rng, bench = self.rng, self.bench
         for _ in range(rng.choice((1, 1, 2, 6))):
             pin, n = rng.choice(SWITCHES), self.axis()
-            t = side.now + rng.randrange(1, 300)
+            t = bench.now + rng.randrange(1, 300)
             if rng.random() < 0.85:
                 self.background.blip(t, f"{pin}[{n}]", 0, rng.choice((1, 1, 2, 3, 17, 100)))
             else:
@@ -287,9 +287,9 @@ class BankHost(RandomHost):
 
     async def calm(self) -> None:
         """Set all switches to their idle level."""
-        await self.side.align()
-        self.side.set(**{pin: (1 << self.lab.size) - 1 for pin in SWITCHES})
+        await self.bench.align()
+        self.bench.set(**{pin: (1 << self.env.size) - 1 for pin in SWITCHES})
 
     async def reset(self) -> None:
         """Reset the bank at any moment."""
-        await self.lab.reset(self.rng.choice((2, 3, 9)))
+        await self.env.reset(self.rng.choice((2, 3, 9)))

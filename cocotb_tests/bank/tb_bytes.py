@@ -5,7 +5,7 @@ from __future__ import annotations
 from cocotb_tests.harness import BUSY, IBF, OBF, directed
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import DATA, INIT_A, STATUS, Lab
+from .env import DATA, INIT_A, STATUS, Env
 
 UNDEFINED, WHILE_BUSY, NOT_READY, NOT_WANTED = 0, 1, 2, 3
 LONG = (0x0A, 255, 1, 4)
@@ -37,18 +37,18 @@ async def bank_hsk_01_seven_clk(dut):
     """The first visit V at w + 7 or later accepts a byte written at w: tried with w = V - 8, V - 7,
     V - 6, V - 1, V (BANK-HSK-01).
     """
-    lab = await Lab.start(dut)
-    for axis in (lab.axes[0], lab.axes[lab.size // 2], lab.axes[-1]):
+    env = await Env.start(dut)
+    for axis in (env.axes[0], env.axes[env.size // 2], env.axes[-1]):
         await axis.init(*INIT_A)
         for early in (8, 7, 6, 1, 0):
             ccw = 1 - axis.level("dir")
-            visit = axis.visit(lab.bench.now + 50)
-            await lab.write_at(visit - early, axis.n << 4 | STATUS, 0x42 | ccw << 3)
+            visit = axis.visit(env.bench.now + 50)
+            await env.write_at(visit - early, axis.n << 4 | STATUS, 0x42 | ccw << 3)
             await axis.host.poll(IBF | BUSY, 0)
-            want = visit + (lab.round if early < 7 else 0)
+            want = visit + (env.round if early < 7 else 0)
             got = axis.edges("dir", visit - 9)
-            lab.check("BANK-HSK-01", f"start of {axis.n}, w = V - {early}", got, [(want, ccw)])
-            lab.check("BANK-MOT-01", "pulse 1", axis.edges("pout_n", visit)[0][0], want + lab.cfg.w)
+            env.check("BANK-HSK-01", f"start of {axis.n}, w = V - {early}", got, [(want, ccw)])
+            env.check("BANK-MOT-01", "pulse 1", axis.edges("pout_n", visit)[0][0], want + env.cfg.w)
 
 
 @directed("BANK-HSK-03", builds=(B8, B32))
@@ -56,35 +56,35 @@ async def bank_hsk_03_replaced(dut):
     """If two bytes are written before a visit V, it accepts the newer one if that was written at V - 7
     or earlier, else the older one (BANK-HSK-03).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     address = axis.n << 4 | STATUS
     for early in (8, 7, 6, 5):
-        visit = axis.visit(lab.bench.now + 60)
-        lab.at_event(visit - 14, address, 0x81)
-        lab.at_event(visit - early, address, 0x87)
+        visit = axis.visit(env.bench.now + 60)
+        env.at_event(visit - 14, address, 0x81)
+        env.at_event(visit - early, address, 0x87)
         # The earliest read that fits after the write returns the state after V + 4.
-        got = await lab.as_of(visit + 4, address) & ~(ERROR if early > 6 else 0)
-        older = OBF | IBF if lab.round > 8 else got
-        lab.check("BANK-HSK-03", f"status, w = V - {early}", got, 0 if early > 6 else older)
-        await lab.bench.clocks(2 * lab.round)
+        got = await env.as_of(visit + 4, address) & ~(ERROR if early > 6 else 0)
+        older = OBF | IBF if env.round > 8 else got
+        env.check("BANK-HSK-03", f"status, w = V - {early}", got, 0 if early > 6 else older)
+        await env.bench.clocks(2 * env.round)
         status = await axis.status()
-        lab.check("BANK-HSK-03", "status afterwards", status, ERROR if early > 6 else ERROR | OBF)
+        env.check("BANK-HSK-03", "status afterwards", status, ERROR if early > 6 else ERROR | OBF)
         await axis.host.read(DATA)
 
 
 @directed("BANK-HSK-03", builds=(B8, B32, F100))
 async def bank_hsk_03_last_one_counts(dut):
     """When all axes get bytes faster than they accept them, only replaced bytes are lost (BANK-HSK-03)."""
-    lab = await Lab.start(dut)
-    for axis in lab.axes:
+    env = await Env.start(dut)
+    for axis in env.axes:
         for code in (0x83, 0x81, 0x80):
             await axis.host.write(STATUS, code)
-    for axis in lab.axes:
+    for axis in env.axes:
         await axis.host.poll(IBF, 0)
-    for axis in lab.axes:
-        lab.check("BANK-HSK-03", f"status of {axis.n}", await axis.status(), OBF)
-        lab.check("BANK-HSK-03", f"finish status of {axis.n}", await axis.host.read(DATA), 0)
+    for axis in env.axes:
+        env.check("BANK-HSK-03", f"status of {axis.n}", await axis.status(), OBF)
+        env.check("BANK-HSK-03", f"finish status of {axis.n}", await axis.host.read(DATA), 0)
 
 
 @directed("BANK-HSK-05", "BANK-HSK-01", builds=(B8, B32, B64))
@@ -92,21 +92,21 @@ async def bank_hsk_05_axes_do_not_wait(dut):
     """When all axes get their bytes in turn, each axis initialises and moves regardless of the others
     (BANK-HSK-05).
     """
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     for register, byte in ((STATUS, 0x0A), (DATA, 9), (DATA, 4), (DATA, 4), (DATA, 0)):
-        for axis in lab.axes:
+        for axis in env.axes:
             await axis.host.poll(IBF, 0)
             await axis.host.write(register, byte)
-    for axis in lab.axes:
+    for axis in env.axes:
         await axis.host.poll(IBF, 0)
     for register, byte in ((STATUS, 0x43), (DATA, 13), (DATA, 0), (DATA, 0)):
-        for axis in lab.axes:
+        for axis in env.axes:
             await axis.host.poll(IBF, 0)
-            axis.since = lab.bench.now
+            axis.since = env.bench.now
             await axis.host.write(register, byte)
-    for axis in lab.axes:
+    for axis in env.axes:
         await axis.idle()
-        lab.check("BANK-HSK-05", f"pulses of {axis.n}", len(axis.pulses), 14)
+        env.check("BANK-HSK-05", f"pulses of {axis.n}", len(axis.pulses), 14)
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
@@ -114,49 +114,49 @@ async def bank_hsk_04_queue(dut):
     """The end of each data read loads the next of three answer bytes, on edge 2 after its strobe
     (BANK-HSK-04).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(2)
+    env = await Env.start(dut)
+    axis = await env.ready(2)
     await axis.go(0x44, 0x123456, 255)
     await axis.command(0x40)
     await axis.idle()
     for _ in range(2):
         await axis.command(0x83)
         for byte in (0x55, 0x34, 0x12):
-            lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, OBF)
-            lab.check("BANK-HSK-04", "byte", await axis.host.read(DATA), byte)
-        lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
-        lab.check("BANK-HSK-04", "byte stays", await axis.host.read(DATA), 0x12)
+            env.check("BANK-HSK-04", "OBF", await axis.status() & OBF, OBF)
+            env.check("BANK-HSK-04", "byte", await axis.host.read(DATA), byte)
+        env.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
+        env.check("BANK-HSK-04", "byte stays", await axis.host.read(DATA), 0x12)
     await axis.command(0x83)
     await axis.host.read(DATA)
     await axis.command(0x80)  # the previous answer is dropped
-    lab.check("BANK-HSK-04", "new answer", await axis.host.read(DATA), 0xC4)
-    lab.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
+    env.check("BANK-HSK-04", "new answer", await axis.host.read(DATA), 0xC4)
+    env.check("BANK-HSK-04", "OBF", await axis.status() & OBF, 0)
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
-async def bank_hsk_04_answer_meets_a_read(dut):
+async def bank_hsk_04_answer_coincides_with_a_read(dut):
     """The end of a read strobe around the visit of a new answer does not remove the new answer
     (BANK-HSK-04).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(5)
+    env = await Env.start(dut)
+    axis = await env.ready(5)
     for late in range(-4, 5):
         await axis.command(0x82)
-        visit = axis.visit(lab.bench.now + 60)
-        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x83)
+        visit = axis.visit(env.bench.now + 60)
+        await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x83)
         # The write ends at V - 6; the read ends `late` cycles after V.
-        start = lab.bench.now
+        start = env.bench.now
         length = visit + late - start - 1
         if length < 6:
-            length, _ = 6, await lab.bench.until(visit + late - 7) if visit + late - 7 > start else start
+            length, _ = 6, await env.bench.until(visit + late - 7) if visit + late - 7 > start else start
         await axis.host.read(DATA, strobe=length)
-        await lab.bench.clocks(2 * lab.round)
+        await env.bench.clocks(2 * env.round)
         left = await axis.status() & OBF
         got = []
         while left and len(got) < 5:
             got.append(await axis.host.read(DATA))
             left = await axis.status() & OBF
-        lab.check("BANK-HSK-04", f"bytes of the new answer, {late:+}", len(got) in (2, 3), True)
+        env.check("BANK-HSK-04", f"bytes of the new answer, {late:+}", len(got) in (2, 3), True)
 
 
 @directed("BANK-HSK-02", builds=(B8, B32))
@@ -164,17 +164,17 @@ async def bank_hsk_02_end_takes_the_visit(dut):
     """A visit that ends a motion or completes an initialisation accepts no byte; the next visit accepts
     it (BANK-HSK-02).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(4)
+    env = await Env.start(dut)
+    axis = await env.ready(4)
     address = axis.n << 4 | STATUS
     edge0 = await axis.go(0x42, poll=False)
-    start = axis.taken(edge0)
-    end = axis.visit(start + 2 * lab.cfg.w + 1)
-    await lab.write_at(end - 7, address, 0x80)
-    lab.check("BANK-HSK-02", "status after the end", await lab.as_of(end + 1, address), IBF)
-    await lab.bench.clocks(lab.round)
-    lab.check("BANK-HSK-02", "status later", await axis.status(), OBF)
-    lab.check("BANK-HSK-02", "finish status", await axis.host.read(DATA), 0x82)
+    start = axis.accepting_visit(edge0)
+    end = axis.visit(start + 2 * env.cfg.w + 1)
+    await env.write_at(end - 7, address, 0x80)
+    env.check("BANK-HSK-02", "status after the end", await env.as_of(end + 1, address), IBF)
+    await env.bench.clocks(env.round)
+    env.check("BANK-HSK-02", "status later", await axis.status(), OBF)
+    env.check("BANK-HSK-02", "finish status", await axis.host.read(DATA), 0x82)
 
 
 @directed("BANK-GEN-03", "BANK-HSK-04", builds=(B8, B32))
@@ -182,13 +182,13 @@ async def bank_gen_03_all_codes_at_rest(dut):
     """Each of the 256 codes, sent before and after an initialisation, sets the status that the code map
     states (BANK-GEN-03).
     """
-    lab = await Lab.start(dut)
-    for initialised, axis in ((False, lab.axes[1]), (True, lab.axes[6])):
+    env = await Env.start(dut)
+    for initialised, axis in ((False, env.axes[1]), (True, env.axes[6])):
         if initialised:
             await axis.init(*INIT_A)
         for code in range(256):
             status = await axis.command(code)
-            lab.check("BANK-GEN-03", f"status after {code:02X}", status, idle_answer(code, initialised))
+            env.check("BANK-GEN-03", f"status after {code:02X}", status, idle_answer(code, initialised))
             if status & BUSY:
                 await axis.halt()
                 status = 0
@@ -205,8 +205,8 @@ async def bank_gen_03_all_codes_while_busy(dut):
     """During a motion, stops act, 0xC0 sets error 1, and each code that is left out sets error 0
     (BANK-GEN-03).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(7)
+    env = await Env.start(dut)
+    axis = await env.ready(7)
     await axis.go(0x45, rate=9)
     for code in range(256):
         if code & 0xC6 == 0x40:
@@ -214,21 +214,21 @@ async def bank_gen_03_all_codes_while_busy(dut):
         status = await axis.command(code)
         undefined = idle_answer(code, True) == 0x80
         want = BUSY | 0x80 | (UNDEFINED if undefined else WHILE_BUSY << 4)
-        lab.check("BANK-GEN-03", f"status after {code:02X}", status, want)
+        env.check("BANK-GEN-03", f"status after {code:02X}", status, want)
     for code in (0x40, 0x41, 0x58, 0x61, 0x79):
         if not await axis.status() & BUSY:
             await axis.go(0x45, rate=9)
         await axis.command(code)
         await axis.idle()
-        lab.check("BANK-GEN-03", f"finish status of {code:02X}", await axis.finish(), 0xC5)
+        env.check("BANK-GEN-03", f"finish status of {code:02X}", await axis.finish(), 0xC5)
 
 
 @directed("BANK-GEN-03", builds=(B8,))
 async def bank_gen_03_data_bytes(dut):
     """Unexpected data and invalid settings set the same errors as in a PPMC-104 (BANK-GEN-03)."""
-    lab = await Lab.start(dut)
-    axis = lab.axes[2]
-    lab.check("BANK-GEN-03", "data", await axis.host.data(0x55), 0x80 | NOT_WANTED << 4)
+    env = await Env.start(dut)
+    axis = env.axes[2]
+    env.check("BANK-GEN-03", "data", await axis.host.data(0x55), 0x80 | NOT_WANTED << 4)
     for rl, rh, pa, error in (
         (9, 10, 4, 5),
         (9, 4, 3, 5),
@@ -248,28 +248,28 @@ async def bank_ini_02_shared_builder(dut):
     """During a long table build the last initialisation bytes of other axes wait and all other bytes
     are accepted; then the waiting axes are built (BANK-INI-02, BANK-HSK-05).
     """
-    lab = await Lab.start(dut)
-    one, two, three = (lab.axes[n] for n in (1, 2, 5))
+    env = await Env.start(dut)
+    one, two, three = (env.axes[n] for n in (1, 2, 5))
     await one.init(*LONG, opened=False)
-    begun = lab.bench.now
+    begun = env.bench.now
     await two.host.send(0x09, (9, 4, 4))
     await two.host.write(DATA, 0)
     await three.host.send(0x0B, (9, 4, 4))
     await three.host.write(DATA, 0)
     for _ in range(5):
-        lab.check("BANK-HSK-05", "status", [await x.status() for x in (two, three)], [0x12, 0x12])
+        env.check("BANK-HSK-05", "status", [await x.status() for x in (two, three)], [0x12, 0x12])
     await three.host.write(STATUS, 0x87)  # a command instead of the last byte
-    await lab.bench.clocks(2 * lab.round)
-    lab.check("BANK-HSK-05", "status of a command", await three.status(), 0x80)
-    lab.check("BANK-HSK-05", "status of the last byte", await two.status(), 0x12)
-    lab.check("BANK-HSK-05", "a read elsewhere", await lab.axes[0].host.fetch(0x80), [0])
-    lab.check("BANK-INI-01", "pattern of the one that waits", two.phases_now, 0b11111)
+    await env.bench.clocks(2 * env.round)
+    env.check("BANK-HSK-05", "status of a command", await three.status(), 0x80)
+    env.check("BANK-HSK-05", "status of the last byte", await two.status(), 0x12)
+    env.check("BANK-HSK-05", "a read elsewhere", await env.axes[0].host.fetch(0x80), [0])
+    env.check("BANK-INI-01", "pattern of the one that waits", two.phases_now, 0b11111)
     await two.host.poll(IBF, 0)
-    lab.check("BANK-INI-01", "pattern of the next one", two.phases_now, 0b00011)
-    lab.check("BANK-INI-01", "time of a build", lab.bench.now - begun < 40_000 + 300, True)
+    env.check("BANK-INI-01", "pattern of the next one", two.phases_now, 0b00011)
+    env.check("BANK-INI-01", "time of a build", env.bench.now - begun < 40_000 + 300, True)
     for axis in (one, two):
         await axis.opened()
-        lab.check("BANK-INI-02", f"pulses of {axis.n}", len(await axis.move(0x43, 9)), 9)
+        env.check("BANK-INI-02", f"pulses of {axis.n}", len(await axis.move(0x43, 9)), 9)
 
 
 @directed("BANK-HSK-05", "BANK-HSK-03", builds=(B8, B32))
@@ -277,50 +277,52 @@ async def bank_hsk_05_command_at_the_end_of_a_build(dut):
     """If a command replaces a waiting last byte around the end of a build, exactly one of the two is
     accepted (BANK-HSK-05).
     """
-    lab = await Lab.start(dut)
-    two, three = lab.axes[6], lab.axes[3]
-    await lab.ready(1)
-    start = lab.bench.now
-    await lab.axes[1].init(0x0A, 20, 1, 4, opened=False)
+    env = await Env.start(dut)
+    two, three = env.axes[6], env.axes[3]
+    await env.ready(1)
+    start = env.bench.now
+    await env.axes[1].init(0x0A, 20, 1, 4, opened=False)
     await two.host.send(0x09, (9, 4, 4))
     await two.host.write(DATA, 0)
     await two.host.poll(IBF, 0)
-    length = lab.bench.now - start
+    length = env.bench.now - start
     for early in range(60, -12, -3):
         await two.opened()
-        start = lab.bench.now
-        await lab.axes[1].init(0x0A, 20, 1, 4, opened=False)
+        start = env.bench.now
+        await env.axes[1].init(0x0A, 20, 1, 4, opened=False)
         await two.host.send(0x09, (9, 4, 4))
         await two.host.write(DATA, 0)
-        await lab.bench.until(max(lab.bench.now, start + length - early - 20))
+        await env.bench.until(max(env.bench.now, start + length - early - 20))
         await two.host.write(STATUS, 0x80)
         # A third axis occupies the builder again.
         await three.init(0x0A, 20, 1, 4, opened=False)
         await two.host.poll(IBF, 0)
         await three.opened()
-        await lab.axes[1].opened()
+        await env.axes[1].opened()
         await two.host.read(DATA)
 
 
 @directed("BANK-GEN-05", "BANK-INI-01", builds=(B8, B32))
 async def bank_gen_05_reset_in_a_build(dut):
     """A reset during a build, with a last byte waiting for the builder, frees the builder (BANK-GEN-05)."""
-    lab = await Lab.start(dut)
-    for n in range(lab.size):
-        waiting = lab.axes[n]
-        await lab.axes[(n + 1) % lab.size].init(*LONG, opened=False)
+    env = await Env.start(dut)
+    for n in range(env.size):
+        waiting = env.axes[n]
+        await env.axes[(n + 1) % env.size].init(*LONG, opened=False)
         await waiting.host.send(0x0A, (255, 1, 4))
         await waiting.host.write(DATA, 0)
-        await lab.bench.clocks(30)
-        await lab.reset()
-        axis = lab.axes[(n + 2) % lab.size]
+        await env.bench.clocks(30)
+        await env.reset()
+        axis = env.axes[(n + 2) % env.size]
         await axis.host.send(0x09, (9, 4, 4))
         edge0 = await axis.host.write(DATA, 0)
-        await lab.bench.clocks(2 * lab.round + 8)
+        await env.bench.clocks(2 * env.round + 8)
         changes = axis.patterns(edge0)
-        lab.check("BANK-GEN-05", f"pattern of {axis.n}", changes[:1], [(axis.taken(edge0), 0b00011)])
+        env.check(
+            "BANK-GEN-05", f"pattern of {axis.n}", changes[:1], [(axis.accepting_visit(edge0), 0b00011)]
+        )
         await axis.opened()
-        await lab.reset()
+        await env.reset()
 
 
 @directed("BANK-HSK-03", builds=(B8, B32))
@@ -328,30 +330,30 @@ async def bank_hsk_03_replaced_many_times(dut):
     """When one to nine bytes are written while no byte is accepted, IBF stays 1 and the last byte is
     accepted (BANK-HSK-03).
     """
-    lab = await Lab.start(dut)
-    axis = lab.axes[4]
+    env = await Env.start(dut)
+    axis = env.axes[4]
     for count in range(1, 10):
         await axis.init(0x0A, 60, 1, 4, opened=False)
         for k in range(count):
             await axis.host.write(STATUS, 0x87 if k < count - 1 else 0x81)
-            lab.check("BANK-HSK-03", f"IBF behind {k + 1} of {count}", await axis.status() & IBF, IBF)
+            env.check("BANK-HSK-03", f"IBF behind {k + 1} of {count}", await axis.status() & IBF, IBF)
         await axis.host.poll(IBF, 0)
-        lab.check("BANK-HSK-03", f"status behind {count}", await axis.status(), OBF)
+        env.check("BANK-HSK-03", f"status behind {count}", await axis.status(), OBF)
         await axis.host.read(DATA)
 
 
 @directed("BANK-HSK-04", builds=(B8, B32))
-async def bank_hsk_04_answers_that_nobody_reads(dut):
+async def bank_hsk_04_answers_that_are_not_read(dut):
     """After one to nine answers, of which the host has read none, the last answer is available
     (BANK-HSK-04).
     """
-    lab = await Lab.start(dut)
-    axis = lab.axes[1]
+    env = await Env.start(dut)
+    axis = env.axes[1]
     for count in range(1, 10):
         for k in range(count):
             status = await axis.command(0x81 if k < count - 1 else 0x83)
-            lab.check("BANK-HSK-04", f"OBF behind {k + 1} of {count}", status, OBF)
+            env.check("BANK-HSK-04", f"OBF behind {k + 1} of {count}", status, OBF)
         for _ in range(3):
-            lab.check("BANK-HSK-04", "OBF", await axis.status(), OBF)
-            lab.check("BANK-HSK-04", "remaining pulses", await axis.host.read(DATA), 0)
-        lab.check("BANK-HSK-04", "OBF", await axis.status(), 0)
+            env.check("BANK-HSK-04", "OBF", await axis.status(), OBF)
+            env.check("BANK-HSK-04", "remaining pulses", await axis.host.read(DATA), 0)
+        env.check("BANK-HSK-04", "OBF", await axis.status(), 0)

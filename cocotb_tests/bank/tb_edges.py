@@ -8,9 +8,9 @@ from itertools import product
 from cocotb_tests.harness import IBF, OBF, directed
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import DATA, GO, MASK, STATUS, STOP, SYNC, Axis, Lab
+from .env import DATA, GO, MASK, STATUS, STOP, SYNC, Axis, Env
 from .tb_group import due
-from .tb_rest import CHOPPED, ON
+from .tb_standstill import CHOPPED, ON
 
 STOP_BIT, ALARM_BIT, LIMIT_BIT, SLOW_BIT = 0x40, 0x20, 0x10, 0x08
 
@@ -25,46 +25,46 @@ def blip(axis: Axis, edge: int, **pins: int) -> None:
 async def bank_mot_03_requests_around_an_end(dut):
     """If an alarm decides the end on edge e, 0x41 and a slow-down limit at visits up to e + 4 set their
     finish bits; an immediate stop does so at visit e, but not at e + 1 to e + 4 (BANK-MOT-03)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     requests = ((0x40, 0x46), (0x40, 0x45), (0x41, 0x45), (0x41, 0x46), ("slow", 0x46))
     for (request, code), late, plus in product(requests, range(-2, 7), (100, 0)):
         await axis.go(code, rate=9)
         await axis.pulse(6, plus)  # pout_n is high or low
-        visit = axis.visit(lab.bench.now + (60 if plus else 12))
+        visit = axis.visit(env.bench.now + (60 if plus else 12))
         blip(axis, visit - late, alm_n=0)
         if request == "slow":
             blip(axis, visit - 4, l3_n=0)
         else:
-            lab.at_event(visit - 7, axis.n << 4 | STATUS, request)
-        await lab.bench.until(visit + 1)
+            env.at_event(visit - 7, axis.n << 4 | STATUS, request)
+        await env.bench.until(visit + 1)
         await axis.idle()
         # At constant speed 0x41 is an immediate stop too.
         immediate = request == 0x40 or code == 0x45
         alarm = ALARM_BIT * (not immediate or late >= 0)
         bit = (SLOW_BIT if request == "slow" else STOP_BIT) * (late <= (0 if immediate else 4))
         what = f"finish status, {request} at e {late:+}, {code:02X}, {plus}"
-        lab.check("BANK-MOT-03", what, await axis.finish(), 0x80 | code & 7 | alarm | bit)
+        env.check("BANK-MOT-03", what, await axis.finish(), 0x80 | code & 7 | alarm | bit)
 
 
 @directed("BANK-MOT-05", builds=(B8, B32))
 async def bank_mot_05_slow_down_limit_with_a_stop(dut):
     """The visit that accepts 0x40 ignores a slow-down limit; the visit that accepts 0x41 sets both finish
     bits (BANK-MOT-05)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     for (request, both), late in product(((0x40, 0), (0x41, SLOW_BIT)), (-1, 0, 1)):
         await axis.go(0x46)
         await axis.pulse(6, 100)
-        visit = axis.visit(lab.bench.now + 60 + lab.round)
-        blip(axis, visit + late * lab.round - 4, l3_n=0)
-        lab.at_event(visit - 7, axis.n << 4 | STATUS, request)
-        await lab.bench.until(visit + lab.round + 1)
+        visit = axis.visit(env.bench.now + 60 + env.round)
+        blip(axis, visit + late * env.round - 4, l3_n=0)
+        env.at_event(visit - 7, axis.n << 4 | STATUS, request)
+        await env.bench.until(visit + env.round + 1)
         await axis.idle()
         # A slow-down limit one visit earlier begins the deceleration: 0x41 is then rejected.
         bits = {-1: SLOW_BIT | (STOP_BIT if request == 0x40 else 0), 0: STOP_BIT | both, 1: STOP_BIT}[late]
         what = f"finish status, {request:02X}, slow-down limit {late:+} visits"
-        lab.check("BANK-MOT-05", what, await axis.finish(), 0x86 | bits)
+        env.check("BANK-MOT-05", what, await axis.finish(), 0x86 | bits)
 
 
 @directed("BANK-GRP-04", builds=(B8, B32, F100))
@@ -72,24 +72,24 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
     """An operation that starts at visits g to g + R ends on the next edge with bit 6, and with the bits
     of the alarm or limit that is active on that edge (BANK-GRP-04).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     bits = {"alm_n": ALARM_BIT, "l1_n": LIMIT_BIT, "l3_n": 0}
-    for late, pin in product((-2, -1, 0, 1, 2, lab.round - 1, lab.round, lab.round + 1), bits):
-        visit = axis.visit(lab.bench.now + 120)
+    for late, pin in product((-2, -1, 0, 1, 2, env.round - 1, env.round, env.round + 1), bits):
+        visit = axis.visit(env.bench.now + 120)
         g = visit - late
         if abs(g - (visit - 7)) < 6:
             continue  # the bus is occupied
         axis.since = visit - 30
         axis.set(**{pin: 0})
         for event, address, byte in sorted([(visit - 7, axis.n << 4 | STATUS, 0x42), (g, STOP, 0)]):
-            await lab.write_at(event, address, byte)
-        await lab.bench.clocks(3 * lab.round + 2 * lab.cfg.w)
-        stopped = STOP_BIT * (0 <= late <= lab.round or (late < 0 and not bits[pin]))
+            await env.write_at(event, address, byte)
+        await env.bench.clocks(3 * env.round + 2 * env.cfg.w)
+        stopped = STOP_BIT * (0 <= late <= env.round or (late < 0 and not bits[pin]))
         ended = stopped or bits[pin]
         what = f"{pin}, V = g {late:+}"
-        lab.check("BANK-GRP-04", f"finish status, {what}", await axis.finish(), 0x82 | stopped | bits[pin])
-        lab.check("BANK-GRP-04", f"pulses, {what}", len(axis.pulses), 0 if ended else 1)
+        env.check("BANK-GRP-04", f"finish status, {what}", await axis.finish(), 0x82 | stopped | bits[pin])
+        env.check("BANK-GRP-04", f"pulses, {what}", len(axis.pulses), 0 if ended else 1)
         axis.set(**{pin: 1})
 
 
@@ -97,26 +97,26 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
 async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
     """A GO written at g + 1 to g + R begins on edge g + R; a later one begins on its own write event
     (BANK-GRP-03)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(5)
-    for gap in (6, 7, lab.round - 1, lab.round, lab.round + 1):
-        if gap > 2 * lab.round - 8:
+    env = await Env.start(dut)
+    axis = await env.ready(5)
+    for gap in (6, 7, env.round - 1, env.round, env.round + 1):
+        if gap > 2 * env.round - 8:
             continue  # the bus is occupied
-        await lab.mask(axis.n)
+        await env.mask(axis.n)
         await axis.go(0x42)
-        await lab.mask()
-        g = axis.visit(lab.bench.now + 60) - 4 - lab.round  # the last visit that checks for the first GO
-        g += lab.round * (g < lab.bench.now + 20)
-        member = g + 2 * lab.round - 2  # MASK = 1 only for the visits of the second GO
+        await env.mask()
+        g = axis.visit(env.bench.now + 60) - 4 - env.round  # the last visit that checks for the first GO
+        g += env.round * (g < env.bench.now + 20)
+        member = g + 2 * env.round - 2  # MASK = 1 only for the visits of the second GO
         for edge, address, byte in (
             (g, GO, 0),
             (g + gap, GO, 0),
             (member, axis.n // 8 << 4 | MASK, 1 << axis.n % 8),
         ):
-            lab.at_event(edge, address, byte)
-        await lab.bench.until(member + 3 * lab.round + lab.cfg.w)
-        begun = g + max(gap, lab.round)
-        lab.check("BANK-GRP-03", f"pulse 1, second GO at g + {gap}", axis.pulses, [due(lab, begun)])
+            env.at_event(edge, address, byte)
+        await env.bench.until(member + 3 * env.round + env.cfg.w)
+        begun = g + max(gap, env.round)
+        env.check("BANK-GRP-03", f"pulse 1, second GO at g + {gap}", axis.pulses, [due(env, begun)])
         await axis.idle()
         await axis.finish()
 
@@ -125,19 +125,19 @@ async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
 async def bank_hld_01_read_at_the_visit_at_which_hold_rises(dut):
     """0x82 accepted at the visit at which hold rises returns HOLD = 0; at the next visit it returns HOLD = 1
     (BANK-HLD-01)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     reads = []
     for number, late in ((0, -1), (3, 0), (6, 1)):
-        axis = await lab.ready(number)
+        axis = await env.ready(number)
         await axis.go(0x42)
         await axis.idle()
-        rise = axis.visit(axis.visit(axis.pulses[0] + lab.cfg.w + 1) + lab.cfg.cyc(544_000))
+        rise = axis.visit(axis.visit(axis.pulses[0] + env.cfg.w + 1) + env.cfg.cyc(544_000))
         reads.append((rise, late, axis))
     for rise, late, axis in reads:
-        await lab.write_at(rise + late * lab.round - 7, axis.n << 4 | STATUS, 0x82)
-        await lab.bench.clocks(2 * lab.round)
-        lab.check("BANK-HLD-01", f"HOLD in 0x82, {late:+}", await axis.host.read(DATA) >> 2 & 1, late > 0)
-        lab.check("BANK-HLD-01", "rise of hold", axis.edges("hold", rise - lab.round), [(rise, 1)])
+        await env.write_at(rise + late * env.round - 7, axis.n << 4 | STATUS, 0x82)
+        await env.bench.clocks(2 * env.round)
+        env.check("BANK-HLD-01", f"HOLD in 0x82, {late:+}", await axis.host.read(DATA) >> 2 & 1, late > 0)
+        env.check("BANK-HLD-01", "rise of hold", axis.edges("hold", rise - env.round), [(rise, 1)])
 
 
 def build_cycles(slow: int, fast: int) -> int:
@@ -149,27 +149,27 @@ def build_cycles(slow: int, fast: int) -> int:
 async def bank_ini_01_duration_of_a_build(dut):
     """A table is complete 1954 + 136 (RL - RH) cycles after the visit of the last byte, 3 for RL = RH; IBF
     and the chopper follow the first visit 3 cycles later (BANK-INI-01, BANK-INI-02)."""
-    lab = await Lab.start(dut)
-    rng = random.Random(lab.size)
+    env = await Env.start(dut)
+    rng = random.Random(env.size)
     some = [sorted((rng.randrange(1, 256), rng.randrange(256)), reverse=True) for _ in range(5)]
     for number, (slow, fast) in enumerate([(255, 0), (1, 0), (9, 9), (255, 255), *some]):
-        axis = rng.choice(lab.axes)
+        axis = rng.choice(env.axes)
         pulses = rng.randrange(4, 11_221)
         await axis.host.send(0x2A, (slow, fast, pulses & 0xFF))
         await axis.host.poll(IBF, 0)
-        visit = axis.taken(await axis.host.write(DATA, pulses >> 8))
+        visit = axis.accepting_visit(await axis.host.write(DATA, pulses >> 8))
         complete = axis.visit(visit + build_cycles(slow, fast) + 3)
-        await lab.bench.until(max(visit, lab.bench.now))  # a byte written earlier would replace the last one
-        read = axis.taken(await axis.host.write(STATUS, 0x82))
+        await env.bench.until(max(visit, env.bench.now))  # a byte written earlier would replace the last one
+        read = axis.accepting_visit(await axis.host.write(STATUS, 0x82))
         # The visit that completes the initialisation accepts no byte.
-        taken, offset = max(complete + lab.round, read), number % 2 - 1
-        if taken + offset > lab.bench.now + 8:
-            got = await lab.as_of(taken + offset, axis.n << 4 | STATUS)
+        accepting_visit, offset = max(complete + env.round, read), number % 2 - 1
+        if accepting_visit + offset > env.bench.now + 8:
+            got = await env.as_of(accepting_visit + offset, axis.n << 4 | STATUS)
             what = f"status, RL {slow}, RH {fast}, PA {pulses}, {offset:+}"
-            lab.check("BANK-INI-02", what, got, IBF if offset < 0 else OBF)
-        off = complete + lab.cfg.quanta(ON)
-        await lab.bench.until(max(off, lab.bench.now) + 20)
-        lab.check(
+            env.check("BANK-INI-02", what, got, IBF if offset < 0 else OBF)
+        off = complete + env.cfg.quanta(ON)
+        await env.bench.until(max(off, env.bench.now) + 20)
+        env.check(
             "BANK-CHP-01", f"first OFF phase, RL {slow}, RH {fast}", axis.patterns(complete + 1)[0], (off, 0)
         )
         await axis.host.read(DATA)
@@ -181,26 +181,26 @@ async def bank_grp_02_go_while_an_axis_is_initialised(dut):
     """GO rejects an axis whose table is being built: error 2 for the first initialisation, up to the
     visit that completes it, else error 0. The initialisation completes nevertheless (BANK-GRP-02).
     """
-    lab = await Lab.start(dut)
-    axis = lab.axes[6]
+    env = await Env.start(dut)
+    axis = env.axes[6]
     slow, fast = CHOPPED[1:3]
     for again, offset in product((False, True), (-20, -1, 0, 1)):
-        await lab.mask(axis.n)
+        await env.mask(axis.n)
         if not again:
             await axis.command(0xC0)
         await axis.host.send(0x0A, (slow, fast, 4))
         await axis.host.poll(IBF, 0)
-        visit = axis.taken(await axis.host.write(DATA, 0))
+        visit = axis.accepting_visit(await axis.host.write(DATA, 0))
         complete = axis.visit(visit + build_cycles(slow, fast) + 3)
-        g = complete + offset * lab.round - 5
-        await lab.write_at(g, GO, 0)
-        await lab.bench.clocks(2 * lab.round)
+        g = complete + offset * env.round - 5
+        await env.write_at(g, GO, 0)
+        await env.bench.clocks(2 * env.round)
         error = 0xA0 if not again and offset <= 0 else 0x80
         what = f"status, again {again}, GO {offset:+} visits from the completion"
-        lab.check("BANK-GRP-02", what, await axis.status() & 0xF0, error)
-        await lab.mask()
-        await lab.bench.until(max(complete, lab.bench.now) + 2 * lab.round)
-        lab.check("BANK-INI-02", "pulses afterwards", len(await axis.move(0x42)), 1)
+        env.check("BANK-GRP-02", what, await axis.status() & 0xF0, error)
+        await env.mask()
+        await env.bench.until(max(complete, env.bench.now) + 2 * env.round)
+        env.check("BANK-INI-02", "pulses afterwards", len(await axis.move(0x42)), 1)
         await axis.finish()
 
 
@@ -209,22 +209,22 @@ async def bank_win_01_bank_registers_at_absent_axes(dut):
     """MASK, GO and STOP written at an absent axis have no effect; a byte of MASK for absent axes reads
     as 0, and writes to it have no effect (BANK-WIN-01, BANK-WIN-03).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(0)
-    await lab.mask(0)
+    env = await Env.start(dut)
+    axis = await env.ready(0)
+    await env.mask(0)
     await axis.go(0x45, rate=9)
-    for absent in {lab.size, 63}:
-        await lab.host.write(absent << 4 | GO, 0)
-        await lab.host.write(absent << 4 | MASK, 0)
-    await lab.bench.clocks(3 * lab.round + 2 * lab.cfg.w)
-    lab.check("BANK-WIN-01", "pulses after GO at an absent axis", axis.pulses, [])
-    for k in range(max(1, lab.size // 8), min(8, lab.size)):
-        await lab.host.write(k << 4 | MASK, 0xFF)
-        lab.check("BANK-WIN-03", f"MASK byte {k}", await lab.host.read(k << 4 | MASK), 0)
-    lab.check("BANK-WIN-03", "MASK byte 0", await lab.host.read(MASK), 1)
-    g = await lab.go()
+    for absent in {env.size, 63}:
+        await env.host.write(absent << 4 | GO, 0)
+        await env.host.write(absent << 4 | MASK, 0)
+    await env.bench.clocks(3 * env.round + 2 * env.cfg.w)
+    env.check("BANK-WIN-01", "pulses after GO at an absent axis", axis.pulses, [])
+    for k in range(max(1, env.size // 8), min(8, env.size)):
+        await env.host.write(k << 4 | MASK, 0xFF)
+        env.check("BANK-WIN-03", f"MASK byte {k}", await env.host.read(k << 4 | MASK), 0)
+    env.check("BANK-WIN-03", "MASK byte 0", await env.host.read(MASK), 1)
+    g = await env.go()
     await axis.pulse(2)
-    await lab.host.write(lab.size << 4 | STOP, 0)
+    await env.host.write(env.size << 4 | STOP, 0)
     await axis.pulse(5)
-    lab.check("BANK-GRP-02", "pulse 1", axis.pulses[0], due(lab, g))
+    env.check("BANK-GRP-02", "pulse 1", axis.pulses[0], due(env, g))
     await axis.halt()

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from itertools import product
 
 from cocotb_tests.harness import directed
+from cocotb_tests.harness.axis_driver import steps
 from cocotb_tests.harness.checks import BOTH, two_causes
-from cocotb_tests.harness.drive import steps
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import GO, STATUS, STOP, SYNC, Axis, Lab
+from .env import GO, STATUS, STOP, SYNC, Axis, Env
 
 N = 4
 OFFSETS = range(-2, 3)
@@ -46,21 +46,21 @@ class Case:
 
 
 class Waves:
-    """Waves of cases on all axes of a lab. `rate` sets the low time: half of an interval, or W."""
+    """Waves of cases on all axes of the bank. `rate` sets the low time: half of an interval, or W."""
 
-    def __init__(self, lab: Lab, rate: int) -> None:
-        self.lab, self.rate, self.done = lab, rate, 0
-        self.interval = lab.cfg.quanta(8 * (rate + 1))
-        self.positions = [0] * lab.size
+    def __init__(self, env: Env, rate: int) -> None:
+        self.env, self.rate, self.done = env, rate, 0
+        self.interval = env.cfg.quanta(8 * (rate + 1))
+        self.positions = [0] * env.size
 
     async def start(self) -> None:
         """Initialise all axes and set their MASK bits."""
-        await self.lab.all_ready()
-        await self.lab.mask(*range(self.lab.size))
+        await self.env.all_ready()
+        await self.env.mask(*range(self.env.size))
 
     def edges(self, g: int) -> list[int]:
         """Return the edges of the pulses that a GO starts, if nothing ends the motion."""
-        first = g + 4 + self.lab.round + self.lab.cfg.w
+        first = g + 4 + self.env.round + self.env.cfg.w
         return [first + k * self.interval for k in range(N)]
 
     async def let_go(self) -> list[int]:
@@ -68,8 +68,8 @@ class Waves:
 
         The pulses then have all positions in the rounds of the axes.
         """
-        g = -(-(self.lab.bench.now + 10) // self.lab.round) * self.lab.round
-        await self.lab.write_at(g, GO, 0)
+        g = -(-(self.env.bench.now + 10) // self.env.round) * self.env.round
+        await self.env.write_at(g, GO, 0)
         return self.edges(g)
 
     async def held(self, axis: Axis, code: int) -> None:
@@ -78,19 +78,19 @@ class Waves:
 
     async def play(self, cases: list[Case]) -> None:
         """Run one wave with one case per axis. Raise AssertionError unless each motion ends as expected."""
-        lab = self.lab
-        for axis, case in zip(lab.axes, cases, strict=True):
+        env = self.env
+        for axis, case in zip(env.axes, cases, strict=True):
             await self.held(axis, case.code)
         edges = await self.let_go()
         moves: dict[int, dict[str, int]] = {}
-        for axis, case in zip(lab.axes, cases, strict=True):
+        for axis, case in zip(env.axes, cases, strict=True):
             seen = edges[case.pulse - 1] + case.offset
             pin = axis.pin(PINS[case.cause][case.ccw])
             moves.setdefault(seen - SYNC, {})[pin] = 0
             moves.setdefault(seen - SYNC + case.clk, {})[pin] = 1
-        await lab.bench.drive(sorted(moves.items()))
+        await env.bench.drive(sorted(moves.items()))
         await self.over(edges)
-        for axis, case in zip(lab.axes, cases, strict=True):
+        for axis, case in zip(env.axes, cases, strict=True):
             seen = edges[case.pulse - 1] + case.offset
             come = [t for t in edges if t < seen]
             complete = case.cause != "origin" and len(come) == N
@@ -100,22 +100,22 @@ class Waves:
 
     async def over(self, edges: list[int]) -> None:
         """Wait until all axes must be at rest."""
-        await self.lab.bench.until(
-            max(self.lab.bench.now, edges[-1] + self.lab.cfg.w + 2 * self.lab.round + 10)
+        await self.env.bench.until(
+            max(self.env.bench.now, edges[-1] + self.env.cfg.w + 2 * self.env.round + 10)
         )
 
     async def judge(self, axis: Axis, case: object, come: list[int], finish: int, total: int = N) -> None:
         """Check pulses, finish status, remaining pulses, position and phases."""
-        lab, what = self.lab, f"axis {axis.n}, {case}, rate {self.rate}"
+        env, what = self.env, f"axis {axis.n}, {case}, rate {self.rate}"
         ccw = axis.level("dir")
         self.positions[axis.n] += -len(come) if ccw else len(come)
         position = self.positions[axis.n]
-        lab.check("BANK-MOT-02", f"pulses, {what}", axis.pulses, come)
-        lab.check("BANK-MOT-02", f"BUSY, {what}", await axis.status() & 4, 0)
-        lab.check("BANK-MOT-02", f"finish status, {what}", await axis.finish(), finish)
-        lab.check("BANK-MOT-02", f"remaining, {what}", await axis.remaining(), max(total - len(come) - 1, 0))
-        lab.check("BANK-WIN-07", f"position, {what}", await axis.position(), position)
-        lab.check("BANK-MOT-02", f"phases, {what}", axis.phases_now, steps("4 full")[position % 4])
+        env.check("BANK-MOT-02", f"pulses, {what}", axis.pulses, come)
+        env.check("BANK-MOT-02", f"BUSY, {what}", await axis.status() & 4, 0)
+        env.check("BANK-MOT-02", f"finish status, {what}", await axis.finish(), finish)
+        env.check("BANK-MOT-02", f"remaining, {what}", await axis.remaining(), max(total - len(come) - 1, 0))
+        env.check("BANK-WIN-07", f"position, {what}", await axis.position(), position)
+        env.check("BANK-MOT-02", f"phases, {what}", axis.phases_now, steps("4 full")[position % 4])
         self.done += 1
 
 
@@ -129,14 +129,14 @@ async def pin_waves(dut: object, rate: int, rounds: int) -> Waves:
 
     If `rounds` is R, this covers each position in the round.
     """
-    lab = await Lab.start(dut)
-    waves, rng = Waves(lab, rate), random.Random(rate)
+    env = await Env.start(dut)
+    waves, rng = Waves(env, rate), random.Random(rate)
     await waves.start()
     cases = cases_of_pins()
     queue = [Case(*case, rng.choice((1, 1, 2, 3))) for turn in range(rounds) for case in _turned(cases, turn)]
-    queue += queue[: -len(queue) % lab.size]
-    for at in range(0, len(queue), lab.size):
-        await waves.play(queue[at : at + lab.size])
+    queue += queue[: -len(queue) % env.size]
+    for at in range(0, len(queue), env.size):
+        await waves.play(queue[at : at + env.size])
     return waves
 
 
@@ -166,18 +166,18 @@ async def bank_grp_04_stop_around_pulses(dut):
     """STOP with g + 1 at -2 to +2 cycles around a pulse of all axes suppresses exactly the pulses at
     g + 1 or later (BANK-GRP-04).
     """
-    lab = await Lab.start(dut)
-    waves = Waves(lab, 2)
+    env = await Env.start(dut)
+    waves = Waves(env, 2)
     await waves.start()
     for offset, pulse in product(OFFSETS, PULSES):
-        for axis in lab.axes:
+        for axis in env.axes:
             await waves.held(axis, 0x44 | axis.n % 2 << 3)
         edges = await waves.let_go()
         g = edges[pulse - 1] + offset - 1
-        await lab.write_at(g, STOP, 0)
+        await env.write_at(g, STOP, 0)
         await waves.over(edges)
         come = [t for t in edges if t < g + 1]
-        for axis in lab.axes:
+        for axis in env.axes:
             finish = 0x84 if len(come) == N else 0xC4
             await waves.judge(axis, f"STOP {offset:+} at pulse {pulse}", come, finish)
 
@@ -187,21 +187,21 @@ async def bank_mot_02_stop_command_around_pulses(dut):
     """0x40 or 0x41 accepted at visits around each pulse suppresses exactly the pulses at that visit or
     later (BANK-MOT-02).
     """
-    lab = await Lab.start(dut)
-    waves = Waves(lab, 1)
+    env = await Env.start(dut)
+    waves = Waves(env, 1)
     await waves.start()
-    axis = lab.axes[5]
-    await lab.mask(5)
+    axis = env.axes[5]
+    await env.mask(5)
     done = 0
     for pulse, place, code in product(
-        PULSES, range(0, 2 * lab.round + 2, max(1, lab.round // 12)), (0x40, 0x41)
+        PULSES, range(0, 2 * env.round + 2, max(1, env.round // 12)), (0x40, 0x41)
     ):
         ccw = done & 1
         await waves.held(axis, 0x44 | ccw << 3)
         edges = await waves.let_go()
-        event = edges[pulse - 1] - 7 - lab.round + place - 1
+        event = edges[pulse - 1] - 7 - env.round + place - 1
         visit = axis.visit(event + 7)
-        await lab.write_at(event, axis.n << 4 | STATUS, code)
+        await env.write_at(event, axis.n << 4 | STATUS, code)
         await waves.over(edges)
         come = [t for t in edges if t < visit]
         finish = 0x84 if len(come) == N else 0xC4
@@ -214,28 +214,28 @@ async def bank_mot_02_two_causes(dut):
     """Of two causes up to six cycles apart around a pulse, the earlier one sets its bit; both set
     theirs if they occur on the same edge (BANK-MOT-02).
     """
-    lab = await Lab.start(dut)
-    waves = Waves(lab, 0)
+    env = await Env.start(dut)
+    waves = Waves(env, 0)
     await waves.start()
     bits = {"l1_n": 0x10, "alm_n": 0x20}
     for (one, two), apart, offset in product((("l1_n", "alm_n"), ("alm_n", "l1_n")), range(7), OFFSETS):
-        for axis in lab.axes:
+        for axis in env.axes:
             await waves.held(axis, 0x44)
         edges = await waves.let_go()
         seen = edges[1] + offset
-        ones, none = (1 << lab.size) - 1, 0
+        ones, none = (1 << env.size) - 1, 0
         moves: dict[int, dict[str, int]] = {}
         for pin, t in ((one, seen), (two, seen + apart)):
             moves.setdefault(t - SYNC, {})[pin] = none
             moves.setdefault(t - SYNC + 1, {})[pin] = ones
-        await lab.bench.drive(sorted(moves.items()))
+        await env.bench.drive(sorted(moves.items()))
         await waves.over(edges)
         come = [t for t in edges if t < seen]
         finish = 0x84 | bits[one] | (bits[two] if not apart else 0)
-        for axis in lab.axes[:: max(1, lab.size // 8)]:
+        for axis in env.axes[:: max(1, env.size // 8)]:
             await waves.judge(axis, f"{one} {offset:+}, {two} {apart} later", come, finish)
-        for axis in lab.axes:
-            if axis.n % max(1, lab.size // 8):
+        for axis in env.axes:
+            if axis.n % max(1, env.size // 8):
                 waves.positions[axis.n] += len(come)
 
 
@@ -245,8 +245,8 @@ async def bank_mot_02_limit_and_alarm_on_one_edge(dut):
     at the top and while decelerating. A completed count with a slow-down limit before its last pulse
     sets no bit (BANK-MOT-02, BANK-MOT-05).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     pins = (axis.pin("l1_n"), axis.pin("alm_n"))
     await two_causes(axis, "BANK-MOT-02", pins)
     axis.bench.set(**dict.fromkeys(pins, 0))
@@ -267,8 +267,8 @@ async def bank_mot_02_what_is_ignored(dut):
     """At constant speed, the origin, the limits of the other direction and the slow-down limits do not
     end a motion; 0x81 reports their levels (BANK-MOT-02, BANK-MOT-05).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     for code, pins in ((0x44, ("cnp_n", "l2_n", "l3_n", "l4_n")), (0x4C, ("cnp_n", "l1_n", "l3_n", "l4_n"))):
         for pin in pins:
             await axis.go(code, 5, 1)
@@ -276,12 +276,12 @@ async def bank_mot_02_what_is_ignored(dut):
             axis.set(**{pin: 0})
             await axis.idle()
             axis.set(**{pin: 1})
-            lab.check("BANK-MOT-02", f"pulses with {pin}", len(axis.pulses), 5)
-            lab.check("BANK-MOT-02", f"finish status with {pin}", await axis.finish(), 0x84)
-    for axis in (lab.axes[0], lab.axes[-1]):
+            env.check("BANK-MOT-02", f"pulses with {pin}", len(axis.pulses), 5)
+            env.check("BANK-MOT-02", f"finish status with {pin}", await axis.finish(), 0x84)
+    for axis in (env.axes[0], env.axes[-1]):
         for pin, levels in (("l1_n", 0xC7), ("l2_n", 0xCB), ("l3_n", 0xCD), ("l4_n", 0xCE), ("cnp_n", 0x4F)):
             axis.set(**{pin: 0})
-            lab.check("BANK-MOT-05", f"inputs with {pin}", await axis.fetch(0x81), [levels])
+            env.check("BANK-MOT-05", f"inputs with {pin}", await axis.fetch(0x81), [levels])
             axis.set(**{pin: 1})
 
 
@@ -290,14 +290,14 @@ async def bank_mot_05_inputs_to_the_clk(dut):
     """0x81 accepted at V reports an alarm that was detected on edge V - 4 or earlier, but not one cycle
     later (BANK-MOT-05).
     """
-    lab = await Lab.start(dut)
-    axis = lab.axes[6]
+    env = await Env.start(dut)
+    axis = env.axes[6]
     for early, want in ((5, 0x8F), (4, 0x8F), (3, 0xCF)):
-        visit = axis.visit(lab.bench.now + 60)
+        visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, alm_n=0)
-        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x81)
-        await lab.bench.clocks(2 * lab.round)
-        lab.check("BANK-MOT-05", f"inputs, e = V - {early}", await axis.host.read(0), want)
+        await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x81)
+        await env.bench.clocks(2 * env.round)
+        env.check("BANK-MOT-05", f"inputs, e = V - {early}", await axis.host.read(0), want)
         axis.set(alm_n=1)
 
 
@@ -306,15 +306,15 @@ async def bank_mot_02_after_a_forced_end(dut):
     """A limit in the low time of the last pulse of a forced deceleration is not a cause of the end
     (BANK-MOT-02).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(2)
+    env = await Env.start(dut)
+    axis = await env.ready(2)
     for offset, pulses, finish in ((1, 1, 0xC3), (10, 1, 0xC3), (0, 0, 0xD3)):
         edge0 = await axis.go(0x43, 100, poll=False)
-        last = axis.taken(edge0) + lab.cfg.w  # requested before pulse 1: only this pulse is left
+        last = axis.accepting_visit(edge0) + env.cfg.w  # requested before pulse 1: only this pulse is left
         await axis.host.poll(2, 0)
         await axis.command(0x41)
         axis.at(last + offset - SYNC, l1_n=0)
         axis.at(last + offset - SYNC + 2, l1_n=1)
         await axis.idle()
-        lab.check("BANK-MOT-02", f"pulses, {offset:+}", len(axis.pulses), pulses)
-        lab.check("BANK-MOT-02", f"finish status, {offset:+}", await axis.finish(), finish)
+        env.check("BANK-MOT-02", f"pulses, {offset:+}", len(axis.pulses), pulses)
+        env.check("BANK-MOT-02", f"finish status, {offset:+}", await axis.finish(), finish)

@@ -7,10 +7,10 @@ from __future__ import annotations
 from itertools import product
 
 from cocotb_tests.harness import BUSY, directed
-from cocotb_tests.harness.drive import indices, rates, steps
+from cocotb_tests.harness.axis_driver import indices, rates, steps
 
 from .bench import B4, B8, B32, B64, F100
-from .lab import CONFIG, DATA, INIT_A, POSITION, STATUS, SYNC, Lab
+from .env import CONFIG, DATA, INIT_A, POSITION, STATUS, SYNC, Env
 
 RAMP = (20, 0, 30)
 
@@ -20,53 +20,53 @@ async def bank_mot_01_all_axes_at_once(dut):
     """During ramps and constant speeds of all axes, each pulse train and each low time is exact to the
     cycle (BANK-MOT-01).
     """
-    lab = await Lab.start(dut)
-    for axis in lab.axes:
+    env = await Env.start(dut)
+    for axis in env.axes:
         await axis.init(0x0A, *RAMP, opened=False)
-    wanted = {}
-    for axis in lab.axes:
+    expected = {}
+    for axis in env.axes:
         await axis.opened()
         ccw = axis.n % 2 << 3
         if axis.n % 4 == 3:
-            wanted[axis.n] = [axis.n % 5] * 99
+            expected[axis.n] = [axis.n % 5] * 99
             edge0 = await axis.go(0x44 | ccw, 100, axis.n % 5, poll=False)
         else:
-            wanted[axis.n] = rates(RAMP, indices(90, RAMP[2]))
+            expected[axis.n] = rates(RAMP, indices(90, RAMP[2]))
             edge0 = await axis.go(0x43 | ccw, 90, poll=False)
-        start = axis.taken(edge0)
-        await lab.bench.level_is(axis.pin("hold"), 0)
-        lab.check("BANK-MOT-01", "hold falls at the visit", axis.edges("hold"), [(start, 0)])
+        start = axis.accepting_visit(edge0)
+        await env.bench.level_is(axis.pin("hold"), 0)
+        env.check("BANK-MOT-01", "hold falls at the visit", axis.edges("hold"), [(start, 0)])
         axis.since = start
         axis.started = start
-    for axis in lab.axes:
+    for axis in env.axes:
         await axis.idle()
-        lab.check("BANK-MOT-01", f"pulse 1 of {axis.n}", axis.pulses[0] - axis.started, lab.cfg.w)
-        axis.check_train("BANK-MOT-01", wanted[axis.n])
-        axis.check_lows("BANK-MOT-01", wanted[axis.n])
-        count = len(wanted[axis.n]) + 1
-        lab.check("BANK-WIN-07", "position", await axis.position(), -count if axis.n % 2 else count)
+        env.check("BANK-MOT-01", f"pulse 1 of {axis.n}", axis.pulses[0] - axis.started, env.cfg.w)
+        axis.check_train("BANK-MOT-01", expected[axis.n])
+        axis.check_lows("BANK-MOT-01", expected[axis.n])
+        count = len(expected[axis.n]) + 1
+        env.check("BANK-WIN-07", "position", await axis.position(), -count if axis.n % 2 else count)
         place = axis.pulses[0]
         seen = axis.patterns(place)
-        lab.check("BANK-MOT-01", "s changes with pout_n", [t for t, _ in seen], axis.pulses)
+        env.check("BANK-MOT-01", "s changes with pout_n", [t for t, _ in seen], axis.pulses)
         ring = steps("4 full")
         way = [ring[(-k if axis.n % 2 else k) % 4] for k in range(1, count + 1)]
-        lab.check("BANK-MOT-01", f"phases of {axis.n}", [value for _, value in seen], way)
+        env.check("BANK-MOT-01", f"phases of {axis.n}", [value for _, value in seen], way)
 
 
 @directed("BANK-MOT-01", "BANK-INI-01", builds=(B8, B32))
 async def bank_mot_01_another_ramp(dut):
     """An axis that is initialised again uses its new ramp; the other axes keep theirs (BANK-MOT-01)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     ramps = {1: (20, 3, 8), 2: (9, 0, 12), 6: (14, 5, 4)}
     for ramp in ((12, 1, 10), (30, 2, 6)):
         for n in ramps:
-            await lab.axes[n].init(0x0A, *ramps[n])
+            await env.axes[n].init(0x0A, *ramps[n])
         ramps[2] = ramp
-        await lab.axes[2].init(0x0A, *ramp)
+        await env.axes[2].init(0x0A, *ramp)
         for n in ramps:
-            await lab.axes[n].move(0x43, 40)
-            lab.axes[n].check_train("BANK-MOT-01", rates(ramps[n], indices(40, ramps[n][2])))
-            await lab.axes[n].finish()
+            await env.axes[n].move(0x43, 40)
+            env.axes[n].check_train("BANK-MOT-01", rates(ramps[n], indices(40, ramps[n][2])))
+            await env.axes[n].finish()
 
 
 @directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
@@ -74,11 +74,11 @@ async def bank_mot_01_slow_clocks(dut):
     """The intervals for all values of csel and vsel are those of the PPMC-104; the values written 7
     cycles before the start apply (BANK-MOT-01, BANK-GEN-04).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(lab.size - 3)
+    env = await Env.start(dut)
+    axis = await env.ready(env.size - 3)
     for csel, vsel in ((1, 1), (1, 0), (0, 1), (0, 0)):
         await axis.set_config(csel, vsel)
-        await lab.bench.clocks(2 * lab.round)
+        await env.bench.clocks(2 * env.round)
         for rate in (0, 2, 3, 7):
             await axis.move(0x44, 4, rate)
             axis.check_train("BANK-MOT-01", [rate] * 3, csel, vsel)
@@ -87,13 +87,13 @@ async def bank_mot_01_slow_clocks(dut):
         await axis.set_config(1, 1)
         await axis.host.send(0x45)
         # CONFIG is written `late` + 7 cycles after the byte that starts the motion.
-        axis.since = lab.bench.now
-        event = axis.visit(lab.bench.now + 80) - 14 + late
-        lab.at_event(event, axis.n << 4 | DATA, 1)
-        await lab.write_at(event + 7, axis.n << 4 | CONFIG, 2)
+        axis.since = env.bench.now
+        event = axis.visit(env.bench.now + 80) - 14 + late
+        env.at_event(event, axis.n << 4 | DATA, 1)
+        await env.write_at(event + 7, axis.n << 4 | CONFIG, 2)
         start = axis.visit(event + 7)
         await axis.pulse(3, 40)
-        lab.check("BANK-MOT-01", "pulse 1", axis.pulses[0], start + lab.cfg.w)
+        env.check("BANK-MOT-01", "pulse 1", axis.pulses[0], start + env.cfg.w)
         axis.check_train("BANK-GEN-04", [1] * 2, 0 if event + 7 + 7 <= start else 1)
         await axis.halt()
 
@@ -103,13 +103,13 @@ async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
     """With csel low, the intervals of a steep ramp are those of the PPMC-104. Such a ramp skips many
     rates; while decelerating, the search for the next rate therefore ends after the low time (BANK-MOT-01).
     """
-    lab = await Lab.start(dut)
-    axis = lab.axes[lab.size - 2]
+    env = await Env.start(dut)
+    axis = env.axes[env.size - 2]
     ramp = (90, 2, 4)
     await axis.init(0x0A, *ramp)
     for csel, vsel in ((0, 1), (0, 0), (1, 1)):
         await axis.set_config(csel, vsel)
-        await lab.bench.clocks(2 * lab.round)
+        await env.bench.clocks(2 * env.round)
         await axis.move(0x43, 12)
         axis.check_train("BANK-MOT-01", rates(ramp, indices(12, ramp[2])), csel, vsel)
         await axis.finish()
@@ -120,16 +120,16 @@ async def bank_mot_04_busy_falls(dut):
     """After a complete move, BUSY falls at the first visit V after the last low time: sampled at V - 1
     and V (BANK-MOT-04).
     """
-    lab = await Lab.start(dut)
-    for axis in (lab.axes[0], lab.axes[-1]):
+    env = await Env.start(dut)
+    for axis in (env.axes[0], env.axes[-1]):
         await axis.init(*INIT_A)
         for n, offset, want in ((1, -1, BUSY), (1, 0, 0), (3, -1, BUSY), (3, 0, 0)):
             edge0 = await axis.go(0x44, n, 1, poll=False)
-            last = axis.taken(edge0) + lab.cfg.w + lab.cfg.quanta(16 * (n - 1))
-            end = axis.visit(last + lab.cfg.w + 1)
-            got = await lab.as_of(end + offset, axis.n << 4 | STATUS)
-            lab.check("BANK-MOT-04", f"status of {axis.n} at V {offset:+}", got, want)
-            lab.check("BANK-MOT-04", "last low time", axis.edges("pout_n")[-1], (last + lab.cfg.w, 1))
+            last = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(16 * (n - 1))
+            end = axis.visit(last + env.cfg.w + 1)
+            got = await env.as_of(end + offset, axis.n << 4 | STATUS)
+            env.check("BANK-MOT-04", f"status of {axis.n} at V {offset:+}", got, want)
+            env.check("BANK-MOT-04", "last low time", axis.edges("pout_n")[-1], (last + env.cfg.w, 1))
             await axis.finish()
 
 
@@ -138,22 +138,22 @@ async def bank_mot_04_cut_while_high(dut):
     """If a limit is detected on edge e while pout_n is high, BUSY falls at the first visit at e + 5 or
     later (BANK-MOT-04).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(lab.size - 1)
+    env = await Env.start(dut)
+    axis = await env.ready(env.size - 1)
     for early in (4, 5, 6):
         for offset, want in ((-1, BUSY), (0, 0)):
             await axis.go(0x45, rate=30)
-            await axis.pulse(1, lab.cfg.w + 10)
-            visit = axis.visit(lab.bench.now + 60)
+            await axis.pulse(1, env.cfg.w + 10)
+            visit = axis.visit(env.bench.now + 60)
             seen = visit - early
             axis.at(seen - SYNC, l1_n=0)
             axis.at(seen - SYNC + 1, l1_n=1)
-            end = visit + (lab.round if early < 5 else 0)
-            got = await lab.as_of(end + offset, axis.n << 4 | STATUS)
-            lab.check("BANK-MOT-04", f"status, e = V - {early}, {offset:+}", got, want)
+            end = visit + (env.round if early < 5 else 0)
+            got = await env.as_of(end + offset, axis.n << 4 | STATUS)
+            env.check("BANK-MOT-04", f"status, e = V - {early}, {offset:+}", got, want)
             await axis.idle()
-            lab.check("BANK-MOT-02", "pulses", len(axis.pulses), 1)
-            lab.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
+            env.check("BANK-MOT-02", "pulses", len(axis.pulses), 1)
+            env.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
 
 
 @directed("BANK-MOT-03", builds=(B8, B32))
@@ -161,19 +161,19 @@ async def bank_mot_03_byte_before_it_is_known(dut):
     """A Decelerating Stop accepted before the visit that detects the end is treated as during a motion
     (BANK-MOT-03).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(4)
+    env = await Env.start(dut)
+    axis = await env.ready(4)
     for early, error in ((4, False), (5, True)):
         await axis.go(0x46)
-        await axis.pulse(1, lab.cfg.w + 20)
-        visit = axis.visit(lab.bench.now + 60)
+        await axis.pulse(1, env.cfg.w + 20)
+        visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l1_n=0)
-        await lab.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
-        await lab.bench.clocks(3 * lab.round)
+        await env.write_at(visit - 7, axis.n << 4 | STATUS, 0x41)
+        await env.bench.clocks(3 * env.round)
         # The visit that ends the motion accepts no byte; at the next visit the byte is a stop at rest.
-        lab.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
+        env.check("BANK-MOT-03", f"ERR, e = V - {early}", await axis.status() & 0xF0, 0x80 * error)
         axis.set(l1_n=1)
-        lab.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
+        env.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
 
 
 @directed("BANK-MOT-05", builds=(B8, B32, F100))
@@ -181,18 +181,18 @@ async def bank_mot_05_slow_down_limit(dut):
     """Visit V acts on a slow-down limit that was detected on edge V - 4, but not on one detected a
     cycle later (BANK-MOT-05).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(lab.size - 2)
+    env = await Env.start(dut)
+    axis = await env.ready(env.size - 2)
     for early in (5, 4, 3):
         await axis.go(0x43, 1_000)
-        await axis.pulse(2, lab.cfg.w + 20)
-        visit = axis.visit(lab.bench.now + 60)
+        await axis.pulse(2, env.cfg.w + 20)
+        visit = axis.visit(env.bench.now + 60)
         axis.at(visit - early - SYNC, l3_n=0)
         axis.at(visit - early - SYNC + 1, l3_n=1)  # only this visit, or no visit, samples the level
         if early == 4:
             await axis.idle()
-            lab.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
-            lab.check("BANK-MOT-05", "few pulses", len(axis.pulses) < 8, True)
+            env.check("BANK-MOT-05", "finish status", await axis.finish(), 0x8B)
+            env.check("BANK-MOT-05", "few pulses", len(axis.pulses) < 8, True)
         else:
             await axis.pulse(30)
             await axis.halt()
@@ -203,8 +203,8 @@ async def bank_mot_05_only_the_first_request(dut):
     """A slow-down limit sets no bit if a command or the count has begun the deceleration, or if the
     visit that samples it has detected an end (BANK-MOT-05).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(3)
+    env = await Env.start(dut)
+    axis = await env.ready(3)
     for code, n, made, finish in ((0x41, 1_000, 6, 0xC3), (None, 24, 21, 0x83), (0x40, 24, 21, 0xC3)):
         await axis.go(0x43, n)
         await axis.pulse(made, 100)
@@ -213,16 +213,16 @@ async def bank_mot_05_only_the_first_request(dut):
             await axis.pulse(made + 1, 100)
         axis.set(l3_n=0)
         if code == 0x40:
-            await lab.bench.clocks(2 * lab.round)
+            await env.bench.clocks(2 * env.round)
             await axis.command(code)
         await axis.idle()
         axis.set(l3_n=1)
-        lab.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
+        env.check("BANK-MOT-05", f"finish status, {n} pulses", await axis.finish(), finish)
     # Both while pout_n is high and during its low time, which delays an end of the motion.
     for early, plus in product((7, 6, 5, 4, 3, 2), (100, 0)):
         await axis.go(0x46)
         await axis.pulse(6, plus)
-        visit = axis.visit(lab.bench.now + (60 if plus else 8 + SYNC))
+        visit = axis.visit(env.bench.now + (60 if plus else 8 + SYNC))
         axis.at(visit - early - SYNC, l1_n=0, l3_n=0)
         await axis.idle()
         axis.set(l1_n=1, l3_n=1)
@@ -236,47 +236,47 @@ async def bank_mot_05_which_pulse_counts(dut):
     """A deceleration flag set at visit V takes effect for a pulse on edge V and for later ones
     (BANK-MOT-05).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(5)
+    env = await Env.start(dut)
+    axis = await env.ready(5)
     for code in (0x41, 0):
         for late in range(-2, 3):
             edge0 = await axis.go(0x43, 1_000, poll=False)
-            first = axis.taken(edge0) + lab.cfg.w
-            second = first + lab.cfg.quanta(8 * (1 + INIT_A[1]))
-            visit = axis.visit(second + late * lab.round // 2)
+            first = axis.accepting_visit(edge0) + env.cfg.w
+            second = first + env.cfg.quanta(8 * (1 + INIT_A[1]))
+            visit = axis.visit(second + late * env.round // 2)
             if code:
-                await lab.write_at(visit - 7, axis.n << 4 | STATUS, code)
+                await env.write_at(visit - 7, axis.n << 4 | STATUS, code)
             else:
                 axis.at(visit - 4 - SYNC, l3_n=0)
-                axis.at(visit - 4 - SYNC + lab.round, l3_n=1)
+                axis.at(visit - 4 - SYNC + env.round, l3_n=1)
             await axis.pulse(2)
             await axis.idle()
             # After pulse 1 the interval of index 0 runs, which is the last one; after pulse 2 that of
             # index 1.
             want = 2 if visit <= second else 4
-            lab.check("BANK-MOT-05", f"pulses, V {visit - second:+} clk", len(axis.pulses), want)
+            env.check("BANK-MOT-05", f"pulses, V {visit - second:+} clk", len(axis.pulses), want)
             await axis.finish()
 
 
 @directed("BANK-MOT-02", "BANK-WIN-07", "BANK-MOT-03", builds=(B8, B32, F100))
-async def bank_mot_02_taken_back(dut):
+async def bank_mot_02_pulse_cancelled(dut):
     """If a counted pulse is suppressed, the position is corrected when the end is detected
     (BANK-WIN-07).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(6)
+    env = await Env.start(dut)
+    axis = await env.ready(6)
     for number in range(3):
         edge0 = await axis.go(0x45, rate=9, poll=False)
-        second = axis.taken(edge0) + lab.cfg.w + lab.cfg.quanta(80)
-        ordered = axis.visit(second - lab.round + 1)
+        second = axis.accepting_visit(edge0) + env.cfg.w + env.cfg.quanta(80)
+        ordered = axis.visit(second - env.round + 1)
         axis.at(second - SYNC, l1_n=0)
         axis.at(second - SYNC + 3, l1_n=1)
         known = axis.visit(second + 5)
         want = (2, 2, 1)[number] + number
         at = (ordered, known - 1, known)[number]
-        got = await lab.as_of(at, axis.n << 4 | POSITION)
-        lab.check("BANK-WIN-07", f"position, {number}", got, want)
+        got = await env.as_of(at, axis.n << 4 | POSITION)
+        env.check("BANK-WIN-07", f"position, {number}", got, want)
         await axis.idle()
-        lab.check("BANK-MOT-02", "pulses", len(axis.pulses), 1)
-        lab.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
-        lab.check("BANK-MOT-02", "phases", axis.phases_now, steps("4 full")[(number + 1) % 4])
+        env.check("BANK-MOT-02", "pulses", len(axis.pulses), 1)
+        env.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
+        env.check("BANK-MOT-02", "phases", axis.phases_now, steps("4 full")[(number + 1) % 4])

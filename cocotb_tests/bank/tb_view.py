@@ -6,7 +6,7 @@ from typing import Any
 
 import cocotb
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 AREA = "bank_view"
 GROUPS = ("ppmc_bank_carrier",)
@@ -26,7 +26,7 @@ class Bridge:
     """Strobes of UB-BUS-01 at the view; `seen` lists (cs_n, address) at the bank for every cycle."""
 
     def __init__(self, dut: Any) -> None:
-        self.unit = Unit(dut, "view", BLOCKS, "cs_no a_o d_o")
+        self.unit = BlockDriver(dut, "view", BLOCKS, "cs_no a_o d_o")
         self.seen: list[tuple[int, int]] = []
 
     async def _clk(self, **inputs: int) -> int:

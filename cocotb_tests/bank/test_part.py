@@ -17,7 +17,7 @@ ITEMS = cocotb_items(
     "tb_motion",
     "tb_group",
     "tb_limits",
-    "tb_rest",
+    "tb_standstill",
     "tb_edges",
     part=BANK,
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cocotb
 
-from cocotb_tests.harness import Block, Unit, rng, same
+from cocotb_tests.harness import Block, BlockDriver, rng, same
 
 RESETS = [(1_000_000, 20), (3_000_000, 7), (24_000_000, 2), (50_000_000, 1)]  # ClkHz, HoldUs
 LED_CLK_HZ = 1_000_000
@@ -19,7 +19,7 @@ BLOCKS = {
 }
 
 
-async def clocks_to_release(unit: Unit, limit: int) -> int:
+async def clocks_to_release(unit: BlockDriver, limit: int) -> int:
     """Return the number of clock edges from now until rst_no is 1; at most `limit`."""
     for count in range(limit):
         if await unit.settle():
@@ -35,7 +35,7 @@ async def board_reset_release(dut):
     """
     random = rng()
     for i, (clk_hz, hold_us) in enumerate(RESETS):
-        unit = Unit(dut, f"reset{i}", BLOCKS, "rst_no")
+        unit = BlockDriver(dut, f"reset{i}", BLOCKS, "rst_no")
         least = clk_hz // 1_000_000 * hold_us
         unit.put(lock_i=1, req_ni=1)
         unit.choose()
@@ -62,7 +62,7 @@ async def board_reset_release(dut):
 async def board_reset_assertion(dut):
     """lock_i resets immediately and without a clock; req_ni resets with the third edge that samples it."""
     clk_hz, hold_us = RESETS[2]
-    unit = Unit(dut, "reset2", BLOCKS, "rst_no")
+    unit = BlockDriver(dut, "reset2", BLOCKS, "rst_no")
     unit.put(lock_i=1, req_ni=1)
     unit.choose()
     await clocks_to_release(unit, 200)
@@ -78,7 +78,7 @@ async def board_led_stretch(dut):
     """A single-cycle pulse lights the LED for 1/32 to 1/16 s, and a new pulse during this time extends
     it.
     """
-    unit = Unit(dut, "led", BLOCKS, "led_o")
+    unit = BlockDriver(dut, "led", BLOCKS, "led_o")
     await unit.reset()
     same("after reset", await unit.clk(on_i=0), 0)
     await unit.clk(on_i=1)

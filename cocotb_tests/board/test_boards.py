@@ -17,7 +17,7 @@ from .tb_blocks import BLOCKS
 PART = Part("boards", {})
 BLOCK_ITEMS = cocotb_items("cocotb_tests.board", "tb_blocks", part=PART)
 BUS_ITEMS = cocotb_items("cocotb_tests.board", "tb_bus", part=PART)
-LAMP_ITEMS = cocotb_items("cocotb_tests.board", "tb_lamps", part=PART)
+LED_ITEMS = cocotb_items("cocotb_tests.board", "tb_leds", part=PART)
 ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"
@@ -48,8 +48,8 @@ def test_board_top(item, sim_options):
     run_item(item, sim_options, design=design)
 
 
-@pytest.mark.parametrize("item", LAMP_ITEMS)
-def test_lamps(item, sim_options):
+@pytest.mark.parametrize("item", LED_ITEMS)
+def test_leds(item, sim_options):
     """Run one simulation of a carrier with a bus host; the name of the test contains the part."""
     name = item.test.rpartition("=")[2]
     part = part_design(name, item.config)

@@ -6,8 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import PARTS, Bench, HostBus
-from cocotb_tests.harness.clock import clockwork
+from cocotb_tests.harness import PARTS, HostBus, RtlBench
+from cocotb_tests.harness.sim_backend import sim_backend
 
 
 @cocotb.test()
@@ -16,20 +16,20 @@ async def benches_leave_one_watch_a_port(dut: Any) -> None:
     once.
     """
     for _ in range(3):
-        bench = await Bench.start(dut, PARTS["ppmc104"])
+        bench = await RtlBench.start(dut, PARTS["ppmc104"])
     await HostBus(bench).status()
-    rows = list(clockwork().seen())
-    assert [level for _, port, level in rows if port == clockwork().port("d_oe")] == [1, 0]
+    rows = list(sim_backend().changes())
+    assert [level for _, port, level in rows if port == sim_backend().port("d_oe")] == [1, 0]
     assert len(rows) == len(set(rows)), rows
 
 
 @cocotb.test()
 async def a_bench_records_what_it_watches_itself(dut: Any) -> None:
     """A port that one bench watches in addition is not watched by the next bench."""
-    await Bench.start(dut, PARTS["ppmc104"])
-    more = clockwork().port("d_i")
-    clockwork().watch(more)
-    bench = await Bench.start(dut, PARTS["ppmc104"])
+    await RtlBench.start(dut, PARTS["ppmc104"])
+    more = sim_backend().port("d_i")
+    sim_backend().watch(more)
+    bench = await RtlBench.start(dut, PARTS["ppmc104"])
     bench.set(d_i=1)
     await bench.clocks(2)
-    assert more not in {port for _, port, _ in clockwork().seen()}
+    assert more not in {port for _, port, _ in sim_backend().changes()}

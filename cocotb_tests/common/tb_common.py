@@ -8,7 +8,7 @@ from math import ceil
 import cocotb
 from cocotb.triggers import Timer
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 TICKS = [
     (8_000_000, 16_000_000, 4),
@@ -73,8 +73,8 @@ BLOCKS = {
 }
 
 
-def unit(dut, name: str, watch: str) -> Unit:
-    return Unit(dut, name, BLOCKS, watch)
+def unit(dut, name: str, watch: str) -> BlockDriver:
+    return BlockDriver(dut, name, BLOCKS, watch)
 
 
 @cocotb.test()

@@ -9,7 +9,7 @@ from math import ceil
 
 import cocotb
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 AREA = "i2c"
 NONE, START, STOP, BYTE, FREE = range(5)
@@ -125,7 +125,7 @@ def course() -> Iterator[tuple[int, int]]:
 
 async def played(dut: object, number: int, stretch: int = 0) -> Lines:
     """Run `course` on one instance; return the lines."""
-    u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
+    u = BlockDriver(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o sda_oe_o")
     lines = Lines(stretch)
     await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=NONE)
     delay = [(1, 1)] * 2
@@ -171,7 +171,7 @@ async def i2c_times_with_a_stretched_clock(dut):
 async def i2c_period(dut):
     """During bytes without a pause, SCL rises once per period, exact to the cycle, without drift."""
     for number, (clk, scl) in enumerate(CLOCKS):
-        u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
+        u = BlockDriver(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
         await u.reset(scl_i=1, sda_i=0, ack_i=1, cmd_i=BYTE, byte_i=0)
         rises, before, t = [], 0, 0
         while len(rises) < 30:
@@ -188,20 +188,20 @@ async def i2c_period(dut):
 async def i2c_access_time(dut):
     """Bits of a device with the longest access time of the data sheets are received."""
     for number, (clk, _) in enumerate(CLOCKS[:7]):
-        u = Unit(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
+        u = BlockDriver(dut, f"bus{number}", BLOCKS, "done_o scl_oe_o")
         await u.reset(scl_i=1, sda_i=1, ack_i=1, cmd_i=BYTE, byte_i=0xFF)
         late = ceil(Fraction(ACCESS_NS * clk, 10**9))
         levels = [int(bit) for byte in SENT for bit in f"{byte:08b}1"]
         before = waits = 0
-        sda = wanted = 1
+        sda = expected = 1
         for byte in SENT:
             done = 0
             while not done:
                 done, pulled = await u.clk(scl_i=int(not before), sda_i=sda)
                 if pulled and not before:
-                    waits, wanted = late, levels.pop(0) if levels else 1
+                    waits, expected = late, levels.pop(0) if levels else 1
                 elif waits:
                     waits -= 1
-                    sda = sda if waits else wanted
+                    sda = sda if waits else expected
                 before = pulled
             same(f"{clk} Hz: byte", u.get("byte_o"), byte)

@@ -11,8 +11,8 @@ import cocotb
 import pytest
 from cocotb.triggers import Timer
 
-from ..harness import inside
-from ..harness.clock import clockwork
+from ..harness import probe
+from ..harness.sim_backend import sim_backend
 
 LEFT: list[str] = []
 
@@ -86,7 +86,7 @@ async def shows(dut):
 @cocotb.parametrize(edge=[1, 2])
 async def clocked(dut: Any, edge: int) -> None:
     """An assertion fires at one rising edge of a running clock."""
-    work = clockwork()
+    work = sim_backend()
     dut.fire.value = dut.die.value = 0
     work.clock(work.port("clk"), 10)
     await Timer(20 * edge - 15, "step")
@@ -163,7 +163,7 @@ async def pries(dut):
 
 
 @cocotb.test()
-@inside("u_inner.count")
+@probe("u_inner.count")
 async def looks(dut):
     """The test reads a signal that it has requested."""
     first = int(dut.u_inner.count.value)

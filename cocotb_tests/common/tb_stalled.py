@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import cocotb
 
-from ..harness import Block, Unit
+from ..harness import Block, BlockDriver
 
 BLOCKS = {"sync": Block("ppmc_sync", "d_i q1_o q2_o", {"ResetVal": 0})}
 
@@ -14,7 +14,7 @@ BLOCKS = {"sync": Block("ppmc_sync", "d_i q1_o q2_o", {"ResetVal": 0})}
 @cocotb.test()
 async def waits_for_an_edge(dut):
     """Wait for an output that never rises, with a free-running clock."""
-    u = Unit(dut, "sync", BLOCKS, "q2_o", Unit.FREE)
+    u = BlockDriver(dut, "sync", BLOCKS, "q2_o", BlockDriver.FREE)
     await u.reset()
     await u.run_until("q2_o", 1)
 
@@ -22,7 +22,7 @@ async def waits_for_an_edge(dut):
 @cocotb.test()
 async def polls(dut):
     """After each cycle, poll an output that never rises, in a separate function."""
-    u = Unit(dut, "sync", BLOCKS, "q2_o", 3_000)
+    u = BlockDriver(dut, "sync", BLOCKS, "q2_o", 3_000)
 
     async def risen() -> None:
         while not await u.clk():

@@ -12,7 +12,7 @@ from cocotb.triggers import Timer
 
 from cocotb_tests.gates.board import B24
 from cocotb_tests.gates.uart import Uart
-from cocotb_tests.harness import PARTS, Bench, configs
+from cocotb_tests.harness import PARTS, RtlBench, configs
 from openppmc.host.frames import encode
 from openppmc.host.script import RATES, Identity, Result, Script
 from openppmc.model.ppmc104 import Ppmc104
@@ -23,10 +23,10 @@ MOTOR = ("pout_n", "dir", "s", "hold", "int_n")
 EVENT, NAK, NAK_CRC = 0x80, 0x81, 2
 
 
-async def start(dut: Any, code: int = 0) -> tuple[Bench, Uart]:
+async def start(dut: Any, code: int = 0) -> tuple[RtlBench, Uart]:
     """Reset the board, then select the line rate of that code."""
     uart = Uart(dut)
-    bench = await Bench.start(dut, PARTS["ppmc104"])
+    bench = await RtlBench.start(dut, PARTS["ppmc104"])
     uart.listen()
     await Timer(100, "us")
     answer = await uart.ask(Script().rate(code))
@@ -84,7 +84,7 @@ def since(first: int, edges: list[tuple[int, str, int]]) -> list[tuple[int, str,
 
 
 async def move(
-    bench: Bench,
+    bench: RtlBench,
     uart: Uart,
     golden: Golden,
     op: int,

@@ -6,12 +6,12 @@ from typing import Any
 
 from cocotb.triggers import Event, First, Timer
 
-from cocotb_tests.harness.line import Wire
+from cocotb_tests.harness.line import UartBfm
 from openppmc.host.frames import REQUEST_LIMIT, Broken, Deframer, Frame, encode
 from openppmc.host.script import Answer, Script, parse_answer
 
 
-class Uart(Wire):
+class Uart(UartBfm):
     """The line on `uart_rxd` (to the board) and `uart_txd`; `frames` holds the received frames, oldest
     first.
     """
@@ -20,13 +20,13 @@ class Uart(Wire):
         super().__init__(dut.uart_rxd, dut.uart_txd, rate)
         self.frames: list[Frame | Broken] = []
         self._deframer = Deframer()
-        self._came = Event()
+        self._received = Event()
         self._seq = 0
 
-    def came(self, byte: int) -> None:
+    def on_char(self, byte: int) -> None:
         """Add a received byte and collect the complete frames."""
         self.frames += self._deframer.feed(bytes([byte]))
-        self._came.set()
+        self._received.set()
 
     async def frame(self, limit_us: int = 200_000) -> Frame:
         """Return the next frame.
@@ -35,8 +35,8 @@ class Uart(Wire):
         """
         limit = Timer(limit_us, "us")
         while not self.frames:
-            self._came.clear()
-            if await First(self._came.wait(), limit) is limit:
+            self._received.clear()
+            if await First(self._received.wait(), limit) is limit:
                 raise AssertionError(f"no frame within {limit_us} us")
         frame = self.frames.pop(0)
         assert isinstance(frame, Frame), f"broken frame from the board: {frame}"

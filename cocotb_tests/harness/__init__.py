@@ -2,19 +2,19 @@
 
     # cocotb_tests/ppmc104/tb_stops.py                       (runs inside the simulator)
     from cocotb_tests.harness import F11, F16, directed
-    from .figures import INIT_A
-    from .lab import Lab
+    from .expected_timing import INIT_A
+    from .env import Env
 
     @directed("P104-STP-01", "AC-20", builds=(F16, F11))      # builds are optional; the default is F16 only
     async def p104_stp_01_immediate_stop(dut):
         "After 0x40 in a constant-speed move, no further pulse is output."
-        lab = await Lab.start(dut, INIT_A)                    # clock, reset 1-0-1, initialisation
-        await lab.go(0x44, 1000, rate=99)
-        await lab.pulse(10, 400)                              # 400 cycles after the tenth pulse
-        await lab.host.command(0x40)
-        await lab.idle()
-        lab.check("P104-STP-01", "pulses", len(lab.pulses), 10)
-        lab.check("AC-20", "finish status", await lab.finish(), 0xC4)
+        env = await Env.start(dut, INIT_A)                    # clock, reset 1-0-1, initialisation
+        await env.go(0x44, 1000, rate=99)
+        await env.pulse(10, 400)                              # 400 cycles after the tenth pulse
+        await env.host.command(0x40)
+        await env.idle()
+        env.check("P104-STP-01", "pulses", len(env.pulses), 10)
+        env.check("AC-20", "finish status", await env.finish(), 0xC4)
                                                               # here every output edge is compared
 
     # cocotb_tests/ppmc104/test_part.py                       (runs under pytest)
@@ -40,42 +40,55 @@ from typing import TYPE_CHECKING
 
 from openppmc.lazy import lazy
 
+from .deprecated import with_old_names
+
 if TYPE_CHECKING:
-    from .bench import Bench
+    from .axis_driver import AxisDriver
+    from .block_driver import Block, BlockDriver, rng, same
     from .build import check_ranges
     from .bus import BUSY, COMMAND, DATA, ERR, IBF, OBF, STATUS, BlockHost, HostBus
-    from .collect import cocotb_items, inside, verifies
+    from .collect import cocotb_items, probe, verifies
     from .config import D11, D16, F8, F11, F16, F25, F48, F50, F100, Config, configs
-    from .drive import Drive
+    from .dut_bench import DutBench
     from .isa import IsaHost
     from .line import SerialLine
     from .model_bench import ModelBench, OnModel, on_model, rtl_only
     from .part import PARTS, BusStyle, Part
     from .random_items import RandomItems, generating
+    from .rtl_bench import RtlBench
+    from .run_context import directed, random_test, start_bench
     from .runner import SimOptions, run_item
-    from .running import directed, random_test, start_bench
-    from .side import Side
-    from .unit import Block, Unit, rng, same
 else:
-    __getattr__, __dir__ = lazy(
+    _load, __dir__ = lazy(
         __name__,
         """
-        .bench Bench
+        .axis_driver AxisDriver
+        .block_driver Block BlockDriver rng same
         .build check_ranges
         .bus BUSY COMMAND DATA ERR IBF OBF STATUS BlockHost HostBus
-        .collect cocotb_items inside verifies
+        .collect cocotb_items probe verifies
         .config D11 D16 F8 F11 F16 F25 F48 F50 F100 Config configs
-        .drive Drive
+        .dut_bench DutBench
         .isa IsaHost
         .line SerialLine
         .model_bench ModelBench OnModel on_model rtl_only
         .part PARTS BusStyle Part
         .random_items RandomItems generating
+        .rtl_bench RtlBench
+        .run_context directed random_test start_bench
         .runner SimOptions run_item
-        .running directed random_test start_bench
-        .side Side
-        .unit Block Unit rng same
         """,
+    )
+    __getattr__ = with_old_names(
+        __name__,
+        {
+            "Bench": "RtlBench",
+            "Drive": "AxisDriver",
+            "Side": "DutBench",
+            "Unit": "BlockDriver",
+            "inside": "probe",
+        },
+        _load,
     )
 
 __all__ = [
@@ -96,28 +109,28 @@ __all__ = [
     "OBF",
     "PARTS",
     "STATUS",
-    "Bench",
+    "AxisDriver",
     "Block",
+    "BlockDriver",
     "BlockHost",
     "BusStyle",
     "Config",
-    "Drive",
+    "DutBench",
     "HostBus",
     "IsaHost",
     "ModelBench",
     "OnModel",
     "Part",
     "RandomItems",
+    "RtlBench",
     "SerialLine",
-    "Side",
     "SimOptions",
-    "Unit",
     "check_ranges",
     "cocotb_items",
     "configs",
     "directed",
     "generating",
-    "inside",
+    "probe",
     "on_model",
     "random_test",
     "rng",

@@ -5,13 +5,13 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping, Sequence
 
+from .block_driver import Block, wrapper_text
 from .build import Design, locked
 from .collect import Item
 from .part import Part
 from .paths import BUILD, ROOT
 from .project import files
 from .runner import SimOptions, run_item
-from .unit import Block, wrapper_text
 
 BLOCKS = Part("blocks", {})
 GROUPS = ("common", "motion", "host", "single")

@@ -104,7 +104,7 @@ def verilate(
             character.
     """
     # The program finds cocotb's libraries relative to its own folder ($ is doubled for the makefile).
-    # `-rdynamic`: `Native` looks up the functions of our main program by name.
+    # `-rdynamic`: `CppBackend` looks up the functions of our main program by name.
     libs = seen_from(folder, cocotb_tools.config.libs_dir)
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
@@ -139,7 +139,7 @@ class Design:
         ports: all signals that a test may access ("*": every signal of the top). Verilator can then optimise
             the inner signals, which doubles the speed. Without `ports`, and in runs with waves, every signal
             is visible.
-        inside: paths of inner signals that are visible in addition to the ports, together with all other
+        probes: paths of inner signals that are visible in addition to the ports, together with all other
             signals of the same name.
         libraries: archives to link, each with the digest of its content in its path.
         main: the main program (see `verilate`).
@@ -151,7 +151,7 @@ class Design:
     params: Mapping[str, Any] = field(default_factory=dict)
     args: Sequence[str] = ()
     ports: Sequence[str] = ()
-    inside: Sequence[str] = ()
+    probes: Sequence[str] = ()
     libraries: Sequence[Path] = ()
     main: str = field(default_factory=sim_main)
 
@@ -205,9 +205,9 @@ def _build_args(design: Design, waves: bool) -> list[str]:
 
 
 def _visible_ports(design: Design, folder: Path) -> Path:
-    """Write the control file that makes only ports and `inside` signals visible; return its path."""
+    """Write the control file that makes only ports and `probes` signals visible; return its path."""
     rows = [f'public_flat_rw -module "{design.top}" -var "{port}"' for port in design.ports]
-    names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.inside)
+    names = dict.fromkeys(re.sub(r"\[\d+\]$", "", signal.rpartition(".")[2]) for signal in design.probes)
     rows += [f'public_flat_rw -module "*" -var "{name}"' for name in names]
     path = folder / "ports.vlt"
     folder.mkdir(parents=True, exist_ok=True)
@@ -222,8 +222,8 @@ def _digest(design: Design, waves: bool) -> str:
         sha.update(Path(path).name.encode() + b"\0" + Path(path).read_bytes() + b"\0")
     versions = [importlib.metadata.version(name) for name in ("verilator", "cocotb")]
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
-    if design.inside:
-        what = (*what, tuple(design.inside))  # type: ignore[assignment]
+    if design.probes:
+        what = (*what, tuple(design.probes))  # type: ignore[assignment]
     for path in MAINS.get(design.main, ()):
         sha.update(path.read_bytes())
     if design.libraries:

@@ -1,6 +1,6 @@
 """Hosts of directed tests: `HostBus` drives the A0/CS/RD/WR bus, `BlockHost` the registers of blocks.
 
-`SideHost` is the common base of the hosts: a side, the pins of a device, its output levels.
+`DutHost` is the common base of the hosts: a bench, the pins of a device, its output levels.
 """
 
 from __future__ import annotations
@@ -9,35 +9,35 @@ from collections.abc import Callable, Iterable, Mapping
 
 from openppmc.check.records import Access
 
-from .bench import Bench
+from .dut_bench import DutBench
 from .part import BusStyle
-from .side import Side
+from .rtl_bench import RtlBench
 
 
-class SideHost:
-    """Host that works on `side`: the RTL or the golden model. `mark` is the edge where counting begins."""
+class DutHost:
+    """Host that works on `bench`: the RTL or the golden model. `mark` is the edge where counting begins."""
 
-    def __init__(self, side: Side) -> None:
-        self.side = side
+    def __init__(self, bench: DutBench) -> None:
+        self.bench = bench
         self.mark = 0
 
     @property
     def t(self) -> int:
         """The next edge: it is the first to sample pins that change now."""
-        return self.side.now
+        return self.bench.now
 
     async def go(self, t: int) -> None:
         """Wait until just before edge t; raise ValueError if that edge has passed."""
-        await self.side.until(t)
+        await self.bench.until(t)
 
     async def pause(self, clk: int) -> None:
         """Wait for a number of cycles."""
-        await self.side.clocks(clk)
+        await self.bench.clocks(clk)
 
     async def pins(self, **levels: int) -> None:
         """Set pin levels from the next edge on and return one cycle later."""
-        self.side.set(**levels)
-        await self.side.clocks(1)
+        self.bench.set(**levels)
+        await self.bench.clocks(1)
 
     async def blip(self, pin: str, clk: int = 20, gap: int = 2000) -> None:
         """Pulse a pin low, then wait `gap` cycles for its processing."""
@@ -48,13 +48,13 @@ class SideHost:
 
     async def step(self) -> None:
         """Wait until the next event of the golden model is over: a useful moment to poll the device again."""
-        edge = self.side.golden.next_event
-        assert edge is not None, f"the golden model has no further event\n{self.side.context()}"
-        await self.side.until(max(self.t, edge + 1))
+        edge = self.bench.golden.next_event
+        assert edge is not None, f"the golden model has no further event\n{self.bench.context()}"
+        await self.bench.until(max(self.t, edge + 1))
 
     def out(self, signal: str) -> int:
         """Return the present level of an output."""
-        return self.side.level(signal)
+        return self.bench.level(signal)
 
 
 DATA = 0
@@ -83,7 +83,7 @@ class HostBus:
 
     def __init__(
         self,
-        bench: Side,
+        bench: DutBench,
         strobe: int = 2,
         read_strobe: int = 4,
         gap: int = 2,
@@ -299,7 +299,7 @@ class BlockHost(HostBus):
 
     def __init__(
         self,
-        bench: Bench,
+        bench: RtlBench,
         strobe: int = 3,
         read_strobe: int = 5,
         gap: int = 3,

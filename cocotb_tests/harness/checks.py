@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import accumulate, cycle, islice
 from random import Random
 
-from .drive import NO_PULSES_DONE, Drive, Ramp, differences, forced, indices, rates
+from .axis_driver import NO_PULSES_DONE, AxisDriver, Ramp, differences, forced, indices, rates
 
 # From this interval on the rules apply to the exact cycle (P104-BCK-05).
 EXACT = 16
@@ -18,7 +18,7 @@ EXACT_LOW = 6
 # (P104-TIM-05 c).
 BRISK = 128
 # Reason why a `sweep` is not also compared with the golden model.
-TOO_MANY = "each pulse is held against the formula; 800,000 changes of a clock are too many for the model"
+TOO_MANY = "each pulse is compared with the formula; 800,000 changes of a clock are too many for the model"
 
 RateOf = Callable[[Ramp, Sequence[int]], list[int]]
 
@@ -97,7 +97,7 @@ class ExtMoves:
         delay: cycles from an edge at the pin to its pulse.
     """
 
-    def __init__(self, axis: Drive, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
+    def __init__(self, axis: AxisDriver, slow_pin: str, lows: bool, rate_of: RateOf, delay: int) -> None:
         self.axis = axis
         self.slow_pin = slow_pin
         self.lows = lows
@@ -106,7 +106,7 @@ class ExtMoves:
 
     @classmethod
     async def of(
-        cls, axis: Drive, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
+        cls, axis: AxisDriver, ramp: Ramp, slow_pin: str, lows: bool = True, rate_of: RateOf = rates
     ) -> ExtMoves:
         """Measure the delay on the active ramp: 2 to 3 cycles until an edge acts, the rest to the pin."""
         moves = cls(axis, slow_pin, lows, rate_of, 0)
@@ -124,10 +124,10 @@ class ExtMoves:
 
     async def _train(self, move: Move) -> Train:
         axis, bench = self.axis, self.axis.bench
-        wanted = move.rates(self.rate_of)
+        expected = move.rates(self.rate_of)
         await axis.go(0x43 if move.rate is None else 0x44, move.n, move.rate)
         # Allow for the set-up time, and for short intervals that are longer than requested.
-        count = axis.cfg.w // min(move.gaps) + sum(wanted) + 8 * move.n + 8
+        count = axis.cfg.w // min(move.gaps) + sum(expected) + 8 * move.n + 8
         start = await bench.align() + 1
         rises = list(accumulate(islice(cycle(move.gaps), count), initial=start))
         clock = bench.drive(
@@ -177,7 +177,7 @@ The counts lie on the acceleration, the constant speed and the deceleration of a
 """
 
 
-async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
+async def two_causes(axis: AxisDriver, rule: str, pins: Sequence[str]) -> None:
     """Check that limit and alarm on the same edge are both reported, for all operations CW.
 
     Args:
@@ -190,5 +190,5 @@ async def two_causes(axis: Drive, rule: str, pins: Sequence[str]) -> None:
             axis.bench.set(**dict.fromkeys(pins, 0))
             await axis.idle()
             axis.bench.set(**dict.fromkeys(pins, 1))
-            what = f"{rule}: {code:#x} behind pulse {made}"
+            what = f"{rule}: {code:#x} after pulse {made}"
             await axis.result(what, made, BOTH | code & 7, (n or NO_PULSES_DONE) - made - 1)

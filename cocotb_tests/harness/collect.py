@@ -9,7 +9,7 @@
 
 `@verifies("P104-CMD-07", "AC-04")` names the rules that a test checks. It works on pytest functions and on
 cocotb tests. The pytest plugin records the outcome of each marked test for the traceability pages; an ID that
-the manual does not list fails the test. `@inside("u_axis.rate")` names inner signals that a test reads.
+the manual does not list fails the test. `@probe("u_axis.rate")` names inner signals that a test reads.
 """
 
 from __future__ import annotations
@@ -109,25 +109,25 @@ def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
     return bad
 
 
-def inside(*paths: str) -> Callable[[F], F]:
+def probe(*paths: str) -> Callable[[F], F]:
     """Mark a cocotb test as a reader of these inner signals, given as paths below `dut`.
 
     The decorator may be above or below others. Raises ValueError without a path, or if one is not a path.
     """
     if not paths or not all(re.fullmatch(r"\w+(\[\d+\])?(\.\w+(\[\d+\])?)*", path) for path in paths):
-        raise ValueError(f"inside(): expected paths such as 'u_axis.rate', got {paths}")
+        raise ValueError(f"probe(): expected paths such as 'u_axis.rate', got {paths}")
 
     def mark(test: F) -> F:
         target: Any = getattr(test, "func", test)
-        target._openppmc_inside = (*paths, *getattr(target, "_openppmc_inside", ()))
+        target._openppmc_probes = (*paths, *getattr(target, "_openppmc_probes", ()))
         return test
 
     return mark
 
 
-def inside_of(test: Any) -> tuple[str, ...]:
+def probes_of(test: Any) -> tuple[str, ...]:
     """Return the inner signals that a test function (or cocotb test object) names."""
-    return tuple(getattr(getattr(test, "func", test), "_openppmc_inside", ()))
+    return tuple(getattr(getattr(test, "func", test), "_openppmc_probes", ()))
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class Item:
     `target` is the make target of the command that repeats it.
 
     Attributes:
-        inside: inner signals that the test reads.
+        probes: inner signals that the test reads.
         skipped: reason why the test does not run.
         uncompared: the reason why a directed test is not compared with the golden model ("" if it is), None
             for other tests.
@@ -153,7 +153,7 @@ class Item:
     seed: int = 1
     tag: str = ""
     target: str = "test"
-    inside: tuple[str, ...] = ()
+    probes: tuple[str, ...] = ()
     skipped: str = ""
     uncompared: str | None = None
     shared: bool = False
@@ -200,7 +200,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
                         config,
                         part.name,
                         rules_of(test),
-                        inside=inside_of(test),
+                        probes=probes_of(test),
                         skipped="skip=True of cocotb.test()" if case.skip else "",
                         uncompared=getattr(test.func, "_openppmc_uncompared", None),
                         shared=shared,
@@ -226,5 +226,5 @@ def all_tests(module: ModuleType) -> list[Any]:
 
 def configs_of(test: Any) -> tuple[Config, ...]:
     """Return the build configurations that a cocotb test names, or the default one."""
-    wanted: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
-    return wanted
+    builds: tuple[Config, ...] = getattr(test.func, "_openppmc_configs", (F16,))
+    return builds

@@ -1,11 +1,11 @@
 """Edge-by-edge comparison of a run with the golden model.
 
-The pin changes of the run are replayed into the model; every output of both sides must then have the same
+The pin changes of the run are replayed into the model; each output of RTL and model must then have the same
 level on the same rising edges of `clk`. Only outputs forced by an asynchronous reset may differ by one cycle,
 because rst_n can fall between two edges. A difference produces a text report, a VCD and a PNG.
 
-If TALLY in the environment names a file, a simulation appends the counts of its comparisons to it, one JSON
-object per line.
+If OPENPPMC_COUNTS in the environment names a file, a simulation appends the counts of its comparisons to
+it, one JSON object per line.
 """
 
 from __future__ import annotations
@@ -22,21 +22,21 @@ from openppmc.check.records import Edge, Recording
 from openppmc.check.report import write_report
 
 from .crosses import leave
+from .dut_bench import ModelRunner, new_model
 from .part import recorded
-from .side import Follower, new_model
 
-TALLY = "OPENPPMC_TALLY"
+COUNTS_FILE = "OPENPPMC_COUNTS"
 
 
 def add_counts(**counts: int) -> None:
-    """Add these counts to the tally of the run."""
-    if name := os.environ.get(TALLY):
+    """Add these counts to the counts file of the run."""
+    if name := os.environ.get(COUNTS_FILE):
         with open(name, "a", encoding="ascii") as file:
             file.write(json.dumps(counts) + "\n")
 
 
 def total_counts(file: Path) -> Counter[str]:
-    """Return the sums of all counts in the tally of a run; empty if there are no counts."""
+    """Return the sums of all counts in the counts file of a run; empty if there are no counts."""
     sums: Counter[str] = Counter()
     if file.is_file():
         for line in file.read_text(encoding="ascii").splitlines():
@@ -59,16 +59,16 @@ def replay(recording: Recording, model: Any) -> list[Edge]:
 
     The model needs pins(t, **levels), run_until(t) and edges with fields t, signal, value.
     """
-    model = Follower(model).catch_up(recording.stimulus, recording.end)
+    model = ModelRunner(model).catch_up(recording.stimulus, recording.end)
     return [Edge(edge.t, edge.signal, edge.value) for edge in model.edges]
 
 
 def compare_recording(recording: Recording, model: Any | None = None) -> Comparison:
     """Replay a recording and compare every output of the device."""
-    return _compare(recording, Follower(model or new_model(recording.part, recording.params)))
+    return _compare(recording, ModelRunner(model or new_model(recording.part, recording.params)))
 
 
-def _compare(recording: Recording, follower: Follower) -> Comparison:
+def _compare(recording: Recording, follower: ModelRunner) -> Comparison:
     part = recorded(recording.part, recording.params)
     levels = part.reset_levels(recording.params)
     initial = {name: levels[name] for name in part.watched}
@@ -87,12 +87,12 @@ def check_against_model(bench: Any) -> Comparison:
 
     The call raises AssertionError with the report at a difference.
 
-    The golden model is the one that has followed the bench (`Side.golden`), if a test has used it. The files
-    of the report are written to bench.out.
+    The golden model is the one that has followed the bench (`DutBench.golden`), if a test has used it. The
+    files of the report are written to bench.out.
     """
     recording = bench.recording()
     leave_digest(recording, bench.out)
-    follower = bench.follower or Follower(new_model(recording.part, recording.params))
+    follower = bench.follower or ModelRunner(new_model(recording.part, recording.params))
     comparison = _compare(recording, follower)
     leave()
     if comparison.mismatch is not None:

@@ -97,13 +97,13 @@ ALL_CONFIGS: tuple[Config, ...] = (F16, F8, F11, F25, F48, F50, F100, F16X1, F16
 CONFIGS: dict[str, Config] = {config.name: config for config in ALL_CONFIGS}
 
 
-def configs(*wanted: Config) -> Callable[[F], F]:
+def configs(*builds: Config) -> Callable[[F], F]:
     """Set the build configurations that a cocotb test runs under (decorator; default: only `F16`)."""
-    if not wanted:
+    if not builds:
         raise ValueError("configs() needs at least one Config")
 
     def mark(test: F) -> F:
-        getattr(test, "func", test)._openppmc_configs = wanted  # type: ignore[attr-defined]
+        getattr(test, "func", test)._openppmc_configs = builds  # type: ignore[attr-defined]
         return test
 
     return mark

@@ -60,29 +60,29 @@ def watch(part: str) -> None:
         found.hook(lambda cross, row, column: _counts.update([(part, cross, row, column)]))
 
 
-def before(owner: type, method: str, look: Callable[..., None]) -> None:
-    """Call `look(model, *arguments)` before each call of a method of a golden model."""
+def before(owner: type, method: str, observe: Callable[..., None]) -> None:
+    """Call `observe(model, *arguments)` before each call of a method of a golden model."""
     original: Any = getattr(owner, method)
 
     @functools.wraps(original)
-    def seen(self: Any, *arguments: Any) -> Any:
-        look(self, *arguments)
+    def observed(self: Any, *arguments: Any) -> Any:
+        observe(self, *arguments)
         return original(self, *arguments)
 
-    setattr(owner, method, seen)
+    setattr(owner, method, observed)
 
 
-def after(owner: type, method: str, look: Callable[..., None]) -> None:
-    """Do the same as `before`, but call `look(model, result, *arguments)` after the method."""
+def after(owner: type, method: str, observe: Callable[..., None]) -> None:
+    """Do the same as `before`, but call `observe(model, result, *arguments)` after the method."""
     original: Any = getattr(owner, method)
 
     @functools.wraps(original)
-    def seen(self: Any, *arguments: Any) -> Any:
+    def observed(self: Any, *arguments: Any) -> Any:
         result = original(self, *arguments)
-        look(self, result, *arguments)
+        observe(self, result, *arguments)
         return result
 
-    setattr(owner, method, seen)
+    setattr(owner, method, observed)
 
 
 def leave() -> None:
@@ -197,7 +197,7 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
     def begin(motion: Any, t: int) -> None:
         came.pop(id(motion), None)
 
-    def cause_came(motion: Any, t: int, bits: int) -> None:
+    def on_cause(motion: Any, t: int, bits: int) -> None:
         if motion.busy and not motion.finishing:
             came.setdefault(id(motion), phase(motion))
 
@@ -216,15 +216,15 @@ def hook_motion(count: Count, own: Sequence[type] = ()) -> None:
 
     before(Motion, "_begin", begin)
     for owner in (Motion, *own):
-        before(owner, "_end_now", cause_came)
-    before(Motion, "_flag", cause_came)
+        before(owner, "_end_now", on_cause)
+    before(Motion, "_flag", on_cause)
     before(Motion, "_finish", finish)
 
 
 def hook_errors(count: Count) -> None:
     """Count the error of each byte, by the state in which the byte was received."""
 
-    def taken(unit: Any, result: Any, t: int, *rest: Any) -> None:
+    def on_read(unit: Any, result: Any, t: int, *rest: Any) -> None:
         if unit.error is not None:
             motion = unit._motion
             state = "in motion" if motion.busy else "at rest" if unit.setup else UNINIT
@@ -232,4 +232,4 @@ def hook_errors(count: Count) -> None:
                 state = "decelerating"
             count(ERRORS.name, unit.error.name, state)
 
-    after(ByteUnit, "take", taken)
+    after(ByteUnit, "take", on_read)

@@ -35,7 +35,7 @@ class PartTests:
         netlists: whether the device has netlists; if not, its tests run on plain Verilog only.
         pins: pins of the top, if the `bench.py` of the folder does not list them.
         params: parameters of the top in addition to those of a configuration.
-        inside: signals of the top that the tests read, in addition to its ports.
+        probes: signals of the top that the tests read, in addition to its ports.
     """
 
     directed: ModuleType
@@ -52,7 +52,7 @@ class PartTests:
     netlists: bool = True
     pins: Part | None = None
     params: Mapping[str, int] = field(default_factory=dict)
-    inside: tuple[str, ...] = ()
+    probes: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:

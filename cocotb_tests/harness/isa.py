@@ -8,9 +8,9 @@ from cocotb.triggers import Lock, Timer
 
 from openppmc.check.records import Access
 
-from .bench import Bench
 from .bus import HostBus
 from .part import BusStyle
+from .rtl_bench import RtlBench
 
 STROBES_ISA = BusStyle(
     write_on={"iow_n": 0},
@@ -43,7 +43,7 @@ class Times:
 class IsaMaster:
     """The only driver of the bus; an access waits until the previous one is over."""
 
-    def __init__(self, bench: Bench, times: Times | None = None) -> None:
+    def __init__(self, bench: RtlBench, times: Times | None = None) -> None:
         self.bench = bench
         self.times = times or Times()
         self._lock = Lock()

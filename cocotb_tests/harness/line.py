@@ -1,4 +1,4 @@
-"""A serial line on two pins: `Wire` with a simulator's pins, `SerialLine` on a `Side`."""
+"""A serial line on two pins: `UartBfm` with a simulator's pins, `SerialLine` on a `DutBench`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from typing import Any
 import cocotb
 from cocotb.triggers import FallingEdge, Timer
 
-from .side import Side
+from .dut_bench import DutBench
 
 BITS = 8
 
 
-class Wire:
+class UartBfm:
     """An 8N1 line: `rxd` is the receive pin of the board, `txd` its transmit pin.
 
     `rate` in baud may be changed between characters.
@@ -55,9 +55,9 @@ class Wire:
                 byte |= int(self._in.value) << bit
             await self._time(1)
             assert int(self._in.value) == 1, f"the line is low in the stop bit of {byte:#04x}"
-            self.came(byte)
+            self.on_char(byte)
 
-    def came(self, byte: int) -> None:
+    def on_char(self, byte: int) -> None:
         """Process a received character; called in the middle of its stop bit."""
         raise NotImplementedError
 
@@ -111,7 +111,7 @@ class LineTimes:
         self.t, self._free = ceil(end), end
         return [(ceil(at), level) for at, level in changes]
 
-    def _rest(self, gap: float) -> None:
+    def _idle(self, gap: float) -> None:
         """Leave the line idle for `gap` bits."""
         self._free += Fraction(gap) * self.bit
 
@@ -124,13 +124,13 @@ class LineTimes:
 
 
 class SerialLine(LineTimes):
-    """A sender for hosts on a `Side`.
+    """A sender for hosts on a `DutBench`.
 
-    After each method, the next one continues at `t`. The side itself is then at the last change of the pin,
+    After each method, the next one continues at `t`. The bench itself is then at the last change of the pin,
     so that the test can do something else within the stop bit.
     """
 
-    side: Side
+    bench: DutBench
 
     async def character(
         self, byte: int, stop: int = 1, spikes: Sequence[tuple[float, int]] = (), bits: float = 10
@@ -146,9 +146,9 @@ class SerialLine(LineTimes):
 
     async def _drive(self, changes: Changes) -> None:
         for edge, level in changes:
-            if self.side.pin("rxd") != level:
-                await self.side.until(max(edge, self.side.now))
-                self.side.set(rxd=level)
+            if self.bench.pin("rxd") != level:
+                await self.bench.until(max(edge, self.bench.now))
+                self.bench.set(rxd=level)
 
     async def send(self, line: Iterable[int], gap: float = 0) -> None:
         """Send characters without errors.
@@ -158,7 +158,7 @@ class SerialLine(LineTimes):
         """
         for byte in line:
             await self.character(byte)
-            self._rest(gap)
+            self._idle(gap)
         self.t = ceil(self._free)
 
     async def raw(self, text: str) -> None:

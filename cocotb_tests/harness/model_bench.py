@@ -15,8 +15,8 @@ from typing import Any, TypeVar
 from openppmc.check.records import Change
 
 from .config import F16, Config
+from .dut_bench import TIMEOUT, DutBench, PinChange, new_model
 from .part import Part
-from .side import TIMEOUT, PinChange, Side, new_model
 
 T = TypeVar("T")
 F = TypeVar("F")
@@ -49,8 +49,8 @@ class _Later:
         yield from ()
 
 
-class ModelBench(Side):
-    """A golden model just out of reset; `now` = `settle`, 0 or more; `pins` as for `Bench.start`.
+class ModelBench(DutBench):
+    """A golden model just out of reset; `now` = `settle`, 0 or more; `pins` as for `RtlBench.start`.
 
     Its time begins with edge 0: the first reset itself is not visible.
     """
@@ -77,7 +77,7 @@ class ModelBench(Side):
 
     @property
     def golden(self) -> Any:
-        """See `Side.golden`: here it is the model of this side."""
+        """See `DutBench.golden`: here it is the model of this bench."""
         return self.model
 
     @property
@@ -86,7 +86,7 @@ class ModelBench(Side):
         return self._now
 
     async def until(self, edge: int) -> int:
-        """See `Side.until`. It never suspends."""
+        """See `DutBench.until`. It never suspends."""
         if edge < self._now:
             raise ValueError(f"until({edge}): it is already edge {self._now}")
         self._go(edge)
@@ -110,7 +110,7 @@ class ModelBench(Side):
     # ---------------------------------------------------------------- pins
 
     def set(self, **levels: int) -> int:
-        """See `Side.set`. It may be called at any moment."""
+        """See `DutBench.set`. It may be called at any moment."""
         for pin, level in levels.items():
             if self.pin(pin) == level:
                 continue
@@ -121,11 +121,11 @@ class ModelBench(Side):
         return self._now
 
     async def set_between(self, share: float = 0.5, /, **levels: int) -> int:
-        """See `Side.set_between`. There is no time between two edges here."""
+        """See `DutBench.set_between`. There is no time between two edges here."""
         return self.set(**levels)
 
     def drive(self, changes: Iterable[PinChange]) -> _Later:
-        """See `Side.drive`."""
+        """See `DutBench.drive`."""
         later = _Later(iter(changes), lambda: self._go(self._due[0][0]))
         self._later.append(later)
         self._schedule(later)
@@ -141,15 +141,15 @@ class ModelBench(Side):
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """See `Side.outputs`."""
+        """See `DutBench.outputs`."""
         return tuple(self.model.outputs)
 
     def _port_level(self, port: str) -> int:
         level: int = self.model.outputs[port]
         return level
 
-    def _seen(self) -> dict[str, list[tuple[int, int]]]:
-        """See `Side._seen`. The effect of an asynchronous reset at `now` is added with the next edge."""
+    def _output_changes(self) -> dict[str, list[tuple[int, int]]]:
+        """See `DutBench`. The effect of an asynchronous reset at `now` is added with the next edge."""
         edges = self.model.edges
         while self._taken < len(edges) and edges[self._taken].t < self._now:
             t, signal, value = edges[self._taken]
@@ -158,7 +158,7 @@ class ModelBench(Side):
         return self._edges
 
     async def edge(self, output: str, level: int | None = None, timeout: int = TIMEOUT) -> int:
-        """See `Side.edge`."""
+        """See `DutBench.edge`."""
         end, before = self._now + timeout, self.level(output)
         edges: Sequence[Any] = self.model.edges
         last = edges[-1] if edges else None

@@ -4,7 +4,7 @@
     globals().update(model_tests(__name__, "cocotb_tests.ppmc104", "tb_acceptance_moves"))
 
 `p104_ac_09_trapezoid` becomes `test_ac_09_trapezoid`, with the same rules, in each of its builds. Thus one
-check applies to both sides, to the cycle.
+check applies to RTL and model, to the cycle.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ def run_on_model(item: Item, seed: int | None) -> None:
         pytest.skip(item.skipped)
     if why := getattr(case.func, "_openppmc_rtl_only", ""):
         pytest.skip(f"RTL only: {why}")
-    side = OnModel(item.config, item.seed if seed is None else seed)
+    dut = OnModel(item.config, item.seed if seed is None else seed)
     failed = None
     try:
-        on_model(case.func(side, *case.args, **case.kwargs))
+        on_model(case.func(dut, *case.args, **case.kwargs))
     except BaseException as error:
         if not (case.expect_fail or isinstance(error, case.expect_error or ())):
             raise

@@ -25,7 +25,7 @@ from typing import Any
 
 from .bus import BUSY, DATA, IBF, OBF, HostBus
 from .config import Config
-from .side import PinChange, Side
+from .dut_bench import DutBench, PinChange
 
 Action = tuple[Any, ...]
 
@@ -98,9 +98,9 @@ class Scenario:
 
 
 class Player:
-    """Plays a scenario on a side. After the time limit of a poll it continues: such a host is legal, too."""
+    """Plays a scenario on a bench. After the time limit of a poll it continues: such a host is legal, too."""
 
-    def __init__(self, bench: Side, scenario: Scenario) -> None:
+    def __init__(self, bench: DutBench, scenario: Scenario) -> None:
         self.bench = bench
         self.scenario = scenario
         self.rng = random.Random(f"player {scenario.seed}")
@@ -189,7 +189,7 @@ class SinglePlayer(Player):
     the rule.
     """
 
-    def __init__(self, bench: Side, scenario: Scenario, rule: str) -> None:
+    def __init__(self, bench: DutBench, scenario: Scenario, rule: str) -> None:
         super().__init__(bench, scenario)
         self.rule = rule
 

@@ -1,4 +1,4 @@
-"""pytest side of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
+"""pytest plugin of the harness: its options, rule IDs of every test, build/trace/results.jsonl.
 
 The conftest.py at the project root loads it, so it also handles the plain Python tests below tests/.
 """
@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 
 from .build import locked
-from .clock import collect_seldom
 from .collect import PREFIXES, Item, part_of_rule, rules_of, unknown_rules
 from .model_tests import run_on_model
 from .paths import TRACE
 from .runner import SimOptions, Summary, notes
 from .schedule import Groups, Sender, item_of, params_of
+from .sim_backend import collect_seldom
 from .variants import mutant_present
 
 RESULTS = TRACE / "results.jsonl"
@@ -25,12 +25,12 @@ _GROUPS = pytest.StashKey[Groups]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the options of `make test`: SEED, CLK_HZ, WAVES, INSIDE and MODEL."""
+    """Add the options of `make test`: SEED, CLK_HZ, WAVES, PROBE and MODEL."""
     group = parser.getgroup("openppmc")
     group.addoption("--seed", type=int, default=None, help="seed of all simulations and random tests")
     group.addoption("--clk-hz", type=int, default=None, help="run only simulations with this CLK_HZ")
     group.addoption("--waves", action="store_true", help="keep the waveforms of each simulation")
-    group.addoption("--inside", action="store_true", help="show inner signals in every simulation")
+    group.addoption("--probe", "--inside", action="store_true", help="show inner signals in every simulation")
     group.addoption("--model", action="store_true", help="run directed tests on the golden model alone")
 
 
@@ -53,13 +53,13 @@ def _rules_and_part(test: pytest.Item) -> tuple[tuple[str, ...], str]:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Deselect plain Python tests and other clocks (--clk-hz); all except directed tests (--model)."""
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
-    keep = [test for test in items if _wanted(item_of(test), clk_hz, model)]
+    keep = [test for test in items if _is_selected(item_of(test), clk_hz, model)]
     if len(keep) < len(items):
         config.hook.pytest_deselected(items=[test for test in items if test not in set(keep)])
         items[:] = keep
 
 
-def _wanted(item: Item | None, clk_hz: int | None, model: bool) -> bool:
+def _is_selected(item: Item | None, clk_hz: int | None, model: bool) -> bool:
     """Return whether a test runs at this clock, and on the golden model."""
     if item is None:
         return clk_hz is None and not model
@@ -155,7 +155,7 @@ def pytest_configure(config: pytest.Config) -> None:
     options = SimOptions(
         seed=config.getoption("--seed"),
         waves=config.getoption("--waves"),
-        inside=config.getoption("--inside"),
+        probe=config.getoption("--probe"),
     )
     config.stash[_GROUPS] = Groups(options)
     config.pluginmanager.register(config.stash[_GROUPS], "openppmc-groups")

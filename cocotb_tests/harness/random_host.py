@@ -9,30 +9,30 @@ from typing import Any, Protocol, TypeVar
 
 from cocotb.triggers import Timer
 
-from .bench import Bench
 from .config import Config
+from .dut_bench import DutBench, Handle, PinChange
 from .player import Action
-from .side import Handle, PinChange, Side
+from .rtl_bench import RtlBench
 
 
 class MovingPins:
-    """Schedules pin changes on a side; a change in the past is made immediately.
+    """Schedules pin changes on a bench; a change in the past is made immediately.
 
     Args:
         kept: pins that `stop` does not change, in addition to those of the bus, rst_n and rxd.
         clock: name of the pin of the external clock.
     """
 
-    def __init__(self, side: Side, kept: Sequence[str] = (), clock: str = "extck") -> None:
-        self._side, self._pin = side, clock
-        self._kept = {*side.part.bus_pins, *kept, "rst_n", "rxd"}
+    def __init__(self, bench: DutBench, kept: Sequence[str] = (), clock: str = "extck") -> None:
+        self._bench, self._pin = bench, clock
+        self._kept = {*bench.part.bus_pins, *kept, "rst_n", "rxd"}
         self._clock: Handle | None = None
         self._later: list[Handle] = []
         self._level = 0
 
     def add(self, t: int, **levels: int) -> None:
         """Set levels from edge t on."""
-        self._later.append(self._side.at(max(t, self._side.now), **levels))
+        self._later.append(self._bench.at(max(t, self._bench.now), **levels))
 
     def blip(self, t: int, pin: str, level: int, clk: int) -> None:
         """Hold a pin at `level` for `clk` cycles, then set the opposite level."""
@@ -46,7 +46,7 @@ class MovingPins:
         draw = random.Random(rng.random()) if on else None
         low = rng.choice((2, 3, 8, 20))
         period = (low, rng.choice((2, 3, 8, 20)))
-        self._clock = self._side.drive(self._ticks(t, period, draw)) if draw else None
+        self._clock = self._bench.drive(self._ticks(t, period, draw)) if draw else None
 
     def _ticks(self, t: int, period: tuple[int, int], draw: random.Random) -> Iterator[PinChange]:
         while True:
@@ -60,15 +60,15 @@ class MovingPins:
         """Stop all changes and set all pins to their idle levels."""
         for handle in (*self._later, *([self._clock] if self._clock else [])):
             handle.cancel()
-        side = self._side
-        side.set(**{pin: level for pin, level in side.part.inputs.items() if pin not in self._kept})
+        bench = self._bench
+        bench.set(**{pin: level for pin, level in bench.part.inputs.items() if pin not in self._kept})
 
 
 UNCOMPARED = "levels change between two edges of clk, and either edge may sample them first"
 """Reason why runs with this noise are not compared with the golden model."""
 
 
-class Noise:
+class PinNoise:
     """Drives random levels; each call of `make` continues where the previous one ended.
 
     Args:
@@ -78,7 +78,7 @@ class Noise:
     """
 
     def __init__(
-        self, bench: Bench, strobes: tuple[str, ...], codes: tuple[int, ...], still: tuple[str, ...] = ()
+        self, bench: RtlBench, strobes: tuple[str, ...], codes: tuple[int, ...], still: tuple[str, ...] = ()
     ) -> None:
         self.bench = bench
         self.rng = random.Random(f"noise {bench.seed}")
@@ -161,12 +161,12 @@ def in_turn(*builds: Config) -> Callable[[int], Config]:
     return lambda seed: builds[seed % len(builds)]
 
 
-class OnSide(Protocol):
+class HostProtocol(Protocol):
     """The host of a device that a random host uses."""
 
     @property
-    def side(self) -> Side:
-        """The side that the host works on."""
+    def bench(self) -> DutBench:
+        """The bench that the host works on."""
 
 
 class RandomHost:
@@ -176,7 +176,7 @@ class RandomHost:
     independently.
     """
 
-    host: OnSide
+    host: HostProtocol
     background: MovingPins
 
     def __init__(self, name: str, seed: int) -> None:
@@ -186,11 +186,11 @@ class RandomHost:
     @property
     def model(self) -> Any:
         """Golden model of the device. The host uses it to decide when to act, not for the responses."""
-        return self.host.side.golden
+        return self.host.bench.golden
 
-    def pick(self, acts: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
+    def pick(self, actions: Iterable[tuple[Callable[[], Any], float]]) -> Callable[[], Any]:
         """Draw a function of a table of (function, weight)."""
-        return weighted(self.rng, acts)
+        return weighted(self.rng, actions)
 
 
 class HostWriter(RandomHost, ABC):
@@ -250,7 +250,7 @@ class HostWriter(RandomHost, ABC):
         for reg, byte in writes:
             self.add("write", reg, byte, self.rng.randint(2, 3), gap)
 
-    def told(self, code: int, data: list[int], polled: float) -> None:
+    def send_command(self, code: int, data: list[int], polled: float) -> None:
         """Send a command with its data bytes, polled with the probability `polled`, else without polling."""
         if self.rng.random() < polled:
             self.add("send", code, data)

@@ -4,7 +4,7 @@
     pytest_generate_tests = generating(test_random=random_item)
 
 Several seeds share a simulation (`batches`), each after a reset. A failing simulation reports the shortest
-stimulus found that still fails (`shortened`).
+stimulus found that still fails (`shrink_report`).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from openppmc.check.records import Recording
 
 from .build import Design, SimError, part_design
 from .collect import Item, cocotb_items
-from .compare import TALLY, total_counts
+from .compare import COUNTS_FILE, total_counts
 from .config import SEEDS, Config
 from .model_bench import OnModel, on_model
 from .part import PARTS
@@ -45,7 +45,7 @@ def attempt_random(
     env: Mapping[str, str] | None = None,
     design: Design | None = None,
 ) -> str:
-    """Do the same as `attempt`; the message of a failing run ends with its shortest list of acts.
+    """Do the same as `attempt`; the message of a failing run ends with its shortest list of transactions.
 
     That list is found on the device alone.
     """
@@ -53,7 +53,7 @@ def attempt_random(
     if not message or mutant_present():
         return message
     seed = options.seed if options and options.seed is not None else item.seed
-    return f"{message}\n{shortened(FAILURES / f'{safe(item.id)}-s{seed}')}"
+    return f"{message}\n{shrink_report(FAILURES / f'{safe(item.id)}-s{seed}')}"
 
 
 def replay_item(recording: Recording, test: str = "replay") -> Item:
@@ -71,8 +71,8 @@ def replay_line(file: Path) -> str:
     return f"make replay FILE={relative(file)}"
 
 
-def shortened(folder: Path, design: Design | None = None) -> str:
-    """Shrink the recording that a failing run left in its folder; return the shortest list of acts as text.
+def shrink_report(folder: Path, design: Design | None = None) -> str:
+    """Shrink the recording of a failing run in its folder; return the shortest list of transactions as text.
 
     `design` (default: the recorded device) is simulated. The files are in its subfolder `short`.
     """
@@ -186,8 +186,8 @@ def play(items: Sequence[Item], design: Callable[[Item], Design | None], size: i
 
 def _attempt(played: Played, item: Item, env: dict[str, str], design: Design | None) -> str:
     with TemporaryDirectory(prefix="openppmc-") as folder:
-        file = Path(folder) / f"tally-{os.getpid()}"
-        message = attempt_random(item, env={**env, TALLY: str(file)}, design=design)
+        file = Path(folder) / f"counts-{os.getpid()}"
+        message = attempt_random(item, env={**env, COUNTS_FILE: str(file)}, design=design)
         if not message:
             played.compared.update(total_counts(file))
     return message

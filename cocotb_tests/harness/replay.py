@@ -13,13 +13,13 @@ import cocotb
 from openppmc.check.comparison import Comparison
 from openppmc.check.records import Change, Edge, Recording
 
-from .bench import Bench
 from .compare import compare_recording, write_report
 from .part import PARTS
-from .shrink import Act, Shrinker, acts_of, changes_of, told
+from .rtl_bench import RtlBench
+from .shrink import Shrinker, Transaction, changes_of, report_lines, transactions_of
 
 
-async def rerun(bench: Bench, changes: Iterable[Change], end: int) -> list[Edge]:
+async def rerun(bench: RtlBench, changes: Iterable[Change], end: int) -> list[Edge]:
     """Reset the device and make the changes; return all output edges up to edge `end`.
 
     Times are counted as in `changes`.
@@ -41,35 +41,35 @@ REPLAY = "OPENPPMC_REPLAY"
 SECONDS = "OPENPPMC_SHRINK_S"
 WORDS = "short.txt"
 ROWS = 40
-"""Maximum number of lines in the message, one line for each group of acts."""
+"""Maximum number of lines in the message, one line for each group of transactions."""
 
 
-async def compared(bench: Bench, recording: Recording) -> Comparison:
+async def compared(bench: RtlBench, recording: Recording) -> Comparison:
     """Compare the RTL with a golden model under a recording's pin changes, each just after a reset."""
     edges = await rerun(bench, recording.stimulus, recording.end)
     return compare_recording(replace(recording, edges=edges))
 
 
 class Search:
-    """Search for a short list of acts that causes the difference `first` of a recording on the same output.
+    """Searches a short list of transactions with the difference `first` of a recording on the same output.
 
     The best list so far is always in recording.json and short.txt of the bench's folder.
     """
 
-    def __init__(self, bench: Bench, first: Comparison) -> None:
+    def __init__(self, bench: RtlBench, first: Comparison) -> None:
         assert first.mismatch is not None
         self.bench, self.signal = bench, first.mismatch.signal
-        t, acts = first.mismatch.t, acts_of(first.recording)
-        self.whole = len(acts)
+        t, transactions = first.mismatch.t, transactions_of(first.recording)
+        self.whole = len(transactions)
         self.end = first.recording.end
-        self.see(first)
+        self.store(first)
         seconds = float(os.environ.get(SECONDS, "60"))
-        acts = [act for act in acts if act.begin <= t]
-        self.shrinker = Shrinker(acts, self.fails, seconds=seconds, kept=self.keep)
+        transactions = [txn for txn in transactions if txn.begin <= t]
+        self.shrinker = Shrinker(transactions, self.fails, seconds=seconds, kept=self.keep)
 
     async def run(self) -> bool:
-        """Search; return whether the acts cause the difference at all."""
-        if await self.fails(self.shrinker.acts) is None:
+        """Search; return whether the transactions cause the difference at all."""
+        if await self.fails(self.shrinker.transactions) is None:
             return False
         self.keep()
         await self.shrinker.run()
@@ -77,19 +77,19 @@ class Search:
         self.keep()
         return True
 
-    def see(self, found: Comparison) -> None:
+    def store(self, found: Comparison) -> None:
         """Store the best result so far; a shorter list may show the difference slightly later."""
         assert found.mismatch is not None
         self.last, t = found, found.mismatch.t
         self.end = min(self.end, t + t // 8 + 2_000)
 
-    async def fails(self, acts: Sequence[Act]) -> int | None:
-        """Return the edge of the difference if these acts cause it and no other output differs before."""
+    async def fails(self, transactions: Sequence[Transaction]) -> int | None:
+        """Return the edge of the difference if these transactions cause it and no output differs before."""
         recording = replace(
             self.last.recording,
             end=self.end,
-            stimulus=changes_of(self.bench.part, acts),
-            accesses=[act.access for act in acts if act.access],
+            stimulus=changes_of(self.bench.part, transactions),
+            accesses=[txn.access for txn in transactions if txn.access],
         )
         try:
             found = await compared(self.bench, recording)
@@ -97,7 +97,7 @@ class Search:
             return None
         if found.mismatch is None or found.mismatch.signal != self.signal:
             return None
-        self.see(found)
+        self.store(found)
         return found.mismatch.t
 
     def keep(self) -> None:
@@ -106,25 +106,25 @@ class Search:
         assert m is not None
         short = replace(self.last.recording, end=min(self.end, m.t + 200))
         (out / "recording.json").write_text(short.to_json(), encoding="utf-8")
-        acts = shrinker.acts
-        rows = [f"  {line}" for line in told(acts)]
-        (out / "acts.txt").write_text("\n".join([*rows, ""]), encoding="utf-8")
-        head = f"shrunk from {self.whole} acts to {len(acts)} in {shrinker.trials} trials"
-        head += f", {len(rows)} lines" if len(rows) < len(acts) else ""
+        transactions = shrinker.transactions
+        rows = [f"  {line}" for line in report_lines(transactions)]
+        (out / "transactions.txt").write_text("\n".join([*rows, ""]), encoding="utf-8")
+        head = f"shrunk from {self.whole} transactions to {len(transactions)} in {shrinker.trials} trials"
+        head += f", {len(rows)} lines" if len(rows) < len(transactions) else ""
         head += f", stopped {shrinker.stopped}" if shrinker.stopped else ""
-        more = [f"  … and {len(rows) - ROWS} more in acts.txt"] if len(rows) > ROWS else []
-        expected, actual = (_told(side) for side in (m.expected, m.actual))
+        more = [f"  … and {len(rows) - ROWS} more in transactions.txt"] if len(rows) > ROWS else []
+        expected, actual = (_edge_text(edge) for edge in (m.expected, m.actual))
         tail = f"then {m.signal} differs at edge {m.t}: expected {expected}, got {actual}"
         (out / WORDS).write_text("\n".join([f"{head}:", *rows[:ROWS], *more, tail]), encoding="utf-8")
 
 
-def _told(side: tuple[int, int] | None) -> str:
-    return "no further edge" if side is None else f"{side[1]:#x} at {side[0]}"
+def _edge_text(edge: tuple[int, int] | None) -> str:
+    return "no further edge" if edge is None else f"{edge[1]:#x} at {edge[0]}"
 
 
-async def _begun() -> tuple[Bench, Comparison]:
+async def _begun() -> tuple[RtlBench, Comparison]:
     recording = Recording.from_json(Path(os.environ[REPLAY]).read_text(encoding="utf-8"))
-    bench = await Bench.start(cocotb.top, PARTS[recording.part], seed=recording.seed)
+    bench = await RtlBench.start(cocotb.top, PARTS[recording.part], seed=recording.seed)
     return bench, await compared(bench, recording)
 
 
@@ -138,12 +138,12 @@ async def replay(dut: Any) -> None:
 
 @cocotb.test()
 async def shrink(dut: Any) -> None:
-    """Omitting acts from a recording with a difference leaves a short list in a file."""
+    """Omitting transactions from a recording with a difference leaves a short list in a file."""
     bench, first = await _begun()
     if first.mismatch is None:
         why = "its pins show no difference from another reset"
     elif not await Search(bench, first).run():
-        why = "taken apart into single acts it shows no difference"
+        why = "taken apart into single transactions it shows no difference"
     else:
         return
     (bench.out / WORDS).write_text(f"not shrunk: {why}", encoding="utf-8")

@@ -42,14 +42,14 @@ from .variants import mutant_present
 _VAR = re.compile(r"\$var \w+ +(\d+) \S+ (\S+)(?: (\[\S+\]))? \$end")
 
 _UNKNOWN = re.compile(r"AttributeError: .*contains no (child )?object")
-HINT = "hidden in this build: @inside(…) or INSIDE=1"
+HINT = "hidden in this build: @probe(…) or PROBE=1"
 
 
-def seen(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
+def with_probes(design: Design, paths: tuple[str, ...], everything: bool = False) -> Design:
     """Return the design with these inner signals visible, or with all signals visible."""
     if everything:
         return replace(design, ports=())
-    return replace(design, inside=paths) if paths and design.ports else design
+    return replace(design, probes=paths) if paths and design.ports else design
 
 
 def hint(text: str, design: Design) -> str:
@@ -140,7 +140,7 @@ def fails(job: Job, items: Sequence[Item]) -> bool:
     return not outcome.good
 
 
-def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
+def shortest_prefix(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
     """Return the smallest list of the tests `before` after which `item` fails.
 
     The list is halved as long as one half is sufficient.
@@ -157,7 +157,7 @@ def narrowed(job: Job, before: Sequence[Item], item: Item) -> list[Item]:
     return culprits
 
 
-def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
+def failure_message(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
     """Return the message about an item that failed in `job`.
 
     The log, and with `waves` a VCD, stay in build/failures/.
@@ -173,15 +173,15 @@ def judged(item: Item, first: Outcome, job: Job, waves: bool = True) -> str:
     elif len(job.items) == 1:
         text = _message(item, first, alone, ["the same run, once more, passed: it is not deterministic"])
     else:
-        text = _behind(item, first, job, waves, kept)
+        text = _after_others(item, first, job, waves, kept)
     return text
 
 
 def _message(
-    item: Item, outcome: Outcome, job: Job, said: Sequence[str] = (), kept: Path | None = None
+    item: Item, outcome: Outcome, job: Job, reasons: Sequence[str] = (), kept: Path | None = None
 ) -> str:
-    """Return the message about a failure: what failed, the results `said` of the other runs, the files."""
-    lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in said)]
+    """Return the message about a failure: what failed, the results `reasons` of the other runs, the files."""
+    lines = [f"{item.id}: {outcome.kind}", outcome.text, *(f"({line})" for line in reasons)]
     lines.append(f"seed {job.seed}" + (f", log {relative(kept / 'log.txt')}" if kept else ""))
     if kept and (kept / "waves" / VCD).is_file():
         lines.append(f"waves in {relative(kept / 'waves' / VCD)}")
@@ -190,33 +190,33 @@ def _message(
 
 def _fails(item: Item, outcome: Outcome, job: Job, waves: bool, kept: Path) -> str:
     """Return the message about a failure that `job` reproduces; it needs all items before `item`."""
-    said = [f"fails only behind {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
-    if told := hint(outcome.text, job.design):
-        return _message(item, outcome, job, [*said, told], kept)
+    reasons = [f"fails only after {_names(job.items[:-1])}; alone it passes"] if len(job.items) > 1 else []
+    if unknown_name := hint(outcome.text, job.design):
+        return _message(item, outcome, job, [*reasons, unknown_name], kept)
     if waves and outcome.kind != MISSING and not outcome.text.startswith(TIMEOUT):
         try:
-            seen = simulate(replace(job, waves=True), kept / "waves")[item]
+            repeated = simulate(replace(job, waves=True), kept / "waves")[item]
         except SimError as error:
-            seen = Outcome(MISSING, str(error).splitlines()[0])
-        if seen.good:
-            said.append(f"not reproduced with waves: there it {seen.kind}")
-        elif seen.kind == MISSING:
-            said.append(f"no waves: {seen.text}")
-        elif seen.headline != outcome.headline:
-            said.append(f"not reproduced with waves: there it says {seen.headline}")
-    return _message(item, outcome, job, said, kept)
+            repeated = Outcome(MISSING, str(error).splitlines()[0])
+        if repeated.good:
+            reasons.append(f"not reproduced with waves: there it {repeated.kind}")
+        elif repeated.kind == MISSING:
+            reasons.append(f"no waves: {repeated.text}")
+        elif repeated.headline != outcome.headline:
+            reasons.append(f"not reproduced with waves: there it says {repeated.headline}")
+    return _message(item, outcome, job, reasons, kept)
 
 
-def _behind(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
+def _after_others(item: Item, first: Outcome, job: Job, waves: bool, kept: Path) -> str:
     """Return the message about a test that passes alone but failed in a process with others."""
     again = tried(job)[item]
     if again.good:
-        said = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
-        return _message(item, first, job, said)
+        reasons = ["alone it passes, and in the same group, once more, too: it is not deterministic"]
+        return _message(item, first, job, reasons)
     before = job.items[: job.items.index(item)]
     if not before:
         return _message(item, again, job, [f"alone it passes; fails only before {_names(job.items[1:])}"])
-    culprits = (*narrowed(job, before, item), item)
+    culprits = (*shortest_prefix(job, before, item), item)
     return _fails(item, again, replace(job, items=culprits), waves, kept)
 
 
@@ -278,14 +278,14 @@ class SimOptions:
 
     Attributes:
         waves: True if a VCD of each test is kept, also of passing ones.
-        inside: True if every signal is visible.
+        probe: True if every signal is visible.
         group: the items that share a simulator process, in order.
     """
 
     seed: int | None = None
     waves_on_failure: bool = True
     waves: bool = False
-    inside: bool = False
+    probe: bool = False
     group: tuple[Item, ...] = ()
     done: dict[tuple[Item, ...], dict[Item, tuple[Outcome, Job]]] = field(default_factory=dict, compare=False)
 
@@ -317,7 +317,7 @@ def run_sim(
 
 def _job(item: Item, options: SimOptions, env: Mapping[str, str], design: Design | None) -> Job:
     seed = item.seed if options.seed is None else options.seed
-    design = seen(design or part_design(item.part, item.config), item.inside, options.inside)
+    design = with_probes(design or part_design(item.part, item.config), item.probes, options.probe)
     group = options.group if item in options.group else (item,)
     return Job(design, group, seed, options.waves, env)
 
@@ -336,7 +336,7 @@ def outcome_of(item: Item, options: SimOptions, env: Mapping[str, str], design: 
         outcome, ran = options.done[job.items][item]
         if outcome.good:
             return outcome
-        return Outcome(outcome.kind, judged(item, outcome, ran, options.waves_on_failure))
+        return Outcome(outcome.kind, failure_message(item, outcome, ran, options.waves_on_failure))
     except SimError as error:
         repro = env.get(REPRO) or repro_line([item], item.seed if options.seed is None else options.seed)
         return Outcome("failed", f"{item.id}: {error}\nrepeat with: {repro}")

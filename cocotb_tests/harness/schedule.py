@@ -46,7 +46,7 @@ def group_key(test: pytest.Item) -> Hashable:
     if item is None or not item.together or len(params_of(test)) > 1:
         return None
     module = item.module if item.shared else ""
-    return (test.nodeid.partition("[")[0], module, item.part, item.config.name, item.seed, item.inside)
+    return (test.nodeid.partition("[")[0], module, item.part, item.config.name, item.seed, item.probes)
 
 
 class Groups:

@@ -19,9 +19,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from .bench import Bench
 from .bus import HostBus
 from .paths import ROOT
+from .rtl_bench import RtlBench
 
 LINE = re.compile(r"^(?:(c|d|w) ([0-9A-F]{2}) +st ([0-9A-F]{2})|r ([0-9A-F]{2})|(p?) +st ([0-9A-F]{2}))\b")
 
@@ -67,7 +67,7 @@ class Sessions:
             found.append(steps)
         return found
 
-    async def play(self, bench: Bench, host: HostBus, steps: list[Step], where: str) -> None:
+    async def play(self, bench: RtlBench, host: HostBus, steps: list[Step], where: str) -> None:
         """Play one block on the bench."""
         for number, step in enumerate(steps, 1):
             at = f"{where} line {number}: {step.kind} {step.byte:02X}"
@@ -89,14 +89,14 @@ class Sessions:
             bench.check(at, "status", f"{status:02X}", f"{step.status:02X}")
 
 
-class Story:
+class DemoLog:
     """Chapters of the run, with the edges of `clk` at which each begins and ends.
 
-    The running chapter is the last line of the file `progress`; `save` writes story.json (the chapters) and
+    The running chapter is the last line of the file `progress`; `save` writes chapters.json and
     recording.json (all pin changes and output edges) to the run's folder.
     """
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: RtlBench) -> None:
         self.bench = bench
         self.chapters: list[dict[str, Any]] = []
 
@@ -110,6 +110,6 @@ class Story:
         self.chapters.append({"key": key, "title": title, "begin": begin, "end": self.bench.now})
 
     def save(self) -> None:
-        """Write story.json and recording.json."""
-        (self.bench.out / "story.json").write_text(json.dumps(self.chapters, indent=1))
+        """Write chapters.json and recording.json."""
+        (self.bench.out / "chapters.json").write_text(json.dumps(self.chapters, indent=1))
         (self.bench.out / "recording.json").write_text(self.bench.recording().to_json())

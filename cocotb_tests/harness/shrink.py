@@ -1,4 +1,4 @@
-"""Shortens a failing stimulus to a few acts (whole bus accesses, pin changes), as text and as pin changes."""
+"""Shortens a failing stimulus to a few transactions, as text and as pin changes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .part import Part, recorded
 
 LINE = "rxd"
 BUSY = 64
-"""Number of changes above which a pin is a clock. Its periods form about this number of acts."""
+"""Number of changes above which a pin is a clock. Its periods form about this number of transactions."""
 
 
 class Step(NamedTuple):
@@ -28,12 +28,12 @@ class Step(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Act:
-    """One act: a whole bus access, a frame, a reset, or the changes of one pin.
+class Transaction:
+    """One transaction: a whole bus access, a frame, a reset, or the changes of one pin.
 
     Attributes:
-        what: description of the act without its time.
-        access: entry of the act in the host's log, if it has one.
+        what: description of the transaction without its time.
+        access: entry of the transaction in the host's log, if it has one.
     """
 
     what: str
@@ -47,30 +47,30 @@ class Act:
 
     @property
     def reads(self) -> bool:
-        """Whether the act is a read access."""
+        """Whether the transaction is a read access."""
         return self.access is not None and self.access.kind.endswith("read")
 
     @property
     def begin(self) -> int:
-        """Edge of the first pin change of the act."""
+        """Edge of the first pin change of the transaction."""
         return self.steps[0].t
 
     @property
     def end(self) -> int:
-        """Edge of the last pin change of the act."""
+        """Edge of the last pin change of the transaction."""
         return self.steps[-1].t
 
-    def moved(self, clk: int) -> Act:
-        """Return the same act `clk` cycles later."""
+    def moved(self, clk: int) -> Transaction:
+        """Return the same transaction `clk` cycles later."""
         access = self.access and self.access._replace(t=self.access.t + clk)
-        return Act(self.what, tuple(step._replace(t=step.t + clk) for step in self.steps), access)
+        return Transaction(self.what, tuple(step._replace(t=step.t + clk) for step in self.steps), access)
 
     def __str__(self) -> str:
         return f"{self.what} at {self.begin}"
 
 
-def acts_of(recording: Recording) -> list[Act]:
-    """Return all acts of a recording, in order of time."""
+def transactions_of(recording: Recording) -> list[Transaction]:
+    """Return all transactions of a recording, in order of time."""
     part = recorded(recording.part, recording.params)
     bus = part.bus_pins - {LINE}
     changes = recording.stimulus
@@ -86,13 +86,15 @@ def acts_of(recording: Recording) -> list[Act]:
             found += _resets(rows)
         else:
             found += _on_a_port(part, port, rows)
-    return sorted(found, key=lambda act: (act.begin, act.end))
+    return sorted(found, key=lambda txn: (txn.begin, txn.end))
 
 
-def changes_of(part: Part, acts: Iterable[Act]) -> list[Change]:
-    """Return the pin changes of some acts, without those that change no level."""
+def changes_of(part: Part, transactions: Iterable[Transaction]) -> list[Change]:
+    """Return the pin changes of some transactions, without those that change no level."""
     levels, changes = {**part.inputs, "rst_n": 1}, []
-    for t, port, mask, value in sorted((step for act in acts for step in act.steps), key=lambda step: step.t):
+    for t, port, mask, value in sorted(
+        (step for txn in transactions for step in txn.steps), key=lambda step: step.t
+    ):
         level = levels[port] & ~mask | value
         if level != levels[port]:
             levels[port] = level
@@ -105,7 +107,7 @@ def changes_of(part: Part, acts: Iterable[Act]) -> list[Change]:
 
 def _on_the_bus(
     part: Part, bus: Iterable[str], changes: Sequence[Change], accesses: Iterable[Access]
-) -> Iterator[Act]:
+) -> Iterator[Transaction]:
     """Yield valid and invalid accesses: each ends when all strobes are deasserted."""
     strobes = {pin for pin in bus if part.inputs[pin] and part.width(pin) == 1 and pin != "cs_n"}
     levels = {pin: part.inputs[pin] for pin in sorted(bus)}
@@ -131,11 +133,11 @@ def _whole(part: Part, t: int, pin: str, level: int) -> Step:
     return Step(t, pin, (1 << part.width(pin)) - 1, level)
 
 
-def _access(steps: list[Step], done: dict[int, Access]) -> Act:
+def _access(steps: list[Step], done: dict[int, Access]) -> Transaction:
     access = next((done[step.t] for step in steps if step.t in done), None)
     if access is None:
         moved = {step.port: None for step in steps if not step.port.startswith("d")}
-        return Act(f"{', '.join(moved)} without an access", tuple(steps))
+        return Transaction(f"{', '.join(moved)} without an access", tuple(steps))
     if access.kind == "write":
         what = f"write {'C' if access.reg else 'D'} {access.byte:02X}"
     elif access.kind == "read":
@@ -144,13 +146,13 @@ def _access(steps: list[Step], done: dict[int, Access]) -> Act:
         what = access.kind
     else:
         what = f"{access.kind} {access.byte:02X}"
-    return Act(what, tuple(steps), access)
+    return Transaction(what, tuple(steps), access)
 
 
 # ---------------------------------------------------------------------- a serial line
 
 
-def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
+def _on_the_line(rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
     """Yield runs of characters: after each run, the line is idle for longer than a character of ones."""
     bit = _bit(rows)
     run: list[tuple[int, int]] = []
@@ -176,8 +178,8 @@ def _bit(rows: Sequence[tuple[int, int]]) -> int:
     return max(often, key=fitting, default=1)
 
 
-def _frame(run: Sequence[tuple[int, int]], bit: int) -> Act:
-    return Act(f"frame {_characters(run, bit)}", tuple(Step(t, LINE, 1, level) for t, level in run))
+def _frame(run: Sequence[tuple[int, int]], bit: int) -> Transaction:
+    return Transaction(f"frame {_characters(run, bit)}", tuple(Step(t, LINE, 1, level) for t, level in run))
 
 
 def _characters(run: Sequence[tuple[int, int]], bit: int) -> str:
@@ -196,14 +198,14 @@ def _characters(run: Sequence[tuple[int, int]], bit: int) -> str:
 # ---------------------------------------------------------------------- other pins
 
 
-def _resets(rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
+def _resets(rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
     """Yield the resets: rst_n low, and high again."""
     for (t, level), (end, _) in pairwise([*rows, (rows[-1][0], 1)]):
         if not level:
-            yield Act(f"reset for {end - t} clk", (Step(t, "rst_n", 1, 0), Step(end, "rst_n", 1, 1)))
+            yield Transaction(f"reset for {end - t} clk", (Step(t, "rst_n", 1, 0), Step(end, "rst_n", 1, 1)))
 
 
-def _on_a_port(part: Part, port: str, rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
+def _on_a_port(part: Part, port: str, rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
     """Yield the changes of the pins of a port; a wide port changes as a whole."""
     width, idle = part.width(port), part.inputs[port]
     if width > 2:
@@ -214,12 +216,12 @@ def _on_a_port(part: Part, port: str, rows: Sequence[tuple[int, int]]) -> Iterat
         yield from _on_a_pin(name, 1 << place, place, bit_changes(list(rows), place, idle))
 
 
-def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]]) -> Iterator[Act]:
+def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]]) -> Iterator[Transaction]:
     port = name.partition("[")[0]
     if len(rows) <= BUSY or mask != 1 << place:
         for t, level in rows:
             shown = level if mask == 1 << place else f"{level:#x}"
-            yield Act(f"{name} = {shown}", (Step(t, port, mask, level << place),))
+            yield Transaction(f"{name} = {shown}", (Step(t, port, mask, level << place),))
         return
     # A group begins with a rise, so that the rest of a clock has longer periods, not shorter ones.
     size = -(-len(rows) // 2 // BUSY)
@@ -229,39 +231,39 @@ def _on_a_pin(name: str, mask: int, place: int, rows: Sequence[tuple[int, int]])
         periods = sum(level for _, level in rows[first:last])
         length = rows[min(last, len(rows) - 1)][0] - rows[first][0]
         what = f"{name}: {periods} periods of {length // max(1, periods)} clk"
-        yield Act(what, tuple(Step(t, port, mask, level << place) for t, level in rows[first:last]))
+        yield Transaction(what, tuple(Step(t, port, mask, level << place) for t, level in rows[first:last]))
 
 
 PAUSE = 20
-"""Cycles that remain between two acts when a pause is removed; every bus of the project needs fewer."""
+"""Cycles that remain between two transactions when a pause is removed; every bus needs fewer."""
 
 
-def messages(acts: Iterable[Act]) -> list[list[Act]]:
+def messages(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
     """Return runs of writes or of reads, and bursts of other pins.
 
     A run ends when the direction changes, or when its first register occurs again after other registers.
     Examples of a run are a command with its data, all registers of a block, a response, or polls.
     """
-    found: list[list[Act]] = []
-    run: list[Act] = []
-    burst: list[Act] = []
-    for act in acts:
-        if act.access and _goes_on(run, act):
-            run.append(act)
-        elif act.access:
-            found.append(run := [act])
-        elif burst and act.begin - burst[-1].end < PAUSE:
-            burst.append(act)
+    found: list[list[Transaction]] = []
+    run: list[Transaction] = []
+    burst: list[Transaction] = []
+    for txn in transactions:
+        if txn.access and _continues(run, txn):
+            run.append(txn)
+        elif txn.access:
+            found.append(run := [txn])
+        elif burst and txn.begin - burst[-1].end < PAUSE:
+            burst.append(txn)
         else:
-            found.append(burst := [act])
+            found.append(burst := [txn])
     return found
 
 
-def exchanges(acts: Iterable[Act]) -> list[list[Act]]:
+def exchanges(transactions: Iterable[Transaction]) -> list[list[Transaction]]:
     """Return the messages to the device, each with the reads that follow it, and bursts of other pins."""
-    found: list[list[Act]] = []
-    exchange: list[Act] = []
-    for message in messages(acts):
+    found: list[list[Transaction]] = []
+    exchange: list[Transaction] = []
+    for message in messages(transactions):
         if message[0].reads and exchange:
             exchange += message
             continue
@@ -271,53 +273,53 @@ def exchanges(acts: Iterable[Act]) -> list[list[Act]]:
     return found
 
 
-def together(runs: Iterable[Sequence[Act]]) -> list[Act]:
-    """Return the acts of some runs in order of time."""
-    return sorted((act for run in runs for act in run), key=lambda act: (act.begin, act.end))
+def in_time_order(runs: Iterable[Sequence[Transaction]]) -> list[Transaction]:
+    """Return the transactions of some runs in order of time."""
+    return sorted((txn for run in runs for txn in run), key=lambda txn: (txn.begin, txn.end))
 
 
-def told(acts: Iterable[Act]) -> list[str]:
-    """Return one line for each message whose acts follow each other without a pause."""
-    lines: list[list[Act]] = []
-    for act in acts:
+def report_lines(transactions: Iterable[Transaction]) -> list[str]:
+    """Return one line for each message whose transactions follow each other without a pause."""
+    lines: list[list[Transaction]] = []
+    for txn in transactions:
         last = lines[-1] if lines else []
-        if act.access and last and _goes_on(last, act) and act.begin - last[-1].end <= PAUSE:
-            last.append(act)
+        if txn.access and last and _continues(last, txn) and txn.begin - last[-1].end <= PAUSE:
+            last.append(txn)
         else:
-            lines.append([act])
+            lines.append([txn])
     return [f"{', '.join(_words(line))} at {line[0].begin}" for line in lines]
 
 
-def _goes_on(run: Sequence[Act], act: Act) -> bool:
+def _continues(run: Sequence[Transaction], txn: Transaction) -> bool:
     """Return whether an access belongs to a run of accesses."""
-    if not run or not run[-1].access or run[-1].reads != act.reads:
+    if not run or not run[-1].access or run[-1].reads != txn.reads:
         return False
-    return act.kind != run[0].kind or act.kind == run[-1].kind
+    return txn.kind != run[0].kind or txn.kind == run[-1].kind
 
 
-def _words(line: Sequence[Act]) -> Iterator[str]:
-    for _, same in groupby(line, key=lambda act: act.kind):
+def _words(line: Sequence[Transaction]) -> Iterator[str]:
+    for _, same in groupby(line, key=lambda txn: txn.kind):
         first, *more = same
         if first.reads and more:
             yield f"{first.what} {1 + len(more)} times"
         else:
-            yield " ".join([first.what, *(act.what.rpartition(" ")[2] for act in more)])
+            yield " ".join([first.what, *(txn.what.rpartition(" ")[2] for txn in more)])
 
 
-Fails = Callable[[Sequence[Act]], Awaitable[int | None]]
+Fails = Callable[[Sequence[Transaction]], Awaitable[int | None]]
 """Returns the edge of the first difference, or None without such a difference."""
 
 CAPS = (PAUSE, 10 * PAUSE, 100 * PAUSE, 1000 * PAUSE)
 """Maximum length of a pause in cycles; the values are tried in turn."""
 
 
-class _EnoughError(Exception):
+class _LimitError(Exception):
     """A limit of the search is reached: number of trials or CPU time."""
 
 
 @dataclass
 class Shrinker:
-    """Shrinks a list: `acts` is the shortest list so far, `trials` the number of lists tried.
+    """Shrinks a list: `transactions` is the shortest list so far, `trials` the number of lists tried.
 
     Attributes:
         trials_at_most: maximum number of trials.
@@ -325,86 +327,86 @@ class Shrinker:
         kept: function that is called after each trial with a shorter list that still fails.
     """
 
-    acts: list[Act]
+    transactions: list[Transaction]
     fails: Fails
     trials_at_most: int = 500
     seconds: float = 60
     kept: Callable[[], None] = lambda: None
     trials: int = 0
     stopped: str = ""
-    _tried: set[tuple[Act, ...]] = field(default_factory=set)
+    _tried: set[tuple[Transaction, ...]] = field(default_factory=set)
 
     async def run(self) -> None:
-        """Shrink; `stopped` names the limit that ended the search before all acts were necessary."""
+        """Shrink; `stopped` names the limit that ended the search before all transactions were necessary."""
         self._end = time.process_time() + self.seconds
         try:
             await self._keep_the_end()
             await self._leave_out_kinds()
-            await self._leave_out(exchanges(self.acts))
+            await self._leave_out(exchanges(self.transactions))
             await self._cap_pauses()
-            await self._leave_out(messages(self.acts))
-            before: list[Act] = []
-            while before != self.acts:
-                before = self.acts
-                await self._leave_out([[act] for act in self.acts])
+            await self._leave_out(messages(self.transactions))
+            before: list[Transaction] = []
+            while before != self.transactions:
+                before = self.transactions
+                await self._leave_out([[txn] for txn in self.transactions])
                 await self._close_pauses()
-        except _EnoughError as limit:
+        except _LimitError as limit:
             self.stopped = str(limit)
 
-    async def _try(self, acts: Sequence[Act]) -> bool:
-        """Return whether this list fails as well. If it fails, keep its acts up to the difference."""
-        if tuple(acts) in self._tried:
+    async def _try(self, transactions: Sequence[Transaction]) -> bool:
+        """Return whether this list fails as well. If it fails, keep its transactions up to the difference."""
+        if tuple(transactions) in self._tried:
             return False
         if self.trials >= self.trials_at_most:
-            raise _EnoughError(f"after {self.trials} trials")
+            raise _LimitError(f"after {self.trials} trials")
         if time.process_time() >= self._end:
-            raise _EnoughError(f"after {self.seconds:g} s")
-        self._tried.add(tuple(acts))
+            raise _LimitError(f"after {self.seconds:g} s")
+        self._tried.add(tuple(transactions))
         self.trials += 1
-        edge = await self.fails(acts)
+        edge = await self.fails(transactions)
         if edge is None:
             return False
-        self.acts = [act for act in acts if act.begin <= edge]
+        self.transactions = [txn for txn in transactions if txn.begin <= edge]
         self.kept()
         return True
 
     async def _keep_the_end(self) -> None:
         """Try only the last exchanges, soon after the reset: more and more of them until they are enough.
 
-        To omit acts in the middle would change later reads, and short lists are quick to try.
+        To omit transactions in the middle would change later reads, and short lists are quick to try.
         """
-        runs, count = exchanges(self.acts), 1
-        head = [act for act in self.acts if act.begin < PAUSE]
-        start = max((act.end for act in head), default=0) + PAUSE
+        runs, count = exchanges(self.transactions), 1
+        head = [txn for txn in self.transactions if txn.begin < PAUSE]
+        start = max((txn.end for txn in head), default=0) + PAUSE
         while count <= len(runs) // 2:
-            end = together(runs[-count:])
+            end = in_time_order(runs[-count:])
             if end[0].begin <= start:
                 return
-            if await self._try([*head, *(act.moved(start - end[0].begin) for act in end)]):
+            if await self._try([*head, *(txn.moved(start - end[0].begin) for txn in end)]):
                 return
             count += 1 + count // 4
 
     async def _leave_out_kinds(self) -> None:
-        """Omit all acts of a kind, the most frequent kind first: polls, clocks, changes of other pins.
+        """Omit all transactions of a kind, the most frequent first: polls, clocks, changes of other pins.
 
         Rare kinds are left to later steps. The last message stays: it may be the poll that shows the
         difference.
         """
-        for kind, count in Counter(act.kind for act in self.acts).most_common():
-            if count < len(self.acts) // 20:
+        for kind, count in Counter(txn.kind for txn in self.transactions).most_common():
+            if count < len(self.transactions) // 20:
                 return
-            last = max(messages(self.acts), key=lambda run: run[-1].end)
-            await self._try([act for act in self.acts if act.kind != kind or act in last])
+            last = max(messages(self.transactions), key=lambda run: run[-1].end)
+            await self._try([txn for txn in self.transactions if txn.kind != kind or txn in last])
 
-    async def _leave_out(self, runs: list[list[Act]]) -> None:
+    async def _leave_out(self, runs: list[list[Transaction]]) -> None:
         """Try to omit each half of the runs, then each quarter, and so on down to single runs."""
         size = max(1, len(runs) // 2)
         while size:
             first = 0
             while first < len(runs):
                 rest = runs[:first] + runs[first + size :]
-                if await self._try(together(rest)):
-                    runs = [run for run in rest if run[0].begin <= self.acts[-1].begin]
+                if await self._try(in_time_order(rest)):
+                    runs = [run for run in rest if run[0].begin <= self.transactions[-1].begin]
                 else:
                     first += size
             size //= 2
@@ -412,25 +414,25 @@ class Shrinker:
     async def _cap_pauses(self) -> None:
         """Limit all pauses to the smallest value of CAPS with which the list still fails."""
         for longest in CAPS:
-            acts: list[Act] = []
+            transactions: list[Transaction] = []
             saved = last = 0
-            for act in self.acts:
-                saved += max(0, act.begin - saved - last - longest)
-                acts.append(act.moved(-saved))
-                last = max(last, acts[-1].end)
-            if not saved or await self._try(acts):
+            for txn in self.transactions:
+                saved += max(0, txn.begin - saved - last - longest)
+                transactions.append(txn.moved(-saved))
+                last = max(last, transactions[-1].end)
+            if not saved or await self._try(transactions):
                 return
 
     async def _close_pauses(self) -> None:
         """Shorten each pause: completely, by half, or by a quarter."""
         place = 0
-        while place < len(self.acts):
-            last = max((act.end for act in self.acts[:place]), default=0)
-            spare = self.acts[place].begin - last - PAUSE
+        while place < len(self.transactions):
+            last = max((txn.end for txn in self.transactions[:place]), default=0)
+            spare = self.transactions[place].begin - last - PAUSE
             for saved in (spare, spare // 2, spare // 4):
                 if saved <= 0:
                     break
-                later = [act.moved(-saved) for act in self.acts[place:]]
-                if await self._try(self.acts[:place] + later):
+                later = [txn.moved(-saved) for txn in self.transactions[place:]]
+                if await self._try(self.transactions[:place] + later):
                     break
             place += 1

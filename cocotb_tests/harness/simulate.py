@@ -26,7 +26,7 @@ CRASHED = "crashed"
 MISSING = "did not run"
 TIMEOUT = "not finished within the wall-clock limit"
 
-_SAID = re.compile(r"^ *[-\d.]+ns [A-Z]+ +cocotb\.regression +(?P<text>.*)$", re.MULTILINE)
+_ENTRY = re.compile(r"^ *[-\d.]+ns [A-Z]+ +cocotb\.regression +(?P<text>.*)$", re.MULTILINE)
 _FAILED_LINE = re.compile(r"\s*(\w+\.)*\w*(Error|Exception|Failed)\b")
 _TABLE = re.compile(r"^[^\n]*\*{20,}", re.MULTILINE)
 
@@ -70,10 +70,10 @@ def failure_text(text: str, lines: int = 100) -> str:
     if chosen.lstrip().startswith("Traceback"):
         chosen = chosen.split("\n", 1)[-1]
     rows = [*last_seed(text), *textwrap.dedent(chosen.rstrip()).splitlines()]
-    return "\n".join(rows if len(rows) <= lines else _shortened(rows, lines))
+    return "\n".join(rows if len(rows) <= lines else _abridged(rows, lines))
 
 
-def _shortened(rows: list[str], lines: int) -> list[str]:
+def _abridged(rows: list[str], lines: int) -> list[str]:
     """Return about `lines` rows: the begin, the failure, the end."""
     what = next((n for n, row in enumerate(rows) if _FAILED_LINE.match(row)), 0)
     middle = range(max(6, what), min(max(6, what) + lines // 3, len(rows)))
@@ -88,9 +88,9 @@ def _parts(text: str) -> Iterator[tuple[str, str]]:
     The text before the first start belongs to the first test.
     """
     begins = [
-        (name.group(1), said.start())
-        for said in _SAID.finditer(text)
-        if (name := re.match(r"running (.+) \(\d+/\d+\)$", said["text"]))
+        (name.group(1), entry.start())
+        for entry in _ENTRY.finditer(text)
+        if (name := re.match(r"running (.+) \(\d+/\d+\)$", entry["text"]))
     ]
     places = [0, *(place for _, place in begins[1:]), len(text)]
     for number, (name, _) in enumerate(begins):
@@ -105,12 +105,12 @@ def _outcome(name: str, part: str, end: str) -> Outcome:
     """
     if "%Error" in part:
         return Outcome(FAILED, failure_text(part))
-    for said in _SAID.finditer(part):
-        if said["text"].startswith(f"skipping {name}: "):
-            return Outcome(SKIPPED, said["text"].partition(": ")[2])
-        verdict = re.match(rf"{re.escape(name)} (passed|failed|xfailed)(?:: )?(.*)$", said["text"])
-        if verdict:
-            kind, reason = verdict.groups()
+    for entry in _ENTRY.finditer(part):
+        if entry["text"].startswith(f"skipping {name}: "):
+            return Outcome(SKIPPED, entry["text"].partition(": ")[2])
+        result = re.match(rf"{re.escape(name)} (passed|failed|xfailed)(?:: )?(.*)$", entry["text"])
+        if result:
+            kind, reason = result.groups()
             return Outcome(kind, failure_text(part) if kind == FAILED else reason)
     return Outcome(CRASHED, f"{end}\n{failure_text(part)}")
 
@@ -132,10 +132,10 @@ def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> d
         trouble: how the process ended, if it did not end normally.
     """
     text, names = read_log(log), named_in(results)
-    wanted = sorted(item.full_name for item in items)
-    if names is not None and names != wanted:
-        said = Outcome(FAILED, f"expected exactly {', '.join(wanted)}, results.xml has {', '.join(names)}")
-        return dict.fromkeys(items, said)
+    want = sorted(item.full_name for item in items)
+    if names is not None and names != want:
+        outcome = Outcome(FAILED, f"expected exactly {', '.join(want)}, results.xml has {', '.join(names)}")
+        return dict.fromkeys(items, outcome)
     if "Timeout (" in text:
         trouble = TIMEOUT
     end = trouble or "the simulation ended within the test"

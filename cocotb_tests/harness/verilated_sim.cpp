@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program of all simulations under cocotb. In addition to the callbacks of VPI it has a clock and a recorder
-// of output levels that need no callbacks: a cycle costs only two evaluations of the design. `Native` in clock.py
-// calls it. Compiled once for all designs: `top.cpp` contains the calls of one design.
+// of output levels that need no callbacks: a cycle costs only two evaluations of the design. `CppBackend` in
+// sim_backend.py calls it. Compiled once for all designs: `top.cpp` contains the calls of one design.
 // The makefile optimises for size.
 #pragma GCC optimize("O2")
 
@@ -52,7 +52,7 @@ struct Port {
     }
     void store(std::uint64_t value) const { std::memcpy(data, &value, bytes); }
 };
-// Layouts that clock.py reads and writes.
+// Layouts that sim_backend.py reads and writes.
 struct Row {
     std::uint64_t time, port, value;
 };
@@ -158,7 +158,7 @@ int port_of(const char* name, int* words) {
 
 double sc_time_stamp() { return static_cast<double>(main_time); }
 
-// Functions that clock.py calls. Times are steps of the simulation, ports are numbers from openppmc_port().
+// Functions that sim_backend.py calls. Times are steps of the simulation, ports are numbers from openppmc_port().
 extern "C" {
 
 // Returns the number of a port, or -1 if there is no such port. *words: number of its 64-bit words, which have

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
-from ..harness import Unit, rng
-from .busses.strobe_slave import Registers, StrobeSlave
+from ..harness import BlockDriver, rng
+from .buses.strobe_slave import Registers, StrobeSlave
 
 WRITE, NEXT_AXIS, NEXT = 0x8000, 0x4000, 0x2000
 FAST, CUT, REFUSED, INT = 8, 4, 2, 1
@@ -48,7 +48,7 @@ def header(word: int) -> list[int]:
 class SpiHost:
     """Drives the pins at any times, in fractions of a cycle; rising edge n of `clk` is at time n."""
 
-    def __init__(self, unit: Unit, dut: Any, name: str) -> None:
+    def __init__(self, unit: BlockDriver, dut: Any, name: str) -> None:
         self.unit, self.now, self.edge = unit, 0.0, 0
         pins = {
             "cs_n": "cs_no",
@@ -113,7 +113,7 @@ class SpiHost:
         return [byte_of(seen[n : n + 8]) for n in range(0, len(seen), 8)]
 
 
-class Book:
+class PageReference:
     """Reference model from docs/bank/spi.md: accesses, miso, flags.
 
     `registers` are those that the block accesses.

@@ -7,7 +7,7 @@ from collections import deque
 
 import cocotb
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 PINS = "cs_ni rd_ni wr_ni a0_i d_i:8"
 READ_SIDE = "status_i:8 data_i:8 data_valid_i data_new_i"
@@ -52,7 +52,7 @@ async def bus_write_any_pins(dut):
     sample before.
     """
     rand = rng()
-    u = Unit(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o")
+    u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o")
     for style in (0, 1):
         await u.reset(style_i=style, **IDLE)
         past = [(False, False, 0, 0)] * 3
@@ -77,7 +77,7 @@ async def bus_write_any_pins(dut):
 @cocotb.test()
 async def bus_short_strobe(dut):
     """Strobes that no clk edge samples cause no write and no read, and consume no byte."""
-    u = Unit(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o rd_busy_o rd_done_o d_o")
+    u = BlockDriver(dut, "bus", BLOCKS, "wr_o wr_busy_o d_oe_o rd_busy_o rd_done_o d_o")
     for style in (0, 1):
         await u.reset(style_i=style, data_valid_i=1, data_i=0x5A, **IDLE)
         for kind in ("write", "read") * 3:
@@ -87,7 +87,7 @@ async def bus_short_strobe(dut):
                 same(f"style {style}, {kind}, clk {n}", await u.clk(), (0, 0, 0, 0, 0, 0))
 
 
-async def _read(u: Unit, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
+async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, gap: int, early: bool) -> None:
     """Check one read of `length` cycles and its gap. With `early`, d_o must load on edge 0, too."""
     a0 = rand.randrange(2)
     sampled: list[tuple[int, int, int]] = []
@@ -122,7 +122,7 @@ async def bus_read(dut):
     was output.
     """
     rand = rng()
-    u = Unit(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
+    u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
     for style in (0, 1):
         await u.reset(style_i=style, **IDLE)
         for _ in range(400):
@@ -134,7 +134,7 @@ async def bus_read_after_gap_of_one(dut):
     """If only one edge samples the gap between two reads, the second read outputs its register from
     edge 0 on.
     """
-    u = Unit(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
+    u = BlockDriver(dut, "bus", BLOCKS, "d_oe_o d_o rd_busy_o rd_done_o")
     for style in (0, 1):
         await u.reset(style_i=style, status_i=0x33, data_i=0xC5, data_valid_i=1, **IDLE)
         done = 0
@@ -155,7 +155,7 @@ async def mailbox_random(dut):
     """Under random traffic, input, queue, overwriting, taking and loading equal those of a simple model."""
     rand = rng()
     for name, size in (("mail3", 3), ("mail5", 5)):
-        u = Unit(dut, name, BLOCKS, "ibf_o ready_o obf_o new_o")
+        u = BlockDriver(dut, name, BLOCKS, "ibf_o ready_o obf_o new_o")
         await u.reset()
         ibf = settled = obf = False
         box, out, queue = (0, 0), 0, deque()
@@ -199,7 +199,7 @@ async def mailbox_random(dut):
 @cocotb.test()
 async def mailbox_directed(dut):
     """Each case that the header names occurs in the exact cycle."""
-    u = Unit(dut, "mail3", BLOCKS, "ibf_o ready_o byte_o")
+    u = BlockDriver(dut, "mail3", BLOCKS, "ibf_o ready_o byte_o")
     await u.reset()
     await u.clk(wr_i=1, wr_data_i=0x11)
     same("byte at once, ready not yet", await u.clk(wr_i=0), (1, 0, 0x11))
@@ -210,7 +210,7 @@ async def mailbox_directed(dut):
     same("overwritten", await u.clk(wr_i=0), (1, 0, 0x33))
     same("ready again", await u.clk(take_i=1), (1, 1, 0x33))
     same("taken", (await u.clk(take_i=0))[:2], (0, 0))
-    u = Unit(dut, "mail3", BLOCKS, "obf_o out_o")
+    u = BlockDriver(dut, "mail3", BLOCKS, "obf_o out_o")
     await u.reset()
     await u.clk(load_i=1, long_i=1, answer_i=0x030201)
     for byte in (1, 2, 3):
@@ -230,7 +230,7 @@ async def host_port_status(dut):
     """After a write and an answer of three bytes, the status contains IBF and OBF, and the reads return
     the bytes.
     """
-    u = Unit(dut, "port", BLOCKS, "ready_o command_o byte_o")
+    u = BlockDriver(dut, "port", BLOCKS, "ready_o command_o byte_o")
 
     async def read(a0: int, length: int = 4) -> int:
         for _ in range(length):

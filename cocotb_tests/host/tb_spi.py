@@ -7,7 +7,7 @@ from typing import Any
 
 import cocotb
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 from .spi_host import (
     COUNT,
     CUT,
@@ -18,8 +18,8 @@ from .spi_host import (
     REFUSED,
     SIGN,
     WRITE,
-    Book,
     Pace,
+    PageReference,
     SpiHost,
     bits_of,
     header,
@@ -36,14 +36,16 @@ LEGAL = Pace()
 """A period of sck is 8 cycles."""
 
 
-async def start(dut: Any) -> tuple[SpiHost, Book]:
+async def start(dut: Any) -> tuple[SpiHost, PageReference]:
     """Return the host and the reference model of a block that was reset."""
-    host = SpiHost(Unit(dut, "spi", BLOCKS), dut, "spi")
+    host = SpiHost(BlockDriver(dut, "spi", BLOCKS), dut, "spi")
     await host.reset()
-    return host, Book()
+    return host, PageReference()
 
 
-async def check(host: SpiHost, book: Book, bits: list[int], pace: Pace = LEGAL, what: str = "") -> None:
+async def check(
+    host: SpiHost, book: PageReference, bits: list[int], pace: Pace = LEGAL, what: str = ""
+) -> None:
     """Send one frame and compare it with the reference model."""
     want = book.frame(bits)
     same(f"{what} {bits} at {pace}: miso", await host.frame(bits, pace), want)

@@ -9,7 +9,7 @@ import cocotb
 
 from openppmc.model.motion.excitation import step_list
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 BASES = [(8, 32, 30), (1, 5, 7), (2, 3, 1)]  # fast, slow, extra; fast is never above slow
 EXTERNAL = [(136, 128), (20, 13), (9, 9), (940, 885)]
@@ -118,7 +118,7 @@ async def base_clock_quanta(dut):
     """
     rand = rng()
     for i, (fast, slow, extra) in enumerate(BASES):
-        u = Unit(dut, f"base{i}", BLOCKS, "tick_o")
+        u = BlockDriver(dut, f"base{i}", BLOCKS, "tick_o")
         await u.reset()
         for _ in range(40):
             is_slow, has_extra = rand.randrange(2), rand.randrange(2)
@@ -139,7 +139,7 @@ async def rate_counter_hit(dut):
     """hit_o is asserted at base clock rate + 1, and half_o from base clock floor((rate + 1) / 2) on."""
     rand = rng()
     for bits in (8, 10):
-        u = Unit(dut, f"rate{bits}", BLOCKS, "hit_o half_o")
+        u = BlockDriver(dut, f"rate{bits}", BLOCKS, "hit_o half_o")
         await u.reset()
         top = 2**bits - 1
         rates = [*range(10), 127, 128, top - 1, top, *(rand.randint(10, top) for _ in range(6))]
@@ -163,7 +163,7 @@ async def rate_counter_hit(dut):
 async def rate_counter_wait(dut):
     """While the rate still rises, base clocks are skipped; base clocks that can be used count."""
     rand = rng()
-    u = Unit(dut, "rate8", BLOCKS, "hit_o half_o")
+    u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
     for _ in range(60):
         rate, passed = rand.randint(0, 6), rand.randint(0, 9)
@@ -189,7 +189,7 @@ async def rate_counter_wait(dut):
 @cocotb.test()
 async def rate_counter_final_rate(dut):
     """With a final rate, while the interval must not end yet, the half occurs and the hit is delayed."""
-    u = Unit(dut, "rate8", BLOCKS, "hit_o half_o")
+    u = BlockDriver(dut, "rate8", BLOCKS, "hit_o half_o")
     await u.reset()
     for rate in range(9):
         await u.clk(restart_i=1, rate_i=rate, tick_i=0, wait_i=1)
@@ -208,7 +208,7 @@ async def ext_clock_thresholds(dut):
     """For periods around both thresholds, long_period_o and short_period_o switch in the exact cycle."""
     rand = rng()
     for i, (long, short) in enumerate(EXTERNAL):
-        u = Unit(dut, f"ext{i}", BLOCKS, "rise_o fall_o long_period_o short_period_o")
+        u = BlockDriver(dut, f"ext{i}", BLOCKS, "rise_o fall_o long_period_o short_period_o")
         for rest in (0, 1):
             await u.reset(pin_i=rest)
             for n in range(6):
@@ -245,7 +245,7 @@ async def ext_lag_sum(dut):
     """
     rand = rng()
     for lag in LAGS:
-        u = Unit(dut, f"lag{lag}", BLOCKS, "count_o fire_o")
+        u = BlockDriver(dut, f"lag{lag}", BLOCKS, "count_o fire_o")
         await u.reset()
         for d in [0, 1, 2, lag - 1, lag, lag + 1, 3 * lag, *(rand.randint(0, lag) for _ in range(25))]:
             enabled, long, wait = rand.random() < 0.8, rand.random() < 0.2, rand.randint(1, lag + 20)
@@ -264,7 +264,7 @@ async def pulse_shaper_width(dut):
     """For pulses of all kinds the low time is exact: the full time, half an interval, or cut."""
     rand = rng()
     for i, (clk, xtal, width, half, rates) in enumerate(SHAPES):
-        u = Unit(dut, f"shape{i}", BLOCKS, "low_o past_o")
+        u = BlockDriver(dut, f"shape{i}", BLOCKS, "low_o past_o")
         whole = ceil(Fraction(width * clk, xtal))
         await u.reset()
         for n in range(60):
@@ -293,7 +293,7 @@ async def hold_timer_quanta(dut):
     """
     rand = rng()
     for quanta, rest in HOLDS:
-        u = Unit(dut, f"hold{quanta}", BLOCKS, "hold_o")
+        u = BlockDriver(dut, f"hold{quanta}", BLOCKS, "hold_o")
         await u.reset()
         for _ in range(5):
             same("1 after reset", await u.clk(quantum_i=1), 1)
@@ -323,7 +323,7 @@ async def hold_timer_units(dut):
     """
     rand = rng()
     for quanta, bits in HOLD_UNITS:
-        u = Unit(dut, f"units{quanta}", BLOCKS, "hold_o")
+        u = BlockDriver(dut, f"units{quanta}", BLOCKS, "hold_o")
         await u.reset()
         for _ in range(5):
             same("1 after reset", await u.clk(quantum_i=1), 1)
@@ -349,7 +349,7 @@ async def chopper_phases(dut):
     """With times that change at random, each phase has the length that was set at its beginning."""
     rand = rng()
     for unit, _ in CHOPS:
-        u = Unit(dut, f"chop{unit}", BLOCKS, "on_o")
+        u = BlockDriver(dut, f"chop{unit}", BLOCKS, "on_o")
         await u.reset()
         on, left, phases = True, 0, 0
         for n in range(6000):
@@ -378,7 +378,7 @@ async def chopper_phases(dut):
 @cocotb.test()
 async def chopper_longest(dut):
     """With the longest times of the widths, both phases are exact to the quantum."""
-    u = Unit(dut, "chop12", BLOCKS, "on_o")
+    u = BlockDriver(dut, "chop12", BLOCKS, "on_o")
     await u.reset(on_base_i=511, off_base_i=260, on_units_i=255, off_units_i=255, quantum_i=1)
     await u.clk(run_i=0)
     for on, length in ((1, 511 + 12 * 255), (0, 260 + 12 * 255), (1, 1)):
@@ -390,7 +390,7 @@ async def chopper_longest(dut):
 async def excitation_walks(dut):
     """For random steps of every motor in full and half step, the phases are those of the model."""
     rand = rng()
-    u = Unit(dut, "excitation", BLOCKS, "pattern_o")
+    u = BlockDriver(dut, "excitation", BLOCKS, "pattern_o")
     for phases in (3, 4, 5):
         for half in (False, True):
             steps = step_list(phases, half)
@@ -416,7 +416,7 @@ async def excitation_walks(dut):
 @cocotb.test()
 async def excitation_off_steps(dut):
     """After the phases were switched off, full steps energise no phase until phase_init_i."""
-    u = Unit(dut, "excitation", BLOCKS, "pattern_o")
+    u = BlockDriver(dut, "excitation", BLOCKS, "pattern_o")
     for motor in (1, 2, 3):
         await u.reset(motor_i=motor)
         await u.clk(phase_init_i=1)
@@ -432,7 +432,7 @@ async def excitation_off_steps(dut):
 async def motor_port_pins(dut, idle):
     """During steps, pulses and chopping, every pin follows by one cycle and has the right polarity."""
     rand, steps = rng(), step_list(5, True)
-    u = Unit(dut, f"port{idle}", BLOCKS, "s_o pout_no dir_o levels_o")
+    u = BlockDriver(dut, f"port{idle}", BLOCKS, "s_o pout_no dir_o levels_o")
     off = 0 if (positive := 1 - idle) else 31
     await u.reset(motor_i=3, half_i=1, positive_i=positive, on_base_i=3, off_base_i=2, quantum_i=1)
     same("hold_o after reset", u.get("hold_o"), 1)
@@ -501,7 +501,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
     In a cycle of stop the other two are ignored, because no pulse can use them. stop_guard_causes
     checks what is stored.
     """
-    u = Unit(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
+    u = BlockDriver(dut, f"guard{variant}", BLOCKS, "slow_seen_o stop_o forced_o")
     await u.reset()
     if flagged:
         await u.clk(armed_i=1, op_i=0b10000, decel_i=1)
@@ -526,7 +526,7 @@ async def stop_guard_truth_table(dut, flagged, variant):
 async def stop_guard_causes(dut, variant):
     """With random levels in every cycle, the causes and the request are kept until they are cleared."""
     rand = rng()
-    u = Unit(dut, f"guard{variant}", BLOCKS, "flagged_o cause_o")
+    u = BlockDriver(dut, f"guard{variant}", BLOCKS, "flagged_o cause_o")
     await u.reset()
     rare = {"armed": 0.8, "ramp": 0.8, "slow_cw": 0.4, "slow_ccw": 0.4, "top": 0.5, "ccw": 0.5, "single": 0.5}
     flagged, causes, stopped = 0, [0] * 4, False
@@ -551,7 +551,7 @@ async def stop_guard_causes(dut, variant):
 async def pulse_counter(dut):
     """The counter counts falls of pout_n in both directions, modulo 16, between random clears."""
     rand = rng()
-    u = Unit(dut, "count", BLOCKS, "count_o")
+    u = BlockDriver(dut, "count", BLOCKS, "count_o")
     await u.reset(pout_ni=1)
     count, was = 0, 1
     for n in range(2000):

@@ -12,7 +12,7 @@ from cocotb.utils import get_sim_time
 
 from openppmc.model.motion.ramp import natural_deceleration, next_index, ramp_rate
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 BUILD_PORTS = "start_i slow_i:8 fast_i:8 steps_i:{0} busy_o we_o addr_o:8 data_o:{0}"
 BLOCKS = {
@@ -90,7 +90,7 @@ def triples(rand: random.Random, bits: int, count: int) -> list[tuple[int, int, 
     return found
 
 
-async def _build(u: Unit, slow: int, fast: int, steps: int) -> tuple[dict[int, int], int]:
+async def _build(u: BlockDriver, slow: int, fast: int, steps: int) -> tuple[dict[int, int], int]:
     """Build one table with a free-running clock; return (words written, cycles from the start to the
     fall of busy_o).
     """
@@ -120,7 +120,7 @@ async def _build(u: Unit, slow: int, fast: int, steps: int) -> tuple[dict[int, i
 @cocotb.parametrize(bits=[14, 16])
 async def ramp_builder_exact(dut, bits):
     """For corner-case and random ramps, every threshold is exact and no build exceeds its maximum time."""
-    u = Unit(dut, f"build{bits}", BLOCKS, "busy_o", Unit.FREE)
+    u = BlockDriver(dut, f"build{bits}", BLOCKS, "busy_o", BlockDriver.FREE)
     await u.reset()
     longest = 0
     for triple in triples(rng(), bits, 30):
@@ -139,7 +139,7 @@ async def ramp_table_read(dut):
     """From a built table, thr(r) is valid two cycles after its address, together with the ramp; this
     also holds after further builds.
     """
-    u = Unit(dut, "table", BLOCKS, "busy_o data_o slow_o fast_o steps_o")
+    u = BlockDriver(dut, "table", BLOCKS, "busy_o data_o slow_o fast_o steps_o")
     await u.reset()
     for slow, fast, steps in ((40, 5, 300), (30, 22, 9), (77, 77, 100)):
         await u.clk(start_i=1, slow_i=slow, fast_i=fast, steps_i=steps)
@@ -164,7 +164,7 @@ def build_clk(slow: int, fast: int) -> int:
 async def ramp_tables_shared(dut):
     """If two axes request ramps at random times, each gets its own, one after the other."""
     rand = rng()
-    u = Unit(dut, "tables", BLOCKS, "busy_o data_o")
+    u = BlockDriver(dut, "tables", BLOCKS, "busy_o data_o")
     await u.reset()
     ramps = [(3, 1, 25), (3, 1, 25)]
     for case in range(9):
@@ -207,7 +207,7 @@ async def ramp_tables_shared(dut):
 class Walker:
     """The sequencer with a look-up table that returns data two cycles after the address."""
 
-    def __init__(self, u: Unit, slow: int, fast: int, steps: int, blank: int = 0x2AAA) -> None:
+    def __init__(self, u: BlockDriver, slow: int, fast: int, steps: int, blank: int = 0x2AAA) -> None:
         """Set the ramp. `blank` is the data for rates that the table does not contain."""
         self.u, self.ramp, self.blank = u, (slow, fast, steps), blank
         self.lut = table(slow, fast, steps)
@@ -279,7 +279,7 @@ class Walker:
 async def ramp_seq_walks(dut):
     """For random ramps, pulse counts and stop times, rates and counts are those of the model."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
+    u = BlockDriver(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
     for case in range(60):
         steps = rand.randint(4, 24)
@@ -293,7 +293,7 @@ async def ramp_seq_walks(dut):
 async def ramp_seq_longest(dut):
     """A move on the longest ramp of the table accelerates, holds its speed and decelerates correctly."""
     rand = rng()
-    u = Unit(dut, "wide", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
+    u = BlockDriver(dut, "wide", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset()
     for n, forced_at in ((33, 34), (40, 41), (60, 25), (31, 32), (60, 17)):
         slow = rand.choice((20, 90, 254))
@@ -304,7 +304,7 @@ async def ramp_seq_longest(dut):
 async def ramp_seq_constant(dut):
     """For constant speed and single steps, the rate is the loaded one and the count runs to its end."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
+    u = BlockDriver(dut, "seq", BLOCKS, "rate_o lookup_busy_o last_o final_o top_o dec_o left_o rising_o")
     await u.reset(slow_i=200, fast_i=10, ramp_i=0)
     for n, single in ((1, 0), (2, 0), (40, 0), (16_777_216, 1), (70_000, 0)):
         rate = rand.getrandbits(8)

@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from cocotb_tests.harness import Bench, ModelBench, Side
+from cocotb_tests.harness import DutBench, ModelBench, RtlBench
 from openppmc.model.carrier.eeprom import PAGE, SIZE, Eeprom24C32
 
 from .i2c_bus import I2cBus
@@ -71,17 +71,17 @@ class Eeprom(ABC):
         """Set for how many cycles the device holds SCL low after each acknowledge."""
 
 
-def plug_in(side: Side, chip: Chip, clk_hz: int, device: int) -> Eeprom:
+def plug_in(bench: DutBench, chip: Chip, clk_hz: int, device: int) -> Eeprom:
     """Connect a device to a part just out of reset, before edge 0.
 
     Args:
         device: address that the part uses.
     """
     address = device ^ chip.other
-    if isinstance(side, ModelBench):
-        return _OnModel(side, chip, clk_hz, address)
-    assert isinstance(side, Bench)
-    return _OnBench(side, chip, clk_hz, address)
+    if isinstance(bench, ModelBench):
+        return _OnModel(bench, chip, clk_hz, address)
+    assert isinstance(bench, RtlBench)
+    return _OnBench(bench, chip, clk_hz, address)
 
 
 class _Bussed:
@@ -102,15 +102,15 @@ class _Bussed:
 class _OnModel(Eeprom):
     """The Python device."""
 
-    def __init__(self, side: ModelBench, chip: Chip, clk_hz: int, device: int) -> None:
-        self._side = side
+    def __init__(self, bench: ModelBench, chip: Chip, clk_hz: int, device: int) -> None:
+        self._bench = bench
         self._chip = made = Eeprom24C32(
             clk_hz, chip.content, device, chip.write_us, chip.stretch_us, chip.missing
         )
         made.stuck_scl, made.stuck_sda = chip.stuck == "scl", chip.stuck == "sda"
         made.occupy(-(-chip.busy_us * clk_hz // 1_000_000))
-        self._bus = I2cBus(side.model, made)
-        side.model = _Bussed(side.model, self._bus)
+        self._bus = I2cBus(bench.model, made)
+        bench.model = _Bussed(bench.model, self._bus)
 
     @property
     def writes(self) -> list[Written]:
@@ -131,7 +131,7 @@ class _OnModel(Eeprom):
     def stuck(self, line: str, on: bool) -> None:
         """Set whether the device holds a line low."""
         setattr(self._chip, f"stuck_{line}", on)
-        self._bus.again(self._side.now)
+        self._bus.again(self._bench.now)
 
     def stretch(self, clk: int) -> None:
         """Set for how many cycles the device holds SCL low after each acknowledge."""
@@ -141,7 +141,7 @@ class _OnModel(Eeprom):
 class _OnBench(Eeprom):
     """The device in the bench's top, accessed by names: see tb/pmc006/eeprom_24c32.sv."""
 
-    def __init__(self, bench: Bench, chip: Chip, clk_hz: int, device: int) -> None:
+    def __init__(self, bench: RtlBench, chip: Chip, clk_hz: int, device: int) -> None:
         self._device = bench.dut.u_eeprom
         self._log: list[Written] = []
 

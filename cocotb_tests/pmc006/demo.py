@@ -6,18 +6,18 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness import RtlBench
+from cocotb_tests.harness.sessions import DemoLog
 
+from .demo_program import run_program
 from .stepping import MotorHost
-from .story import run_story
 
 
 @cocotb.test()
 async def demo_program(dut: Any) -> None:
     """A host moves a motor and loads a program on a part just powered up, and the run is recorded."""
     host = await MotorHost.start(dut)
-    assert isinstance(host.side, Bench)
-    story = Story(host.side)
-    await run_story(host, story)
-    story.save()
+    assert isinstance(host.bench, RtlBench)
+    demo_log = DemoLog(host.bench)
+    await run_program(host, demo_log)
+    demo_log.save()

@@ -7,8 +7,8 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PartTests
 from . import test_part, test_random
 from .builds import F8B
 
-SAME_BLOCKS = "2 to 15 million clk a module; tb_tour, tb_bridge and random hosts have the same blocks"
-SHORT = ("tb_tour", "tb_bridge", "tb_current", "tb_streams")
+SAME_BLOCKS = "2 to 15 million clk a module; tb_sequence, tb_bridge and random hosts have the same blocks"
+SHORT = ("tb_sequence", "tb_bridge", "tb_current", "tb_streams")
 
 PART = PartTests(
     test_part,
@@ -27,7 +27,7 @@ PART = PartTests(
         for item in (param.values[0] for param in test_part.ITEMS)
         if item.module.rpartition(".")[2] not in SHORT
     },
-    quick=frozenset({"tb_tour"}),
+    quick=frozenset({"tb_sequence"}),
     quick_build=F8B.name,
-    four_state=frozenset({"p006_tour"}),
+    four_state=frozenset({"p006_sequence"}),
 )

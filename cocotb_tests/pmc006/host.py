@@ -11,7 +11,7 @@ from fractions import Fraction
 from math import ceil
 from typing import Any, TypeVar
 
-from cocotb_tests.harness import SerialLine, Side, start_bench
+from cocotb_tests.harness import DutBench, SerialLine, start_bench
 from cocotb_tests.harness.line import characters
 from openppmc.check.records import Access
 
@@ -46,13 +46,13 @@ class Host(View, SerialLine):
         params: parameters of the part.
     """
 
-    def __init__(self, side: Side, address: int = 0xFF, error: float = 0) -> None:
-        self.side = side
-        self.params: Mapping[str, Any] = {**side.part.defaults, **side.part.params(side.config)}
+    def __init__(self, bench: DutBench, address: int = 0xFF, error: float = 0) -> None:
+        self.bench = bench
+        self.params: Mapping[str, Any] = {**bench.part.defaults, **bench.part.params(bench.config)}
         self.clk_hz, self.baud = int(self.params["CLK_HZ"]), int(self.params["BAUD"])
         self.echo = self.params["STEP_ACK"] == "ECHO"
         self.address = address
-        self.t = side.now
+        self.t = bench.now
         self.mark = self.frame_start = self._reply_end = 0
         self.wire = b""
         self.plugged: Eeprom | None = None
@@ -78,10 +78,12 @@ class Host(View, SerialLine):
                 held low, so that the part boots immediately, unless `levels` contains sda_i=1.
         """
         idle = {} if chip else {"sda_i": 0}
-        side = await start_bench(dut, WITH_EEPROM if chip else PMC006, settle=0, **{**idle, **(levels or {})})
-        host = cls(side, address, error)
+        bench = await start_bench(
+            dut, WITH_EEPROM if chip else PMC006, settle=0, **{**idle, **(levels or {})}
+        )
+        host = cls(bench, address, error)
         if chip:
-            host.plugged = plug_in(side, chip, host.clk_hz, int(host.params["EE_DEV"]))
+            host.plugged = plug_in(bench, chip, host.clk_hz, int(host.params["EE_DEV"]))
         host.t = 1 if idle or levels else 0
         if boot:
             await host.boot()
@@ -102,15 +104,15 @@ class Host(View, SerialLine):
     @property
     def literal(self) -> bool:
         """Whether the numbers are those of the manual."""
-        return not self.side.simulated
+        return not self.bench.simulated
 
     async def sync(self) -> None:
         """Run the part to the present edge."""
-        await self._to(max(self.side.now, self.t))
+        await self._to(max(self.bench.now, self.t))
 
     async def _to(self, edge: int) -> None:
         """Run the part to just before an edge."""
-        await self.side.until(edge)
+        await self.bench.until(edge)
 
     async def go(self, t: int) -> None:
         """Run to just before edge t; the next access or pin change is at this edge."""
@@ -146,13 +148,13 @@ class Host(View, SerialLine):
     async def pins(self, **levels: int) -> None:
         """Set pin levels from edge t on."""
         await self.sync()
-        self.side.set(**levels)
+        self.bench.set(**levels)
         self.t += 1
 
     async def at(self, t: int, **levels: int) -> None:
         """Set pin levels from edge t on, also before the end of the last stop bit; `t` does not change."""
         await self._to(t)
-        self.side.set(**levels)
+        self.bench.set(**levels)
 
     async def strobe(self, **levels: int) -> None:
         """Apply adc_data or bemf_level with its valid for one cycle."""
@@ -166,7 +168,7 @@ class Host(View, SerialLine):
         """Send a valid frame. Steps are counted from an s, N 1 or z on."""
         self._begin(number(code), data)
         address = self.address if address is None else address
-        self.side.accesses.append(Access(self.t, f"{code!r} to {address:02X}, data", 0, data & 0xFFFFFFFF))
+        self.bench.accesses.append(Access(self.t, f"{code!r} to {address:02X}, data", 0, data & 0xFFFFFFFF))
         await self.send(command(address, code, data))
 
     def _begin(self, code: int, data: int) -> None:
@@ -199,7 +201,7 @@ class Host(View, SerialLine):
         self._reply_end = fall + 1
         self.wire = characters(edges, Fraction(edges[0][0]), bit, 8, within=1)
         address, data = of_reply(self.wire)
-        self.side.accesses.append(Access(rise, f"reply of {address:02X}, data", 0, data))
+        self.bench.accesses.append(Access(rise, f"reply of {address:02X}, data", 0, data))
         self.replied = address
         return data
 
@@ -228,7 +230,7 @@ class Host(View, SerialLine):
     async def ignore_replies(self) -> None:
         """Ignore all replies up to now; a reply in progress is waited for."""
         await self.sync()
-        self.t = max(self.t, await self.side.level_is("de", 0))
+        self.t = max(self.t, await self.bench.level_is("de", 0))
         self._reply_end = self.t
 
     def accepted(self, count: int) -> int:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import ModelBench, OnModel, Side, start_bench
+from cocotb_tests.harness import DutBench, ModelBench, OnModel, start_bench
 from cocotb_tests.harness.line import Changes
 
 from .bench import PMC006
@@ -17,8 +17,8 @@ from .stepping import Stepping
 class Line:
     """Common time and wires of the parts. A level that a part drives at edge t is on the wires at t + 1."""
 
-    def __init__(self, *sides: Side) -> None:
-        self.sides = sides
+    def __init__(self, *benches: DutBench) -> None:
+        self.benches = benches
         self.t = 1
         self._host = 1
 
@@ -37,7 +37,7 @@ class Line:
     @property
     def now(self) -> int:
         """The next edge of all parts."""
-        return self.sides[0].now
+        return self.benches[0].now
 
     async def drive(self, t: int, level: int) -> None:
         """Set the level of the host from edge t on."""
@@ -48,16 +48,16 @@ class Line:
     async def until(self, t: int) -> None:
         """Run all parts to edge t. Each transmission of a part begins with an event of its model."""
         while self.now < t:
-            events = [side.golden.next_event for side in self.sides]
+            events = [bench.golden.next_event for bench in self.benches]
             edge = min([t, *(event + 1 for event in events if event is not None)])
-            for side in self.sides:
-                await side.until(edge)
+            for bench in self.benches:
+                await bench.until(edge)
             self._settle()
 
     def _settle(self) -> None:
-        level = int(self._host and all(side.level("txd") for side in self.sides))
-        for side in self.sides:
-            side.set(rxd=level)
+        level = int(self._host and all(bench.level("txd") for bench in self.benches))
+        for bench in self.benches:
+            bench.set(rxd=level)
 
 
 class Node(Stepping):
@@ -65,7 +65,7 @@ class Node(Stepping):
 
     def __init__(self, line: Line, number: int) -> None:
         self.line = line
-        super().__init__(line.sides[number])
+        super().__init__(line.benches[number])
         self.t = 1
 
     @property

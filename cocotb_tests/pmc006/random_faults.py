@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import ceil
 
 from .frames import checked, command, reply
-from .random_frames import Frames
+from .random_frames import FrameHost
 
 
-class Faults(Frames):
+class FaultHost(FrameHost):
     """Invalid input and silence."""
 
     async def bad_frame(self) -> None:

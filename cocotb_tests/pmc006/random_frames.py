@@ -38,7 +38,7 @@ DATA: dict[str, tuple[int, ...]] = {
 READS = "cjOxXKRknqrhU"
 
 
-class Frames(RandomHost):
+class FrameHost(RandomHost):
     """Random host that sends frames.
 
     `seen` counts its actions and results, `left` is the work that remains.

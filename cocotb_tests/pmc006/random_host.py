@@ -15,9 +15,9 @@ from .builds import D8E, F8B, ODD
 from .chip import Chip
 from .host import Host
 from .programs import image, page
-from .random_faults import Faults
-from .random_meeting import Meetings
-from .random_pins import Pins
+from .random_collisions import CollisionHost
+from .random_faults import FaultHost
+from .random_pins import PinHost
 from .random_program import random_program
 
 build = Builds("p006", ((F8B, 80), (ODD, 12), (D8E, 8)))
@@ -28,7 +28,7 @@ async def play(dut: Any, seed: int) -> Counter[str]:
 
     Raises AssertionError if the part hangs or sends an invalid reply.
     """
-    talker = Talker(seed)
+    talker = RandomSerialHost(seed)
     await talker.begin(dut)
     await talker.play()
     return talker.seen
@@ -36,10 +36,10 @@ async def play(dut: Any, seed: int) -> Counter[str]:
 
 def with_chip(seed: int) -> bool:
     """Return whether the host of a seed has an EEPROM (or an EEPROM that does not respond)."""
-    return Talker(seed).chip is not None
+    return RandomSerialHost(seed).chip is not None
 
 
-class Talker(Meetings, Pins, Faults):
+class RandomSerialHost(CollisionHost, PinHost, FaultHost):
     """One random host. It acts on received data; the golden model only decides when it acts."""
 
     def __init__(self, seed: int) -> None:
@@ -59,7 +59,7 @@ class Talker(Meetings, Pins, Faults):
             levels = {"ext1": rng.getrandbits(1), "ext2": rng.getrandbits(1), "gpi": rng.randrange(32)}
         error = rng.choice((0, 0, 0, 0.02, -0.02))
         self.host = await Host.start(dut, levels=levels, boot=False, error=error, chip=self.chip)
-        self.background = MovingPins(self.host.side, ("sda_i", "scl_i", "fset_n", "ee_on"))
+        self.background = MovingPins(self.host.bench, ("sda_i", "scl_i", "fset_n", "ee_on"))
         await self.host.boot()
         self.seen = Counter()
         self.left = rng.randint(12, 19) if not self.chip else 12

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from .programs import words
-from .random_frames import DATA, Frames
+from .random_frames import DATA, FrameHost
 from .random_program import random_op, random_program
 
 COUNTS = (1, 2, 3, 5, 12, 60, 255, 256, 260, 300, 1000, 0x7FFFFFFF, 0, -1)
 
 
-class Motions(Frames):
+class MotionHost(FrameHost):
     """Random host that starts motions and programs."""
 
     async def start(self) -> None:

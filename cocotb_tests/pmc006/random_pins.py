@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from math import ceil
 
-from .random_frames import Frames
+from .random_frames import FrameHost
 
 
-class Pins(Frames):
+class PinHost(FrameHost):
     """Random host with changing input pins."""
 
     async def ext(self) -> None:
         """Operate emergency switches: press, bounces, an edge near the end of a frame; mostly clear them."""
         rng, t = self.rng, self.host.t
         pin = rng.choice(("ext1", "ext2"))
-        level = self.host.side.pin(pin)
+        level = self.host.bench.pin(pin)
         near = ceil(79.5 * self.host.bit) + rng.randint(-12, 40)
         first = t + rng.choice((near, near, rng.randrange(1, 12_000)))
         for number in range(rng.choice((1, 1, 2, 5))):

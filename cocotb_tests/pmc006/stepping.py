@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 
-from cocotb_tests.harness import Side
+from cocotb_tests.harness import DutBench
 from cocotb_tests.harness.line import Changes
 from openppmc.model.pmc006.bench.motor import Motor, Plant
 
@@ -21,16 +21,16 @@ class Stepping(Host):
 
     async def _drive(self, changes: Changes) -> None:
         for edge, level in changes:
-            if self.side.pin("rxd") != level:
-                await self._to(max(edge, self.side.now))
-                self.side.set(rxd=level)
+            if self.bench.pin("rxd") != level:
+                await self._to(max(edge, self.bench.now))
+                self.bench.set(rxd=level)
 
     async def until(self, signal: str, level: int, limit_us: float = 1_000_000) -> int:
         """Run until a signal has this level; return the edge of its last change."""
         end = self.t + self.us(limit_us)
         await self.sync()
-        while self.side.level(signal) != level:
-            event = self.side.golden.next_event
+        while self.bench.level(signal) != level:
+            event = self.bench.golden.next_event
             assert event is not None and event <= end, f"{signal} does not become {level}"
             await self.go(max(self.t, event + 1))
         return max((t for t, _ in self.edges(signal)[-1:]), default=0)
@@ -39,19 +39,19 @@ class Stepping(Host):
 class _PartView:
     """The part as seen by the motor: its outputs, and when they may change."""
 
-    def __init__(self, side: Side) -> None:
-        self._side = side
-        self.outputs: Mapping[str, int] = _Levels(side)
+    def __init__(self, bench: DutBench) -> None:
+        self._bench = bench
+        self.outputs: Mapping[str, int] = _Levels(bench)
 
     @property
     def now(self) -> int:
         """The last edge that was run."""
-        return self._side.now - 1
+        return self._bench.now - 1
 
     @property
     def next_event(self) -> int | None:
         """The next edge with an event of the part."""
-        event: int | None = self._side.golden.next_event
+        event: int | None = self._bench.golden.next_event
         return event
 
     def run_until(self, t: int) -> None:
@@ -66,12 +66,12 @@ class _PartView:
 class _Levels(dict[str, int]):
     """Current levels of the outputs."""
 
-    def __init__(self, side: Side) -> None:
+    def __init__(self, bench: DutBench) -> None:
         super().__init__()
-        self._side = side
+        self._bench = bench
 
     def __missing__(self, name: str) -> int:
-        return self._side.level(name)
+        return self._bench.level(name)
 
 
 class MotorHost(Stepping):
@@ -81,7 +81,7 @@ class MotorHost(Stepping):
 
     def attach(self, motor: Motor | None = None) -> Plant:
         """Connect a motor from now on."""
-        self.plant = Plant(_PartView(self.side), self.clk_hz, motor)
+        self.plant = Plant(_PartView(self.bench), self.clk_hz, motor)
         return self.plant
 
     def detach(self) -> None:
@@ -91,7 +91,7 @@ class MotorHost(Stepping):
     async def _to(self, edge: int) -> None:
         if self.plant:
             for t, levels in self.plant.legs(edge - 1):
-                await self.side.until(t + 1)
-                self.side.set(**levels)
+                await self.bench.until(t + 1)
+                self.bench.set(**levels)
         else:
-            await self.side.until(edge)
+            await self.bench.until(edge)

@@ -16,7 +16,7 @@ REFS = 64
 NAMES = ("phase_a_ref", "phase_a_sign", "phase_b_ref", "phase_b_sign")
 
 
-def shown(host: Host, t: int) -> tuple[int, ...]:
+def references_at(host: Host, t: int) -> tuple[int, ...]:
     """Return the references after edge t."""
     return tuple(host.level_at(name, t) for name in NAMES)
 
@@ -46,7 +46,7 @@ async def p006_angle_of_every_step(dut: Any, m: int) -> None:
             after = edge + REFS
             raised = min(255, 255 + boost(4000, 1000, m, 100))
             expected = {sines(angle, 255), sines(angle + ahead, raised)}
-            assert shown(host, after) in expected, f"angle {angle}"
+            assert references_at(host, after) in expected, f"angle {angle}"
             assert len({t for name in NAMES for t, _ in host.edges(name, edge) if t <= after}) <= 1
         assert await host.refs() == sines(angle, 255)
 
@@ -135,9 +135,11 @@ async def p006_compensation(dut: Any, case: Any) -> None:
     angle = HOME
     for number, edge in enumerate(host.steps(mark)[:8]):
         angle += sign * increment(m)
-        assert shown(host, edge + REFS) == sines(angle + sign * lead(speed, m, scomp), peak), f"step {number}"
+        assert references_at(host, edge + REFS) == sines(angle + sign * lead(speed, m, scomp), peak), (
+            f"step {number}"
+        )
     first = host.edges("mon_busy", mark)[0][0]
-    assert shown(host, first + host.us(50)) == sines(HOME, code(e))
+    assert references_at(host, first + host.us(50)) == sines(HOME, code(e))
     assert await host.ask("I") == 0
     await host.pause(REFS)
     assert await host.refs() == sines(HOME + sign * increment(m) * host.step_count(mark), code(e))

@@ -10,7 +10,7 @@ from cocotb.triggers import ClockCycles, Event, FallingEdge, RisingEdge, Timer, 
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import same
-from cocotb_tests.harness.line import Wire
+from cocotb_tests.harness.line import UartBfm
 from cocotb_tests.pmc006.frames import command, of_reply
 
 BAUD, ADDRESS = 115_200, 255
@@ -20,7 +20,7 @@ INPUTS |= {"conv": 0, "adc_stb": 0, "bemf_stb": 0}
 LINE, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
-class Host(Wire):
+class Host(UartBfm):
     """A PC on one of the two lines."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
@@ -29,7 +29,7 @@ class Host(Wire):
         self.bytes = bytearray()
         self._whole = Event()
 
-    def came(self, byte: int) -> None:
+    def on_char(self, byte: int) -> None:
         """Collect a reply; DE must be asserted."""
         same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
@@ -59,14 +59,14 @@ class Board:
         self.usb = Host(dut.uart_rxd, dut.uart_txd, dut.rs485_de)
         self.rs485 = Host(dut.rs485_rxd, dut.rs485_txd, dut.rs485_de)
 
-    def lamp(self, which: int) -> int:
+    def led(self, which: int) -> int:
         """Return the state of an LED, 1 = on."""
         return int(self.dut.lamps.value) >> which & 1
 
     async def boot(self) -> None:
         """Wait until the bridges are on, which ends the boot; the LED "running" is on before."""
         await with_timeout(RisingEdge(self.dut.bridge_a_en), 60, "ms")
-        same("running", self.lamp(RUNNING), 1)
+        same("running", self.led(RUNNING), 1)
 
     async def strobe(self, name: str, level: int) -> None:
         """Make one conversion on the bus of the converter, as short as allowed, then apply another level."""
@@ -91,34 +91,34 @@ async def start(dut: Any) -> Board:
 async def board006_both_lines(dut: Any) -> None:
     """Either host receives its reply on both lines; DE frames the reply, and the LED of the line is on."""
     board = await start(dut)
-    same("lamp before", board.lamp(LINE), 0)
+    same("LED before", board.led(LINE), 0)
     for host, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
         other.bytes.clear()
         same("DE", int(dut.rs485_de.value), 0)
         same("microstepping", await host.ask("k"), 16)
         same("the other line", bytes(other.bytes), bytes(host.bytes))
-        same("lamp", board.lamp(LINE), 1)
+        same("LED", board.led(LINE), 1)
     same("DE", int(dut.rs485_de.value), 0)
 
 
 @cocotb.test()
-async def board006_motion_and_lamps(dut: Any) -> None:
+async def board006_motion_and_leds(dut: Any) -> None:
     """A move lights its LED until its last step; the switches have an LED, and the outputs follow y."""
     board = await start(dut)
     usb, steps = board.usb, 0
     same("y", await usb.ask("y", 0b10110 << 3), 0b10110 << 3)
     same("gpo", int(dut.gpo.value), 0b10110)
     for name in ("ext1", "ext2"):
-        same("lamp", board.lamp(SWITCH), 0)
+        same("LED", board.led(SWITCH), 0)
         getattr(dut, name).value = 0
         await Timer(10, "us")
-        same(f"lamp of {name}", board.lamp(SWITCH), 1)
+        same(f"LED of {name}", board.led(SWITCH), 1)
         getattr(dut, name).value = 1
         await Timer(10, "us")
-    same("lamp", board.lamp(MOVING), 0)
+    same("LED", board.led(MOVING), 0)
     same("step", await usb.ask("s", 5), ACCEPTED)
-    same("lamp", board.lamp(MOVING), 1)
-    while board.lamp(MOVING):
+    same("LED", board.led(MOVING), 1)
+    while board.led(MOVING):
         await with_timeout(FallingEdge(dut.mon_step), 10, "ms")
         steps += 1
         await ClockCycles(dut.clk, 40)
@@ -168,7 +168,7 @@ async def board006_button_and_eeprom(dut: Any) -> None:
     dut.btn_n.value = 0
     await with_timeout(FallingEdge(dut.bridge_a_en), 1, "us")
     same("bridges", int(dut.bridge_b_en.value), 0)
-    same("running", board.lamp(RUNNING), 0)
+    same("running", board.led(RUNNING), 0)
     await Timer(100, "us")
     dut.btn_n.value = 1
     await board.boot()

@@ -72,7 +72,7 @@ async def p006_sum_and_unused_bytes_of_the_block(dut: Any) -> None:
 
 
 @directed("P006-BAD-14", "P006-EEP-10", "P006-EEP-01", "P006-PRG-11")
-async def p006_a_copy_stands_in_for_a_bad_block(dut: Any) -> None:
+async def p006_a_copy_replaces_a_bad_block(dut: Any) -> None:
     """A valid copy replaces a block with an invalid sum, head or field.
 
     The copy is checked in the same way, and nothing is written. With a valid block the copy is not used. The

@@ -75,22 +75,22 @@ async def p006_register(dut: Any, row: Row) -> None:
     """Accepted data is echoed; rejected data does not change the register, whose value is the reply."""
     host = await Host.start(dut)
 
-    async def shown(value: int) -> None:
+    async def check_value(value: int) -> None:
         if row.read:
             got = await host.ask(row.read, -1)
             assert (got & row.mask) >> row.shift == value if row.mask else got == value
 
-    await shown(row.factory)
+    await check_value(row.factory)
     value = row.factory
     for data in row.bad:
         assert await host.ask(row.code, data) == value, f"{row.code} {data}"
     for data in row.good:
         value = data & 0xFFFFFFFF
         assert await host.ask(row.code, data) == value, f"{row.code} {data}"
-        await shown(value)
+        await check_value(value)
     for data in row.bad[:3]:
         assert await host.ask(row.code, data) == value, f"{row.code} {data}"
-    await shown(value)
+    await check_value(value)
 
 
 @directed("P006-CMD-48", "P006-BAD-07", "P006-FRM-03")
@@ -107,7 +107,7 @@ async def p006_unknown_codes(dut: Any) -> None:
 
 
 @directed("P006-CMD-15", "P006-CMD-12", "P006-CMD-31", "P006-CMD-45", "P006-CMD-19", "P006-CMD-57")
-async def p006_reads_do_not_look_at_their_data(dut: Any) -> None:
+async def p006_reads_ignore_their_data(dut: Any) -> None:
     host = await Host.start(dut)
     for data in (0, -1):
         assert [await host.ask(code, data) for code in "ROjxXKcknqrh"] == [

@@ -77,7 +77,7 @@ async def p006_nothing_is_left_at_a_reference_of_0(dut: Any) -> None:
 
 
 @directed("P006-CHP-01", "P006-STA-12")
-async def p006_released_and_taken_back(dut: Any) -> None:
+async def p006_released_and_excited_again(dut: Any) -> None:
     """With the bridges off the current decays in the diodes; it returns in the next cycle."""
     host, plant = await ready(dut, Motor(2.0, 1e-3, 12.0), e=3000)
     await set_constant_speed(host, 3000)

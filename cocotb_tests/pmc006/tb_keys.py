@@ -73,7 +73,7 @@ async def p006_length_of_the_filter(dut: Any) -> None:
 
 
 @directed("P006-PRG-31", "P006-PRG-30", "P006-CMD-55")
-async def p006_reset_goes_to_its_target_after_the_release(dut: Any) -> None:
+async def p006_reset_moves_to_its_target_after_the_release(dut: Any) -> None:
     host = await armed(dut)
     await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), rot(5), END)
     await after_steps(host, 3)
@@ -123,7 +123,7 @@ async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
 
 
 @directed("P006-PRG-30")
-async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> None:
+async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
     """A key that is held at reset or when it is enabled has no effect until it has been released."""
     host = await constant_speed_host(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
     await host.wait_us(3 * FILTER)
@@ -141,7 +141,7 @@ async def p006_a_key_held_from_the_beginning_counts_for_nothing(dut: Any) -> Non
 
 @cocotb.parametrize(held=[False, True])
 @directed("P006-PRG-30")
-async def p006_enabling_behind_the_event(dut: Any, held: bool) -> None:
+async def p006_enabling_after_the_event(dut: Any, held: bool) -> None:
     """An event before RESET_EN has no effect, though the key is still pressed."""
     host = await armed(dut)
     await level(host, KEY1)

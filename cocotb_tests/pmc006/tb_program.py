@@ -151,7 +151,7 @@ async def p006_bad_opcodes(dut: Any, opcode: int) -> None:
 
 
 @directed("P006-PRG-13", "P006-BAD-16", "P006-PRG-12", "P006-CMD-47")
-async def p006_behind_the_last_instruction(dut: Any) -> None:
+async def p006_after_the_last_instruction(dut: Any) -> None:
     """z starts at PP >> 1; the program halts after instruction 99."""
     host = await Host.start(dut)
     await download(host, [out(1, 1), out(2, 1)], first=98)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import inside
+from cocotb_tests.harness import probe
 
 from .builds import directed
 from .host import Host
@@ -28,8 +28,8 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
     await host.pause(int(host.bit * 20))
     await host.pins(rst_n=0)
     await host.sync()
-    expected = host.side.part.reset_levels()
-    assert {pin: host.side.level(pin) for pin in expected} == expected
+    expected = host.bench.part.reset_levels()
+    assert {pin: host.bench.level(pin) for pin in expected} == expected
     await host.pause(10)
     await host.pins(rst_n=1, ext2=1)
     await host.ignore_replies()
@@ -42,11 +42,11 @@ async def p006_reset_in_the_middle_of_everything(dut: Any) -> None:
 
 
 @directed("P006-BAD-24", "P006-CMD-15")
-@inside("u_control.u_settings.u_reply_ram.count_q")
-async def p006_reset_mends_whatever_there_was(dut: Any) -> None:
+@probe("u_control.u_settings.u_reply_ram.count_q")
+async def p006_reset_restores_any_state(dut: Any) -> None:
     """After a reset the replies are correct, regardless of the copies of the registers at power-up."""
     host = await Host.start(dut)
-    if host.side.simulated:
+    if host.bench.simulated:
         for state in range(64):
             await host.pins(rst_n=0)
             await host.pause(4)

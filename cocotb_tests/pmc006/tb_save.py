@@ -132,7 +132,7 @@ async def p006_lines_that_stick_while_saving(dut: Any) -> None:
 
 
 @directed("P006-EEP-10", "P006-CMD-41", "P006-CMD-48")
-async def p006_a_save_that_fails_is_told(dut: Any) -> None:
+async def p006_a_failed_save_is_reported(dut: Any) -> None:
     """V returns 1 while the EEPROM is in use, 2 if it did not respond, 0 after success."""
     host = await Host.start(dut, chip=Chip(write_us=2_000))
     chip = host.eeprom

@@ -102,7 +102,7 @@ async def p006_samples_off_constant_speed(dut: Any) -> None:
 
 
 @directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
-async def p006_the_count_of_low_samples_begins_anew(dut: Any) -> None:
+async def p006_the_count_of_low_samples_restarts(dut: Any) -> None:
     """The count restarts with each start, also without samples in between, and with any idle sample."""
     host = await constant_speed_host(dut, 2500)
     await host.ok(L=2500, S=2500, Z=256, T=3, Y=1)

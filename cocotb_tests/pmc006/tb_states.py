@@ -72,13 +72,13 @@ async def enter(host: Host, state: State) -> None:
             await run(host, 0)
 
 
-async def seen(host: Host) -> tuple[int, int]:
+async def read_status(host: Host) -> tuple[int, int]:
     """Return status 1 without the decay, and the mode bits of status 2."""
     return await host.status() & ~DECAY, await host.ask("O") & (SPEED_MODE | FREE_RUN)
 
 
-def shown(state: State) -> tuple[int, int]:
-    """Return the expected result of `seen`."""
+def expected_status(state: State) -> tuple[int, int]:
+    """Return the expected result of `read_status`."""
     return bool(state.motion) | state.flags, SPEED_MODE * (state.motion == "speed") | FREE_RUN * state.free
 
 
@@ -122,7 +122,7 @@ async def p006_every_row_in_every_state(dut: Any, name: str) -> None:
         reply, after = outcome(code, data, state, host.accepted(data))
         before = host.step_count(0)
         assert await host.ask(code, data) == reply, f"{code} {data} in {name}"
-        assert await seen(host) == shown(after), f"{code} {data} in {name}"
+        assert await read_status(host) == expected_status(after), f"{code} {data} in {name}"
         moves = not await is_stopped(host, host.us(700))
         assert moves == bool(after.motion), f"{code} {data} in {name}"
         assert moves or state.motion or host.step_count(0) == before

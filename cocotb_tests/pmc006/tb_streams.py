@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import Bench, rtl_only
+from cocotb_tests.harness import RtlBench, rtl_only
 
 from .bench import PMC006
 from .builds import directed
@@ -38,9 +38,9 @@ def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
 async def p006_streams(dut: Any) -> None:
     """For references of many sizes and both signs, the streams are the carries of their sums."""
     host = await Host.start(dut, boot=False)
-    assert isinstance(host.side, Bench)
+    assert isinstance(host.bench, RtlBench)
     for name in PMC006.unwatched:
-        host.side.watch(name)
+        host.bench.watch(name)
     await host.boot()
     await host.ok(e=4000)
     await set_constant_speed(host, 2000, m=8)
@@ -51,4 +51,4 @@ async def p006_streams(dut: Any) -> None:
     await host.pause(600)
     for phase in "ab":
         seen = host.edges(f"pwm_{phase}_ref")
-        assert len(seen) > 5_000 and seen == stream(host.edges(f"phase_{phase}_ref"), host.side.now - 1)
+        assert len(seen) > 5_000 and seen == stream(host.edges(f"phase_{phase}_ref"), host.bench.now - 1)

@@ -17,7 +17,7 @@ ITEMS = cocotb_items(
     "cocotb_tests.pmc006",
     "tb_boot",
     "tb_save",
-    "tb_everywhere",
+    "tb_all_states",
     "tb_memory",
     "tb_acceptance_memory",
     part=PMC006,

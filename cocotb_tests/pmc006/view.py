@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.harness import Side
+from cocotb_tests.harness import DutBench
 
 from .frames import signed
 
@@ -19,7 +19,7 @@ class View(ABC):
         mark: steps are counted from here.
     """
 
-    side: Side
+    bench: DutBench
     clk_hz: int
     t: int
     mark: int
@@ -37,16 +37,16 @@ class View(ABC):
 
     def edges(self, signal: str, since: int = 0) -> list[tuple[int, int]]:
         """Return the changes (t, level) of an output from edge `since` to the present."""
-        return self.side.edges(signal, since)
+        return self.bench.edges(signal, since)
 
     def level_at(self, signal: str, t: int) -> int:
         """Return the level of an output after edge t."""
-        return self.side.level_at(signal, t)
+        return self.bench.level_at(signal, t)
 
     async def out(self, signal: str) -> int:
         """Return the current level of an output."""
         await self.sync()
-        return self.side.level(signal)
+        return self.bench.level(signal)
 
     async def busy(self) -> bool:
         """Return the level of mon_busy."""
@@ -55,7 +55,7 @@ class View(ABC):
     async def until(self, signal: str, level: int, limit_us: float = 1_000_000) -> int:
         """Run until an output has this level; return the edge of its last change."""
         await self.sync()
-        self.t = max(self.t, await self.side.level_is(signal, level, self.us(limit_us)))
+        self.t = max(self.t, await self.bench.level_is(signal, level, self.us(limit_us)))
         return max((t for t, _ in self.edges(signal)[-1:]), default=0)
 
     # ------------------------------------------------------------------ times
@@ -77,7 +77,7 @@ class View(ABC):
 
     def steps(self, since: int | None = None) -> list[int]:
         """Return the edges with mon_step since `mark`."""
-        return self.side.rises("mon_step", self.mark if since is None else since)
+        return self.bench.rises("mon_step", self.mark if since is None else since)
 
     def step_count(self, since: int | None = None) -> int:
         """Return the number of steps since `mark`."""
@@ -94,9 +94,9 @@ class View(ABC):
         Returns:
             The new steps, one or more.
         """
-        since = self.side.now
-        await self.side.edge("mon_step", 1, max(1, limit - since))
-        self.t = max(self.t, self.side.now)
+        since = self.bench.now
+        await self.bench.edge("mon_step", 1, max(1, limit - since))
+        self.t = max(self.t, self.bench.now)
         await self.sync()
         return self.steps(since)
 
@@ -105,7 +105,7 @@ class View(ABC):
     async def refs(self) -> tuple[int, int, int, int]:
         """Return reference and sign of phase A, then of phase B."""
         await self.sync()
-        level = self.side.level
+        level = self.bench.level
         return (
             level("phase_a_ref"),
             level("phase_a_sign"),

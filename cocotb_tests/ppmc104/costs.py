@@ -7,7 +7,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, HostBus
+from cocotb_tests.harness import HostBus, RtlBench
 
 from .bench import PPMC104
 
@@ -39,7 +39,7 @@ async def count_costs(dut: Any) -> None:
     """The cycles of initialisations and of commands with answers after a reset are written to
     costs.json.
     """
-    host = HostBus(await Bench.start(dut, PPMC104))
+    host = HostBus(await RtlBench.start(dut, PPMC104))
     found = {name: await build(host, ramp) for name, ramp in RAMPS.items()}
     for name, (code, count) in ANSWERS.items():
         begin = host.bench.now

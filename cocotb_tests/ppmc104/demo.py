@@ -8,8 +8,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, HostBus
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness import HostBus, RtlBench
+from cocotb_tests.harness.sessions import DemoLog
 
 from .bench import PPMC104
 
@@ -36,30 +36,30 @@ async def results(host: HostBus) -> None:
 @cocotb.test()
 async def demo_move(dut: Any) -> None:
     """A host that moves 1000 pulses and then runs into L1 is recorded from reset to the end."""
-    bench = await Bench.start(dut, PPMC104)
+    bench = await RtlBench.start(dut, PPMC104)
     host = HostBus(bench)
-    story = Story(bench)
-    with story.chapter("reset", "after reset"):
+    demo_log = DemoLog(bench)
+    with demo_log.chapter("reset", "after reset"):
         await host.status()
         await host.fetch(0x81)
-    with story.chapter("init", "initialise"):
+    with demo_log.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
         # The table build keeps this command in the buffer: IBF indicates when the chip is ready.
         await host.fetch(0x82)
-    with story.chapter("move", "1000 pulses with ramps"):
+    with demo_log.chapter("move", "1000 pulses with ramps"):
         await host.move(ACC_DEC, 1000)
         await results(host)
-    with story.chapter("pause", "rest"):
+    with demo_log.chapter("pause", "rest"):
         await bench.clocks(64_000)
-    with story.chapter("limit", "run into limit L1"):
+    with demo_log.chapter("limit", "run into limit L1"):
         start = bench.now
         await host.send(CONTINUOUS, [RATE])
         last = await bench.nth_fall(PULSES_TO_LIMIT, since=start)
         bench.at(last + 700, l1_n=0)
         await results(host)
         await host.fetch(0x81)
-    with story.chapter("rest", "rest until HOLD rises"):
+    with demo_log.chapter("rest", "rest until HOLD rises"):
         await bench.edge("hold", 1, timeout=2_000_000)
         await bench.clocks(16_000)
-    story.save()
+    demo_log.save()

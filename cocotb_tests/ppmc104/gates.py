@@ -8,11 +8,11 @@ from . import test_part, test_random
 
 PART = PartTests(
     test_part,
-    frozenset({"test_ppmc104", "test_random", "test_chaos"}),
+    frozenset({"test_ppmc104", "test_random", "test_noise"}),
     test_random,
     {
         test_random.random_item: (1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 18, 37, 62),
-        test_random.chaos_item: (1, 2, 3, 5),
+        test_random.noise_item: (1, 2, 3, 5),
     },
     not_applicable={
         "test_p104_par_01_ranges": PARAMETERS,

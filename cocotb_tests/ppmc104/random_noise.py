@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness import Bench
-from cocotb_tests.harness.random_host import Noise
+from cocotb_tests.harness import RtlBench
+from cocotb_tests.harness.random_host import PinNoise
 
 STROBES = ("wr_n", "wr_n", "wr_n", "rd_n", "cs_n")
 CODES = (
@@ -12,6 +12,6 @@ CODES = (
 )  # fmt: skip
 
 
-def noise(bench: Bench) -> Noise:
+def noise(bench: RtlBench) -> PinNoise:
     """Return the noise for the seed of this test bench."""
-    return Noise(bench, STROBES, CODES)
+    return PinNoise(bench, STROBES, CODES)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness import Side
+from cocotb_tests.harness import DutBench
 from cocotb_tests.harness.player import SinglePlayer
 from cocotb_tests.ppmc104.random_host import Scenario
 
@@ -10,5 +10,5 @@ from cocotb_tests.ppmc104.random_host import Scenario
 class HostPlayer(SinglePlayer):
     """Plays one scenario: `await HostPlayer(bench, scenario).run()`."""
 
-    def __init__(self, bench: Side, scenario: Scenario) -> None:
+    def __init__(self, bench: DutBench, scenario: Scenario) -> None:
         super().__init__(bench, scenario, "P104-BAD-23")

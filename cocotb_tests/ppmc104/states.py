@@ -4,8 +4,8 @@ external clock.
 
 from __future__ import annotations
 
-from .figures import INIT_EXT
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_EXT
 
 # Ramp PA of INIT_EXT: interval I(PA + 1), the one after pulse PA + 1, is the first on the plateau.
 PLATEAU = INIT_EXT[3] + 1
@@ -16,22 +16,22 @@ CONSTANT = ("START constant", "CONST", "FIN constant")
 MOVING = (*RAMP, *CONSTANT)
 
 
-async def fresh(lab: Lab) -> None:
+async def fresh(env: Env) -> None:
     """Reset, then wait until the mailbox is open."""
-    await lab.bench.reset()
-    await lab.bench.clocks(6)
+    await env.bench.reset()
+    await env.bench.clocks(6)
 
 
-async def enter(lab: Lab, state: str, ramp_code: int = 0x43, constant_code: int = 0x44) -> None:
+async def enter(env: Env, state: str, ramp_code: int = 0x43, constant_code: int = 0x44) -> None:
     """Reset and enter `state`; a moving state stays until more clock edges follow.
 
     FIN lasts only the W cycles of the last low time: use it immediately. Raises KeyError for an unknown
     state.
     """
-    await fresh(lab)
+    await fresh(env)
     if state == "UNINIT":
         return
-    await lab.init(*INIT_EXT)
+    await env.init(*INIT_EXT)
     if state == "READY":
         return
     if state in RAMP:
@@ -44,16 +44,16 @@ async def enter(lab: Lab, state: str, ramp_code: int = 0x43, constant_code: int 
             "FIN ramp": 0,
         }[state]
         count = {"FIN ramp": 1, "DEC natural": 8}.get(state, 1000)
-        await lab.go(ramp_code, None if ramp_code & 7 == 6 else count)
+        await env.go(ramp_code, None if ramp_code & 7 == 6 else count)
     else:
         pulses = {"START constant": 0, "CONST": 2, "FIN constant": 0}[state]
         rate = 0 if constant_code & 7 in (4, 5, 7) else None
         n = (1 if state.startswith("FIN") else 1000) if constant_code & 7 == 4 else None
-        await lab.go(constant_code, n, rate)
-    await lab.bench.clocks(lab.cfg.w + 4)
-    await lab.tick_until(pulses)
+        await env.go(constant_code, n, rate)
+    await env.bench.clocks(env.cfg.w + 4)
+    await env.tick_until(pulses)
     if state == "DEC":
-        await lab.host.command(0x41)
+        await env.host.command(0x41)
     if state.startswith("FIN"):
-        await lab.ticks(1)
-        await lab.bench.level_is("pout_n", 0)
+        await env.ticks(1)
+        await env.bench.level_is("pout_n", 0)

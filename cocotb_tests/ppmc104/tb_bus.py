@@ -10,23 +10,23 @@ from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import COMMAND, DATA, F8, F16, F50, F100, IBF, STATUS, directed, rtl_only
 
-from .figures import INIT_A
-from .lab import PINS_LATEST, Lab
+from .env import PINS_LATEST, Env
+from .expected_timing import INIT_A
 
 
-async def strobe(lab: Lab, ps: int, gap_ps: int, **levels: int) -> None:
+async def strobe(env: Env, ps: int, gap_ps: int, **levels: int) -> None:
     """Make one host access that is asynchronous to clk: levels for `ps`, then strobes off for `gap_ps`."""
-    lab.bench.set_between_edges(**levels)
+    env.bench.set_between_edges(**levels)
     await Timer(ps, "ps")
-    lab.bench.set_between_edges(cs_n=1, wr_n=1, rd_n=1)
+    env.bench.set_between_edges(cs_n=1, wr_n=1, rd_n=1)
     await Timer(gap_ps, "ps")
 
 
-def off_edge(lab: Lab, part: int) -> int:
+def off_edge(env: Env, part: int) -> int:
     """Return an even number of ps of the given eighths of a cycle, with a small offset that avoids the
     edges of `clk`.
     """
-    return lab.bench.period * part // 16 * 2 + 2 * (lab.bench.period // 64)
+    return env.bench.period * part // 16 * 2 + 2 * (env.bench.period // 64)
 
 
 @directed("P104-BUS-01", "P104-GEN-01")
@@ -34,14 +34,14 @@ async def p104_bus_01_register_map(dut):
     """For all combinations of cs_n, a0 and strobes, only the selected register is accessed
     (P104-BUS-01).
     """
-    lab = await Lab.start(dut, None)
-    bench, host = lab.bench, lab.host
-    lab.check("P104-BUS-01", "a0 = 0 writes data: error 3", await host.data(0x86), 0xB0)
-    lab.check("P104-BUS-01", "a0 = 1 writes a command", await host.command(0x86), 0x10)
-    lab.check("P104-BUS-01", "0x86 takes the data", await host.data(0x05), 0x00)
+    env = await Env.start(dut, None)
+    bench, host = env.bench, env.host
+    env.check("P104-BUS-01", "a0 = 0 writes data: error 3", await host.data(0x86), 0xB0)
+    env.check("P104-BUS-01", "a0 = 1 writes a command", await host.command(0x86), 0x10)
+    env.check("P104-BUS-01", "0x86 takes the data", await host.data(0x05), 0x00)
     await host.command(0x81)
-    lab.check("P104-BUS-01", "a0 = 1 reads status", await host.read(STATUS), 0x01)
-    lab.check("P104-BUS-01", "a0 = 0 reads data", await host.read(DATA), 0xCF)
+    env.check("P104-BUS-01", "a0 = 1 reads status", await host.read(STATUS), 0x01)
+    env.check("P104-BUS-01", "a0 = 0 reads data", await host.read(DATA), 0xCF)
     before = bench.edges("d_oe")
     for a0 in (0, 1):
         for levels in ({"rd_n": 0}, {"wr_n": 0}, {"rd_n": 0, "wr_n": 0}, {}):
@@ -49,30 +49,30 @@ async def p104_bus_01_register_map(dut):
             await bench.clocks(6)
             bench.set(rd_n=1, wr_n=1)
             await bench.clocks(6)
-    lab.check("P104-BUS-01", "edges of d_oe with cs_n = H", bench.edges("d_oe"), before)
+    env.check("P104-BUS-01", "edges of d_oe with cs_n = H", bench.edges("d_oe"), before)
     bench.set(cs_n=0)
     await bench.clocks(6)
     bench.set(cs_n=1)
     await bench.clocks(12)
-    lab.check("P104-BUS-01", "status after accesses with cs_n = H", await host.status(), 0x00)
-    lab.check("P104-BUS-01", "aux_n", bench.edges("aux_n"), [])
+    env.check("P104-BUS-01", "status after accesses with cs_n = H", await host.status(), 0x00)
+    env.check("P104-BUS-01", "aux_n", bench.edges("aux_n"), [])
 
 
 @directed("P104-BUS-02", "P104-BAD-08")
 async def p104_bus_02_overlapping_strobes(dut):
     """If a read strobe interrupts a write, the byte sampled before is stored once (P104-BUS-02)."""
-    lab = await Lab.start(dut, None)
-    bench = lab.bench
+    env = await Env.start(dut, None)
+    bench = env.bench
     since = bench.set(a0=COMMAND, d_i=0x86, cs_n=0, wr_n=0)
     await bench.clocks(3)
     bench.set(rd_n=0, d_i=0xC1)
     await bench.clocks(14)
-    lab.check("P104-BUS-02", "d_oe while both are low", bench.edges("d_oe", since), [])
+    env.check("P104-BUS-02", "d_oe while both are low", bench.edges("d_oe", since), [])
     bench.set(cs_n=1, rd_n=1, wr_n=1)
     await bench.clocks(12)
-    lab.check("P104-BUS-02", "status: only 0x86 was stored", await lab.host.status(), 0x10)
-    lab.check("P104-BUS-02", "aux_n", bench.edges("aux_n"), [])
-    await lab.host.data(0xFF)
+    env.check("P104-BUS-02", "status: only 0x86 was stored", await env.host.status(), 0x10)
+    env.check("P104-BUS-02", "aux_n", bench.edges("aux_n"), [])
+    await env.host.data(0xFF)
     first = bench.set(a0=STATUS, cs_n=0, rd_n=0)
     await bench.clocks(8)
     both = bench.set(wr_n=0, d_i=0xC1)
@@ -80,44 +80,44 @@ async def p104_bus_02_overlapping_strobes(dut):
     bench.set(cs_n=1, rd_n=1, wr_n=1)
     await bench.clocks(12)
     (on, _), (off, _) = bench.edges("d_oe", first)
-    lab.window("P104-BUS-02", "d_oe fall after wr_n joined", off - both, 0, 2)
-    lab.window("P104-BUS-02", "d_oe rise", on - first, 0, 2)
-    lab.check("P104-BUS-02", "status after the read", await lab.host.status(), 0x00)
-    lab.check("P104-BUS-02", "aux_n after the read", bench.edges("aux_n"), [])
+    env.window("P104-BUS-02", "d_oe fall after wr_n joined", off - both, 0, 2)
+    env.window("P104-BUS-02", "d_oe rise", on - first, 0, 2)
+    env.check("P104-BUS-02", "status after the read", await env.host.status(), 0x00)
+    env.check("P104-BUS-02", "aux_n after the read", bench.edges("aux_n"), [])
 
 
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
 @directed("P104-BUS-03", "P104-BUS-04", builds=(F8, F16, F50, F100))
 async def p104_bus_03_shortest_strobes(dut):
     """With the shortest legal strobes at any phase, no byte is lost or corrupted (P104-BUS-03)."""
-    lab = await Lab.start(dut, None)
-    bench = lab.bench
+    env = await Env.start(dut, None)
+    bench = env.bench
     clk = bench.period
     short, read = clk + 10_000, 4 * clk
     for part in range(8):
         await bench.align()
-        await Timer(off_edge(lab, part), "ps")
+        await Timer(off_edge(env, part), "ps")
         # Of two writes back to back, the newer byte may replace the older one, but must be stored.
-        await strobe(lab, short, short, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
-        await strobe(lab, short, 14 * clk, a0=1, d_i=0xC1, cs_n=0, wr_n=0)
-        lab.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 0)
-        await strobe(lab, short, 14 * clk, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
-        lab.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 1)
+        await strobe(env, short, short, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
+        await strobe(env, short, 14 * clk, a0=1, d_i=0xC1, cs_n=0, wr_n=0)
+        env.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 0)
+        await strobe(env, short, 14 * clk, a0=1, d_i=0xC2, cs_n=0, wr_n=0)
+        env.check("P104-BUS-03", f"aux_n, phase {part}/8", bench.level("aux_n"), 1)
         # The levels of d_i and a0 are invalid until 1 cycle + 10 ns before the end of a longer strobe.
         bench.set_between_edges(a0=0, d_i=0x55, cs_n=0, wr_n=0)
         await Timer(3 * clk, "ps")
-        await strobe(lab, short, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
+        await strobe(env, short, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
         value = part << 1 | 1
-        await strobe(lab, short, 14 * clk, a0=0, d_i=value, cs_n=0, wr_n=0)
-        lab.check("P104-BUS-04", f"auxo, phase {part}/8", bench.level("auxo"), ~value & 0xF)
-        await strobe(lab, short, 14 * clk, a0=1, d_i=0x81, cs_n=0, wr_n=0)
+        await strobe(env, short, 14 * clk, a0=0, d_i=value, cs_n=0, wr_n=0)
+        env.check("P104-BUS-04", f"auxo, phase {part}/8", bench.level("auxo"), ~value & 0xF)
+        await strobe(env, short, 14 * clk, a0=1, d_i=0x81, cs_n=0, wr_n=0)
         for a0, expected in ((1, 0x01), (0, 0xCF), (1, 0x00)):
             bench.set_between_edges(a0=a0, cs_n=0, rd_n=0)
             await Timer(read, "ps")
             got = (bench.level("d_oe"), bench.level("d_o"))
             bench.set_between_edges(cs_n=1, rd_n=1)
             await Timer(short, "ps")
-            lab.check("P104-BUS-03", f"(d_oe, d_o) of a0 = {a0}, phase {part}/8", got, (1, expected))
+            env.check("P104-BUS-03", f"(d_oe, d_o) of a0 = {a0}, phase {part}/8", got, (1, expected))
 
 
 @directed("P104-BUS-05")
@@ -125,11 +125,11 @@ async def p104_bus_05_snapshot(dut):
     """During a read strobe of 3 to 60 cycles, d_o is one stable snapshot, even if the state changes
     (P104-BUS-05).
     """
-    lab = await Lab.start(dut, INIT_A)
-    bench = lab.bench
+    env = await Env.start(dut, INIT_A)
+    bench = env.bench
     for length in (3, 4, 5, 9, 60):
-        await lab.go(0x42)
-        await lab.pulse(1, 40)
+        await env.go(0x42)
+        await env.pulse(1, 40)
         first = bench.set(a0=STATUS, cs_n=0, rd_n=0)
         await bench.clocks(3)
         byte = bench.level("d_o")
@@ -137,18 +137,18 @@ async def p104_bus_05_snapshot(dut):
         after = bench.set(cs_n=1, rd_n=1)
         await bench.clocks(8)
         (on, _), (off, _) = bench.edges("d_oe", first)
-        lab.window("P104-BUS-05", f"d_oe rise, {length} clk", on - first, 0, 2)
-        lab.window("P104-BUS-05", f"d_oe fall, {length} clk", off - after, 0, 2)
-        lab.check("P104-BUS-05", f"status, {length} clk", byte, 0x04)
+        env.window("P104-BUS-05", f"d_oe rise, {length} clk", on - first, 0, 2)
+        env.window("P104-BUS-05", f"d_oe fall, {length} clk", off - after, 0, 2)
+        env.check("P104-BUS-05", f"status, {length} clk", byte, 0x04)
         moved = [t for t, _ in bench.edges("d_o", first + 3) if t <= after + 2]
-        lab.check("P104-BUS-05", f"d_o edges up to edge 2', {length} clk", moved, [])
-        await lab.idle()
+        env.check("P104-BUS-05", f"d_o edges up to edge 2', {length} clk", moved, [])
+        await env.idle()
     ended = bench.set(a0=STATUS, cs_n=0, rd_n=0)
     await bench.clocks(5)
     bench.set(a0=DATA)
     await bench.clocks(5)
-    lab.check("P104-BUS-05", "d_o edges when a0 turns", bench.edges("d_o", ended + 3), [])
-    await lab.host.idle()
+    env.check("P104-BUS-05", "d_o edges when a0 turns", bench.edges("d_o", ended + 3), [])
+    await env.host.idle()
 
 
 @directed("P104-BUS-06", "P104-GEN-06", "P104-TIM-01", "P104-BAD-18", builds=(F16, F100))
@@ -156,8 +156,8 @@ async def p104_bus_06_last_sample_counts(dut):
     """If d_i and a0 change every cycle, the last sample of the write strobe is the byte, always with
     the same latency (P104-BUS-06).
     """
-    lab = await Lab.start(dut, None)
-    bench = lab.bench
+    env = await Env.start(dut, None)
+    bench = env.bench
     latencies = set()
     for length in range(1, 9):
         for ends in ({"wr_n": 1}, {"cs_n": 1}, {"cs_n": 1, "wr_n": 1}, {"rd_n": 0}):
@@ -169,14 +169,14 @@ async def p104_bus_06_last_sample_counts(dut):
             edge0 = bench.set(a0=0, d_i=0x86, **ends)
             await bench.clocks(14)
             (t, level) = bench.edges("aux_n", edge0)[0]
-            lab.check("P104-BUS-06", f"aux_n, {length} clk, {ends}", level, 1 - on)
+            env.check("P104-BUS-06", f"aux_n, {length} clk, {ends}", level, 1 - on)
             latencies.add(t - edge0)
-            await lab.host.idle()
+            await env.host.idle()
             bench.set(cs_n=1, wr_n=1, rd_n=1)
             await bench.clocks(12)
-            lab.check("P104-BUS-06", f"status, {length} clk, {ends}", await lab.host.status(), 0x00)
-    lab.check("P104-BUS-06", "number of different latencies", len(latencies), 1)
-    lab.window("P104-TIM-01", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
+            env.check("P104-BUS-06", f"status, {length} clk, {ends}", await env.host.status(), 0x00)
+    env.check("P104-BUS-06", "number of different latencies", len(latencies), 1)
+    env.window("P104-TIM-01", "edge 0 to pin", latencies.pop(), 2, PINS_LATEST)
 
 
 @directed("P104-BUS-07", "P104-HSK-03")
@@ -184,23 +184,23 @@ async def p104_bus_07_no_invisible_byte(dut):
     """A status read 1 to 16 cycles after a write returns IBF = 1 or the complete effect of the write
     (P104-BUS-07).
     """
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     cases = ((0x87, {0x80}), (0x86, {0x10}), (0x81, {0x01}), (0x42, {0x04}), (0x44, {0x40}))
     for code, final in cases:
         seen = []
         for gap in range(1, 17):
-            await lab.host.write(COMMAND, 0xC2)
-            await lab.idle()
-            await lab.bench.clocks(20)
-            await lab.host.fetch(0x80)
-            await lab.host.write(COMMAND, code, gap=gap)
-            status = await lab.host.status()
+            await env.host.write(COMMAND, 0xC2)
+            await env.idle()
+            await env.bench.clocks(20)
+            await env.host.fetch(0x80)
+            await env.host.write(COMMAND, code, gap=gap)
+            status = await env.host.status()
             seen.append(status)
             if not status & IBF:
-                lab.check("P104-BUS-07", f"status {gap} clk after {code:#x}", status in final, True)
+                env.check("P104-BUS-07", f"status {gap} clk after {code:#x}", status in final, True)
             elif gap > 10:
-                lab.check("P104-HSK-03", f"IBF {gap} clk after {code:#x}", status, "IBF = 0")
-        lab.check(
+                env.check("P104-HSK-03", f"IBF {gap} clk after {code:#x}", status, "IBF = 0")
+        env.check(
             "P104-BUS-07", f"IBF falls once after {code:#x}", seen, sorted(seen, key=lambda s: ~s & IBF)
         )
 
@@ -209,8 +209,8 @@ async def p104_bus_07_no_invisible_byte(dut):
 @directed("P104-PORT-02", builds=(F16, F50))
 async def p104_port_02_registers_only(dut):
     """During short glitches between clk edges, outputs change only on rising edges (P104-PORT-02)."""
-    lab = await Lab.start(dut, INIT_A)
-    bench = lab.bench
+    env = await Env.start(dut, INIT_A)
+    bench = env.bench
     rising = (int(get_sim_time("ps")) + bench.half) % bench.period
     wrong = []
 
@@ -222,8 +222,8 @@ async def p104_port_02_registers_only(dut):
 
     for name in bench.part.outputs:
         cocotb.start_soon(watch(name))
-    await lab.go(0x47, rate=3)
-    await lab.pulse(3)
+    await env.go(0x47, rate=3)
+    await env.pulse(3)
     before = [t for name in ("int_n", "d_oe", "aux_n") for t in bench.edges(name)]
     away = {"alm_n": 0, "l1_n": 0, "cnp_n": 0, "rd_n": 0, "cs_n": 0, "l3_n": 0, "auxi": 5, "a0": 1}
     for pin, level in away.items():
@@ -235,11 +235,11 @@ async def p104_port_02_registers_only(dut):
         bench.set_between_edges(**{pin: back})
         await bench.clocks(6)
     after = [t for name in ("int_n", "d_oe", "aux_n") for t in bench.edges(name)]
-    lab.check("P104-PORT-02", "edges of int_n, d_oe, aux_n from glitches", after, before)
-    await lab.host.run("c 86 d 05 c C1 c 40")
-    await lab.idle()
-    await lab.host.run("c 81 r")
-    lab.check("P104-PORT-02", "output changes off the rising edge", wrong, [])
+    env.check("P104-PORT-02", "edges of int_n, d_oe, aux_n from glitches", after, before)
+    await env.host.run("c 86 d 05 c C1 c 40")
+    await env.idle()
+    await env.host.run("c 81 r")
+    env.check("P104-PORT-02", "output changes off the rising edge", wrong, [])
 
 
 @directed("P104-PORT-03", "P104-PORT-01", "P104-PHS-02", "P104-PAR-01", builds=(F16, F50))
@@ -247,44 +247,44 @@ async def p104_port_03_reset(dut):
     """Bytes written during reset are not stored; the write sampled on edge 4 after the release is
     accepted (P104-PORT-03).
     """
-    lab = await Lab.start(dut, INIT_A)
-    bench = lab.bench
-    await lab.host.run("c C1 c 86 d 0F c 81")
-    await lab.move(0x4A)
+    env = await Env.start(dut, INIT_A)
+    bench = env.bench
+    await env.host.run("c C1 c 86 d 0F c 81")
+    await env.move(0x4A)
     bench.set(rst_n=0)
     await bench.clocks(3)
     levels = {name: bench.level(name) for name in bench.part.outputs}
-    lab.check("P104-PORT-03", "outputs in reset", levels, bench.part.reset_levels(bench.config.params))
-    await lab.host.write(COMMAND, 0xC1)
+    env.check("P104-PORT-03", "outputs in reset", levels, bench.part.reset_levels(bench.config.params))
+    await env.host.write(COMMAND, 0xC1)
     bench.set(a0=STATUS, cs_n=0, rd_n=0)
     await bench.clocks(4)
     levels = {name: bench.level(name) for name in bench.part.outputs}
-    lab.check("P104-PORT-03", "outputs in reset", levels, bench.part.reset_levels(bench.config.params))
+    env.check("P104-PORT-03", "outputs in reset", levels, bench.part.reset_levels(bench.config.params))
     bench.set(cs_n=1, rd_n=1)
     await bench.clocks(3)
     release = bench.set(rst_n=1)
     await bench.until(release + 4)
-    await lab.host.write(COMMAND, 0x86, strobe=2)
+    await env.host.write(COMMAND, 0x86, strobe=2)
     await bench.clocks(10)
-    lab.check("P104-PORT-03", "status after a write at edge 4", await lab.host.status(), 0x10)
-    await lab.host.data(0x0F)
-    lab.check("P104-PORT-03", "aux_n: the write in reset is lost", bench.level("aux_n"), 1)
-    lab.check("P104-PORT-03", "the output byte is gone", await lab.host.read(DATA), 0x00)
+    env.check("P104-PORT-03", "status after a write at edge 4", await env.host.status(), 0x10)
+    await env.host.data(0x0F)
+    env.check("P104-PORT-03", "aux_n: the write in reset is lost", bench.level("aux_n"), 1)
+    env.check("P104-PORT-03", "the output byte is gone", await env.host.read(DATA), 0x00)
     await bench.reset()
     await bench.clocks(4)
-    lab.check("P104-PORT-03", "status after reset", await lab.host.status(), 0x00)
+    env.check("P104-PORT-03", "status after reset", await env.host.status(), 0x00)
 
 
 @directed("P104-PORT-04")
 async def p104_port_04_tied_inputs(dut):
     """With unused inputs tied as documented, and clock at 0 or 1, moves run undisturbed (P104-PORT-04)."""
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     for clock in (0, 1):
-        lab.bench.set(clock=clock)
+        env.bench.set(clock=clock)
         for code in (0x43, 0x4B, 0xC3):
-            await lab.move(code, 12)
-            await lab.result("P104-PORT-04", 12, 0x83, 0)
-        lab.check("P104-PORT-04", "input signals", await lab.host.fetch(0x81), [0xCF])
+            await env.move(code, 12)
+            await env.result("P104-PORT-04", 12, 0x83, 0)
+        env.check("P104-PORT-04", "input signals", await env.host.fetch(0x81), [0xCF])
 
 
 @rtl_only("strobes at any phase to clk, and the model counts in clk")
@@ -293,25 +293,25 @@ async def p104_bad_09_too_short_strobes(dut):
     """With strobes and gaps below the limits, at any phase, each byte is stored completely or not at
     all (P104-BAD-09).
     """
-    lab = await Lab.start(dut, None)
-    bench = lab.bench
+    env = await Env.start(dut, None)
+    bench = env.bench
     clk = bench.period
     for length in (clk // 8, clk // 2, clk * 7 // 8):
         for part in range(8):
             await bench.clocks(4)
-            await Timer(off_edge(lab, part), "ps")
+            await Timer(off_edge(env, part), "ps")
             # The nibbles are complementary: half a byte of each would be a third value on auxo.
-            await strobe(lab, length // 2 * 2, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
-            status = await lab.host.status()
-            lab.check("P104-BAD-09", f"status {status:#x} is one of 0x00, 0x10", status in (0x00, 0x10), True)
-            await lab.host.command(0xC2)
-            lab.check("P104-BAD-09", "core alive", await lab.host.command(0x86), 0x10)
-            await lab.host.data(0x05)
+            await strobe(env, length // 2 * 2, 14 * clk, a0=1, d_i=0x86, cs_n=0, wr_n=0)
+            status = await env.host.status()
+            env.check("P104-BAD-09", f"status {status:#x} is one of 0x00, 0x10", status in (0x00, 0x10), True)
+            await env.host.command(0xC2)
+            env.check("P104-BAD-09", "core alive", await env.host.command(0x86), 0x10)
+            await env.host.data(0x05)
             await bench.clocks(2)
-            lab.check("P104-BAD-09", "auxo", bench.level("auxo"), 0b1010)
-            await lab.host.command(0x86)
+            env.check("P104-BAD-09", "auxo", bench.level("auxo"), 0b1010)
+            await env.host.command(0x86)
             await bench.align()
-            await Timer(off_edge(lab, part), "ps")
-            await strobe(lab, length // 2 * 2, 14 * clk, a0=0, d_i=0x0A, cs_n=0, wr_n=0)
-            lab.check("P104-BAD-09", "auxo is old or new", bench.level("auxo") in (0b1010, 0b0101), True)
-            await lab.host.command(0xC2)
+            await Timer(off_edge(env, part), "ps")
+            await strobe(env, length // 2 * 2, 14 * clk, a0=0, d_i=0x0A, cs_n=0, wr_n=0)
+            env.check("P104-BAD-09", "auxo is old or new", bench.level("auxo") in (0b1010, 0b0101), True)
+            await env.host.command(0xC2)

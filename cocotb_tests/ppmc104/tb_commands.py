@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from cocotb_tests.harness import BUSY, DATA, ERR, directed
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A
 from .states import CONSTANT, MOVING, enter
 from .tb_acceptance_moves import kind_of
 
@@ -22,7 +22,7 @@ async def p104_cmd_01_all_codes_ready(dut):
     """After initialisation, each of the 256 codes sets its parameter count or has its effect
     (P104-CMD-01).
     """
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     expected = {"undefined": 0x80, "stop": 0x80, "init": 0x40, "switching": 0x20, "aux": 0x10, "on": 0x00}
     expected |= {"read": 0x01, "off": 0x00}
     for code in range(256):
@@ -32,14 +32,14 @@ async def p104_cmd_01_all_codes_ready(dut):
             status = count << 4 if count else BUSY
         else:
             status = expected[kind]
-        lab.check("P104-CMD-01", f"status of {code:#04x}", await lab.host.command(code), status)
+        env.check("P104-CMD-01", f"status of {code:#04x}", await env.host.command(code), status)
         if status & BUSY:
-            await lab.host.command(0x40)
-            await lab.idle()
+            await env.host.command(0x40)
+            await env.idle()
         if kind == "read":
-            await lab.host.run("rrr" if code == 0x83 else "r")
+            await env.host.run("rrr" if code == 0x83 else "r")
         if kind == "off" and code & 7 == 0:
-            await lab.init(*INIT_A)
+            await env.init(*INIT_A)
 
 
 @directed("P104-CMD-04", "P104-CMD-03", "P104-AUX-05", "P104-OPR-12", "P104-RD-01", "P104-INI-04")
@@ -47,38 +47,38 @@ async def p104_cmd_04_all_codes_busy(dut):
     """During a move, only the commands that BUSY allows are executed, out of all 256 codes
     (P104-CMD-04).
     """
-    lab = await Lab.start(dut, INIT_A)
-    await lab.go(0x44, 10, rate=255)
+    env = await Env.start(dut, INIT_A)
+    await env.go(0x44, 10, rate=255)
     for code in range(256):
         kind = kind_of(code)
         if kind == "stop":
             continue
         status = {"undefined": 0x84, "aux": 0x14, "on": 0x04, "off": 0x04}.get(kind, 0x94)
-        lab.check("P104-CMD-04", f"status of {code:#04x}", await lab.host.command(code), status)
+        env.check("P104-CMD-04", f"status of {code:#04x}", await env.host.command(code), status)
         if kind == "aux":
-            lab.check("P104-CMD-04", "its data byte", await lab.host.data(code), 0x04)
+            env.check("P104-CMD-04", "its data byte", await env.host.data(code), 0x04)
         elif kind in ("on", "off"):
-            await lab.bench.clocks(2)
+            await env.bench.clocks(2)
             level = 1 if code & 7 == 2 else 0
-            lab.check("P104-AUX-05", f"aux_n after {code:#04x}", lab.bench.level("aux_n"), level)
+            env.check("P104-AUX-05", f"aux_n after {code:#04x}", env.bench.level("aux_n"), level)
         elif kind != "undefined":
-            lab.check("P104-CMD-04", f"data after {code:#04x}", await lab.host.data(code), 0xE4)
-    await lab.result("P104-CMD-04", 10, 0x84, 0)
-    lab.check_train("P104-CMD-04", [255] * 9)
+            env.check("P104-CMD-04", f"data after {code:#04x}", await env.host.data(code), 0xE4)
+    await env.result("P104-CMD-04", 10, 0x84, 0)
+    env.check_train("P104-CMD-04", [255] * 9)
 
 
 @directed("P104-CMD-04", "P104-CMD-02", "P104-STP-01", "P104-STP-07")
 async def p104_cmd_04_stop_codes_busy(dut):
     """Every code of the two stops ends a move; I of the move determines INT (P104-CMD-04)."""
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     for code in (c for c in range(0x40, 0x80) if c & 7 < 2):
         masked = bool(code & 0x20)
-        await lab.go(0x54 if masked else 0x44, 10, rate=9)
-        await lab.pulse(2, 100)
-        lab.check("P104-CMD-04", f"ERR of {code:#04x}", await lab.host.command(code) & ERR, 0)
-        await lab.idle()
-        lab.check("P104-STP-07", f"int_n after {code:#04x}", lab.bench.level("int_n"), int(masked))
-        await lab.result("P104-STP-01", 2, 0xC4, 7)
+        await env.go(0x54 if masked else 0x44, 10, rate=9)
+        await env.pulse(2, 100)
+        env.check("P104-CMD-04", f"ERR of {code:#04x}", await env.host.command(code) & ERR, 0)
+        await env.idle()
+        env.check("P104-STP-07", f"int_n after {code:#04x}", env.bench.level("int_n"), int(masked))
+        await env.result("P104-STP-01", 2, 0xC4, 7)
 
 
 @directed("P104-CMD-02", "P104-OPR-01", "P104-PHS-07")
@@ -86,45 +86,45 @@ async def p104_cmd_02_bits_of_operations(dut):
     """For every operation with all values of X, I and D, dir is D, INT is NOT I, and X is ignored
     (P104-CMD-02).
     """
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     for base in OPERATIONS:
         for bits in range(8):
             code = base | bits << 3
-            since = lab.bench.now
+            since = env.bench.now
             count = PARAMETERS[base]
             data = {0: [], 1: [3], 3: [2, 0, 0], 4: [3, 2, 0, 0]}[count]
-            status = await lab.host.send(code, data)
-            lab.check("P104-OPR-01", f"status after {code:#04x}", status, BUSY)
-            await lab.bench.clocks(2)
-            lab.check("P104-CMD-02", f"dir of {code:#04x}", lab.bench.level("dir"), bits & 1)
-            lab.check("P104-OPR-01", f"hold of {code:#04x}", lab.bench.level("hold"), 0)
-            await lab.bench.nth_fall(1, since)
+            status = await env.host.send(code, data)
+            env.check("P104-OPR-01", f"status after {code:#04x}", status, BUSY)
+            await env.bench.clocks(2)
+            env.check("P104-CMD-02", f"dir of {code:#04x}", env.bench.level("dir"), bits & 1)
+            env.check("P104-OPR-01", f"hold of {code:#04x}", env.bench.level("hold"), 0)
+            await env.bench.nth_fall(1, since)
             if base in (0x45, 0x46, 0x47, 0xC6):
-                await lab.host.command(0x40)
-            await lab.idle()
-            lab.check("P104-CMD-02", f"int_n of {code:#04x}", lab.bench.level("int_n"), bits >> 1 & 1)
-            lab.check("P104-RD-03", f"op bits of {code:#04x}", await lab.finish() & 0x87, 0x80 | base & 7)
+                await env.host.command(0x40)
+            await env.idle()
+            env.check("P104-CMD-02", f"int_n of {code:#04x}", env.bench.level("int_n"), bits >> 1 & 1)
+            env.check("P104-RD-03", f"op bits of {code:#04x}", await env.finish() & 0x87, 0x80 | base & 7)
 
 
 @directed("P104-CMD-02", "P104-CMD-03", "P104-AUX-04")
 async def p104_cmd_02_bits_of_others(dut):
     """Bits 5..3 of the AUX and Excitation OFF codes are ignored (P104-CMD-02)."""
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     for bits in range(8):
         for low, level in ((1, 0), (2, 1)):
-            await lab.host.command(0xC0 | bits << 3 | low)
-            await lab.bench.clocks(2)
-            lab.check("P104-CMD-02", f"aux_n, bits {bits}", lab.bench.level("aux_n"), level)
-        lab.check(
-            "P104-CMD-02", f"Excitation OFF, bits {bits}", await lab.host.command(0xC0 | bits << 3), 0x00
+            await env.host.command(0xC0 | bits << 3 | low)
+            await env.bench.clocks(2)
+            env.check("P104-CMD-02", f"aux_n, bits {bits}", env.bench.level("aux_n"), level)
+        env.check(
+            "P104-CMD-02", f"Excitation OFF, bits {bits}", await env.host.command(0xC0 | bits << 3), 0x00
         )
-        await lab.bench.clocks(2)
-        lab.check("P104-AUX-04", "s", lab.bench.level("s"), 0)
-        lab.check("P104-AUX-04", "0x42 afterwards", await lab.host.command(0x42), 0xA0)
-        await lab.init(*INIT_A)
+        await env.bench.clocks(2)
+        env.check("P104-AUX-04", "s", env.bench.level("s"), 0)
+        env.check("P104-AUX-04", "0x42 afterwards", await env.host.command(0x42), 0xA0)
+        await env.init(*INIT_A)
 
 
-async def reactions(lab: Lab, state: str) -> dict[str, int]:
+async def reactions(env: Env, state: str) -> dict[str, int]:
     """Return the status that each command class, except stops, must set in `state` (P104-FSM-01)."""
     moving = state in MOVING
     busy = BUSY if moving else 0
@@ -143,23 +143,23 @@ async def p104_fsm_01_table(dut):
     """In each state, the response to each command class and to unexpected data is that of the table
     (P104-FSM-01).
     """
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     for state in ("UNINIT", "READY", *MOVING):
-        for text, status in (await reactions(lab, state)).items():
-            await enter(lab, state)
+        for text, status in (await reactions(env, state)).items():
+            await enter(env, state)
             code = int(text, 16)
-            lab.check("P104-FSM-01", f"{text} in {state}", await lab.host.command(code), status)
+            env.check("P104-FSM-01", f"{text} in {state}", await env.host.command(code), status)
             if code == 0x86:
-                await lab.host.data(0x0F)
-                await lab.bench.clocks(2)
-                lab.check("P104-FSM-01", f"auxo in {state}", lab.bench.level("auxo"), 0)
+                await env.host.data(0x0F)
+                await env.bench.clocks(2)
+                env.check("P104-FSM-01", f"auxo in {state}", env.bench.level("auxo"), 0)
             elif code in (0xC0, 0xC1):
-                await lab.bench.clocks(2)
+                await env.bench.clocks(2)
                 on = code == 0xC1 or state in MOVING
-                lab.check("P104-BAD-21", f"aux_n after {text} in {state}", lab.bench.level("aux_n"), 1 - on)
-        await enter(lab, state)
+                env.check("P104-BAD-21", f"aux_n after {text} in {state}", env.bench.level("aux_n"), 1 - on)
+        await enter(env, state)
         stray = 0xE4 if state in MOVING else 0xB0
-        lab.check("P104-FSM-01", f"stray data in {state}", await lab.host.data(0x42), stray)
+        env.check("P104-FSM-01", f"stray data in {state}", await env.host.data(0x42), stray)
 
 
 @directed("P104-FSM-01", "P104-STP-01", "P104-STP-02", "P104-STP-06", "P104-STP-08", "P104-STP-03")
@@ -167,37 +167,37 @@ async def p104_fsm_01_stops(dut):
     """In each state, a stop command ends the motion, sets the flag, returns an error or has no effect, as
     the table states (P104-FSM-01).
     """
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     for state in ("UNINIT", "READY"):
         for code in (0x40, 0x41):
-            await enter(lab, state)
-            lab.check("P104-STP-02", f"{code:#x} in {state}", await lab.host.command(code), 0x80)
-            lab.check("P104-STP-02", "hold", lab.bench.level("hold"), 1)
+            await enter(env, state)
+            env.check("P104-STP-02", f"{code:#x} in {state}", await env.host.command(code), 0x80)
+            env.check("P104-STP-02", "hold", env.bench.level("hold"), 1)
     for state in MOVING:
-        await enter(lab, state)
-        status = await lab.host.command(0x40)
-        lab.check("P104-FSM-01", f"ERR of 0x40 in {state}", status & ERR, 0)
+        await enter(env, state)
+        status = await env.host.command(0x40)
+        env.check("P104-FSM-01", f"ERR of 0x40 in {state}", status & ERR, 0)
         if state.startswith("FIN"):
-            lab.check("P104-STP-08", f"0x40 in {state}: still BUSY", status, BUSY)
-            await lab.result("P104-STP-08", 1, 0x84 if state in CONSTANT else 0x83, 0)
+            env.check("P104-STP-08", f"0x40 in {state}: still BUSY", status, BUSY)
+            await env.result("P104-STP-08", 1, 0x84 if state in CONSTANT else 0x83, 0)
         else:
-            await lab.idle()
-            lab.check("P104-STP-01", f"finish bits 7, 6 in {state}", await lab.finish() & 0xF8, 0xC0)
+            await env.idle()
+            env.check("P104-STP-01", f"finish bits 7, 6 in {state}", await env.finish() & 0xF8, 0xC0)
     for state in MOVING:
-        await enter(lab, state)
-        status = await lab.host.command(0x41)
+        await enter(env, state)
+        status = await env.host.command(0x41)
         if state in ("DEC", "DEC natural", "FIN ramp"):
-            lab.check("P104-STP-04", f"0x41 in {state}", status, 0xF4)
+            env.check("P104-STP-04", f"0x41 in {state}", status, 0xF4)
         elif state == "FIN constant":
-            lab.check("P104-STP-08", f"0x41 in {state}", status, BUSY)
-            await lab.result("P104-STP-08", 1, 0x84, 0)
+            env.check("P104-STP-08", f"0x41 in {state}", status, BUSY)
+            await env.result("P104-STP-08", 1, 0x84, 0)
         elif state in CONSTANT:
-            lab.check("P104-STP-05", f"ERR of 0x41 in {state}", status & ERR, 0)
-            await lab.idle()
-            lab.check("P104-STP-05", f"finish status in {state}", await lab.finish(), 0xC4)
+            env.check("P104-STP-05", f"ERR of 0x41 in {state}", status & ERR, 0)
+            await env.idle()
+            env.check("P104-STP-05", f"finish status in {state}", await env.finish(), 0xC4)
         else:
-            lab.check("P104-STP-03", f"0x41 in {state}", status, BUSY)
-            lab.check("P104-STP-04", f"second 0x41 in {state}", await lab.host.command(0x41), 0xF4)
+            env.check("P104-STP-03", f"0x41 in {state}", status, BUSY)
+            env.check("P104-STP-04", f"second 0x41 in {state}", await env.host.command(0x41), 0xF4)
 
 
 @directed("P104-FSM-01", "P104-OPR-12", "P104-BAD-12", "P104-CMD-04")
@@ -205,13 +205,13 @@ async def p104_fsm_01_parameters_of_refused_operations(dut):
     """During a move, a second operation returns error 1, its parameters error 6, and the move is not
     affected (P104-FSM-01).
     """
-    lab = await Lab.start(dut, INIT_A)
-    await lab.go(0x44, 8, rate=99)
-    await lab.pulse(1)
-    got = await lab.statuses("c 43 d 01 d 00 d 00 c 4C d 09 d 01 d 00 d 00 c 0A d 01 c C6")
-    lab.check("P104-BAD-12", "statuses", got, [0x94, *[0xE4] * 3, 0x94, *[0xE4] * 4, 0x94, 0xE4, 0x94])
-    await lab.result("P104-OPR-12", 8, 0x84, 0)
-    lab.check_train("P104-OPR-12", [99] * 7)
+    env = await Env.start(dut, INIT_A)
+    await env.go(0x44, 8, rate=99)
+    await env.pulse(1)
+    got = await env.statuses("c 43 d 01 d 00 d 00 c 4C d 09 d 01 d 00 d 00 c 0A d 01 c C6")
+    env.check("P104-BAD-12", "statuses", got, [0x94, *[0xE4] * 3, 0x94, *[0xE4] * 4, 0x94, 0xE4, 0x94])
+    await env.result("P104-OPR-12", 8, 0x84, 0)
+    env.check_train("P104-OPR-12", [99] * 7)
 
 
 @directed("P104-FSM-03", "P104-AUX-02")
@@ -219,12 +219,12 @@ async def p104_fsm_03_parameter_across_the_end(dut):
     """If 0x86 is accepted during a move and its data byte is sent after the end, the byte is still its
     parameter (P104-FSM-03).
     """
-    lab = await Lab.start(dut, INIT_A)
-    await lab.go(0x44, 2, rate=99)
-    lab.check("P104-FSM-03", "status of 0x86", await lab.host.command(0x86), 0x14)
-    await lab.idle()
-    lab.check("P104-FSM-03", "NUM after the end", await lab.host.status(), 0x10)
-    lab.check("P104-FSM-03", "status of the data", await lab.host.data(0x0C), 0x00)
-    await lab.bench.clocks(2)
-    lab.check("P104-FSM-03", "auxo", lab.bench.level("auxo"), 0x3)
-    lab.check("P104-FSM-03", "one byte only", await lab.status_after(0x00, DATA), 0xB0)
+    env = await Env.start(dut, INIT_A)
+    await env.go(0x44, 2, rate=99)
+    env.check("P104-FSM-03", "status of 0x86", await env.host.command(0x86), 0x14)
+    await env.idle()
+    env.check("P104-FSM-03", "NUM after the end", await env.host.status(), 0x10)
+    env.check("P104-FSM-03", "status of the data", await env.host.data(0x0C), 0x00)
+    await env.bench.clocks(2)
+    env.check("P104-FSM-03", "auxo", env.bench.level("auxo"), 0x3)
+    env.check("P104-FSM-03", "one byte only", await env.status_after(0x00, DATA), 0xB0)

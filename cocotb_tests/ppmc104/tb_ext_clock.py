@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from cocotb_tests.harness import F8, F16, F25, directed
+from cocotb_tests.harness.axis_driver import differences
 from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
-from cocotb_tests.harness.drive import differences
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A
 from .tb_baseclock import EXTERNAL, carried
 
 
@@ -19,8 +19,8 @@ async def p104_bck_05_first_deceleration_interval(dut):
     exact (P104-BCK-05).
     """
     ramp = (255, 1, 4)
-    lab = await Lab.start(dut, (0x1A, *ramp))
-    moves = await ExtMoves.of(lab, ramp, "l3_n")
+    env = await Env.start(dut, (0x1A, *ramp))
+    moves = await ExtMoves.of(env, ramp, "l3_n")
     for n in range(2, 14):
         await moves.check(Move(n, (8,), 4, ramp))
 
@@ -39,12 +39,12 @@ async def p104_bck_05_sweep(dut):
     """With edges 4 to 17 cycles apart, RH 0 to 4, and any deceleration point, pulses follow the formula
     (P104-BCK-05).
     """
-    lab = await Lab.start(dut, EXTERNAL)
-    moves = await ExtMoves.of(lab, INIT_A[1:], "l3_n")
-    rng = lab.bench.rng
+    env = await Env.start(dut, EXTERNAL)
+    moves = await ExtMoves.of(env, INIT_A[1:], "l3_n")
+    rng = env.bench.rng
     for rh in range(5):
         for ramp in ((rng.randint(rh, 40), rh, 4), (rh + rng.randint(0, 9), rh, rng.randint(5, 9))):
-            await lab.init(0x1A, *ramp)
+            await env.init(0x1A, *ramp)
             for move in sweep(ramp, rng):
                 await moves.check(move)
 
@@ -54,9 +54,9 @@ async def p104_tim_05_brisk_threshold(dut):
     """At rate 0 the high time of the clock cuts the low time only for periods below CYC(128): tried
     with CYC(128) - 1, 0, + 1 cycles (P104-TIM-05).
     """
-    lab = await Lab.start(dut, EXTERNAL)
-    moves = await ExtMoves.of(lab, INIT_A[1:], "l3_n")
-    brisk = lab.cfg.cyc(BRISK)
+    env = await Env.start(dut, EXTERNAL)
+    moves = await ExtMoves.of(env, INIT_A[1:], "l3_n")
+    brisk = env.cfg.cyc(BRISK)
     for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
         await moves.check(Move(9, gaps, 9, rate=0))
         await moves.check(Move(9, gaps, 9, rate=1))
@@ -67,16 +67,16 @@ async def p104_int_03_long_threshold(dut):
     """With vsel = L, the extra time is omitted only if the clock period exceeds H (H - 1, H, H + 1
     cycles and mixed).
     """
-    lab = await Lab.start(dut, EXTERNAL, vsel=0)
-    h = (272 * lab.cfg.clk_hz // lab.cfg.xtal_hz + 1) // 2
+    env = await Env.start(dut, EXTERNAL, vsel=0)
+    h = (272 * env.cfg.clk_hz // env.cfg.xtal_hz + 1) // 2
     for gaps in ([h - 1] * 40, [h] * 40, [h + 1] * 40, [h, h + 1, h - 1, h] * 10):
         for rate in (0, 2):
-            clock = lab.bench.external_clock(gaps, high=9)
-            await lab.move(0x44, 6, rate)
+            clock = env.bench.external_clock(gaps, high=9)
+            await env.move(0x44, 6, rate)
             await clock
-            edges = lab.clock_edges(lab.since)
-            first = max(i for i, t in enumerate(edges) if t < lab.pulses[0] - 1)
-            expected = carried(lab.cfg, edges, first, [rate] * 5)
+            edges = env.clock_edges(env.since)
+            first = max(i for i, t in enumerate(edges) if t < env.pulses[0] - 1)
+            expected = carried(env.cfg, edges, first, [rate] * 5)
             same = f"intervals at {gaps[:4]} clk, rate {rate}"
-            lab.check("P104-INT-03", same, lab.intervals, differences(expected))
-            await lab.bench.clocks(20)
+            env.check("P104-INT-03", same, env.intervals, differences(expected))
+            await env.bench.clocks(20)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness import HostBus, Side, directed, start_bench
+from cocotb_tests.harness import DutBench, HostBus, directed, start_bench
 from cocotb_tests.harness.sessions import Sessions
 
 from .bench import PPMC104
@@ -11,7 +11,7 @@ SESSIONS = Sessions("ppmc104", brief=(0x42, 0x52, 0x5A))  # single steps last 10
 blocks, play = SESSIONS.blocks, SESSIONS.play
 
 
-async def begin(dut, first: bool = True) -> tuple[Side, HostBus]:
+async def begin(dut, first: bool = True) -> tuple[DutBench, HostBus]:
     bench = await start_bench(dut, PPMC104)
     host = HostBus(bench)
     if first:

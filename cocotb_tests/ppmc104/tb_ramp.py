@@ -7,22 +7,22 @@ from math import isqrt
 
 from cocotb_tests.harness import F8, F16, F100, directed
 
-from .figures import INIT_A, INIT_B, forced, indices, rate, rates
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A, INIT_B, forced, indices, rate, rates
 
 
-async def whole_ramp(lab: Lab, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:
+async def whole_ramp(env: Env, rule: str, ramp: tuple[int, int, int], code: int = 0xC3) -> None:
     """Run a trapezoidal profile with a short plateau through the complete table and check every pulse."""
     n = 2 * ramp[2] + 4
-    await lab.init(0x0A, *ramp)
-    await lab.move(code, n)
-    lab.check_train(rule, rates(ramp, indices(n, ramp[2])))
+    await env.init(0x0A, *ramp)
+    await env.move(code, n)
+    env.check_train(rule, rates(ramp, indices(n, ramp[2])))
 
 
 @directed("P104-RMP-01", "P104-RMP-02", builds=(F8, F16))
 async def p104_rmp_01_corner_ramps(dut):
     """For ramps at the limits of the legal values, every rate of the table is exact (P104-RMP-01)."""
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     for ramp in (
         (255, 0, 4),
         (255, 254, 5),
@@ -32,17 +32,17 @@ async def p104_rmp_01_corner_ramps(dut):
         (100, 99, 30),
         (16, 0, 200),
     ):
-        await whole_ramp(lab, "P104-RMP-01", ramp)
+        await whole_ramp(env, "P104-RMP-01", ramp)
 
 
 @directed("P104-RMP-01", "P104-RMP-02", "P104-PRO-01")
 async def p104_rmp_01_random_ramps(dut):
     """For random ramps, every rate of the table is exact (P104-RMP-01)."""
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     for _ in range(24):
-        rl = lab.bench.rng.choice((3, 9, 20, 41, 64, 90))
-        rh = lab.bench.rng.randrange(0, rl + 1)
-        await whole_ramp(lab, "P104-RMP-01", (rl, rh, lab.bench.rng.randrange(4, 60)))
+        rl = env.bench.rng.choice((3, 9, 20, 41, 64, 90))
+        rh = env.bench.rng.randrange(0, rl + 1)
+        await whole_ramp(env, "P104-RMP-01", (rl, rh, env.bench.rng.randrange(4, 60)))
 
 
 @directed("P104-RMP-01", "P104-RMP-04", "P104-RMP-05", "P104-PRO-02", builds=(F8,))
@@ -50,28 +50,28 @@ async def p104_rmp_04_longest_ramp(dut):
     """With RL 255, RH 0 and PA 11220, 22444 pulses are exact: the largest values of the computation
     (P104-RMP-04).
     """
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     ramp = (255, 0, 11220)
-    await lab.init(0x0A, *ramp)
+    await env.init(0x0A, *ramp)
     n = 2 * ramp[2] + 4
-    await lab.go(0xC3, n)
-    await lab.ended(4_000_000)
-    lab.check_train("P104-RMP-04", rates(ramp, indices(n, ramp[2])))
+    await env.go(0xC3, n)
+    await env.wait_end(4_000_000)
+    env.check_train("P104-RMP-04", rates(ramp, indices(n, ramp[2])))
 
 
 @directed("P104-RMP-02", "P104-RMP-05")
 async def p104_rmp_02_thresholds(dut):
     """The first index of each rate, computed by thresholds, is that of a move (P104-RMP-02)."""
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     for rl, rh, pa in ((9, 4, 4), (90, 81, 40), (30, 2, 33), (12, 0, 77)):
-        await lab.init(0x0A, rl, rh, pa)
-        await lab.move(0xC3, 2 * pa + 3)
-        seen = [clk // 32 - 1 for clk in lab.intervals[: pa + 1]]
+        await env.init(0x0A, rl, rh, pa)
+        await env.move(0xC3, 2 * pa + 3)
+        seen = [clk // 32 - 1 for clk in env.intervals[: pa + 1]]
         a, b = (rl + 1) ** 2, (rh + 1) ** 2
         for r in range(rh + 1, rl + 1):
             threshold = pa * b * (4 * a - (2 * r + 1) ** 2) // ((a - b) * (2 * r + 1) ** 2) + 1
             first = next(k for k, got in enumerate(seen) if got < r)
-            lab.check("P104-RMP-02", f"first k with R(k) < {r} of {(rl, rh, pa)}", first, threshold)
+            env.check("P104-RMP-02", f"first k with R(k) < {r} of {(rl, rh, pa)}", first, threshold)
 
 
 def half_cases() -> list[tuple[int, int, int]]:
@@ -93,24 +93,24 @@ def half_cases() -> list[tuple[int, int, int]]:
 @directed("P104-RMP-03", "P104-RMP-01")
 async def p104_rmp_03_exact_halves(dut):
     """In ramps with x(k) exactly on a half, the half is rounded up (P104-RMP-03)."""
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     cases = half_cases()
-    lab.check("P104-RMP-03", "the example of the rule is among them", (4, 0, 8) in cases, True)
+    env.check("P104-RMP-03", "the example of the rule is among them", (4, 0, 8) in cases, True)
     for ramp in [(4, 0, 8), *cases[:: max(1, len(cases) // 20)]]:
-        await whole_ramp(lab, "P104-RMP-03", ramp)
-    lab.check("P104-RMP-03", "R(0..8)", [rate(4, 0, 8, k) for k in range(9)], [4, 2, 1, 1, 0, 0, 0, 0, 0])
+        await whole_ramp(env, "P104-RMP-03", ramp)
+    env.check("P104-RMP-03", "R(0..8)", [rate(4, 0, 8, k) for k in range(9)], [4, 2, 1, 1, 0, 0, 0, 0, 0])
 
 
 @directed("P104-PRO-01", "P104-PRO-02", "P104-PRO-03", "P104-PRO-04", "P104-EX-02", builds=(F16, F100))
 async def p104_pro_01_all_lengths(dut):
     """With a ramp of 6, the profiles for N = 1 to 24 are symmetric in both modes (P104-PRO-01)."""
-    lab = await Lab.start(dut, (0x0A, 30, 3, 6))
+    env = await Env.start(dut, (0x0A, 30, 3, 6))
     ramp = (30, 3, 6)
     for n in range(1, 25):
         for code in (0x43, 0xCB):
-            await lab.move(code, n)
-            lab.check_train("P104-PRO-01", rates(ramp, indices(n, 6)))
-            await lab.result("P104-PRO-01", n, 0x83, 0)
+            await env.move(code, n)
+            env.check_train("P104-PRO-01", rates(ramp, indices(n, 6)))
+            await env.result("P104-PRO-01", n, 0x83, 0)
 
 
 @directed("P104-PRO-02", "P104-PRO-03", "P104-EX-02")
@@ -118,37 +118,37 @@ async def p104_pro_03_shapes_in_full(dut):
     """With initialisation A, N = 2, 3, 6, 7, 9, 10, 11 lead to the index lists that the rules print
     (P104-PRO-03).
     """
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     lists = {2: [0], 3: [0, 0], 6: [0, 1, 2, 1, 0], 7: [0, 1, 2, 2, 1, 0], 9: [0, 1, 2, 3, 3, 2, 1, 0]}
     lists |= {10: [0, 1, 2, 3, 4, 3, 2, 1, 0], 11: [0, 1, 2, 3, 4, 4, 3, 2, 1, 0]}
     by_index = [9, 7, 5, 5, 4]
     for n, which in lists.items():
-        await lab.move(0x43, n)
-        lab.check_train("P104-PRO-03", [by_index[k] for k in which])
+        await env.move(0x43, n)
+        env.check_train("P104-PRO-03", [by_index[k] for k in which])
 
 
 @directed("P104-PRO-04", "P104-FDC-02", "P104-FDC-05")
-async def p104_pro_04_forced_meets_the_end(dut):
+async def p104_pro_04_forced_coincides_with_the_end(dut):
     """With N near the length of the mirrored ramp, a forced deceleration ends by index or by count
     (P104-PRO-04).
     """
-    lab = await Lab.start(dut, INIT_B)
+    env = await Env.start(dut, INIT_B)
     ramp = INIT_B[1:]
     for j in (3, 5, 8):
         short = forced(1000, 10, j)
         for n in range(len(short), len(short) + 4):
-            await lab.go(0x43, n)
-            await lab.pulse(j, 20)
+            await env.go(0x43, n)
+            await env.pulse(j, 20)
             natural = indices(n, 10)
             in_dec = j < n and natural[j - 1] == n - 1 - j < min(j - 1, 10)
-            status = await lab.host.command(0x41)
-            lab.check("P104-STP-04", f"status, N = {n}, j = {j}", status, 0xF4 if in_dec else 0x04)
+            status = await env.host.command(0x41)
+            env.check("P104-STP-04", f"status, N = {n}, j = {j}", status, 0xF4 if in_dec else 0x04)
             count = min(n, len(short) + 1)
             which = natural if count == n else short
-            await lab.idle()
-            lab.check_train("P104-PRO-04", rates(ramp, which))
+            await env.idle()
+            env.check_train("P104-PRO-04", rates(ramp, which))
             complete = count == n
-            await lab.result(
+            await env.result(
                 "P104-FDC-05", count, 0x83 if complete else 0xC3, 0 if complete else n - count - 1
             )
 
@@ -156,7 +156,7 @@ async def p104_pro_04_forced_meets_the_end(dut):
 @directed("P104-PRO-05", "P104-STP-04")
 async def p104_pro_05_natural_deceleration_begins(dut):
     """For several N, 0x41 returns error 7 from exactly the interval on that P104-PRO-05 states."""
-    lab = await Lab.start(dut, INIT_A)
+    env = await Env.start(dut, INIT_A)
     for n in (5, 8, 10, 12):
         running = indices(n, 4)
         for j in range(1, n):
@@ -164,13 +164,13 @@ async def p104_pro_05_natural_deceleration_begins(dut):
             decelerating = any(
                 n - i - 1 < min((running[i - 2] if i > 1 else -1) + 1, 4) for i in range(1, j + 1)
             )
-            lab.check("P104-PRO-04", "index", running[j - 1], min(kp + 1, n - j - 1, 4))
-            await lab.go(0x43, n)
-            await lab.pulse(j, 20)
-            got = await lab.host.command(0x41)
-            lab.check("P104-PRO-05", f"0x41 in I({j}) of N = {n}", got, 0xF4 if decelerating else 0x04)
-            await lab.host.command(0x40)
-            await lab.idle()
+            env.check("P104-PRO-04", "index", running[j - 1], min(kp + 1, n - j - 1, 4))
+            await env.go(0x43, n)
+            await env.pulse(j, 20)
+            got = await env.host.command(0x41)
+            env.check("P104-PRO-05", f"0x41 in I({j}) of N = {n}", got, 0xF4 if decelerating else 0x04)
+            await env.host.command(0x40)
+            await env.idle()
 
 
 @directed("P104-PRO-06", "P104-LIM-04")
@@ -178,51 +178,51 @@ async def p104_pro_06_high_exists_from_2pa_plus_2(dut):
     """In POUT mode with L3 low, L3 acts in a move of 2·PA+2 pulses, but not in one of 2·PA+1
     (P104-PRO-06).
     """
-    lab = await Lab.start(dut, INIT_A)
-    lab.bench.set(l3_n=0)
-    await lab.go(0xC3, 9)
-    await lab.result("P104-PRO-06", 9, 0x83, 0)
+    env = await Env.start(dut, INIT_A)
+    env.bench.set(l3_n=0)
+    await env.go(0xC3, 9)
+    await env.result("P104-PRO-06", 9, 0x83, 0)
     for n in (10, 11, 12, 40):
-        await lab.go(0xC3, n)
-        lab.bench.set(l3_n=0)
-        await lab.idle()
+        await env.go(0xC3, n)
+        env.bench.set(l3_n=0)
+        await env.idle()
         # The flag is set in the first plateau interval I(5): 5 + 1 + 4 pulses, which is the whole move for N
         # = 10.
         complete = n == 10
-        await lab.result("P104-PRO-06", 10, 0x83 if complete else 0x8B, 0 if complete else n - 11)
+        await env.result("P104-PRO-06", 10, 0x83 if complete else 0x8B, 0 if complete else n - 11)
 
 
 @directed("P104-EX-01", "P104-EX-07", "P104-EX-11", "P104-INT-02")
 async def p104_ex_07_worked_examples(dut):
     """The examples with vsel = L and with RL = RH have the printed intervals (P104-EX-07)."""
-    lab = await Lab.start(dut, INIT_A, vsel=0)
-    await lab.move(0x43, 14)
+    env = await Env.start(dut, INIT_A, vsel=0)
+    await env.move(0x43, 14)
     expected = [440, 376, 312, 312, 280, 280, 280, 280, 280, 312, 312, 376, 440]
-    lab.check("P104-EX-07", "intervals", lab.intervals, expected)
-    lab.check("P104-EX-07", "total", sum(lab.intervals), 4280)
-    lab.bench.set(vsel=1)
-    await lab.bench.clocks(4)
-    await lab.move(0x43, 14)
-    lab.check("P104-EX-01", "total", sum(lab.intervals), 2720)
-    await lab.init(0x0A, 10, 10, 4)
-    await lab.move(0x43, 12)
-    lab.check("P104-EX-11", "intervals", lab.intervals, [352] * 11)
+    env.check("P104-EX-07", "intervals", env.intervals, expected)
+    env.check("P104-EX-07", "total", sum(env.intervals), 4280)
+    env.bench.set(vsel=1)
+    await env.bench.clocks(4)
+    await env.move(0x43, 14)
+    env.check("P104-EX-01", "total", sum(env.intervals), 2720)
+    await env.init(0x0A, 10, 10, 4)
+    await env.move(0x43, 12)
+    env.check("P104-EX-11", "intervals", env.intervals, [352] * 11)
 
 
 @directed("P104-EX-03", builds=(F8,))
 async def p104_ex_03_slow_base_clock(dut):
     """With csel = L, every interval at the start of EX-03 is four times as long (P104-EX-03)."""
-    lab = await Lab.start(dut, (0x0A, 199, 49, 100), csel=0)
-    lab.check(
+    env = await Env.start(dut, (0x0A, 199, 49, 100), csel=0)
+    env.check(
         "P104-EX-03",
         "R(89..100)",
         rates((199, 49, 100), range(89, 101)),
         [52, 52, 51, 51, 51, *[50] * 4, 49, 49, 49],
     )
-    await lab.move(0x43, 28)
-    lab.check_train("P104-EX-03", rates((199, 49, 100), indices(28, 100)), csel=0)
-    got = [clk * 2 for clk in lab.intervals[:8]]
-    lab.check(
+    await env.move(0x43, 28)
+    env.check_train("P104-EX-03", rates((199, 49, 100), indices(28, 100)), csel=0)
+    got = [clk * 2 for clk in env.intervals[:8]]
+    env.check(
         "P104-EX-03",
         "first intervals",
         got,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import BUSY, IBF, Bench, HostBus, random_test, start_bench
+from cocotb_tests.harness import BUSY, IBF, HostBus, RtlBench, random_test, start_bench
 from cocotb_tests.harness.player import describe
 from cocotb_tests.harness.random_host import UNCOMPARED
-from cocotb_tests.harness.running import note
+from cocotb_tests.harness.run_context import note
 from cocotb_tests.ppmc104.random_host import scenario
 from cocotb_tests.ppmc104.random_noise import noise as make_noise
 from cocotb_tests.ppmc104.random_player import HostPlayer
@@ -35,9 +35,9 @@ from .bench import PPMC104
 async def random_host(dut: Any, seed: int) -> None:
     """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
-    side = await start_bench(dut, PPMC104, **plan.pins)
-    note(side, describe(plan.actions))
-    await HostPlayer(side, plan).run()
+    bench = await start_bench(dut, PPMC104, **plan.pins)
+    note(bench, describe(plan.actions))
+    await HostPlayer(bench, plan).run()
 
 
 @random_test(
@@ -49,9 +49,9 @@ async def random_host(dut: Any, seed: int) -> None:
     "P104-TIM-06",
     uncompared=UNCOMPARED,
 )
-async def random_chaos(dut: Any, seed: int) -> None:
+async def random_noise(dut: Any, seed: int) -> None:
     """After noise on all input pins, 0x40, 0xC0 and an initialisation make the core work again."""
-    bench = await Bench.start(dut, PPMC104, seed=seed)
+    bench = await RtlBench.start(dut, PPMC104, seed=seed)
     noise = make_noise(bench)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
     await noise.stop()

@@ -25,7 +25,7 @@ from cocotb_tests.harness.build import part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.compare import compare_recording
 from cocotb_tests.harness.random_host import in_turn
-from cocotb_tests.harness.random_items import shortened
+from cocotb_tests.harness.random_items import shrink_report
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc104.random_host import scenario
 from openppmc.check.records import Recording
@@ -35,14 +35,14 @@ CHAOS_SEEDS = range(1, 41)
 
 
 random_item = RandomItems("ppmc104", "tb_random", "random_host", SEEDS, lambda seed: scenario(seed).config)
-chaos_item = RandomItems(
+noise_item = RandomItems(
     "ppmc104",
     "tb_random",
-    "random_chaos",
+    "random_noise",
     CHAOS_SEEDS,
     in_turn(F16, F16, F11, F100, F16, D16),
 )
-pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_item)
+pytest_generate_tests = generating(test_random=random_item, test_noise=noise_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
@@ -50,9 +50,9 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     random_item.run(item, seeds, sim_options)
 
 
-def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
+def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """After noise on all pins, the documented sequence makes the core work again."""
-    chaos_item.run(item, seeds, sim_options)
+    noise_item.run(item, seeds, sim_options)
 
 
 def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ def test_a_failing_run_ends_with_a_short_list(tmp_path: Path) -> None:
     recording = bench.recording()
     recording.params["XTAL_HZ"] = 8_000_000
     (tmp_path / "recording.json").write_text(recording.to_json(), encoding="utf-8")
-    text = shortened(tmp_path, part_design("ppmc104", F16)).splitlines()
+    text = shrink_report(tmp_path, part_design("ppmc104", F16)).splitlines()
     assert re.match(r"shrunk from \d\d acts to [1-9] in \d+ trials(, \d lines)?:$", text[0]), text
     assert text[1].startswith("  write C ") and " differs at edge " in text[-2]
     short = Recording.from_json((tmp_path / "short" / "recording.json").read_text(encoding="utf-8"))
@@ -87,7 +87,7 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     """
     assert scenario(5) == scenario(5) != scenario(6)
     assert random_item.complete and len(SEEDS) >= 200
-    assert chaos_item.complete
+    assert noise_item.complete
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == {

@@ -6,8 +6,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, HostBus
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness import HostBus, RtlBench
+from cocotb_tests.harness.sessions import DemoLog
 
 from .bench import PPMC2104
 
@@ -48,31 +48,31 @@ async def demo_two_axes(dut: Any) -> None:
     """A host that starts both axes by RUN and then moves them separately is recorded from reset to the
     end.
     """
-    bench = await Bench.start(dut, PPMC2104, run=0b00)
+    bench = await RtlBench.start(dut, PPMC2104, run=0b00)
     host = HostBus(bench)
-    story = Story(bench)
-    with story.chapter("reset", "after reset"):
+    demo_log = DemoLog(bench)
+    with demo_log.chapter("reset", "after reset"):
         await host.status()
         await host.fetch(0x81)
         await host.fetch(0xA1)
-    with story.chapter("init", "set up both axes"):
+    with demo_log.chapter("init", "set up both axes"):
         for setting in SETTINGS.values():
             await host.init(*setting)
         await host.poll(CMND, 0)
-    with story.chapter("wait", "two moves wait for RUN"):
+    with demo_log.chapter("wait", "two moves wait for RUN"):
         await host.move(CW, PULSES[1])
         await host.move(CCW, PULSES[2])
         await bench.clocks(48_000)
-    with story.chapter("move", "a line: 1000 and 500 pulses"):
+    with demo_log.chapter("move", "a line: 1000 and 500 pulses"):
         await bench.align()
         bench.set(run=0b11)
         pending = {1, 2}
         while pending:
             await serve(host, pending)
-    with story.chapter("pause", "rest"):
+    with demo_log.chapter("pause", "rest"):
         await bench.edge("hold", 0b11, timeout=LONG)
         await bench.clocks(32_000)
-    with story.chapter("limits", "each to its own limit"):
+    with demo_log.chapter("limits", "each to its own limit"):
         start = bench.now
         await host.send(CONTINUOUS, [RATE])
         await host.send(HIGH_SPEED)
@@ -86,7 +86,7 @@ async def demo_two_axes(dut: Any) -> None:
         while pending:
             await serve(host, pending)
         await host.fetch(0xA1)
-    with story.chapter("rest", "rest until HOLD rises"):
+    with demo_log.chapter("rest", "rest until HOLD rises"):
         await bench.edge("hold", 0b11, timeout=LONG)
         await bench.clocks(16_000)
-    story.save()
+    demo_log.save()

@@ -8,12 +8,12 @@ from . import test_part, test_random
 
 PART = PartTests(
     test_part,
-    frozenset({"test_ppmc2104", "test_random", "test_chaos", "test_independent_axes"}),
+    frozenset({"test_ppmc2104", "test_random", "test_noise", "test_independent_axes"}),
     test_random,
     {
         test_random.random_item: (1, 2, 4, 7, 9, 10, 11, 25, 27, 38),
         test_random.pair_item: (1, 2),
-        test_random.chaos_item: (1, 2, 3, 5),
+        test_random.noise_item: (1, 2, 3, 5),
     },
     not_applicable={
         "test_p2104_par_01_ranges": PARAMETERS,

@@ -6,7 +6,7 @@ from cocotb.triggers import Timer
 
 from cocotb_tests.harness import BusStyle
 
-from .lab import Lab
+from .env import Env
 
 # Limits of the old chip in ns (P2104-BUS-20).
 WIDTH, DATA_SETUP, DATA_HOLD, ADDRESS_SETUP, ADDRESS_HOLD = 120, 80, 10, 20, 5
@@ -23,14 +23,14 @@ def ps(ns: float) -> int:
 class SlowBus:
     """Accesses with the given times; unlike in `HostBus`, each pin changes at its own time."""
 
-    def __init__(self, lab: Lab) -> None:
-        self.lab = lab
-        self.bench = lab.bench
+    def __init__(self, env: Env) -> None:
+        self.env = env
+        self.bench = env.bench
 
     @property
     def style(self) -> BusStyle:
         """Present meaning of the strobe pins."""
-        return self.lab.host.style
+        return self.env.host.style
 
     async def wait(self, ns: float) -> None:
         """Wait for this number of ns."""

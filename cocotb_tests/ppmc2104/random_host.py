@@ -98,7 +98,7 @@ class _Writer(HostWriter):
         rng = self.rng
         self.set_up.add(axis)
         code, data = self.codes.setting(axis, wrong=0.08 if first else 0.3)
-        self.told(code, data, 0.8)
+        self.send_command(code, data, 0.8)
         if rng.random() < 0.3:  # sends bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
@@ -174,7 +174,7 @@ class _Writer(HostWriter):
         if axis not in self.set_up and self.rng.random() < 0.7:
             self.setting(axis)
         code, data = self.codes.operation(axis)
-        self.told(code, data, 0.85)
+        self.send_command(code, data, 0.85)
 
     def ended(self, axes: list[int]) -> None:
         rng = self.rng

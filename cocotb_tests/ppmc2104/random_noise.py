@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cocotb_tests.harness import Bench
-from cocotb_tests.harness.random_host import Noise
+from cocotb_tests.harness import RtlBench
+from cocotb_tests.harness.random_host import PinNoise
 
 STROBES = ("ds_wrs_n", "ds_wrs_n", "rw_rds_n", "rw_rds_n", "cs_n")
 _ONE_AXIS = (
@@ -28,6 +28,6 @@ _ONE_AXIS = (
 CODES = (*_ONE_AXIS, *(code | 0x20 for code in _ONE_AXIS), 0xC1, 0xC2)
 
 
-def noise(bench: Bench) -> Noise:
+def noise(bench: RtlBench) -> PinNoise:
     """Return the noise for the seed of this test bench."""
-    return Noise(bench, STROBES, CODES, still=("busc",))
+    return PinNoise(bench, STROBES, CODES, still=("busc",))

@@ -6,8 +6,8 @@ test needs.
 
 from __future__ import annotations
 
-from .figures import INIT_EXT
-from .lab import Axis
+from .env import Axis
+from .expected_timing import INIT_EXT
 
 # After pulse PA + 1 of the ramp of INIT_EXT the motion is on the plateau.
 PLATEAU = INIT_EXT[3] + 1

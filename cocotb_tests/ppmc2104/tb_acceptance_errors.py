@@ -7,8 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import OBF, directed
 
-from .figures import BUSY1, INIT_B
-from .lab import Axis, Lab
+from .env import Axis, Env
+from .expected_timing import BUSY1, INIT_B
 from .tb_acceptance_moves import AC_09, B1
 
 E7 = "d E7 d 03 d 00"
@@ -20,7 +20,7 @@ def clk(rates: list[int]) -> list[int]:
     return [32 * (rate + 1) for rate in rates]
 
 
-async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
+async def stop_after_pulse(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
     """Start a move of n pulses and send a stop code 100 cycles after pulse j; return the status after
     the code.
     """
@@ -32,16 +32,16 @@ async def asked_in(axis: Axis, j: int, code: int = 0x41, n: int = 1000) -> int:
 @directed("AC-22", "P2104-ERR-06", "P2104-STA-06")
 async def p2104_ac_22_error_bit(dut: Any) -> None:
     """With errors of both axes, ERROR is cleared by the second of the two reads (AC-22)."""
-    lab = await Lab.start(dut)
-    got = await lab.run("c 87 c A7 s e1 s e2 s e2")
-    lab.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
+    env = await Env.start(dut)
+    got = await env.run("c 87 c A7 s e1 s e2 s e2")
+    env.check("AC-22", "status, e1, status, e2, status, e2", got, [0x80, 1, 0x80, 1, 0x00, 0])
 
 
 @directed("AC-23", "P2104-ERR-01", "P2104-ERR-02")
 async def p2104_ac_23_data_without_need(dut: Any) -> None:
     """An unexpected data byte sets error 2 on axis 1 (AC-23)."""
-    lab = await Lab.start(dut)
-    lab.check("AC-23", "e2, e1", await lab.run("d 55 e2 e1"), [0, 2])
+    env = await Env.start(dut)
+    env.check("AC-23", "e2, e1", await env.run("d 55 e2 e1"), [0, 2])
 
 
 @directed("AC-24", "P2104-ERR-02", "P2104-BAD-04")
@@ -49,36 +49,36 @@ async def p2104_ac_24_code_in_a_data_wait(dut: Any) -> None:
     """During an incomplete operation of axis 1, a step of axis 2 sets error 3 on axis 2, and both
     instructions are dropped (AC-24).
     """
-    lab = await Lab.start(dut)
-    first, second = await lab.both(INIT_B)
-    since = lab.bench.now
-    lab.check("AC-24", "status, e1, e2", await lab.run("c 43 d 05 c 62 s e1 e2"), [0x80, 0, 3])
-    await lab.bench.clocks(200)
-    lab.quiet("AC-24", since)
+    env = await Env.start(dut)
+    first, second = await env.both(INIT_B)
+    since = env.bench.now
+    env.check("AC-24", "status, e1, e2", await env.run("c 43 d 05 c 62 s e1 e2"), [0x80, 0, 3])
+    await env.bench.clocks(200)
+    env.quiet("AC-24", since)
     await second.move(0x42)
-    lab.check("AC-24", "pulses", (len(lab.bench.pulses(since, first.pout)), len(second.pulses)), (0, 1))
+    env.check("AC-24", "pulses", (len(env.bench.pulses(since, first.pout)), len(second.pulses)), (0, 1))
 
 
 @directed("AC-25", "P2104-ERR-01")
 async def p2104_ac_25_axisless_code_in_a_data_wait(dut: Any) -> None:
     """During an incomplete operation, C2 sets error 3 on axis 1 and returns no answer (AC-25)."""
-    lab = await Lab.start(dut)
-    await lab.run(B1)
-    await lab.x1.ready()
-    (status,) = await lab.run("c 43 c C2 s")
-    lab.check("AC-25", "OBF", status & OBF, 0)
-    lab.check("AC-25", "e1", await lab.run("e1"), [3])
-    lab.check(
-        "AC-25", "e1, e2 after F1, which has no axis bit either", await lab.run("c 43 c F1 e1 e2"), [3, 0]
+    env = await Env.start(dut)
+    await env.run(B1)
+    await env.x1.ready()
+    (status,) = await env.run("c 43 c C2 s")
+    env.check("AC-25", "OBF", status & OBF, 0)
+    env.check("AC-25", "e1", await env.run("e1"), [3])
+    env.check(
+        "AC-25", "e1, e2 after F1, which has no axis bit either", await env.run("c 43 c F1 e1 e2"), [3, 0]
     )
-    lab.check("AC-25", "auxo", lab.bench.level("auxo"), 0b11)
+    env.check("AC-25", "auxo", env.bench.level("auxo"), 0b11)
 
 
 @directed("AC-26", "P2104-BAD-06")
 async def p2104_ac_26_not_set_up(dut: Any) -> None:
     """If axis 2 has no setting, 63 sets error 4 on it, and its data byte sets error 2 on axis 1 (AC-26)."""
-    lab = await Lab.start(dut)
-    lab.check("AC-26", "e2, e1", await lab.run("c 63 d 01 e2 e1"), [4, 2])
+    env = await Env.start(dut)
+    env.check("AC-26", "e2, e1", await env.run("c 63 d 01 e2 e1"), [4, 2])
 
 
 @directed("AC-27", "P2104-FSM-01", "P2104-AUX-02", "P2104-AUX-03", "P2104-RD-08")
@@ -86,44 +86,44 @@ async def p2104_ac_27_busy(dut: Any) -> None:
     """During an operation, instructions that are not allowed set error 5, and the motion continues
     (AC-27).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.go(0x44, 256, 0xFF)
     for code in ("02", "42", "80", "81", "82", "83", "84", "85", "C0"):
-        (status,) = await lab.run(f"c {code} s")
-        lab.check("AC-27", f"OBF after {code}", status & OBF, 0)
-        lab.check("AC-27", f"error of {code}", await lab.run("e1"), [5])
-    lab.check("AC-27", "C2", await lab.run("c C2 r c D1 s"), [0x00, BUSY1])
-    lab.check("AC-27", "auxo", lab.bench.level("auxo"), 0b10)
+        (status,) = await env.run(f"c {code} s")
+        env.check("AC-27", f"OBF after {code}", status & OBF, 0)
+        env.check("AC-27", f"error of {code}", await env.run("e1"), [5])
+    env.check("AC-27", "C2", await env.run("c C2 r c D1 s"), [0x00, BUSY1])
+    env.check("AC-27", "auxo", env.bench.level("auxo"), 0b10)
     await axis.pulse(5)
-    lab.check("AC-27", "intervals", axis.intervals, [8192] * 4)
+    env.check("AC-27", "intervals", axis.intervals, [8192] * 4)
     await axis.halt()
-    lab.check("AC-27", "e1", await lab.run("e1"), [0])
+    env.check("AC-27", "e1", await env.run("e1"), [0])
 
 
 @directed("AC-28", "P2104-STP-04")
 async def p2104_ac_28_stops_at_rest(dut: Any) -> None:
     """Stops set error 6 on axis 1 at rest and error 4 on axis 2 without a setting (AC-28)."""
-    lab = await Lab.start(dut)
-    await lab.ready(1, INIT_B)
-    lab.check("AC-28", "errors", await lab.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])
+    env = await Env.start(dut)
+    await env.ready(1, INIT_B)
+    env.check("AC-28", "errors", await env.run("c 40 e1 c 41 e1 c 60 e2"), [6, 6, 4])
 
 
 @directed("AC-29", "P2104-LIM-06", "P2104-ERR-05")
 async def p2104_ac_29_limit_refuses(dut: Any) -> None:
     """On the CW limit, CW operations set error 7, and the other direction moves (AC-29)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     axis.set(fl_n=0)
-    await lab.bench.clocks(4)
-    since = lab.bench.now
-    lab.check("AC-29", "42", await lab.run("c 42 e1"), [7])
-    got = await lab.run("c 43 s d 09 s d 00 s d 00 s e1")
-    lab.check("AC-29", "43 and its bytes, e1", got, [0x10, 0x10, 0x10, 0x80, 7])
-    lab.check("AC-29", "83", await lab.run("c 83 rrr"), [0, 0, 0])
-    lab.quiet("AC-29", since)
+    await env.bench.clocks(4)
+    since = env.bench.now
+    env.check("AC-29", "42", await env.run("c 42 e1"), [7])
+    got = await env.run("c 43 s d 09 s d 00 s d 00 s e1")
+    env.check("AC-29", "43 and its bytes, e1", got, [0x10, 0x10, 0x10, 0x80, 7])
+    env.check("AC-29", "83", await env.run("c 83 rrr"), [0, 0, 0])
+    env.quiet("AC-29", since)
     await axis.move(0x4A)
-    lab.check("AC-29", "pulses CCW, dir", (len(axis.pulses), axis.level("dir")), (1, 1))
+    env.check("AC-29", "pulses CCW, dir", (len(axis.pulses), axis.level("dir")), (1, 1))
 
 
 @directed("AC-30", "P2104-LIM-06", "P2104-LIM-02")
@@ -131,8 +131,8 @@ async def p2104_ac_30_what_refuses(dut: Any) -> None:
     """Of all inputs, only ALM, and ORG for 47, reject the start of axis 1 CW: tried one at a time
     (AC-30).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     for pin, code, n, rate, error in (
         ("alm_n[1]", 0x42, None, None, 7),
         ("org_n[1]", 0x47, None, 0x31, 7),
@@ -141,74 +141,74 @@ async def p2104_ac_30_what_refuses(dut: Any) -> None:
         ("fhl_n[1]", 0x42, None, None, 0),
         ("fl_n[2]", 0x42, None, None, 0),
     ):
-        lab.bench.set(**{pin: 0})
-        await lab.bench.clocks(4)
+        env.bench.set(**{pin: 0})
+        await env.bench.clocks(4)
         await axis.move(code, n, rate)
-        lab.check("AC-30", f"error of {code:#x} with {pin}", await axis.error(), error)
-        lab.check("AC-30", f"pulses of {code:#x} with {pin}", len(axis.pulses), 0 if error else 1)
-        lab.bench.set(**{pin: 1})
-        await lab.bench.clocks(4)
+        env.check("AC-30", f"error of {code:#x} with {pin}", await axis.error(), error)
+        env.check("AC-30", f"pulses of {code:#x} with {pin}", len(axis.pulses), 0 if error else 1)
+        env.bench.set(**{pin: 1})
+        await env.bench.clocks(4)
 
 
 @directed("AC-31", "P2104-STP-03", "P2104-PRO-05")
 async def p2104_ac_31_deceleration_stop_refused(dut: Any) -> None:
     """41 during constant speed, RUN wait or natural deceleration sets error 8 and has no effect (AC-31)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.running()
     await axis.refused("AC-31", "41 in 45", 8, 0x41)
     await axis.pulse(5)
-    lab.check("AC-31", "intervals of 45", axis.intervals, [1600] * 4)
+    env.check("AC-31", "intervals of 45", axis.intervals, [1600] * 4)
     await axis.halt()
     axis.set(run=0)
     await axis.go(0x42)
     await axis.refused("AC-31", "41 in RUN wait", 8, 0x41)
     axis.set(run=1)
     await axis.result("AC-31", 1, 0x82, 0)
-    await asked_in(axis, 17, n=25)
-    lab.check("AC-31", "41 in deceleration", await axis.error(), 8)
+    await stop_after_pulse(axis, 17, n=25)
+    env.check("AC-31", "41 in deceleration", await axis.error(), 8)
     await axis.result("AC-31", 25, 0x83, 0)
-    lab.check("AC-31", "intervals of 43", axis.intervals, AC_09)
+    env.check("AC-31", "intervals of 43", axis.intervals, AC_09)
 
 
 @directed("AC-32", "P2104-INI-02", "P2104-INI-03", "P2104-BAD-16")
 async def p2104_ac_32_setting_values(dut: Any) -> None:
     """Setting values at and beyond their limits set error 9, error 10 or no error (AC-32)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     bad = ((5, 4, 100, 9), (5, 6, 100, 9), (5, 0, 100, 9), (9, 4, 3, 9), (5, 4, 3, 9))
     for rl, rh, pa, error in (*bad, (9, 4, 0x2BD5, 10), (5, 4, 0x2BD5, 9)):
         await axis.init(0x02, rl, rh, pa)
-        lab.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), error)
+        env.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), error)
     await axis.move(0x43, 25)
-    lab.check("AC-32", "intervals", axis.intervals, AC_09)
+    env.check("AC-32", "intervals", axis.intervals, AC_09)
     for rl, rh, pa in ((6, 4, 4), (255, 1, 0x2BD4)):
         await axis.init(0x02, rl, rh, pa)
-        lab.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), 0)
+        env.check("AC-32", f"error of {rl}, {rh}, {pa}", await axis.error(), 0)
 
 
 @directed("AC-33", "P2104-OPR-07", "P2104-INI-01")
 async def p2104_ac_33_rate_zero(dut: Any) -> None:
     """Rate 00 sets error 9 with the internal base clock and runs with the external one (AC-33)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.refused("AC-33", "45 00", 9, 0x45, 0)
-    await lab.run("c C0 c 0A d 63 d 13 d 0A d 00")
+    await env.run("c C0 c 0A d 63 d 13 d 0A d 00")
     await axis.ready()
-    clock = lab.bench.external_clock(repeat(20), axis.clock, high=10)
+    clock = env.bench.external_clock(repeat(20), axis.clock, high=10)
     await axis.go(0x45, rate=0)
     await axis.pulse(10)
     await axis.halt()
-    lab.check("AC-33", "error", await axis.error(), 0)
+    env.check("AC-33", "error", await axis.error(), 0)
     clock.cancel()
 
 
 @directed("AC-34", "P2104-AUX-04", "P2104-BAD-16")
 async def p2104_ac_34_switching_values(dut: Any) -> None:
     """Switching values below 40 set error 11 (AC-34)."""
-    lab = await Lab.start(dut)
-    got = await lab.run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1")
-    lab.check("AC-34", "errors", got, [11, 11, 0])
+    env = await Env.start(dut)
+    got = await env.run("c 84 d 3F d 80 e1 c 84 d 80 d 3F e1 c 84 d 40 d FF e1")
+    env.check("AC-34", "errors", got, [11, 11, 0])
 
 
 @directed("AC-35", "P2104-EX-03", "P2104-STP-02", "P2104-FDC-02", "P2104-FDC-03", "P2104-END-03")
@@ -216,20 +216,20 @@ async def p2104_ac_35_deceleration_stop(dut: Any) -> None:
     """With ramp B, 41 in I(5), I(2), I(1) leads to 10, 4, 1 pulses and the documented remaining pulses
     (AC-35).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     for j, pulses, low in ((5, 10, 0xDD), (2, 4, 0xE3), (1, 1, 0xE6)):
-        await asked_in(axis, j)
+        await stop_after_pulse(axis, j)
         await axis.result("AC-35", pulses, 0xC3, 0x300 | low)
-        lab.check("AC-35", f"intervals, asked in I({j})", axis.intervals, clk(EX_03[j]))
-        lab.check("AC-35", "83", await lab.run("c 83 rrr"), [low, 3, 0])
+        env.check("AC-35", f"intervals, asked in I({j})", axis.intervals, clk(EX_03[j]))
+        env.check("AC-35", "83", await env.run("c 83 rrr"), [low, 3, 0])
 
 
 @directed("AC-36", "P2104-EX-05", "P2104-FDC-05", "P2104-PRO-04", "P2104-END-06")
 async def p2104_ac_36_around_the_peak(dut: Any) -> None:
     """In triangular profiles of 10 and 11 pulses, 41 around the peak acts as EX-05 states (AC-36)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     for n, j, pulses, finish, left, error in (
         (11, 4, 8, 0xC3, 2, 0),
         (11, 5, 10, 0xC3, 0, 0),
@@ -241,71 +241,71 @@ async def p2104_ac_36_around_the_peak(dut: Any) -> None:
         (25, 14, 25, 0x83, 0, 0),
         (25, 15, 25, 0x83, 0, 8),
     ):
-        await asked_in(axis, j, n=n)
-        lab.check("AC-36", f"error, N = {n}, I({j})", await axis.error(), error)
+        await stop_after_pulse(axis, j, n=n)
+        env.check("AC-36", f"error, N = {n}, I({j})", await axis.error(), error)
         await axis.result(f"AC-36, N = {n}, I({j})", pulses, finish, left)
         if (n, j) == (11, 5):
-            lab.check("AC-36", "intervals", axis.intervals, clk(EX_03[5]))
+            env.check("AC-36", "intervals", axis.intervals, clk(EX_03[5]))
 
 
 @directed("AC-37", "P2104-EX-06", "P2104-FDC-02")
 async def p2104_ac_37_flat_start_of_the_ramp(dut: Any) -> None:
     """If the ramp begins flat, 41 on the flat part stops the axis immediately (AC-37)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, (0x02, 14, 12, 16))
+    env = await Env.start(dut)
+    axis = await env.ready(1, (0x02, 14, 12, 16))
     for j, pulses, left in ((3, 3, [0xE4, 3, 0]), (5, 10, [0xDD, 3, 0])):
-        await asked_in(axis, j)
+        await stop_after_pulse(axis, j)
         await axis.result("AC-37", pulses, 0xC3)
-        lab.check("AC-37", "83", await lab.run("c 83 rrr"), left)
-    lab.check("AC-37", "intervals", axis.intervals, clk([14, 14, 14, 14, 13, 14, 14, 14, 14]))
+        env.check("AC-37", "83", await env.run("c 83 rrr"), left)
+    env.check("AC-37", "intervals", axis.intervals, clk([14, 14, 14, 14, 13, 14, 14, 14, 14]))
     pulses = await axis.move(0x43, 100)
-    lab.check("AC-37", "N = 100, first to last", pulses[-1] - pulses[0], 42_208)
+    env.check("AC-37", "N = 100, first to last", pulses[-1] - pulses[0], 42_208)
 
 
 @directed("AC-38", "P2104-EX-04", "P2104-FDC-01", "P2104-LIM-05", "P2104-LIM-02", "P2104-BAD-22")
 async def p2104_ac_38_slow_down_limit(dut: Any) -> None:
     """On the plateau, FHL low for 10 cycles, twice, leads to 31 pulses; BHL has no effect (AC-38)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     for code, finish, left in ((0x43, 0x8B, [0xC8, 3, 0]), (0x46, 0x8E, [0xE0, 0xFF, 0xFF])):
         await axis.go(code, 1000 if code == 0x43 else None)
         for j in (20, 25):
             await axis.pulse(j, 200)
             await axis.blip("fhl_n", 10)
         await axis.result("AC-38", 31, finish)
-        lab.check("AC-38", "83", await lab.run("c 83 rrr"), left)
+        env.check("AC-38", "83", await env.run("c 83 rrr"), left)
         tail = [20, 21, 23, 24, 27, 30, 34, 41, 53, 99]
-        lab.check("AC-38", "tail", axis.intervals[20:], clk(tail))
-        lab.check("AC-38", "first to last", sum(axis.intervals), 30_848)
+        env.check("AC-38", "tail", axis.intervals[20:], clk(tail))
+        env.check("AC-38", "first to last", sum(axis.intervals), 30_848)
     await axis.go(0x43, 1000)
     await axis.pulse(20, 200)
     await axis.blip("bhl_n", 10)
     await axis.result("AC-38", 1000, 0x83, 0)
-    lab.check("AC-38", "P2104-EX-02 sum", sum(axis.intervals), 651_008)
+    env.check("AC-38", "P2104-EX-02 sum", sum(axis.intervals), 651_008)
 
 
 @directed("AC-39", "P2104-FDC-04", "P2104-LIM-05", "P2104-OPR-05", "P2104-OPR-09")
 async def p2104_ac_39_started_on_the_slow_down_limit(dut: Any) -> None:
     """With FHL active, 43, C3 and 46 output one pulse each (AC-39)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     axis.set(fhl_n=0)
     for script, finish, left in (
         (f"c 43 {E7}", 0x8B, [0xE6, 3, 0]),
         (f"c C3 {E7}", 0x8B, [0xE6, 3, 0]),
         ("c 46", 0x8E, [0xFE, 0xFF, 0xFF]),
     ):
-        axis.since = lab.bench.now
-        await lab.run(script)
+        axis.since = env.bench.now
+        await env.run(script)
         await axis.result("AC-39", 1, finish)
-        lab.check("AC-39", "83", await lab.run("c 83 rrr"), left)
+        env.check("AC-39", "83", await env.run("c 83 rrr"), left)
 
 
 @directed("AC-40", "P2104-FDC-04", "P2104-FDC-05", "P2104-END-05")
 async def p2104_ac_40_complete_all_the_same(dut: Any) -> None:
     """With FHL active, an operation of one pulse is complete and has no cause bit (AC-40)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     axis.set(fhl_n=0)
     await axis.go(0x43, 1)
     await axis.result("AC-40", 1, 0x83, 0)
@@ -314,38 +314,38 @@ async def p2104_ac_40_complete_all_the_same(dut: Any) -> None:
 @directed("AC-41", "P2104-EX-09", "P2104-END-06", "P2104-STP-01")
 async def p2104_ac_41_immediate_stop(dut: Any) -> None:
     """With N = 1000, 40 in I(7) leads to 7 pulses; the remaining pulses complete the move (AC-41)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
-    await asked_in(axis, 7, 0x40)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
+    await stop_after_pulse(axis, 7, 0x40)
     await axis.result("AC-41", 7, 0xC3)
-    lab.check("AC-41", "83", await lab.run("c 83 rrr"), [0xE0, 3, 0])
-    lab.check("AC-41", "intervals", axis.intervals, AC_09[:6])
-    axis.since = lab.bench.now
-    await lab.run("c 43 d E0 d 03 d 00")
+    env.check("AC-41", "83", await env.run("c 83 rrr"), [0xE0, 3, 0])
+    env.check("AC-41", "intervals", axis.intervals, AC_09[:6])
+    axis.since = env.bench.now
+    await env.run("c 43 d E0 d 03 d 00")
     await axis.result("AC-41", 993, 0x83, 0)
 
 
 @directed("AC-42", "P2104-LIM-03", "P2104-END-02", "P2104-OPR-06")
 async def p2104_ac_42_limit(dut: Any) -> None:
     """At constant speed CW, FL ends the motion within 8 cycles; BL has no effect (AC-42)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.go(0x45, rate=0x31)
     await axis.pulse(2, 400)
     axis.set(bl_n=0)
     await axis.pulse(5, 400)
     pin = axis.set(fl_n=0)
-    await lab.bench.until(pin + 8)
-    lab.check("AC-42", "BUSY 8 clk after the pin", await lab.host.status() & BUSY1, 0)
+    await env.bench.until(pin + 8)
+    env.check("AC-42", "BUSY 8 clk after the pin", await env.host.status() & BUSY1, 0)
     await axis.result("AC-42", 5, 0x95)
-    lab.check("AC-42", "83", await lab.run("c 83 rrr"), [0xFA, 0xFF, 0xFF])
+    env.check("AC-42", "83", await env.run("c 83 rrr"), [0xFA, 0xFF, 0xFF])
 
 
 @directed("AC-43", "P2104-END-04", "P2104-LIM-04")
 async def p2104_ac_43_several_causes(dut: Any) -> None:
     """A limit and an alarm during a forced deceleration or a plateau set all their bits (AC-43)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     for slow, pins, finish in (
         (True, ("fl_n",), 0x9B),
         (True, ("alm_n",), 0xAB),
@@ -364,8 +364,8 @@ async def p2104_ac_43_several_causes(dut: Any) -> None:
 @directed("AC-44", "P2104-END-05", "P2104-LIM-09")
 async def p2104_ac_44_alarm_after_the_last_pulse(dut: Any) -> None:
     """If ALM falls while pout_n of a step is low, the step is complete (AC-44)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.go(0x42)
     await axis.pulse(1, 20)
     axis.set(alm_n=0)

@@ -7,7 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import IBF, OBF, directed
 
-from .figures import (
+from .env import Axis, Env
+from .expected_timing import (
     CMND1,
     DATA_BYTES,
     ERROR,
@@ -17,7 +18,6 @@ from .figures import (
     axis_of,
     kind_of,
 )
-from .lab import Axis, Lab
 from .states import MOVING, RAMP, RESTING, enter, leave
 
 # One code of each row of the table.
@@ -63,37 +63,37 @@ def reaction(row: str, state: str) -> int | str:
     return 0
 
 
-async def react(lab: Lab, axis: Axis, row: str, state: str) -> None:
+async def react(env: Env, axis: Axis, row: str, state: str) -> None:
     """Check one cell of the table; the axis is in that state."""
     code = ROWS[row] | axis.axis_bit * (row not in ("auxout", "auxin"))
-    wanted = reaction(row, state)
+    want = reaction(row, state)
     what = f"{row} ({code:#x}) in {state}, axis {axis.n}"
-    edge0 = await lab.host.command(code, poll=False)
-    await lab.bench.until(edge0 + 10)
-    status = await lab.host.status()
-    lab.check("P2104-FSM-01", f"IBF after {what}", status & IBF, IBF if wanted == "waits" else 0)
-    if wanted == "waits":
-        lab.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, 0)
+    edge0 = await env.host.command(code, poll=False)
+    await env.bench.until(edge0 + 10)
+    status = await env.host.status()
+    env.check("P2104-FSM-01", f"IBF after {what}", status & IBF, IBF if want == "waits" else 0)
+    if want == "waits":
+        env.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, 0)
         return
-    lab.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, ERROR if wanted else 0)
+    env.check("P2104-FSM-01", f"ERROR after {what}", status & ERROR, ERROR if want else 0)
     kind = kind_of(code)
-    if not wanted and kind in ("read", "read3", "error", "auxin"):
-        lab.check("P2104-FSM-01", f"OBF after {what}", status & OBF, OBF)
-    data = kind in DATA_BYTES and not wanted
+    if not want and kind in ("read", "read3", "error", "auxin"):
+        env.check("P2104-FSM-01", f"OBF after {what}", status & OBF, OBF)
+    data = kind in DATA_BYTES and not want
     if state != "INITP":
-        lab.check("P2104-FSM-01", f"CMND after {what}", status & axis.cmnd, axis.cmnd if data else 0)
-    errors = (wanted, 0) if axis.n == 1 or not wanted else (0, wanted)
+        env.check("P2104-FSM-01", f"CMND after {what}", status & axis.cmnd, axis.cmnd if data else 0)
+    errors = (want, 0) if axis.n == 1 or not want else (0, want)
     if data:
         # An Error code read would end the data wait.
         return
-    lab.check("P2104-FSM-01", f"errors after {what}", await lab.errors(), errors)
+    env.check("P2104-FSM-01", f"errors after {what}", await env.errors(), errors)
 
 
-async def table(lab: Lab, axis: Axis, states: tuple[str, ...]) -> None:
+async def table(env: Env, axis: Axis, states: tuple[str, ...]) -> None:
     """Check all rows of the table in these columns."""
     for state, row in product(states, ROWS):
         await enter(axis, state)
-        await react(lab, axis, row, state)
+        await react(env, axis, row, state)
         await leave(axis)
 
 
@@ -102,9 +102,9 @@ async def p2104_fsm_01_at_rest(dut: Any) -> None:
     """In INITIAL, INITP and NORMAL, the response to every instruction is that of the table
     (P2104-FSM-01).
     """
-    lab = await Lab.start(dut)
-    for axis in lab.axes:
-        await table(lab, axis, RESTING)
+    env = await Env.start(dut)
+    for axis in env.axes:
+        await table(env, axis, RESTING)
 
 
 @directed("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-03", "P2104-CMD-04")
@@ -112,8 +112,8 @@ async def p2104_fsm_01_moving_axis_1(dut: Any) -> None:
     """In every state of a moving axis 1, the response to every instruction is that of the table
     (P2104-FSM-01).
     """
-    lab = await Lab.start(dut)
-    await table(lab, lab.x1, MOVING)
+    env = await Env.start(dut)
+    await table(env, env.x1, MOVING)
 
 
 @directed("P2104-FSM-01", "P2104-ERR-04", "P2104-STP-03", "P2104-FSM-02")
@@ -121,27 +121,27 @@ async def p2104_fsm_01_moving_axis_2(dut: Any) -> None:
     """In every state of a moving axis 2, the response to every instruction is that of the table
     (P2104-FSM-01).
     """
-    lab = await Lab.start(dut)
-    await table(lab, lab.x2, MOVING)
+    env = await Env.start(dut)
+    await table(env, env.x2, MOVING)
 
 
 @directed("P2104-FSM-02", "P2104-OPR-10", "P2104-RD-08")
 async def p2104_fsm_02_the_other_axis(dut: Any) -> None:
     """With one axis in any state, the state of the addressed axis decides (P2104-FSM-02)."""
-    lab = await Lab.start(dut)
-    for axis, other in ((lab.x1, lab.x2), (lab.x2, lab.x1)):
+    env = await Env.start(dut)
+    for axis, other in ((env.x1, env.x2), (env.x2, env.x1)):
         for state in ("INITIAL", "RUNWAIT", "ACC", "DEC", "CONST"):
             await other.init(*INIT_A)
             await enter(axis, state)
             for row in ("immediate stop", "deceleration stop", "read", "output signal", "read3"):
-                await react(lab, other, row, "NORMAL")
+                await react(env, other, row, "NORMAL")
             await other.move(0x43, 9)
             await other.result("P2104-FSM-02", 9, 0x83, 0)
             await other.send(0x84, [0x50, 0x60])
             await other.send(0x85, [0x01])
             await other.init(0x02, 6, 4, 4)
             await other.command(0xC0)
-            await react(lab, other, "step", "INITIAL")
+            await react(env, other, "step", "INITIAL")
             await leave(axis)
 
 
@@ -150,8 +150,8 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
     """While data of either axis is expected, any code sets error 3 and drops the instruction; stops act
     (P2104-FSM-01).
     """
-    lab = await Lab.start(dut)
-    for waiting, axis in product(lab.axes, lab.axes):
+    env = await Env.start(dut)
+    for waiting, axis in product(env.axes, env.axes):
         states = ("INITIAL", "NORMAL", *MOVING) if waiting is not axis else ("INITIAL", "NORMAL")
         for state in states:
             for row, code in ROWS.items():
@@ -160,22 +160,22 @@ async def p2104_fsm_01_code_in_a_data_wait(dut: Any) -> None:
                 await enter(axis, state)
                 await waiting.command(0x84)
                 code |= axis.axis_bit * (row not in ("auxout", "auxin"))
-                status = await lab.host.command(code)
+                status = await env.host.command(code)
                 what = f"{row} in {state} of axis {axis.n}, axis {waiting.n} waiting"
-                lab.check("P2104-ERR-02", f"OBF, CMND after {what}", status & (OBF | CMND1 | CMND1 << 1), 0)
+                env.check("P2104-ERR-02", f"OBF, CMND after {what}", status & (OBF | CMND1 | CMND1 << 1), 0)
                 error = 8 if row in STOPS and reaction(row, state) == 8 else 3
                 charged = axis_of(code)
-                await lab.bench.clocks(lab.cfg.w + 12)
-                busy = (await lab.host.status()) & axis.busy
+                await env.bench.clocks(env.cfg.w + 12)
+                busy = (await env.host.status()) & axis.busy
                 stopped = state not in MOVING or row == "immediate stop"
                 # Before pulse 1 a deceleration stop is stored, and the axis still waits for the clock.
-                lab.check("P2104-FSM-05", f"BUSY after {what}", busy, 0 if stopped else axis.busy)
+                env.check("P2104-FSM-05", f"BUSY after {what}", busy, 0 if stopped else axis.busy)
                 if row == "deceleration stop" and state in RAMP:
                     await axis.command(0x41)
-                    lab.check("P2104-FSM-05", f"flag set by {what}", await axis.error(), 8)
+                    env.check("P2104-FSM-05", f"flag set by {what}", await axis.error(), 8)
                     error = 0
                 errors = (error, 0) if charged == 1 else (0, error)
-                lab.check("P2104-ERR-01", f"errors after {what}", await lab.errors(), errors)
+                env.check("P2104-ERR-01", f"errors after {what}", await env.errors(), errors)
                 await leave(axis)
                 await leave(waiting)
 
@@ -185,8 +185,8 @@ async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
     """With axis 1 waiting for its clock and axis 2 set up, all codes are decoded before any other check
     (P2104-CMD-01).
     """
-    lab = await Lab.start(dut)
-    first, second = lab.axes
+    env = await Env.start(dut)
+    first, second = env.axes
     await first.init(*INIT_EXT)
     await second.init(*INIT_A)
     await first.go(0x44, 1000, 1)
@@ -200,34 +200,34 @@ async def p2104_cmd_01_all_codes_while_busy(dut: Any) -> None:
             error = 5
         else:
             error = 0
-        status = await lab.host.command(code)
+        status = await env.host.command(code)
         outstanding = kind in DATA_BYTES and not error
-        lab.check("P2104-CMD-01", f"CMND after {code:#04x}", status & 0x30, 0x20 if outstanding else 0)
+        env.check("P2104-CMD-01", f"CMND after {code:#04x}", status & 0x30, 0x20 if outstanding else 0)
         if outstanding:
-            await lab.host.command(0x87)
-            lab.check("P2104-CMD-01", f"errors after {code:#04x}", await lab.errors(), (3, 0))
+            await env.host.command(0x87)
+            env.check("P2104-CMD-01", f"errors after {code:#04x}", await env.errors(), (3, 0))
         else:
-            wanted = (error, 0) if axis == 1 else (0, error)
-            lab.check("P2104-CMD-01", f"errors after {code:#04x}", await lab.errors(), wanted)
+            want = (error, 0) if axis == 1 else (0, error)
+            env.check("P2104-CMD-01", f"errors after {code:#04x}", await env.errors(), want)
         if axis == 2 and kind in OPERATIONS and not outstanding:
-            lab.check("P2104-CMD-01", f"BUSY2 after {code:#04x}", bool(status & second.busy), True)
+            env.check("P2104-CMD-01", f"BUSY2 after {code:#04x}", bool(status & second.busy), True)
             await second.halt()
-            await lab.errors()
+            await env.errors()
         if code == 0xE0:
             await second.init(*INIT_A)
         if kind == "stop" and axis == 1 and not code & 1:
             await first.idle()
-            lab.check("P2104-CMD-03", f"end status after {code:#04x}", await first.finish(), 0xC4)
+            env.check("P2104-CMD-03", f"end status after {code:#04x}", await first.finish(), 0xC4)
             await first.go(0x44, 1000, 1)
-    lab.check("P2104-ERR-03", "pulses of axis 1", lab.bench.pulses(0, first.pout), [])
+    env.check("P2104-ERR-03", "pulses of axis 1", env.bench.pulses(0, first.pout), [])
     await first.halt()
 
 
 @directed("P2104-CMD-02", "P2104-OPR-08", "P2104-CMD-03")
 async def p2104_cmd_02_operation_bits(dut: Any) -> None:
     """I, D, P and the axis bit of every operation each have only their own effect (P2104-CMD-02)."""
-    lab = await Lab.start(dut)
-    axes = await lab.both(INIT_A)
+    env = await Env.start(dut)
+    axes = await env.both(INIT_A)
     for axis, (code, n, rate) in product(
         axes,
         (
@@ -247,20 +247,20 @@ async def p2104_cmd_02_operation_bits(dut: Any) -> None:
                 await axis.command(0x40)
             await axis.idle()
             what = f"{code | masked | ccw:#x}, axis {axis.n}"
-            lab.check("P2104-CMD-02", f"dir, {what}", axis.level("dir"), ccw >> 3)
-            ints = [v for _, v in lab.bench.edges("int_n", axis.since)]
-            lab.check("P2104-CMD-02", f"int_n, {what}", ints, [] if masked else [0])
-            steps = len(lab.bench.edges(axis.phases, axis.since))
-            lab.check("P2104-OPR-08", f"steps, {what}", steps, 0 if code & 0x80 else len(axis.pulses))
-            lab.check("P2104-OPR-08", f"pattern moved, {what}", axis.phases_now != pattern, code < 0x80)
+            env.check("P2104-CMD-02", f"dir, {what}", axis.level("dir"), ccw >> 3)
+            ints = [v for _, v in env.bench.edges("int_n", axis.since)]
+            env.check("P2104-CMD-02", f"int_n, {what}", ints, [] if masked else [0])
+            steps = len(env.bench.edges(axis.phases, axis.since))
+            env.check("P2104-OPR-08", f"steps, {what}", steps, 0 if code & 0x80 else len(axis.pulses))
+            env.check("P2104-OPR-08", f"pattern moved, {what}", axis.phases_now != pattern, code < 0x80)
             await axis.finish()
 
 
 @directed("P2104-CMD-04", "P2104-ERR-05", "P2104-HSK-08", "P2104-BAD-03", "P2104-STA-05")
 async def p2104_cmd_04_data_bytes(dut: Any) -> None:
     """CMND is 1 until the last data byte of an instruction, and there is no time-out (P2104-CMD-04)."""
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         for code, data in (
             (0x43, [2, 0, 0]),
             (0x44, [9, 2, 0, 0]),
@@ -269,20 +269,20 @@ async def p2104_cmd_04_data_bytes(dut: Any) -> None:
             (0x85, [3]),
             (0x02, [9, 4, 4, 0]),
         ):
-            axis.since = lab.bench.now
-            lab.check("P2104-STA-05", "CMND after the code", await axis.command(code), axis.cmnd)
+            axis.since = env.bench.now
+            env.check("P2104-STA-05", "CMND after the code", await axis.command(code), axis.cmnd)
             for place, byte in enumerate(data):
-                await lab.bench.clocks(3_000)
-                lab.check("P2104-CMD-04", f"CMND before byte {place}", await lab.host.status(), axis.cmnd)
-                lab.check("P2104-CMD-04", "pulses so far", axis.pulses, [])
-                status = await lab.host.data(byte)
+                await env.bench.clocks(3_000)
+                env.check("P2104-CMD-04", f"CMND before byte {place}", await env.host.status(), axis.cmnd)
+                env.check("P2104-CMD-04", "pulses so far", axis.pulses, [])
+                status = await env.host.data(byte)
             last = {0x43: axis.busy, 0x44: axis.busy, 0x45: axis.busy, 0x02: axis.cmnd}.get(code, 0)
-            lab.check("P2104-CMD-04", f"status after the last byte of {code:#x}", status, last)
+            env.check("P2104-CMD-04", f"status after the last byte of {code:#x}", status, last)
             if code == 0x45:
                 await axis.halt()
             elif last == axis.busy:
                 await axis.idle()
-                lab.check("P2104-CMD-04", "pulses", len(axis.pulses), 3)
+                env.check("P2104-CMD-04", "pulses", len(axis.pulses), 3)
                 await axis.finish()
             await axis.ready()
 
@@ -292,30 +292,30 @@ async def p2104_err_02_abandoned_instructions(dut: Any) -> None:
     """If a code ends an incomplete instruction at any byte, nothing of this instruction is effective
     (P2104-ERR-02).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_A)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_A)
     cases = ((0x02, [20, 10, 9, 0]), (0x43, [5, 0, 0]), (0x44, [9, 3, 0, 0]), (0x47, [9]), (0x84, [64, 64]))
-    since = lab.bench.now
+    since = env.bench.now
     for code, data in (*cases, (0x85, [0])):
         for sent in range(len(data)):
             await axis.send(code, data[:sent])
-            await lab.x2.command(0x86)
-            lab.check("P2104-ERR-02", f"{code:#x} and {sent} bytes", await lab.errors(), (0, 3))
-            await lab.host.data(data[sent])
-            lab.check("P2104-ERR-02", "its next byte", await lab.errors(), (2, 0))
-    await lab.bench.clocks(1_000)
-    lab.quiet("P2104-ERR-02", since)
+            await env.x2.command(0x86)
+            env.check("P2104-ERR-02", f"{code:#x} and {sent} bytes", await env.errors(), (0, 3))
+            await env.host.data(data[sent])
+            env.check("P2104-ERR-02", "its next byte", await env.errors(), (2, 0))
+    await env.bench.clocks(1_000)
+    env.quiet("P2104-ERR-02", since)
     pulses = await axis.move(0x43, 14)
-    lab.check("P2104-ERR-02", "the ramp is the old one", pulses[-1] - pulses[0], 2_720)
+    env.check("P2104-ERR-02", "the ramp is the old one", pulses[-1] - pulses[0], 2_720)
 
 
 @directed("P2104-ERR-05", "P2104-LIM-06", "P2104-OPR-07")
 async def p2104_err_05_order_of_checks(dut: Any) -> None:
     """Of several faults at a last byte, the first in the order of checks is reported (P2104-ERR-05)."""
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         axis.set(alm_n=0)
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         await axis.refused("P2104-ERR-05", "45 00 on ALM", 9, 0x45, 0)
         await axis.refused("P2104-ERR-05", "44 00 on ALM", 9, 0x44, 0, 5, 0, 0)
         await axis.refused("P2104-ERR-05", "47 00 on ALM", 9, 0x47, 0)
@@ -323,14 +323,14 @@ async def p2104_err_05_order_of_checks(dut: Any) -> None:
         await axis.refused("P2104-INI-03", "RL < RH + 2 and PA > 2BD4h", 9, 0x02, 5, 4, 0xD5, 0x2B)
         await axis.refused("P2104-INI-03", "PA > 2BD4h", 10, 0x02, 6, 4, 0xD5, 0x2B)
         axis.set(alm_n=1)
-        lab.check("P2104-ERR-03", "end status", await axis.finish(), 0x00)
+        env.check("P2104-ERR-03", "end status", await axis.finish(), 0x00)
 
 
 @directed("P2104-ERR-03", "P2104-BAD-05", "P2104-BAD-06", "P2104-BAD-07", "P2104-BAD-02", "P2104-FSM-01")
 async def p2104_err_03_faults_in_motion(dut: Any) -> None:
     """While both axes move, faulty bytes change only the error registers (P2104-ERR-03)."""
-    lab = await Lab.start(dut)
-    first, second = await lab.both(INIT_A)
+    env = await Env.start(dut)
+    first, second = await env.both(INIT_A)
     await first.go(0x44, 60, 39)
     await second.go(0x4C, 60, 29)
     for script, errors in (
@@ -344,25 +344,25 @@ async def p2104_err_03_faults_in_motion(dut: Any) -> None:
         ("c 84", (5, 0)),
         ("c 41 c 61", (8, 8)),
     ):
-        await lab.run(script)
-        lab.check("P2104-ERR-03", f"errors of {script}", await lab.errors(), errors)
+        await env.run(script)
+        env.check("P2104-ERR-03", f"errors of {script}", await env.errors(), errors)
     await first.idle()
     await second.idle()
     first.check_train("P2104-ERR-03", [39] * 59)
     second.check_train("P2104-ERR-03", [29] * 59)
-    lab.check("P2104-ERR-03", "80, A0", await lab.run("c 80 r c A0 r"), [0x84, 0x84])
+    env.check("P2104-ERR-03", "80, A0", await env.run("c 80 r c A0 r"), [0x84, 0x84])
     # With more bytes than the instruction has, the instruction runs, and the surplus bytes set error 2.
-    first.since = lab.bench.now
-    await lab.run("c 44 d 09 d 02 d 00 d 00 d 00 d 7F")
-    lab.check("P2104-BAD-05", "errors", await lab.errors(), (2, 0))
+    first.since = env.bench.now
+    await env.run("c 44 d 09 d 02 d 00 d 00 d 00 d 7F")
+    env.check("P2104-BAD-05", "errors", await env.errors(), (2, 0))
     await first.result("P2104-BAD-05", 3, 0x84, 0)
 
 
 @directed("P2104-ERR-01", "P2104-ERR-06", "P2104-RD-07", "P2104-STA-06")
 async def p2104_err_06_registers(dut: Any) -> None:
     """Each error register holds its newest error and is cleared separately (P2104-ERR-06)."""
-    lab = await Lab.start(dut)
-    got = await lab.run("c 87 c 40 s c A7 c 42 c 84 d 00 d 00 s e1 s e1 s e2 s")
+    env = await Env.start(dut)
+    got = await env.run("c 87 c 40 s c A7 c 42 c 84 d 00 d 00 s e1 s e1 s e2 s")
     expected = [0x80, 0x80, 11, 0x80, 0, 0x80, 1, 0x00]
-    lab.check("P2104-ERR-06", "statuses and registers", got, expected)
-    lab.check("P2104-ERR-01", "e2 after 84", await lab.run("c A4 d 3F d 40 e1 e2"), [0, 11])
+    env.check("P2104-ERR-06", "statuses and registers", got, expected)
+    env.check("P2104-ERR-01", "e2 after 84", await env.run("c A4 d 3F d 40 e1 e2"), [0, 11])

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import D11, D16, IBF, OBF, directed
-from cocotb_tests.harness.drive import bytes_of, rates
+from cocotb_tests.harness.axis_driver import bytes_of, rates
 
-from .figures import ERROR, INIT_A, INIT_B, slowed
-from .lab import C_EVENT_LATEST, WRITE_EVENT, Lab
-from .sheet import ON, PIN, READ, TOLERANCE, after, last_byte, opens, rest
+from .datasheet_timing import ON, PIN, READ, TOLERANCE, after, last_byte, opens, rest
+from .env import C_EVENT_LATEST, WRITE_EVENT, Env
+from .expected_timing import ERROR, INIT_A, INIT_B, slowed
 
 BOTH = (D16, D11)
 
@@ -19,31 +19,31 @@ async def p2104_ac_73_setting(dut: Any) -> None:
     """A setting with S = 1 drives the phases immediately, sets CMND for 71 ms, and then starts the
     chopping (AC-73).
     """
-    lab = await Lab.start(dut)
-    axis = lab.x1
+    env = await Env.start(dut)
+    axis = env.x1
     edge0 = await last_byte(axis, 0x12, *INIT_B[1:], 0)
-    shown = await lab.bench.edge(axis.phases)
-    lab.window("AC-73", "last byte to the pattern", shown - edge0, 2, 12)
-    lab.check("AC-73", "s1_n", axis.phases_now, 0b11100)
-    await lab.bench.clocks(200)
-    lab.check("AC-73", "status", await lab.host.status(), axis.cmnd)
-    await lab.host.command(0xF1, poll=False)
-    nominal = lab.cfg.us(71_000)
-    await lab.bench.until(edge0 + 2 + nominal - 20)
-    lab.check("AC-73", "status just before", await lab.host.status(), axis.cmnd | IBF)
-    lab.check("AC-73", "s1_n edges", [v for _, v in lab.bench.edges(axis.phases)], [0b11100])
-    off = await lab.bench.edge(axis.phases, 0x1F)
-    q = lab.cfg.quanta
+    shown = await env.bench.edge(axis.phases)
+    env.window("AC-73", "last byte to the pattern", shown - edge0, 2, 12)
+    env.check("AC-73", "s1_n", axis.phases_now, 0b11100)
+    await env.bench.clocks(200)
+    env.check("AC-73", "status", await env.host.status(), axis.cmnd)
+    await env.host.command(0xF1, poll=False)
+    nominal = env.cfg.us(71_000)
+    await env.bench.until(edge0 + 2 + nominal - 20)
+    env.check("AC-73", "status just before", await env.host.status(), axis.cmnd | IBF)
+    env.check("AC-73", "s1_n edges", [v for _, v in env.bench.edges(axis.phases)], [0b11100])
+    off = await env.bench.edge(axis.phases, 0x1F)
+    q = env.cfg.quanta
     low, high = nominal + 2 + q(2 * ON) - q(1) - 1, nominal + 10 + q(2 * ON) + q(1) + 1 + TOLERANCE + PIN
-    lab.window("P2104-DS-01", "last byte to the first OFF", off - edge0, low, high)
-    lab.check("AC-73", "CMND afterwards", await lab.host.status() & axis.cmnd, 0)
+    env.window("P2104-DS-01", "last byte to the first OFF", off - edge0, low, high)
+    env.check("AC-73", "CMND afterwards", await env.host.status() & axis.cmnd, 0)
     # F1 was accepted at the end of the window and acts at the end of its own window.
-    auxo = lab.bench.edges("auxo", edge0)
+    auxo = env.bench.edges("auxo", edge0)
     if not auxo:
-        await lab.bench.edge("auxo")
-        auxo = lab.bench.edges("auxo", edge0)
-    lab.window(
-        "P2104-DS-12", "auxo", auxo[0][0] - edge0 - nominal - lab.cfg.us(40), 2, 2 * TOLERANCE + 12 + PIN
+        await env.bench.edge("auxo")
+        auxo = env.bench.edges("auxo", edge0)
+    env.window(
+        "P2104-DS-12", "auxo", auxo[0][0] - edge0 - nominal - env.cfg.us(40), 2, 2 * TOLERANCE + 12 + PIN
     )
 
 
@@ -61,8 +61,8 @@ async def p2104_ac_73_setting(dut: Any) -> None:
 )
 async def p2104_ac_71_starts(dut: Any) -> None:
     """For each accepted operation, BUSY is set immediately, and pulse 1 follows its window by W (AC-71)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     for code, data, micros in (
         (0x42, [], 103),
         (0x44, [0x63, 9, 0, 0], 29),
@@ -76,54 +76,54 @@ async def p2104_ac_71_starts(dut: Any) -> None:
         (0xC3, bytes_of(99), 110),
     ):
         edge0 = await last_byte(axis, code, *data)
-        await lab.bench.until(edge0 + 12)
+        await env.bench.until(edge0 + 12)
         levels = (axis.level("hold"), axis.level("dir"))
-        lab.check("P2104-DS-14", f"hold, dir of {code:#x}", levels, (0, code >> 3 & 1))
-        lab.check(
-            "P2104-DS-14", "BUSY", await lab.host.status() & (axis.busy | axis.cmnd), axis.busy | axis.cmnd
+        env.check("P2104-DS-14", f"hold, dir of {code:#x}", levels, (0, code >> 3 & 1))
+        env.check(
+            "P2104-DS-14", "BUSY", await env.host.status() & (axis.busy | axis.cmnd), axis.busy | axis.cmnd
         )
         if code in (0x44, 0xCB):
-            await opens(lab, "P2104-DS-07", edge0, micros)
+            await opens(env, "P2104-DS-07", edge0, micros)
         first = await axis.pulse(1)
-        after(lab, "AC-71", f"pulse 1 of {code:#x}", first, edge0, micros, lab.cfg.w)
-        lab.check("P2104-DS-14", "CMND after the window", await lab.host.status() & axis.cmnd, 0)
+        after(env, "AC-71", f"pulse 1 of {code:#x}", first, edge0, micros, env.cfg.w)
+        env.check("P2104-DS-14", "CMND after the window", await env.host.status() & axis.cmnd, 0)
         await axis.command(0x40)
-        await rest(lab)
+        await rest(env)
 
 
 @directed("P2104-DS-14", "P2104-DS-22", "P2104-OPR-02", builds=(D16,))
 async def p2104_ds_14_run_in_the_window(dut: Any) -> None:
     """If run changes in the window, only its level at the end applies (P2104-DS-14)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
-    w = lab.cfg.w
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
+    w = env.cfg.w
     axis.set(run=0)
     edge0 = await last_byte(axis, 0x42)
-    await lab.bench.clocks(500)
+    await env.bench.clocks(500)
     axis.set(run=1)
-    await lab.bench.clocks(300)
+    await env.bench.clocks(300)
     axis.set(run=0)
-    await lab.bench.until(edge0 + lab.cfg.us(103) + 500)
-    lab.check("P2104-DS-14", "pulses after the window", axis.pulses, [])
+    await env.bench.until(edge0 + env.cfg.us(103) + 500)
+    env.check("P2104-DS-14", "pulses after the window", axis.pulses, [])
     rise = axis.set(run=1)
-    lab.window("P2104-TIM-02", "run to pulse 1", await axis.pulse(1) - rise, w, w + 6)
+    env.window("P2104-TIM-02", "run to pulse 1", await axis.pulse(1) - rise, w, w + 6)
     await axis.idle()
     edge0 = await last_byte(axis, 0x42)
-    await lab.bench.clocks(100)
+    await env.bench.clocks(100)
     axis.set(run=0)
-    await lab.bench.clocks(100)
+    await env.bench.clocks(100)
     axis.set(run=1)
-    after(lab, "P2104-DS-14", "pulse 1", await axis.pulse(1), edge0, 103, w)
-    await rest(lab)
+    after(env, "P2104-DS-14", "pulse 1", await axis.pulse(1), edge0, 103, w)
+    await rest(env)
     # The start check uses the present level, without a window.
     axis.set(alm_n=0)
-    await lab.bench.clocks(4)
+    await env.bench.clocks(4)
     edge0 = await last_byte(axis, 0x42)
-    await lab.bench.until(edge0 + 10)
-    lab.check("P2104-DS-22", "refused at once", await lab.host.status() & (ERROR | IBF | axis.busy), ERROR)
+    await env.bench.until(edge0 + 10)
+    env.check("P2104-DS-22", "refused at once", await env.host.status() & (ERROR | IBF | axis.busy), ERROR)
     axis.set(alm_n=1)
-    await lab.bench.clocks(4)
-    lab.check("P2104-DS-22", "error", await axis.error(), 7)
+    await env.bench.clocks(4)
+    env.check("P2104-DS-22", "error", await axis.error(), 7)
 
 
 @directed("AC-72", "P2104-DS-02", "P2104-DS-12", "P2104-HSK-01", builds=BOTH)
@@ -131,35 +131,35 @@ async def p2104_ac_72_immediate_stop(dut: Any) -> None:
     """When 40 is accepted, no further pulse is output, the end follows 400 us later, and bytes wait
     (AC-72).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.go(0x44, 1000, 0x63)
     await axis.pulse(10, 400)
     edge0 = await axis.command(0x40, poll=False)
-    await lab.bench.clocks(40)
-    await lab.host.command(0xD1, poll=False)
-    nominal = lab.cfg.us(400)
-    await lab.bench.until(edge0 + 2 + nominal - 20)
-    lab.check("AC-72", "status just before", await lab.host.status() & (IBF | axis.busy), IBF | axis.busy)
-    end = await axis.ended()
-    after(lab, "AC-72", "end", end, edge0, 400)
+    await env.bench.clocks(40)
+    await env.host.command(0xD1, poll=False)
+    nominal = env.cfg.us(400)
+    await env.bench.until(edge0 + 2 + nominal - 20)
+    env.check("AC-72", "status just before", await env.host.status() & (IBF | axis.busy), IBF | axis.busy)
+    end = await axis.wait_end()
+    after(env, "AC-72", "end", end, edge0, 400)
     # BUSY fell on the edge before int_n at the latest; D1 is accepted then.
-    lab.check("AC-72", "BUSY", await lab.host.status() & axis.busy, 0)
-    aux = await lab.bench.edge("auxo")
-    lab.window("AC-72", "auxo after the end", aux - end, lab.cfg.us(40) - 4, lab.cfg.us(40) + TOLERANCE + 8)
-    hold = await lab.bench.edge(axis.pin("hold"), 1)
-    delay = lab.cfg.us(3_200)
-    lab.window("P2104-DS-02", "hold after the end", hold - end, delay - 4, delay + 16 + 4)
+    env.check("AC-72", "BUSY", await env.host.status() & axis.busy, 0)
+    aux = await env.bench.edge("auxo")
+    env.window("AC-72", "auxo after the end", aux - end, env.cfg.us(40) - 4, env.cfg.us(40) + TOLERANCE + 8)
+    hold = await env.bench.edge(axis.pin("hold"), 1)
+    delay = env.cfg.us(3_200)
+    env.window("P2104-DS-02", "hold after the end", hold - end, delay - 4, delay + 16 + 4)
     await axis.result("AC-72", 10, 0xC4, 989)
-    await rest(lab)
+    await rest(env)
     # In FIN the mailbox is closed for 400 us, but the normal end is not delayed and sets no bit.
     await axis.go(0x42)
     fall = await axis.pulse(1, 4)
     edge0 = await axis.command(0x40, poll=False)
-    end = await axis.ended()
-    lab.window("P2104-DS-15", "normal end after the fall", end - fall, lab.cfg.w, lab.cfg.w + 4)
-    await opens(lab, "P2104-DS-02", edge0, 400)
-    lab.check("P2104-STP-05", "end status", await axis.finish(), 0x82)
+    end = await axis.wait_end()
+    env.window("P2104-DS-15", "normal end after the fall", end - fall, env.cfg.w, env.cfg.w + 4)
+    await opens(env, "P2104-DS-02", edge0, 400)
+    env.check("P2104-STP-05", "end status", await axis.finish(), 0x82)
 
 
 @directed("P2104-DS-03", "P2104-STP-02", "P2104-FDC-02", builds=(D16,))
@@ -167,8 +167,8 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
     """The flag of 41 is set after 32 us: at RL it ends the motion immediately, and if it is too late it
     has no effect (P2104-DS-03).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     edge0 = 0
 
     async def ask(j: int, plus: int, n: int = 100) -> None:
@@ -180,29 +180,29 @@ async def p2104_ds_03_deceleration_stop(dut: Any) -> None:
     # I(6) has index 5 and lasts 896 cycles: the flag is set in I(6), or 512 cycles later in I(7).
     for plus, flagged in ((100, 6), (600, 7)):
         await ask(6, plus)
-        await opens(lab, "P2104-DS-03", edge0, 32)
-        wanted = slowed(INIT_B[1:], 100, flagged)
-        await axis.result("P2104-DS-03", len(wanted) + 1, 0xC3, 98 - len(wanted))
-        axis.check_train("P2104-DS-03", wanted)
-        await rest(lab)
+        await opens(env, "P2104-DS-03", edge0, 32)
+        expected = slowed(INIT_B[1:], 100, flagged)
+        await axis.result("P2104-DS-03", len(expected) + 1, 0xC3, 98 - len(expected))
+        axis.check_train("P2104-DS-03", expected)
+        await rest(env)
     # In I(1), at the rate RL, the motion ends with the window.
     await ask(1, 100)
-    end = await axis.ended()
-    after(lab, "P2104-DS-03", "end at RL", end, edge0, 32)
+    end = await axis.wait_end()
+    after(env, "P2104-DS-03", "end at RL", end, edge0, 32)
     await axis.result("P2104-DS-03", 1, 0xC3, 98)
-    await rest(lab)
+    await rest(env)
     # The stop is requested while accelerating and becomes effective in natural deceleration (from pulse 6 of
     # 10 on): it has no effect and sets no bit.
     await ask(5, 992 - 300, n=10)
     await axis.result("P2104-DS-03", 10, 0x83, 0)
     axis.check_train("P2104-DS-03", rates(INIT_B[1:], [0, 1, 2, 3, 4, 3, 2, 1, 0]))
     # A rejected stop has no window.
-    await rest(lab)
+    await rest(env)
     await axis.go(0x45, rate=0x63)
     await axis.pulse(1, 200)
     edge0 = await axis.command(0x41, poll=False)
-    await lab.bench.until(edge0 + 10)
-    lab.check("P2104-DS-03", "IBF, ERROR", await lab.host.status() & (IBF | ERROR), ERROR)
+    await env.bench.until(edge0 + 10)
+    env.check("P2104-DS-03", "IBF, ERROR", await env.host.status() & (IBF | ERROR), ERROR)
 
 
 @directed("AC-74", "P2104-DS-10", "P2104-DS-12", "P2104-INT-03", builds=BOTH)
@@ -210,83 +210,83 @@ async def p2104_ac_74_reads(dut: Any) -> None:
     """OBF of each read instruction is set at the end of its window, and the values are those of this
     time (AC-74).
     """
-    lab = await Lab.start(dut)
-    lab.bench.set(errint_n=0)
-    await lab.run("c 87")
+    env = await Env.start(dut)
+    env.bench.set(errint_n=0)
+    await env.run("c 87")
     for code, micros in ((0x81, 36), (0x82, 32), (0x83, 37), (0x80, 40), (0xC2, 40), (0xA1, 36), (0x86, 43)):
-        edge0 = await lab.host.command(code, poll=False)
-        await lab.host.poll(IBF, 0)
+        edge0 = await env.host.command(code, poll=False)
+        await env.host.poll(IBF, 0)
         cmnd = 0 if code == 0xC2 else 0x20 if code & 0x20 else 0x10
-        lab.check("AC-74", f"status in the window of {code:#x}", await lab.host.status() & 0x31, cmnd)
-        nominal = lab.cfg.us(micros)
+        env.check("AC-74", f"status in the window of {code:#x}", await env.host.status() & 0x31, cmnd)
+        nominal = env.cfg.us(micros)
         if code == 0x81:
             # The values are sampled at the end of the window, not at the C-event.
-            lab.x1.set(org_n=0)
-        await lab.host.poll(OBF, OBF, dense=1000)
-        late = lab.bench.now - edge0
-        lab.window("AC-74", f"OBF of {code:#x}", late, 2 + nominal, 10 + nominal + TOLERANCE + READ)
-        got = [await lab.host.read_data() for _ in range(3 if code == 0x83 else 1)]
-        wanted = {0x81: [0x4F], 0x82: [0xFC], 0x83: [0] * 3, 0xA1: [0xCF], 0x86: [1]}.get(code, [0])
-        lab.check("AC-74", f"answer of {code:#x}", got, wanted)
+            env.x1.set(org_n=0)
+        await env.host.poll(OBF, OBF, dense=1000)
+        late = env.bench.now - edge0
+        env.window("AC-74", f"OBF of {code:#x}", late, 2 + nominal, 10 + nominal + TOLERANCE + READ)
+        got = [await env.host.read_data() for _ in range(3 if code == 0x83 else 1)]
+        expected = {0x81: [0x4F], 0x82: [0xFC], 0x83: [0] * 3, 0xA1: [0xCF], 0x86: [1]}.get(code, [0])
+        env.check("AC-74", f"answer of {code:#x}", got, expected)
         if code == 0x86:
-            up = [t for t, v in lab.bench.edges("int_n", edge0) if v][0]
-            after(lab, "P2104-DS-10", "int_n", up, edge0, micros)
-        lab.x1.set(org_n=1)
-        await lab.host.poll(0x30, 0)
-    edge0 = await lab.host.command(0xA0, poll=False)
-    await opens(lab, "P2104-DS-10", edge0, 40)
+            up = [t for t, v in env.bench.edges("int_n", edge0) if v][0]
+            after(env, "P2104-DS-10", "int_n", up, edge0, micros)
+        env.x1.set(org_n=1)
+        await env.host.poll(0x30, 0)
+    edge0 = await env.host.command(0xA0, poll=False)
+    await opens(env, "P2104-DS-10", edge0, 40)
 
 
 @directed("P2104-DS-11", "P2104-DS-12", "P2104-DS-13", "P2104-AUX-05", "P2104-AUX-04", builds=(D16,))
 async def p2104_ds_11_auxiliary(dut: Any) -> None:
     """C0, D1, 84 and 85 act at the end of their windows (P2104-DS-11, P2104-DS-12, P2104-DS-13)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, (0x12, *INIT_A[1:]))
+    env = await Env.start(dut)
+    axis = await env.ready(1, (0x12, *INIT_A[1:]))
     edge0 = await last_byte(axis, 0x84, 0x40, 0x40)
-    await opens(lab, "P2104-DS-13", edge0, 36)
-    await lab.bench.clocks(3_000)
-    spans = {span for _, span in axis.stretches(lab.bench.now - 2_500)}
-    lab.check("P2104-DS-13", "switching times", spans, {512})
+    await opens(env, "P2104-DS-13", edge0, 36)
+    await env.bench.clocks(3_000)
+    spans = {span for _, span in axis.stretches(env.bench.now - 2_500)}
+    env.check("P2104-DS-13", "switching times", spans, {512})
     # The value is effective at the end of the window: a timer started during the window uses the old one.
     edge0 = await last_byte(axis, 0x85, 0x00)
-    await opens(lab, "P2104-DS-13", edge0, 32)
-    await lab.host.command(0xE1)
-    edge0 = await lab.host.command(0xD1, poll=False)
-    aux = [await lab.bench.edge("auxo"), await lab.bench.edge("auxo")]
-    lab.window("P2104-DS-12", "D1 after E1", aux[1] - aux[0], lab.cfg.us(40), lab.cfg.us(40) + TOLERANCE + 4)
-    await lab.bench.edge(axis.phases, 0b11100)
+    await opens(env, "P2104-DS-13", edge0, 32)
+    await env.host.command(0xE1)
+    edge0 = await env.host.command(0xD1, poll=False)
+    aux = [await env.bench.edge("auxo"), await env.bench.edge("auxo")]
+    env.window("P2104-DS-12", "D1 after E1", aux[1] - aux[0], env.cfg.us(40), env.cfg.us(40) + TOLERANCE + 4)
+    await env.bench.edge(axis.phases, 0b11100)
     edge0 = await last_byte(axis, 0xC0)
-    await lab.bench.until(edge0 + lab.cfg.us(32) - 2)
-    await opens(lab, "P2104-DS-11", edge0, 32)
-    (off, level) = lab.bench.edges(axis.phases, edge0)[-1]
-    lab.check("P2104-DS-11", "phases", level, 0x1F)
-    lab.window("P2104-DS-11", "C0 to the last edge of the phases", off - edge0, 2, lab.cfg.us(32) + 28)
-    await lab.bench.clocks(2_000)
-    lab.check("P2104-DS-11", "phases stay off", lab.bench.edges(axis.phases, off + 1), [])
+    await env.bench.until(edge0 + env.cfg.us(32) - 2)
+    await opens(env, "P2104-DS-11", edge0, 32)
+    (off, level) = env.bench.edges(axis.phases, edge0)[-1]
+    env.check("P2104-DS-11", "phases", level, 0x1F)
+    env.window("P2104-DS-11", "C0 to the last edge of the phases", off - edge0, 2, env.cfg.us(32) + 28)
+    await env.bench.clocks(2_000)
+    env.check("P2104-DS-11", "phases stay off", env.bench.edges(axis.phases, off + 1), [])
     # Errors and data bytes have no window.
     for register, byte in ((1, 0x87), (0, 0x55), (1, 0x42), (1, 0x43), (1, 0x84), (0, 0x40), (1, 0x40)):
-        edge0 = await lab.host.write(register, byte)
-        await lab.bench.until(edge0 + C_EVENT_LATEST - WRITE_EVENT + 2)
-        lab.check("P2104-DS-13", f"IBF after {byte:#x}", await lab.host.status() & IBF, 0)
+        edge0 = await env.host.write(register, byte)
+        await env.bench.until(edge0 + C_EVENT_LATEST - WRITE_EVENT + 2)
+        env.check("P2104-DS-13", f"IBF after {byte:#x}", await env.host.status() & IBF, 0)
 
 
 @directed("P2104-DS-15", "P2104-END-01", "P2104-END-02", "P2104-TIM-05", "P2104-SW-02", builds=BOTH)
 async def p2104_ds_15_as_fast(dut: Any) -> None:
     """The pulses, ends, hold and release of complete moves are as in FAST (P2104-DS-15)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(2, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(2, INIT_B)
     await axis.go(0x43, 30)
     await axis.idle()
     which = [*range(10), *[10] * 9, *range(9, -1, -1)]
     axis.check_train("P2104-DS-15", rates(INIT_B[1:], which))
-    lab.check("P2104-DS-15", "low times", set(axis.low_times), {lab.cfg.w})
-    rise = lab.bench.rises(axis.pout, axis.since)[-1]
-    lab.window("P2104-DS-15", "int_n after pout_n", await axis.ended() - rise, 0, 4)
-    since = lab.bench.now
-    await lab.x1.go(0x42)
-    lab.check("P2104-DS-15", "end status", await axis.finish(), 0x83)
-    await lab.bench.clocks(400)
-    lab.check("P2104-DS-15", "int_n", [v for _, v in lab.bench.edges("int_n", since)], [1])
-    hold = await lab.bench.edge(axis.pin("hold"), 1)
-    delay = lab.cfg.us(3_200)
-    lab.window("P2104-DS-15", "pout_n to hold", hold - rise, delay, delay + 24)
+    env.check("P2104-DS-15", "low times", set(axis.low_times), {env.cfg.w})
+    rise = env.bench.rises(axis.pout, axis.since)[-1]
+    env.window("P2104-DS-15", "int_n after pout_n", await axis.wait_end() - rise, 0, 4)
+    since = env.bench.now
+    await env.x1.go(0x42)
+    env.check("P2104-DS-15", "end status", await axis.finish(), 0x83)
+    await env.bench.clocks(400)
+    env.check("P2104-DS-15", "int_n", [v for _, v in env.bench.edges("int_n", since)], [1])
+    hold = await env.bench.edge(axis.pin("hold"), 1)
+    delay = env.cfg.us(3_200)
+    env.window("P2104-DS-15", "pout_n to hold", hold - rise, delay, delay + 24)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, directed
-from cocotb_tests.harness.drive import NO_PULSES_DONE
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE
 
-from .figures import INIT_A, INIT_B
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A, INIT_B
 
 
 @directed(
@@ -18,28 +18,28 @@ async def p2104_end_01_normal_end(dut: Any) -> None:
     """After the last rise of a complete move of a chopping axis, all consequences of the end are on one
     edge (P2104-END-01).
     """
-    lab = await Lab.start(dut)
-    q = lab.cfg.quanta
-    for axis in lab.axes:
+    env = await Env.start(dut)
+    q = env.cfg.quanta
+    for axis in env.axes:
         await axis.init(0x12, *INIT_A[1:])
         await axis.send(0x85, [1])
         for code, n, rate in ((0x42, None, None), (0x43, 9, None), (0xC3, 2, None), (0x4C, 5, 20)):
             await axis.go(code, n, rate)
-            await axis.busy_until(lambda: lab.bench.level("int_n") == 0, "P2104-END-01")
-            status = await lab.host.status()
-            lab.check("P2104-END-01", "BUSY after int_n", status & axis.busy, 0)
-            rise = lab.bench.rises(axis.pout, axis.since)[-1]
-            end = await axis.ended()
-            lab.window("P2104-END-01", "pout_n to int_n", end - rise, 0, 4)
+            await axis.busy_until(lambda: env.bench.level("int_n") == 0, "P2104-END-01")
+            status = await env.host.status()
+            env.check("P2104-END-01", "BUSY after int_n", status & axis.busy, 0)
+            rise = env.bench.rises(axis.pout, axis.since)[-1]
+            end = await axis.wait_end()
+            env.window("P2104-END-01", "pout_n to int_n", end - rise, 0, 4)
             pattern = axis.phases_now
-            off = await lab.bench.edge(axis.phases, 0x1F)
-            lab.window(
+            off = await env.bench.edge(axis.phases, 0x1F)
+            env.window(
                 "P2104-SW-02", "pout_n to OFF", off - rise, q(2 * 0x53) - q(1) - 1, q(2 * 0x53) + q(1) + 6
             )
-            hold = await lab.bench.edge(axis.pin("hold"), 1)
-            clocks = lab.cfg.cyc(4_096)
-            lab.window("P2104-END-07", "pout_n to hold", hold - rise, clocks, clocks + 24)
-            await lab.bench.level_is(axis.phases, pattern)
+            hold = await env.bench.edge(axis.pin("hold"), 1)
+            clocks = env.cfg.cyc(4_096)
+            env.window("P2104-END-07", "pout_n to hold", hold - rise, clocks, clocks + 24)
+            await env.bench.level_is(axis.phases, pattern)
             await axis.result("P2104-END-01", n or 1, 0x80 | code & 7, 0)
         await axis.command(0xC0)
 
@@ -47,60 +47,60 @@ async def p2104_end_01_normal_end(dut: Any) -> None:
 @directed("P2104-END-02", "P2104-END-03", "P2104-TIM-05", "P2104-END-08", builds=(F16, F48))
 async def p2104_end_02_pulse_finishes(dut: Any) -> None:
     """An immediate end anywhere in the low time does not shorten the pulse (P2104-END-02)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
-    w = lab.cfg.w
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
+    w = env.cfg.w
     for after in (1, 2, w // 2, w - 5, w - 4, w - 3, w - 2, w - 1, w, w + 1, w + 5):
         await axis.go(0x45, rate=60)
         fall = await axis.pulse(3)
-        await lab.bench.until(fall + after)
+        await env.bench.until(fall + after)
         pin = axis.set(alm_n=0)
-        end = await axis.ended()
-        lab.check("P2104-END-02", f"low times, {after} clk", axis.low_times, [w] * 3)
+        end = await axis.wait_end()
+        env.check("P2104-END-02", f"low times, {after} clk", axis.low_times, [w] * 3)
         last = max(pin, fall + w)
-        lab.window("P2104-END-02", f"end, {after} clk", end - last, 0, 8)
+        env.window("P2104-END-02", f"end, {after} clk", end - last, 0, 8)
         pattern = axis.phases_now
         axis.set(alm_n=1)
         await axis.result("P2104-END-02", 3, 0xA5, NO_PULSES_DONE - 4)
-        lab.check("P2104-END-08", "phases", axis.phases_now, pattern)
+        env.check("P2104-END-08", "phases", axis.phases_now, pattern)
 
 
 @directed("P2104-END-07", "P2104-HLD-01", "P2104-HLD-02", "P2104-OPR-01")
 async def p2104_end_07_hold(dut: Any) -> None:
     """Of all codes, only moves restart the hold timer (256 us) (P2104-END-07, P2104-HLD-02)."""
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         await axis.send(0x85, [1])
         await axis.move(0x42)
-        rise = lab.bench.rises(axis.pout, axis.since)[-1]
+        rise = env.bench.rises(axis.pout, axis.since)[-1]
         await axis.fetch(0x80)
         axis.set(alm_n=0)
         await axis.refused("P2104-HLD-02", "42 on ALM", 7, 0x42)
         axis.set(alm_n=1)
         await axis.send(0x02, [9, 4, 4, 0])
-        hold = await lab.bench.edge(axis.pin("hold"), 1)
-        lab.window("P2104-END-07", "pout_n to hold", hold - rise, 4_096, 4_120)
-        since = lab.bench.now
+        hold = await env.bench.edge(axis.pin("hold"), 1)
+        env.window("P2104-END-07", "pout_n to hold", hold - rise, 4_096, 4_120)
+        since = env.bench.now
         await axis.ready()
         for code in (0x81, 0x82, 0x83, 0x86):
             await axis.fetch(code)
-        await lab.bench.clocks(100)
-        lab.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
+        await env.bench.clocks(100)
+        env.check("P2104-HLD-02", "hold edges", axis.edges("hold", since), [])
         # An operation without pulses changes hold like any other operation.
         axis.set(run=0)
         await axis.go(0x42)
         await axis.command(0x40)
         await axis.idle()
-        end = lab.bench.now
-        hold = await lab.bench.edge(axis.pin("hold"), 1)
-        lab.window("P2104-END-07", "zero pulses: hold", hold - end, 4_096 - 60, 4_120)
+        end = env.bench.now
+        hold = await env.bench.edge(axis.pin("hold"), 1)
+        env.window("P2104-END-07", "zero pulses: hold", hold - end, 4_096 - 60, 4_120)
         axis.set(run=1)
         # An operation that is accepted just before the timer expires keeps hold low.
         await axis.move(0x42)
-        rise = lab.bench.rises(axis.pout, axis.since)[-1]
-        await lab.bench.until(rise + 4_096 - 10)
+        rise = env.bench.rises(axis.pout, axis.since)[-1]
+        await env.bench.until(rise + 4_096 - 10)
         await axis.move(0x42)
-        await lab.bench.clocks(1_000)
-        lab.check("P2104-END-07", "hold", [v for _, v in axis.edges("hold", rise)], [])
-        await lab.bench.edge(axis.pin("hold"), 1)
+        await env.bench.clocks(1_000)
+        env.check("P2104-END-07", "hold", [v for _, v in axis.edges("hold", rise)], [])
+        await env.bench.edge(axis.pin("hold"), 1)
         await axis.finish()

@@ -9,7 +9,7 @@ from typing import Any
 from cocotb_tests.harness import F8, F16, F48, directed
 from cocotb_tests.harness.checks import BRISK, TOO_MANY, ExtMoves, Move, sweep
 
-from .lab import Lab
+from .env import Env
 
 # Setting with EXTCK, otherwise with the ramp of INIT_A.
 EXTERNAL = (0x0A, 9, 4, 4)
@@ -22,9 +22,9 @@ async def p2104_bck_04_sweep(dut: Any) -> None:
     """With edges 4 to 17 cycles apart, RH 0 to 4, and any deceleration point, pulses follow the formula
     (P2104-BCK-04).
     """
-    lab = await Lab.start(dut)
-    rng = lab.bench.rng
-    axes = await lab.both(EXTERNAL)
+    env = await Env.start(dut)
+    rng = env.bench.rng
+    axes = await env.both(EXTERNAL)
     tries = [await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n")) for axis in axes]
     for rh in range(5):
         ramp = (rng.randint(rh + 2, 40), rh, rng.randint(4, 6))
@@ -39,9 +39,9 @@ async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
     """At rate 0 the high time of the clock cuts the low time only for periods below CYC(128): tried
     with CYC(128) - 1, 0, + 1 cycles (P2104-TIM-05).
     """
-    lab = await Lab.start(dut)
-    brisk = lab.cfg.cyc(BRISK)
-    for axis in await lab.both(EXTERNAL):
+    env = await Env.start(dut)
+    brisk = env.cfg.cyc(BRISK)
+    for axis in await env.both(EXTERNAL):
         moves = await ExtMoves.of(axis, EXTERNAL[1:], axis.pin("fhl_n"))
         for gaps in ((brisk - 1,), (brisk,), (brisk + 1,), (brisk - 1, brisk + 1, brisk, brisk - 1, brisk)):
             await moves.check(Move(9, gaps, 9, rate=0))

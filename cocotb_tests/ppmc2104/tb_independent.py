@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import repeat
 from typing import Any
 
-from cocotb_tests.harness import HostBus, Side, random_test, start_bench
+from cocotb_tests.harness import DutBench, HostBus, random_test, start_bench
 from cocotb_tests.ppmc2104.random_pairs import SLOT, Pair, Write, pair, traffic
 
 from .bench import PPMC2104
@@ -22,7 +22,7 @@ READY, INSTRUCTION = 40_000, 80
 class Run:
     """One of the two runs, starting with a reset."""
 
-    def __init__(self, bench: Side, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
+    def __init__(self, bench: DutBench, plan: Pair, beside: Iterator[list[Write] | tuple[str, int]]) -> None:
         self.bench = bench
         self.plan = plan
         self.host = HostBus(bench)
@@ -75,7 +75,7 @@ class Run:
 
 
 @random_test("P2104-OPR-10", "P2104-BCK-05", "P2104-STP-06", "P2104-LIM-02", "P2104-HSK-05", least=1)
-async def p2104_axis_2_alone_and_beside_axis_1(dut: Any, seed: int) -> None:
+async def p2104_axis_2_alone_and_with_axis_1(dut: Any, seed: int) -> None:
     """Traffic to axis 1 between the accesses to axis 2 does not change the edges of axis 2
     (P2104-OPR-10).
     """

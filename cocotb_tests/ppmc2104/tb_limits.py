@@ -6,11 +6,11 @@ from itertools import product
 from typing import Any
 
 from cocotb_tests.harness import F16, F48, F100, directed
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE, forced, rates
 from cocotb_tests.harness.checks import BOTH, two_causes
-from cocotb_tests.harness.drive import NO_PULSES_DONE, forced, rates
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A
 from .states import MOVING, enter, leave
 
 PINS = ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n")
@@ -44,11 +44,11 @@ def bit(pin: str) -> int:
     return {"alm_n": 0x20, "org_n": 0}.get(pin, 0x10 if pin in ("fl_n", "bl_n") else 0x08)
 
 
-async def matrix_in_motion(lab: Lab, axis_number: int) -> None:
+async def matrix_in_motion(env: Env, axis_number: int) -> None:
     """Check every operation in both directions with every input falling on the plateau; the inputs of
     the other axis are active.
     """
-    axis, other = lab.axes[axis_number - 1], lab.axes[2 - axis_number]
+    axis, other = env.axes[axis_number - 1], env.axes[2 - axis_number]
     await axis.init(*INIT_A)
     other.set(**dict.fromkeys(PINS, 0))
     for base, n, rate in OPERATIONS[1:]:
@@ -81,8 +81,8 @@ async def p2104_lim_02_matrix_axis_1(dut: Any) -> None:
     """Each input that falls on the plateau of each operation of axis 1 ends it, decelerates it or has
     no effect (P2104-LIM-02).
     """
-    lab = await Lab.start(dut)
-    await matrix_in_motion(lab, 1)
+    env = await Env.start(dut)
+    await matrix_in_motion(env, 1)
 
 
 @directed("P2104-LIM-02", "P2104-LIM-03", "P2104-LIM-04", "P2104-LIM-05", "P2104-LIM-07")
@@ -90,8 +90,8 @@ async def p2104_lim_02_matrix_axis_2(dut: Any) -> None:
     """Each input that falls on the plateau of each operation of axis 2 ends it, decelerates it or has
     no effect (P2104-LIM-02).
     """
-    lab = await Lab.start(dut)
-    await matrix_in_motion(lab, 2)
+    env = await Env.start(dut)
+    await matrix_in_motion(env, 2)
 
 
 @directed("P2104-LIM-09", "P2104-END-04")
@@ -99,14 +99,14 @@ async def p2104_lim_09_limit_and_alarm_on_one_edge(dut: Any) -> None:
     """If FL and ALM fall on the same edge, both bits are set: while accelerating, at the top, while
     decelerating, and in RUN wait (P2104-LIM-09).
     """
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         pins = (axis.pin("fl_n"), axis.pin("alm_n"))
         await two_causes(axis, "P2104-LIM-09", pins)
         axis.set(run=0)
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         await axis.go(0x42)
-        lab.bench.set(**dict.fromkeys(pins, 0))
+        env.bench.set(**dict.fromkeys(pins, 0))
         await axis.result("P2104-LIM-09", 0, BOTH | 2, 0)
         axis.set(run=1, fl_n=1, alm_n=1)
 
@@ -116,8 +116,8 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
     """With each input low at the start, each operation sets error 7, outputs one pulse, or outputs all
     pulses (P2104-LIM-06).
     """
-    lab = await Lab.start(dut, errint_n=0)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut, errint_n=0)
+    for axis in await env.both(INIT_A):
         # A move is completed first; its results must stay after every rejected start.
         await axis.go(0x44, 10, 9)
         await axis.pulse(3, 100)
@@ -126,19 +126,19 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
             code = base | ccw
             before = (await axis.finish(), await axis.remaining())
             axis.set(**{pin: 0})
-            await lab.bench.clocks(4)
+            await env.bench.clocks(4)
             kind, low = effect(code, pin), code & 7
             what = f"P2104-LIM-06 {code:#x} {pin} axis {axis.n}"
-            since = lab.bench.now
+            since = env.bench.now
             await axis.go(code, n, rate)
             if kind == "end":
-                await lab.bench.clocks(200)
-                lab.check(what, "error", await axis.error(), 7)
-                falls = lab.bench.falls(axis.pin("hold"), since)
+                await env.bench.clocks(200)
+                env.check(what, "error", await axis.error(), 7)
+                falls = env.bench.falls(axis.pin("hold"), since)
                 moved = (axis.edges("pout_n", since), axis.edges("dir", since), falls)
-                lab.check(what, "edges", moved, ([], [], []))
-                lab.check(what, "phases", lab.bench.edges(axis.phases, since), [])
-                lab.check(what, "results", (await axis.finish(), await axis.remaining()), before)
+                env.check(what, "edges", moved, ([], [], []))
+                env.check(what, "phases", env.bench.edges(axis.phases, since), [])
+                env.check(what, "results", (await axis.finish(), await axis.remaining()), before)
             else:
                 total = n or (1 if base == 0x42 else NO_PULSES_DONE)
                 pulses = 1 if kind == "slow" else total
@@ -149,9 +149,9 @@ async def p2104_lim_06_matrix_at_start(dut: Any) -> None:
                 bits = 0x08 if kind == "slow" else 0x40 if pulses < total else 0
                 await axis.result(what, pulses, 0x80 | bits | low, max(total - pulses - 1, 0))
             axis.set(**{pin: 1})
-            await lab.bench.clocks(4)
+            await env.bench.clocks(4)
         axis.set(**dict.fromkeys(PINS, 0))
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         await axis.refused("P2104-BAD-17", "42 with all inputs active", 7, 0x42)
         axis.set(**dict.fromkeys(PINS, 1))
         await axis.running(99)
@@ -165,18 +165,18 @@ async def p2104_lim_03_matrix_in_run_wait(dut: Any) -> None:
     """In RUN wait, each input low for 3 cycles ends the operation without a pulse, is stored, or has no
     effect (P2104-LIM-03, P2104-LIM-05).
     """
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         for (base, n, rate), ccw, pin in product(OPERATIONS, (0, 8), PINS):
             code, low = base | ccw, base & 7
             axis.set(run=0)
             await axis.go(code, n, rate)
             await axis.blip(pin, 3)
-            await lab.bench.clocks(8)
+            await env.bench.clocks(8)
             kind = effect(code, pin, waiting=True)
             what = f"P2104-LIM-03 {code:#x} {pin} axis {axis.n}"
             total = n or (1 if base == 0x42 else NO_PULSES_DONE)
-            lab.check(what, "BUSY", await lab.host.status() & axis.busy, 0 if kind == "end" else axis.busy)
+            env.check(what, "BUSY", await env.host.status() & axis.busy, 0 if kind == "end" else axis.busy)
             axis.set(run=1)
             if kind == "end":
                 await axis.result(what, 0, 0x80 | bit(pin) | low, total - 1)
@@ -194,17 +194,17 @@ async def p2104_lim_03_every_state(dut: Any) -> None:
     """In every state of a moving axis, limit or alarm ends the operation within 8 cycles (P2104-LIM-03,
     P2104-LIM-04).
     """
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     done = {"ACC": 2, "HIGH": 5, "DEC": 5, "DEC natural": 5, "CONST": 2}
     for state, ccw, pin in product(MOVING, (0, 1), ("limit", "alm_n")):
-        axis = lab.axes[ccw]
+        axis = env.axes[ccw]
         if state.startswith("FIN"):
             continue
         name = pin if pin == "alm_n" else ("fl_n", "bl_n")[ccw]
         await enter(axis, state, ccw)
         stamp = axis.set(**{name: 0})
-        end = await axis.ended()
-        lab.window("P2104-END-02", f"{name} to the end in {state}", end - stamp, 0, 8)
+        end = await axis.wait_end()
+        env.window("P2104-END-02", f"{name} to the end in {state}", end - stamp, 0, 8)
         axis.set(**{name: 1}, run=1)
         low = 4 if "CONST" in state.upper() else 3
         total = 8 if state == "DEC natural" else 1000
@@ -219,42 +219,42 @@ async def p2104_lim_05_every_state(dut: Any) -> None:
     """A 3-cycle slow-down pulse sets the flag only in RUNWAIT, START, ACC and HIGH; all moving states
     except FIN are tried (P2104-LIM-05).
     """
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     for state, ccw in product(MOVING, (0, 1)):
-        axis = lab.axes[1 - ccw]
+        axis = env.axes[1 - ccw]
         if state.startswith("FIN"):
             continue
         await enter(axis, state, ccw)
         await axis.blip(("fhl_n", "bhl_n")[ccw], 3)
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         axis.set(alm_n=0)
         await axis.idle()
         axis.set(alm_n=1)
         flags = state in ("RUNWAIT", "START", "ACC", "HIGH")
         cause = 0x08 if flags else 0x40 if state in ("DEC", "START flagged") else 0
-        lab.check("P2104-LIM-05", f"end status, {state}", await axis.finish() & 0xF8, 0xA0 | cause)
+        env.check("P2104-LIM-05", f"end status, {state}", await axis.finish() & 0xF8, 0xA0 | cause)
         await leave(axis)
 
 
 @directed("P2104-LIM-01", "P2104-GEN-07", "P2104-LIM-10", builds=(F16, F100))
 async def p2104_lim_01_two_clk_levels(dut: Any) -> None:
     """Levels of 2 cycles at every phase of an interval act, each exactly once (P2104-LIM-01)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     for axis, (pin, bits, code) in product(
-        await lab.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
+        await env.both(INIT_A), (("fl_n", 0x94, 0x44), ("alm_n", 0xA4, 0x4C), ("bl_n", 0x94, 0x4C))
     ):
-        for delay in (1, 2, 17, lab.cfg.w - 1, lab.cfg.w, lab.cfg.w + 9):
+        for delay in (1, 2, 17, env.cfg.w - 1, env.cfg.w, env.cfg.w + 9):
             await axis.go(code, 30, 9)
             await axis.pulse(3, delay)
             await axis.blip(pin, 2)
             await axis.result("P2104-LIM-01", 3, bits, 26)
         # A level that ended before the start has no effect; in START it ends the operation.
         await axis.blip(pin, 8)
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         await axis.go(code, 3, 9)
         await axis.result("P2104-LIM-10", 3, 0x84, 0)
         await axis.go(code, 3, 9, poll=False)
-        await lab.bench.clocks(12)
+        await env.bench.clocks(12)
         await axis.blip(pin, 2)
         await axis.result("P2104-LIM-01", 0, bits, 2)
 
@@ -264,14 +264,14 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
     """If a cause falls in any cycle around the last pulse event, either the pulse or the cause has
     priority, without other results (P2104-LIM-09).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_A)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_A)
     for pin, code in (("alm_n", 0x44), ("fl_n", 0x44), ("bl_n", 0x4C)):
         outcomes = []
         for before in range(8, -6, -1):
             await axis.go(code, 4, 9)
             third = await axis.pulse(3)
-            await lab.bench.until(third + 320 - before)
+            await env.bench.until(third + 320 - before)
             axis.set(**{pin: 0})
             await axis.idle()
             axis.set(**{pin: 1})
@@ -280,20 +280,20 @@ async def p2104_lim_09_priority_at_a_pulse(dut: Any) -> None:
             # Pulse 4 is the last: when it was output, the move is complete.
             await axis.result("P2104-LIM-09", count, 0x84 if count == 4 else 0x84 | bit(pin), 0)
             if before >= 4:
-                lab.check("P2104-LIM-09", f"pulses, {pin} {before} clk before", count, 3)
-        lab.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
-        lab.check("P2104-LIM-09", "both sides were met", set(outcomes), {3, 4})
+                env.check("P2104-LIM-09", f"pulses, {pin} {before} clk before", count, 3)
+        env.check("P2104-LIM-09", "one switch-over", outcomes, sorted(outcomes))
+        env.check("P2104-LIM-09", "both results occurred", set(outcomes), {3, 4})
     # If the cause occurs at the end of START, the pulse at this transition is suppressed, too.
     counts = []
-    for after in range(lab.cfg.w - 6, lab.cfg.w + 10):
+    for after in range(env.cfg.w - 6, env.cfg.w + 10):
         edge0 = await axis.go(0x42, poll=False)
-        await lab.bench.until(edge0 + after)
+        await env.bench.until(edge0 + after)
         axis.set(alm_n=0)
         await axis.idle()
         axis.set(alm_n=1)
         counts.append(len(axis.pulses))
         await axis.result("P2104-LIM-09", counts[-1], 0x82 if counts[-1] else 0xA2, 0)
-    lab.check("P2104-LIM-09", "START or pulse 1", (counts[0], counts[-1], counts), (0, 1, sorted(counts)))
+    env.check("P2104-LIM-09", "START or pulse 1", (counts[0], counts[-1], counts), (0, 1, sorted(counts)))
 
 
 @directed("P2104-LIM-10", "P2104-RD-04", "P2104-LIM-08", "P2104-INT-05")
@@ -301,19 +301,19 @@ async def p2104_lim_10_nothing_at_rest(dut: Any) -> None:
     """With both axes at rest, toggling inputs change no output and do not affect later moves
     (P2104-LIM-10).
     """
-    lab = await Lab.start(dut)
-    axes = await lab.both(INIT_A)
-    since = lab.bench.now
+    env = await Env.start(dut)
+    axes = await env.both(INIT_A)
+    since = env.bench.now
     names = (*PINS, "run", "csel", "extck")
     for _ in range(60):
-        lab.bench.set(
-            **{pin: lab.bench.rng.randrange(4) for pin in names}, errint_n=lab.bench.rng.randrange(2)
+        env.bench.set(
+            **{pin: env.bench.rng.randrange(4) for pin in names}, errint_n=env.bench.rng.randrange(2)
         )
-        await lab.bench.clocks(lab.bench.rng.randrange(1, 12))
-    lab.bench.set(**dict.fromkeys(names, 3), errint_n=1)
-    await lab.bench.clocks(4)
-    lab.quiet("P2104-LIM-10", since, "auxo")
+        await env.bench.clocks(env.bench.rng.randrange(1, 12))
+    env.bench.set(**dict.fromkeys(names, 3), errint_n=1)
+    await env.bench.clocks(4)
+    env.quiet("P2104-LIM-10", since, "auxo")
     for axis in axes:
-        lab.check("P2104-LIM-10", "end status", await axis.finish(), 0x00)
+        env.check("P2104-LIM-10", "end status", await axis.finish(), 0x00)
         await axis.move(0x43, 12)
         await axis.result("P2104-LIM-10", 12, 0x83, 0)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import HostBus, Side, directed, start_bench
+from cocotb_tests.harness import DutBench, HostBus, directed, start_bench
 from cocotb_tests.harness.sessions import Sessions
 
 from .bench import PPMC2104
@@ -17,7 +17,7 @@ blocks, play = SESSIONS.blocks, SESSIONS.play
 BUSY = 0x0C
 
 
-async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Side, HostBus]:
+async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[DutBench, HostBus]:
     """Return a test bench after reset; with `ready`, example 1 was run."""
     bench = await start_bench(dut, PPMC2104, **pins)
     host = HostBus(bench)
@@ -26,7 +26,7 @@ async def begin(dut: Any, ready: bool = True, **pins: int) -> tuple[Side, HostBu
     return bench, host
 
 
-def axis(bench: Side, name: str, n: int, since: int) -> list[int]:
+def axis(bench: DutBench, name: str, n: int, since: int) -> list[int]:
     """Return the pulses of an axis; `name` is the example for the message."""
     pulses = bench.pulses(since, f"pout_n[{n}]")
     assert pulses, f"{name}: axis {n} made no pulse"

@@ -6,11 +6,11 @@ from itertools import product, repeat
 from typing import Any
 
 from cocotb_tests.harness import F8, F11, F16, F48, F100, directed
+from cocotb_tests.harness.axis_driver import NO_PULSES_DONE, indices, rates
 from cocotb_tests.harness.config import F16X8
-from cocotb_tests.harness.drive import NO_PULSES_DONE, indices, rates
 
-from .figures import ERROR, INIT_A, INIT_EXT
-from .lab import Lab
+from .env import Env
+from .expected_timing import ERROR, INIT_A, INIT_EXT
 
 CLOCKS = (F8, F11, F16, F16X8, F48, F100)
 
@@ -20,9 +20,9 @@ async def p2104_tim_01_starts(dut: Any) -> None:
     """For each operation accepted with run high, pulse 1 follows hold and dir by W to W + 2 cycles
     (P2104-TIM-01).
     """
-    lab = await Lab.start(dut)
-    w = lab.cfg.w
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    w = env.cfg.w
+    for axis in await env.both(INIT_A):
         await axis.send(0x85, [0])
         turned = 0
         for code, n, rate in (
@@ -35,9 +35,9 @@ async def p2104_tim_01_starts(dut: Any) -> None:
             await axis.go(code, n, rate)
             first = await axis.pulse(1)
             (fall, _), *_ = axis.edges("hold")
-            lab.window("P2104-TIM-01", f"hold to pulse 1, {code:#x}", first - fall, w, w + 2)
+            env.window("P2104-TIM-01", f"hold to pulse 1, {code:#x}", first - fall, w, w + 2)
             dirs = axis.edges("dir")
-            lab.check(
+            env.check(
                 "P2104-OPR-01",
                 f"dir edges, {code:#x}",
                 dirs,
@@ -48,8 +48,8 @@ async def p2104_tim_01_starts(dut: Any) -> None:
                 await axis.pulse(2, 2)
                 await axis.command(0x40)
             await axis.idle()
-            await lab.bench.level_is(axis.pin("hold"), 1)
-            lab.check(
+            await env.bench.level_is(axis.pin("hold"), 1)
+            env.check(
                 "P2104-TIM-06",
                 "pout_n and dir at rest",
                 (axis.level("pout_n"), axis.level("dir")),
@@ -63,44 +63,44 @@ async def p2104_tim_02_run(dut: Any) -> None:
     """In RUN wait, a rise of run, even for only 2 cycles, leads to pulse 1 after W to W + 6 cycles
     (P2104-TIM-02).
     """
-    lab = await Lab.start(dut)
-    w = lab.cfg.w
+    env = await Env.start(dut)
+    w = env.cfg.w
     for axis, (code, n, rate) in product(
-        await lab.both(INIT_A), ((0x42, None, None), (0x43, 3, None), (0x44, 3, 20))
+        await env.both(INIT_A), ((0x42, None, None), (0x43, 3, None), (0x44, 3, 20))
     ):
         for width in (2, 3, 1_000):
             axis.set(run=0)
             await axis.go(code, n, rate)
-            await lab.bench.clocks(37)
+            await env.bench.clocks(37)
             rise = axis.set(run=1)
-            await lab.bench.clocks(width)
+            await env.bench.clocks(width)
             axis.set(run=0)
             first = await axis.pulse(1)
-            lab.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} clk", first - rise, w, w + 6)
+            env.window("P2104-TIM-02", f"run to pulse 1, {code:#x}, {width} clk", first - rise, w, w + 6)
             await axis.result("P2104-OPR-02", n or 1, 0x80 | code & 7, 0)
         axis.set(run=1)
     # If run falls in any cycle around the acceptance, the axis is either in RUN wait or in START, without
     # other results.
-    axis = lab.x1
+    axis = env.x1
     for lead in range(-2, 12):
         axis.set(run=1)
-        await lab.bench.clocks(6)
-        await lab.host.write(1, 0x43)
+        await env.bench.clocks(6)
+        await env.host.write(1, 0x43)
         for byte in (2, 0):
-            await lab.bench.clocks(10)
-            await lab.host.write(0, byte)
-        await lab.bench.clocks(10)
-        axis.since = lab.bench.now
-        axis.at(lab.bench.now + lead + 2, run=0)
-        await lab.host.write(0, 0)
-        await lab.bench.clocks(w + 40)
-        lab.check("P2104-OPR-02", f"BUSY, run falls {lead}", await lab.host.status() & axis.busy, axis.busy)
+            await env.bench.clocks(10)
+            await env.host.write(0, byte)
+        await env.bench.clocks(10)
+        axis.since = env.bench.now
+        axis.at(env.bench.now + lead + 2, run=0)
+        await env.host.write(0, 0)
+        await env.bench.clocks(w + 40)
+        env.check("P2104-OPR-02", f"BUSY, run falls {lead}", await env.host.status() & axis.busy, axis.busy)
         started = bool(axis.pulses)
         if not started:
             axis.set(run=1)
         await axis.result("P2104-OPR-02", 3, 0x83, 0)
         if lead in (-2, 11):
-            lab.check("P2104-OPR-02", f"started, run falls {lead}", started, lead == 11)
+            env.check("P2104-OPR-02", f"started, run falls {lead}", started, lead == 11)
 
 
 @directed("P2104-TIM-02", "P2104-OPR-10", builds=(F11, F48))
@@ -108,17 +108,17 @@ async def p2104_tim_02_one_edge_for_both(dut: Any) -> None:
     """If both runs rise at any phase of the quantum, both axes in RUN wait output pulse 1 on one edge
     (P2104-TIM-02).
     """
-    lab = await Lab.start(dut)
-    first, second = await lab.both(INIT_A)
+    env = await Env.start(dut)
+    first, second = await env.both(INIT_A)
     for shift in range(5):
-        lab.bench.set(run=0)
+        env.bench.set(run=0)
         await first.go(0x43, 9)
         await second.go(0x44, 5, 3)
-        await lab.bench.clocks(30 + shift)
-        lab.bench.set(run=3)
+        await env.bench.clocks(30 + shift)
+        env.bench.set(run=3)
         await first.idle()
         await second.idle()
-        lab.check("P2104-TIM-02", "first pulses", first.pulses[0], second.pulses[0])
+        env.check("P2104-TIM-02", "first pulses", first.pulses[0], second.pulses[0])
         first.check_train("P2104-BCK-05", rates(INIT_A[1:], indices(9, 4)))
         second.check_train("P2104-BCK-05", [3] * 4)
 
@@ -128,21 +128,21 @@ async def p2104_bck_01_intervals(dut: Any) -> None:
     """For each core clock, crystal and csel, every pulse is at the accumulated time of its intervals
     (P2104-BCK-01, P2104-INTV-01).
     """
-    lab = await Lab.start(dut)
-    for axis, csel in product(await lab.both((0x02, 30, 3, 9)), (1, 0)):
+    env = await Env.start(dut)
+    for axis, csel in product(await env.both((0x02, 30, 3, 9)), (1, 0)):
         axis.set(csel=csel)
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         for rate in (1, 2, 3, 6, 10):
             await axis.move(0x44, 5, rate)
             axis.check_train("P2104-INTV-01", [rate] * 4, csel)
-            if lab.cfg in (F8, F16, F16X8, F48):
+            if env.cfg in (F8, F16, F16X8, F48):
                 axis.check_lows("P2104-TIM-05", [rate] * 4, csel)
-            half = lab.cfg.quanta(4 * (rate + 1)) if csel and rate < 3 else lab.cfg.w
+            half = env.cfg.quanta(4 * (rate + 1)) if csel and rate < 3 else env.cfg.w
             for low in axis.low_times[:-1]:
-                lab.window("P2104-TIM-05", f"low time at rate {rate}", low, half - 1, half + 1)
+                env.window("P2104-TIM-05", f"low time at rate {rate}", low, half - 1, half + 1)
         await axis.move(0x43, 22)
         axis.check_train("P2104-BCK-03", rates((30, 3, 9), indices(22, 9)), csel)
-        lab.check("P2104-TIM-05", "low times", set(axis.low_times), {lab.cfg.w})
+        env.check("P2104-TIM-05", "low times", set(axis.low_times), {env.cfg.w})
 
 
 @directed("P2104-BCK-02", "P2104-BAD-20", "P2104-BCK-05", "P2104-LIM-08")
@@ -150,17 +150,17 @@ async def p2104_bck_02_csel_latched(dut: Any) -> None:
     """If csel toggles during motions of both axes, only the level of the axis's own pin at the start applies
     (P2104-BCK-02).
     """
-    lab = await Lab.start(dut)
-    first, second = await lab.both(INIT_A)
+    env = await Env.start(dut)
+    first, second = await env.both(INIT_A)
     for one, two in product((0, 1), (0, 1)):
         first.set(csel=one)
         second.set(csel=two)
-        await lab.bench.clocks(4)
+        await env.bench.clocks(4)
         await first.go(0x43, 9)
         await second.go(0x43, 9)
         for _ in range(40):
-            await lab.bench.clocks(lab.bench.rng.randrange(5, 60))
-            lab.bench.set(csel=lab.bench.rng.randrange(4))
+            await env.bench.clocks(env.bench.rng.randrange(5, 60))
+            env.bench.set(csel=env.bench.rng.randrange(4))
         await first.idle()
         await second.idle()
         first.check_train("P2104-BCK-02", rates(INIT_A[1:], indices(9, 4)), one)
@@ -174,34 +174,34 @@ async def p2104_bck_04_external_by_hand(dut: Any) -> None:
     """With separate external clocks, each pulse of both axes follows an edge of its own clock
     (P2104-BCK-04, P2104-BCK-05).
     """
-    lab = await Lab.start(dut)
-    first, second = await lab.both((0x0A, 5, 2, 4))
+    env = await Env.start(dut)
+    first, second = await env.both((0x0A, 5, 2, 4))
     for axis, other in ((first, second), (second, first)):
         for n, rate, period in ((4, 3, 24), (4, 1, 30), (6, None, 18)):
             await axis.go(0x44 if rate is not None else 0x43, n, rate)
-            await lab.bench.clocks(lab.cfg.w + 20)
+            await env.bench.clocks(env.cfg.w + 20)
             await other.ticks(5)
-            lab.check("P2104-BCK-05", "pulses by edges of the other clock", axis.pulses, [])
-            begin = lab.bench.now
-            wanted = [rate] * (n - 1) if rate is not None else rates((5, 2, 4), indices(n, 4))
-            await axis.ticks(sum(r + 1 for r in wanted) + 1, period)
+            env.check("P2104-BCK-05", "pulses by edges of the other clock", axis.pulses, [])
+            begin = env.bench.now
+            expected = [rate] * (n - 1) if rate is not None else rates((5, 2, 4), indices(n, 4))
+            await axis.ticks(sum(r + 1 for r in expected) + 1, period)
             edges = axis.clock_edges(begin)
             places, place = [0], 0
-            for r in wanted:
+            for r in expected:
                 place += r + 1
                 places.append(place)
-            lab.check("P2104-BCK-04", "number of pulses", len(axis.pulses), n)
+            env.check("P2104-BCK-04", "number of pulses", len(axis.pulses), n)
             delays = {t - edges[i] for t, i in zip(axis.pulses, places, strict=True)}
-            lab.check("P2104-BCK-04", "one delay of all pulses", len(delays), 1)
-            lab.window("P2104-BCK-04", "edge to pulse", delays.pop(), 2, 5)
+            env.check("P2104-BCK-04", "one delay of all pulses", len(delays), 1)
+            env.window("P2104-BCK-04", "edge to pulse", delays.pop(), 2, 5)
             await axis.result("P2104-BCK-04", n, 0x84 if rate is not None else 0x83, 0)
 
 
 @directed("P2104-TIM-05", "P2104-BCK-04", "P2104-BAD-19")
 async def p2104_tim_05_external_low_times(dut: Any) -> None:
     """With fast external clocks and small rates, low times are cut where the rule states (P2104-TIM-05)."""
-    lab = await Lab.start(dut)
-    axis = lab.x2
+    env = await Env.start(dut)
+    axis = env.x2
     await axis.init(*INIT_EXT)
     for period, high, rate, low in (
         (16, 8, 0, 8),
@@ -214,19 +214,19 @@ async def p2104_tim_05_external_low_times(dut: Any) -> None:
         (40, 20, 2, 40),
         (16, 8, 12, 80),
     ):
-        clock = lab.bench.external_clock(repeat(period), axis.clock, high=high)
-        await lab.bench.clocks(4 * period)
+        clock = env.bench.external_clock(repeat(period), axis.clock, high=high)
+        await env.bench.clocks(4 * period)
         await axis.move(0x44, 6, rate)
-        lab.check(
+        env.check(
             "P2104-BCK-04", f"intervals, {period} clk, rate {rate}", axis.intervals, [period * (rate + 1)] * 5
         )
         for got in axis.low_times[1:-1]:
-            lab.window("P2104-TIM-05", f"low time, {period} clk, rate {rate}", got, low - 1, low + 1)
-        lab.check("P2104-TIM-05", "last low time", axis.low_times[-1], lab.cfg.w)
+            env.window("P2104-TIM-05", f"low time, {period} clk, rate {rate}", got, low - 1, low + 1)
+        env.check("P2104-TIM-05", "last low time", axis.low_times[-1], env.cfg.w)
         clock.cancel()
         await axis.finish()
-        lab.bench.set(**{axis.clock: 0})
-        await lab.bench.clocks(period)
+        env.bench.set(**{axis.clock: 0})
+        await env.bench.clocks(period)
 
 
 @directed(
@@ -240,11 +240,11 @@ async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
 
     Not compared with the model: the number of missed edges is not specified.
     """
-    lab = await Lab.start(dut)
-    axis = lab.x1
+    env = await Env.start(dut)
+    axis = env.x1
     await axis.init(*INIT_EXT)
     for period, high in ((4, 2), (3, 1), (2, 1)):
-        clock = lab.bench.external_clock(repeat(period), axis.clock, high=high)
+        clock = env.bench.external_clock(repeat(period), axis.clock, high=high)
         for code, n, rate in ((0x44, 40, 0), (0x43, 60, None), (0xC3, 13, None)):
             await axis.go(code, n, rate)
             await axis.result(f"P2104-BAD-19, {period} clk", n, 0x80 | code & 7, 0)
@@ -252,9 +252,9 @@ async def p2104_bad_19_clock_too_fast(dut: Any) -> None:
         await axis.pulse(5)
         await axis.command(0x40)
         await axis.idle()
-        lab.check("P2104-BAD-19", "remaining", await axis.remaining(), NO_PULSES_DONE - len(axis.pulses) - 1)
+        env.check("P2104-BAD-19", "remaining", await axis.remaining(), NO_PULSES_DONE - len(axis.pulses) - 1)
         clock.cancel()
-        lab.bench.set(**{axis.clock: 0})
+        env.bench.set(**{axis.clock: 0})
         await axis.finish()
 
 
@@ -263,8 +263,8 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
     """Without an external clock a started axis waits; a stop or a switch ends the operation
     (P2104-BAD-18).
     """
-    lab = await Lab.start(dut)
-    first, second = lab.axes
+    env = await Env.start(dut)
+    first, second = env.axes
     await first.init(*INIT_EXT)
     await second.init(*INIT_A)
     for code, cause, finish in (
@@ -280,7 +280,7 @@ async def p2104_bad_18_clock_stopped(dut: Any) -> None:
             await first.tick_until(pulses)
             await second.move(0x43, 12)
             second.check_train("P2104-OPR-10", rates(INIT_A[1:], indices(12, 4)))
-            lab.check("P2104-BAD-18", "it waits", len(first.pulses), pulses)
+            env.check("P2104-BAD-18", "it waits", len(first.pulses), pulses)
             if cause:
                 first.set(**{cause: 0})
             else:
@@ -310,8 +310,8 @@ async def p2104_opr_03_pulse_counts(dut: Any) -> None:
     """If an operation is stopped after three pulses, the remaining pulses depend on N of this operation
     (P2104-OPR-03).
     """
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         for code, data, total in (
             (0x43, [0, 0, 0], 1),
             (0x43, [0xFF, 0xFF, 0xFF], 1 << 24),
@@ -324,7 +324,7 @@ async def p2104_opr_03_pulse_counts(dut: Any) -> None:
             (0xC3, [3, 2, 1], 0x010204),
             (0xC6, [], 1 << 24),
         ):
-            axis.since = lab.bench.now
+            axis.since = env.bench.now
             await axis.send(code, data)
             if total == 1:
                 await axis.result("P2104-OPR-03", 1, 0x83, 0)
@@ -337,14 +337,14 @@ async def p2104_opr_03_pulse_counts(dut: Any) -> None:
 @directed("P2104-OPR-07", "P2104-ERR-05", "P2104-INTV-01")
 async def p2104_opr_07_rate_bytes(dut: Any) -> None:
     """Rate 00 is accepted only with the external clock, rate FF with either clock (P2104-OPR-07)."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(2, INIT_A)
+    env = await Env.start(dut)
+    axis = await env.ready(2, INIT_A)
     for code, data in ((0x44, [0, 2, 0, 0]), (0x45, [0]), (0x47, [0])):
-        since = lab.bench.now
+        since = env.bench.now
         await axis.refused("P2104-OPR-07", f"{code:#x} 00", 9, code, *data)
-        lab.quiet("P2104-ERR-03", since)
+        env.quiet("P2104-ERR-03", since)
     await axis.move(0x44, 3, 255)
-    lab.check("P2104-OPR-07", "intervals at FF", axis.intervals, [8_192] * 2)
+    env.check("P2104-OPR-07", "intervals at FF", axis.intervals, [8_192] * 2)
     await axis.command(0xC0)
     await axis.init(*INIT_EXT)
     for code, n in ((0x44, 3), (0x45, None), (0x47, None)):
@@ -353,14 +353,14 @@ async def p2104_opr_07_rate_bytes(dut: Any) -> None:
         if n is None:
             await axis.command(0x40)
         await axis.result("P2104-OPR-07", 3, (0x80 if n else 0xC0) | code & 7, 0 if n else (1 << 24) - 4)
-    lab.check("P2104-OPR-07", "ERROR", await lab.host.status() & ERROR, 0)
+    env.check("P2104-OPR-07", "ERROR", await env.host.status() & ERROR, 0)
 
 
 @directed("P2104-OPR-10", "P2104-BCK-05", "P2104-INT-01", builds=(F16, F11))
 async def p2104_opr_10_independent_axes(dut: Any) -> None:
     """Any activity of the other axis does not disturb a long ramp (P2104-OPR-10)."""
-    lab = await Lab.start(dut)
-    for axis, other in (lab.axes, lab.axes[::-1]):
+    env = await Env.start(dut)
+    for axis, other in (env.axes, env.axes[::-1]):
         await axis.init(0x02, 40, 3, 20)
         await other.init(0x1E, *INIT_A[1:])
         await axis.go(0x53, 200)
@@ -373,14 +373,14 @@ async def p2104_opr_10_independent_axes(dut: Any) -> None:
         await other.send(0x84, [0x40, 0x40])
         await other.send(0x85, [0])
         other.set(org_n=1, alm_n=1, fl_n=1, bl_n=1, fhl_n=1, bhl_n=1, csel=1, run=1)
-        await lab.bench.clocks(100)
+        await env.bench.clocks(100)
         await other.move(0x5A)
         await other.command(0xC0)
         await other.init(0x03, *INIT_A[1:])
         await axis.idle()
         axis.check_train("P2104-OPR-10", rates((40, 3, 20), indices(200, 20)))
-        steps = [t for t, _ in lab.bench.edges(axis.phases, axis.since)]
-        lab.check("P2104-OPR-10", "steps", steps, axis.pulses)
+        steps = [t for t, _ in env.bench.edges(axis.phases, axis.since)]
+        env.check("P2104-OPR-10", "steps", steps, axis.pulses)
         await axis.result("P2104-OPR-10", 200, 0x83, 0)
         await axis.command(0xC0)
         await other.finish()

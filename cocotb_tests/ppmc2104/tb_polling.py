@@ -8,9 +8,9 @@ import cocotb
 
 from cocotb_tests.harness import D11, D16, directed
 
-from .figures import INIT_B
-from .lab import Axis, Lab
-from .sheet import CONSTANT, REGULAR, SETTING, detection, last_byte, rest
+from .datasheet_timing import CONSTANT, REGULAR, SETTING, detection, last_byte, rest
+from .env import Axis, Env
+from .expected_timing import INIT_B
 
 KPPS_10, KPPS_20 = 49, 24
 """Rates at 500 kHz."""
@@ -18,18 +18,18 @@ OFFSETS = (0, 9, 18, 27, 34)
 """Delay in us from a fixed time to the limit, across a polling cycle."""
 
 
-async def limit(lab: Lab, axis: Axis, longest: int, own: int) -> int:
+async def limit(env: Env, axis: Axis, longest: int, own: int) -> int:
     """Hold the CW limit low until the operation ends; return the time in cycles.
 
     Check that it ends within `longest` us, the bound of the data sheet, and within `own` us, that of
     P2104-DS-20.
     """
-    us = lab.cfg.us
+    us = env.cfg.us
     stamp = axis.set(fl_n=0)
-    end = await lab.bench.edge("int_n", 0, us(longest) + 100)
-    lab.window("P2104-DS-23", "limit to the end, data sheet", end - stamp, 2, us(longest) + 8)
-    lab.window("P2104-DS-20", "limit to the end", end - stamp, 2, us(own) + 40)
-    lab.check("P2104-DS-20", "BUSY", await lab.host.status() & axis.busy, 0)
+    end = await env.bench.edge("int_n", 0, us(longest) + 100)
+    env.window("P2104-DS-23", "limit to the end, data sheet", end - stamp, 2, us(longest) + 8)
+    env.window("P2104-DS-20", "limit to the end", end - stamp, 2, us(own) + 40)
+    env.check("P2104-DS-20", "BUSY", await env.host.status() & axis.busy, 0)
     axis.set(fl_n=1)
     return end - stamp
 
@@ -39,37 +39,37 @@ async def p2104_polling_example_1_initial_setting(dut: Any) -> None:
     """Without pulses, while the other axis processes its setting, an axis in RUN wait detects its limit
     within 71 035 us.
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     axis.set(run=0)
     await axis.go(0x45, rate=0xFF)
-    await rest_of_window(lab)
-    await last_byte(lab.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
-    took = await limit(lab, axis, detection(SETTING, 0, 0), SETTING + REGULAR)
+    await rest_of_window(env)
+    await last_byte(env.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
+    took = await limit(env, axis, detection(SETTING, 0, 0), SETTING + REGULAR)
     # There is no polling tick while the setting is processed, so nearly all of this time passes.
-    lab.window(
-        "P2104-DS-20", "limit in the window", took, lab.cfg.us(SETTING), lab.cfg.us(SETTING + REGULAR) + 8
+    env.window(
+        "P2104-DS-20", "limit in the window", took, env.cfg.us(SETTING), env.cfg.us(SETTING + REGULAR) + 8
     )
-    lab.check("P2104-DS-20", "pulses", axis.pulses, [])
-    lab.check("P2104-DS-20", "end status", await axis.finish(), 0x95)
+    env.check("P2104-DS-20", "pulses", axis.pulses, [])
+    env.check("P2104-DS-20", "end status", await axis.finish(), 0x95)
 
 
-async def rest_of_window(lab: Lab) -> None:
+async def rest_of_window(env: Env) -> None:
     """Wait until the window of the last instruction is over."""
-    await lab.bench.clocks(lab.cfg.us(150))
+    await env.bench.clocks(env.cfg.us(150))
 
 
 @cocotb.parametrize(offset=list(OFFSETS))
 @directed("P2104-DS-20", "P2104-DS-23", builds=(D16, D11))
 async def p2104_polling_example_2_one_axis_at_10_kpps(dut: Any, offset: int) -> None:
     """One axis at constant 10 kpps detects its limit within 73 us, at any time of the polling cycle."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.go(0x45, rate=KPPS_10)
-    await axis.pulse(3, lab.cfg.us(offset))
-    await limit(lab, axis, detection(0, CONSTANT, 0, 100), REGULAR)
-    lab.check("P2104-DS-20", "period", axis.pulses[2] - axis.pulses[1], lab.cfg.us(100))
-    lab.check("P2104-DS-20", "end status", await axis.finish(), 0x95)
+    await axis.pulse(3, env.cfg.us(offset))
+    await limit(env, axis, detection(0, CONSTANT, 0, 100), REGULAR)
+    env.check("P2104-DS-20", "period", axis.pulses[2] - axis.pulses[1], env.cfg.us(100))
+    env.check("P2104-DS-20", "end status", await axis.finish(), 0x95)
 
 
 @cocotb.parametrize(offset=list(OFFSETS))
@@ -78,30 +78,30 @@ async def p2104_polling_example_3_both_axes_at_10_kpps(dut: Any, offset: int) ->
     """With both axes at constant 10 kpps, each detects its limit within 187 us; the other axis
     continues.
     """
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_B):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_B):
         await axis.go(0x45, rate=KPPS_10)
         await axis.pulse(2)
     longest = detection(0, CONSTANT, CONSTANT, 100)
-    for axis, other in (lab.axes, lab.axes[::-1]):
-        if axis is lab.x2:
+    for axis, other in (env.axes, env.axes[::-1]):
+        if axis is env.x2:
             await other.finish()
-            await rest_of_window(lab)
-        await lab.bench.clocks(lab.cfg.us(offset))
-        await limit(lab, axis, longest, REGULAR)
-        if axis is lab.x1:
-            lab.check("P2104-DS-20", "other axis", await lab.host.status() & other.busy, other.busy)
-    await rest(lab)
+            await rest_of_window(env)
+        await env.bench.clocks(env.cfg.us(offset))
+        await limit(env, axis, longest, REGULAR)
+        if axis is env.x1:
+            env.check("P2104-DS-20", "other axis", await env.host.status() & other.busy, other.busy)
+    await rest(env)
 
 
 @directed("P2104-DS-20", "P2104-DS-23", "P2104-DS-01", builds=(D16,))
-async def p2104_polling_example_4_setting_beside_20_kpps(dut: Any) -> None:
+async def p2104_polling_example_4_setting_during_20_kpps(dut: Any) -> None:
     """At 20 kpps, while the other axis processes its setting, the limit is detected within 295 995 us."""
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     await axis.go(0x45, rate=KPPS_20)
     await axis.pulse(3)
-    await last_byte(lab.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
-    took = await limit(lab, axis, detection(SETTING, CONSTANT, 0, 50), SETTING + REGULAR)
-    lab.window("P2104-DS-20", "pulses", len(axis.pulses), took // lab.cfg.us(50), took // lab.cfg.us(50) + 6)
-    lab.check("P2104-DS-20", "end status", await axis.finish(), 0x95)
+    await last_byte(env.x2, 0x02 | 0x20, *INIT_B[1:3], 0x0A, 0)
+    took = await limit(env, axis, detection(SETTING, CONSTANT, 0, 50), SETTING + REGULAR)
+    env.window("P2104-DS-20", "pulses", len(axis.pulses), took // env.cfg.us(50), took // env.cfg.us(50) + 6)
+    env.check("P2104-DS-20", "end status", await axis.finish(), 0x95)

@@ -11,17 +11,17 @@ from cocotb.utils import get_sim_time
 from cocotb_tests.harness import COMMAND, D16, DATA, F16, F48, F100, STATUS, directed, rtl_only
 from cocotb_tests.harness.config import F16X8
 
-from .figures import INIT_A
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A
 
 
 @rtl_only("glitches between two clk edges, which the model never sees")
 @directed("P2104-PORT-02", "P2104-GEN-08", builds=(F16, F48))
 async def p2104_port_02_registers_only(dut: Any) -> None:
     """During glitches between clk edges, outputs change only on rising edges (P2104-PORT-02)."""
-    lab = await Lab.start(dut)
-    first, _ = await lab.both(INIT_A)
-    bench = lab.bench
+    env = await Env.start(dut)
+    first, _ = await env.both(INIT_A)
+    bench = env.bench
     rising = (int(get_sim_time("ps")) + bench.half) % bench.period
     wrong = []
 
@@ -49,36 +49,36 @@ async def p2104_port_02_registers_only(dut: Any) -> None:
         bench.set_between_edges(**{pin: back})
         await bench.clocks(6)
     after = [t for name in ("int_n", "d_oe", "auxo") for t in bench.edges(name)]
-    lab.check("P2104-PORT-02", "edges of int_n, d_oe, auxo from glitches", after, before)
+    env.check("P2104-PORT-02", "edges of int_n, d_oe, auxo from glitches", after, before)
     await first.result("P2104-PORT-02", 9, 0x83, 0)
-    await lab.run("c D1 c C1 c 81 r c A0 r")
-    lab.check("P2104-PORT-02", "output changes off the rising edge", wrong, [])
+    await env.run("c D1 c C1 c 81 r c A0 r")
+    env.check("P2104-PORT-02", "output changes off the rising edge", wrong, [])
 
 
 @directed("P2104-PORT-02", "P2104-LIM-01", builds=(F16, F100))
 async def p2104_port_02_all_inputs_alike_late(dut: Any) -> None:
     """Limit, alarm and run pins of both axes act with the same delay of two stages (P2104-PORT-02)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     times: dict[str, set[int]] = {}
-    for axis in await lab.both(INIT_A):
+    for axis in await env.both(INIT_A):
         for pin, code in (("fl_n", 0x45), ("bl_n", 0x4D), ("alm_n", 0x45), ("org_n", 0x47)):
             await axis.go(code, rate=99)
-            await axis.pulse(1, lab.cfg.w + 20)
+            await axis.pulse(1, env.cfg.w + 20)
             stamp = axis.set(**{pin: 0})
-            times.setdefault("end", set()).add(await axis.ended() - stamp)
+            times.setdefault("end", set()).add(await axis.wait_end() - stamp)
             axis.set(**{pin: 1})
             await axis.finish()
         axis.set(run=0)
         await axis.go(0x42)
         stamp = axis.set(run=1)
-        times.setdefault("run", set()).add(await axis.pulse(1) - stamp - lab.cfg.w)
+        times.setdefault("run", set()).add(await axis.pulse(1) - stamp - env.cfg.w)
         await axis.idle()
         await axis.finish()
-    lab.check(
+    env.check(
         "P2104-PORT-02", "different delays", {k: len(v) for k, v in times.items()}, {"end": 1, "run": 1}
     )
-    lab.window("P2104-END-02", "pin to int_n", times["end"].pop(), 2, 8)
-    lab.window("P2104-TIM-02", "run to pulse 1, less W", times["run"].pop(), 0, 6)
+    env.window("P2104-END-02", "pin to int_n", times["end"].pop(), 2, 8)
+    env.window("P2104-TIM-02", "run to pulse 1, less W", times["run"].pop(), 0, 6)
 
 
 @directed("P2104-PORT-03", "P2104-PORT-01", "P2104-PHS-02", "P2104-PAR-01", builds=(F16, F16X8, F48, D16))
@@ -86,31 +86,31 @@ async def p2104_port_03_reset(dut: Any) -> None:
     """Bytes written during reset are not stored; the write sampled on edge 4 after the release is
     accepted (P2104-PORT-03).
     """
-    lab = await Lab.start(dut)
-    bench = lab.bench
-    if not lab.cfg.datasheet:
-        for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    bench = env.bench
+    if not env.cfg.datasheet:
+        for axis in await env.both(INIT_A):
             await axis.move(0x4A)
-    await lab.run("c F1 c 87 c 81")
-    await lab.host.poll(0x01, 0x01)
+    await env.run("c F1 c 87 c 81")
+    await env.host.poll(0x01, 0x01)
     bench.set(rst_n=0)
     await bench.clocks(3)
-    lab.all_reset("P2104-PORT-03")
-    await lab.host.write(COMMAND, 0xD1)
-    bench.set(a0=STATUS, **lab.host.style.read_on)
+    env.all_reset("P2104-PORT-03")
+    await env.host.write(COMMAND, 0xD1)
+    bench.set(a0=STATUS, **env.host.style.read_on)
     await bench.clocks(4)
-    lab.all_reset("P2104-PORT-03")
-    bench.set(**lab.host.style.read_off)
+    env.all_reset("P2104-PORT-03")
+    bench.set(**env.host.style.read_off)
     await bench.clocks(3)
     release = bench.set(rst_n=1)
     await bench.until(release + 4)
-    await lab.host.write(COMMAND, 0x84, strobe=2)
+    await env.host.write(COMMAND, 0x84, strobe=2)
     await bench.clocks(10)
-    lab.check("P2104-PORT-03", "status after a write at edge 4", await lab.host.status(), 0x10)
-    lab.check("P2104-PORT-03", "the write in reset is lost", bench.level("auxo"), 0b11)
-    lab.check("P2104-PORT-03", "the output byte is gone", await lab.host.read(DATA), 0x00)
+    env.check("P2104-PORT-03", "status after a write at edge 4", await env.host.status(), 0x10)
+    env.check("P2104-PORT-03", "the write in reset is lost", bench.level("auxo"), 0b11)
+    env.check("P2104-PORT-03", "the output byte is gone", await env.host.read(DATA), 0x00)
     await bench.reset(2)
-    lab.check("P2104-PORT-03", "status after reset", await lab.host.status(), 0x00)
+    env.check("P2104-PORT-03", "status after reset", await env.host.status(), 0x00)
 
 
 @directed("P2104-PORT-04", "P2104-BAD-20", "P2104-LIM-08")
@@ -118,13 +118,13 @@ async def p2104_port_04_tied_inputs(dut: Any) -> None:
     """With extck and auxi tied to 0 or 1, both axes move undisturbed on the crystal clock
     (P2104-PORT-04).
     """
-    lab = await Lab.start(dut)
-    axes = await lab.both(INIT_A)
+    env = await Env.start(dut)
+    axes = await env.both(INIT_A)
     for level in (0, 3):
-        lab.bench.set(extck=level, auxi=level)
+        env.bench.set(extck=level, auxi=level)
         for code in (0x43, 0x4B, 0xC3):
             for axis in axes:
                 await axis.go(code, 12)
             for axis in axes:
                 await axis.result("P2104-PORT-04", 12, 0x83, 0)
-        lab.check("P2104-PORT-04", "81, A1", await lab.run("c 81 r c A1 r"), [0xCF, 0xCF])
+        env.check("P2104-PORT-04", "81, A1", await env.run("c 81 r c A1 r"), [0xCF, 0xCF])

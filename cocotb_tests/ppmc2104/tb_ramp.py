@@ -6,10 +6,10 @@ from itertools import product
 from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, directed
-from cocotb_tests.harness.drive import indices, rate, rates
+from cocotb_tests.harness.axis_driver import indices, rate, rates
 
-from .figures import INIT_A, INIT_B, slowed
-from .lab import Axis, Lab
+from .env import Axis, Env
+from .expected_timing import INIT_A, INIT_B, slowed
 
 RAMPS = (
     (9, 4, 4),
@@ -37,16 +37,16 @@ async def p2104_rmp_01_every_index(dut: Any) -> None:
     """For ramps of many shapes, each rate of a move is exact, computed by both forms of the rule
     (P2104-RMP-01, P2104-RMP-02).
     """
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     for number, ramp in enumerate(RAMPS):
-        axis = lab.axes[number & 1]
+        axis = env.axes[number & 1]
         rl, rh, pa = ramp
         which = indices(2 * pa + 5, pa)
-        wanted = rates(ramp, which)
+        expected = rates(ramp, which)
         thr = thresholds(*ramp)
         table = [rh + sum(k < t for t in thr.values()) for k in which]
-        lab.check("P2104-RMP-02", f"both forms of {ramp}", wanted, table)
-        lab.check(
+        env.check("P2104-RMP-02", f"both forms of {ramp}", expected, table)
+        env.check(
             "P2104-RMP-02", "thresholds do not rise", [*thr.values()], sorted(thr.values(), reverse=True)
         )
         code = 0x0A if rh == 0 else 0x02
@@ -59,22 +59,22 @@ async def p2104_rmp_01_every_index(dut: Any) -> None:
             got = [
                 sum(a < e <= b for e in edges) - 1 for a, b in zip(axis.pulses, axis.pulses[1:], strict=False)
             ]
-            lab.check("P2104-RMP-01", f"rates of {ramp}", got, wanted)
+            env.check("P2104-RMP-01", f"rates of {ramp}", got, expected)
         else:
             await axis.idle()
-            axis.check_train("P2104-RMP-01", wanted)
+            axis.check_train("P2104-RMP-01", expected)
         await axis.finish()
 
 
 @directed("P2104-RMP-01", "P2104-RMP-02", "P2104-EX-15", "P2104-RMP-04")
 async def p2104_rmp_02_long_ramp_up(dut: Any) -> None:
     """For the largest ramp, the rates of the first 120 pulses are exact (P2104-RMP-01, P2104-EX-15)."""
-    lab = await Lab.start(dut)
-    axis = lab.x2
+    env = await Env.start(dut)
+    axis = env.x2
     ramp = (255, 18, 11_220)
     await axis.init(0x02, *ramp)
     known = {0: 255, 1: 253, 2: 251, 10: 237, 100: 157, 1000: 61, 5000: 27, 11_219: 18}
-    lab.check("P2104-EX-15", "rates", {k: rate(*ramp, k) for k in known}, known)
+    env.check("P2104-EX-15", "rates", {k: rate(*ramp, k) for k in known}, known)
     await axis.go(0x43, 30_000)
     await axis.pulse(121, 10)
     await axis.command(0x40)
@@ -89,17 +89,17 @@ async def p2104_pro_01_every_length(dut: Any) -> None:
     """With PA = 4 and N = 1 to 14, profiles are triangular, odd and even, and trapezoidal from 2 PA + 2
     on (P2104-PRO-01).
     """
-    lab = await Lab.start(dut)
-    for axis in await lab.both(INIT_A):
+    env = await Env.start(dut)
+    for axis in await env.both(INIT_A):
         for n in range(1, 15):
             await axis.move(0x43 if n & 1 else 0xC3, n)
-            wanted = rates(INIT_A[1:], indices(n, 4))
-            axis.check_train("P2104-PRO-01", wanted)
-            lab.check("P2104-PRO-06", f"intervals at RH, N = {n}", wanted.count(4), max(0, n - 9))
+            expected = rates(INIT_A[1:], indices(n, 4))
+            axis.check_train("P2104-PRO-01", expected)
+            env.check("P2104-PRO-06", f"intervals at RH, N = {n}", expected.count(4), max(0, n - 9))
             await axis.result("P2104-PRO-01", n, 0x83, 0)
 
 
-async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> None:
+async def start_and_decelerate(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> None:
     """Start a move of n pulses and request a deceleration `plus` cycles after pulse j."""
     await axis.go(code, n)
     await axis.pulse(j, plus)
@@ -120,24 +120,24 @@ async def asked(axis: Axis, how: str, n: int, j: int, plus: int, code: int) -> N
 )
 async def p2104_fdc_02_every_interval(dut: Any) -> None:
     """With N = 14 and 9, a deceleration request in each interval acts as the rules state (P2104-FDC-02)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     for axis, (code, pin, n) in product(
-        await lab.both(INIT_A),
+        await env.both(INIT_A),
         ((0x43, "stop", 14), (0xCB, "bhl_n", 14), (0xC3, "fhl_n", 9), (0x4B, "stop", 9)),
     ):
         for j in range(1, n):
-            await asked(axis, pin, n, j, 40, code)
+            await start_and_decelerate(axis, pin, n, j, 40, code)
             # Natural deceleration begins with the first interval that has a lower index than an acceleration
             # would have.
             natural = indices(n, 4)[j - 1] < min(j - 1, 4)
-            wanted = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
+            expected = rates(INIT_A[1:], indices(n, 4)) if natural else slowed(INIT_A[1:], n, j)
             if pin == "stop":
                 await axis.idle()
-                lab.check("P2104-STP-03", f"error in I({j}) of {n}", await axis.error(), 8 if natural else 0)
-            pulses = len(wanted) + 1
+                env.check("P2104-STP-03", f"error in I({j}) of {n}", await axis.error(), 8 if natural else 0)
+            pulses = len(expected) + 1
             bits = 0 if pulses == n else 0x40 if pin == "stop" else 0x08
             await axis.result(f"P2104-FDC-03 I({j})", pulses, 0x83 | bits, max(n - pulses - 1, 0))
-            axis.check_train("P2104-FDC-03", wanted)
+            axis.check_train("P2104-FDC-03", expected)
 
 
 @directed("P2104-FDC-02", "P2104-EX-06", "P2104-FDC-03", "P2104-END-02")
@@ -145,19 +145,19 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
     """In a ramp with four flat indices, a request ends the motion immediately while the rate is RL
     (P2104-FDC-02).
     """
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     ramp = (14, 12, 16)
-    for axis, how in ((lab.x1, "stop"), (lab.x2, "fhl_n")):
+    for axis, how in ((env.x1, "stop"), (env.x2, "fhl_n")):
         await axis.init(0x02, *ramp)
         bit = 0x40 if how == "stop" else 0x08
         for j in (1, 2, 3, 4, 5, 6, 17):
-            await asked(axis, how, 60, j, 200, 0x43)
-            wanted = slowed(ramp, 60, j)
-            lab.check("P2104-FDC-02", "figures", len(wanted) + 1, j if j <= 4 else 2 * j)
-            await axis.result(f"P2104-FDC-02 I({j})", len(wanted) + 1, 0x83 | bit, 60 - len(wanted) - 2)
-            axis.check_train("P2104-FDC-02", wanted)
+            await start_and_decelerate(axis, how, 60, j, 200, 0x43)
+            expected = slowed(ramp, 60, j)
+            env.check("P2104-FDC-02", "figures", len(expected) + 1, j if j <= 4 else 2 * j)
+            await axis.result(f"P2104-FDC-02 I({j})", len(expected) + 1, 0x83 | bit, 60 - len(expected) - 2)
+            axis.check_train("P2104-FDC-02", expected)
         # In the flat part while decelerating, the flag is already set: the deceleration runs to its end.
-        await asked(axis, how, 60, 6, 200, 0x43)
+        await start_and_decelerate(axis, how, 60, 6, 200, 0x43)
         await axis.pulse(10, 100)
         await axis.refused("P2104-STP-03", "41 on the way down", 8, 0x41)
         await axis.result("P2104-FDC-03", 12, 0x83 | bit, 47)
@@ -166,8 +166,8 @@ async def p2104_fdc_02_flat_start(dut: Any) -> None:
 @directed("P2104-FDC-01", "P2104-FDC-04", "P2104-LIM-05", "P2104-FSM-03", "P2104-STP-02", "P2104-BAD-22")
 async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
     """A deceleration request in START or RUN wait leads to exactly one pulse (P2104-FDC-04)."""
-    lab = await Lab.start(dut)
-    for axis, code in product(await lab.both(INIT_A), (0x43, 0x4B, 0xC3, 0x46, 0xCE)):
+    env = await Env.start(dut)
+    for axis, code in product(await env.both(INIT_A), (0x43, 0x4B, 0xC3, 0x46, 0xCE)):
         pin = "bhl_n" if code & 8 else "fhl_n"
         n = 1000 if code & 7 == 3 else None
         left = (n or 1 << 24) - 2
@@ -175,18 +175,18 @@ async def p2104_fdc_04_before_pulse_1(dut: Any) -> None:
         await axis.go(code, n)
         await axis.command(0x41)
         await axis.command(0x41)
-        lab.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
+        env.check("P2104-FSM-03", "a second 41", await axis.error(), 8)
         await axis.result("P2104-FDC-04", 1, 0xC0 | code & 7, left)
         # The pin requests it in START, also in RUN wait; it is released and active again.
         for waiting in (False, True):
             axis.set(run=0 if waiting else 1)
             await axis.go(code, n, poll=False)
-            await lab.bench.clocks(10)
+            await env.bench.clocks(10)
             for _ in range(3):
                 await axis.blip(pin, 2)
-                await lab.bench.clocks(5)
+                await env.bench.clocks(5)
             if waiting:
-                lab.check("P2104-FSM-03", "41 in RUN wait", await axis.command(0x41) & 0x80, 0x80)
+                env.check("P2104-FSM-03", "41 in RUN wait", await axis.command(0x41) & 0x80, 0x80)
                 await axis.error()
                 axis.set(run=1)
             await axis.result("P2104-FDC-04", 1, 0x88 | code & 7, left)
@@ -197,27 +197,27 @@ async def p2104_fdc_06_around_a_pulse(dut: Any) -> None:
     """If FHL falls in any cycle around a pulse event, it acts on this event if it is at least 4 cycles
     earlier (P2104-FDC-06).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(1, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(1, INIT_B)
     counts = []
-    due = lab.cfg.quanta(8 * 42)
+    due = env.cfg.quanta(8 * 42)
     for before in range(9, -7, -1):
         await axis.go(0x43, 1000)
         # I(3) has index 2, rate 41, far from the plateau.
         third = await axis.pulse(3)
-        offset = lab.cfg.quanta(8 * (100 + 54 + 42)) - lab.cfg.quanta(8 * (100 + 54))
-        await lab.bench.until(third + offset - before)
+        offset = env.cfg.quanta(8 * (100 + 54 + 42)) - env.cfg.quanta(8 * (100 + 54))
+        await env.bench.until(third + offset - before)
         await axis.blip("fhl_n", 3)
         await axis.idle()
         count = len(axis.pulses)
         counts.append(count)
-        lab.check("P2104-FDC-06", f"{before} clk before", count in (6, 8), True)
+        env.check("P2104-FDC-06", f"{before} clk before", count in (6, 8), True)
         if before >= 4:
-            lab.check("P2104-FDC-06", f"pulses, {before} clk before", count, 6)
+            env.check("P2104-FDC-06", f"pulses, {before} clk before", count, 6)
         await axis.result("P2104-FDC-06", count, 0x8B, 999 - count)
-    lab.check("P2104-LIM-09", "one switch-over", counts, sorted(counts))
-    lab.check("P2104-LIM-09", "both sides were met", set(counts), {6, 8})
-    lab.window("P2104-FDC-06", "interval of rate 41 in clk", due, 900, 1_400)
+    env.check("P2104-LIM-09", "one switch-over", counts, sorted(counts))
+    env.check("P2104-LIM-09", "both results occurred", set(counts), {6, 8})
+    env.window("P2104-FDC-06", "interval of rate 41 in clk", due, 900, 1_400)
 
 
 @directed("P2104-LIM-09", "P2104-END-04", "P2104-FDC-01")
@@ -225,27 +225,27 @@ async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
     """Of 41 and FHL some cycles apart, the first sets its bit; on the same edge both bits are set
     (P2104-LIM-09).
     """
-    lab = await Lab.start(dut)
-    axis = await lab.ready(2, INIT_B)
+    env = await Env.start(dut)
+    axis = await env.ready(2, INIT_B)
     kinds = []
     for shift in range(-4, 14):
         await axis.go(0x43, 200)
         base = await axis.pulse(4) + 60
         task = axis.at(base + shift, fhl_n=0)
-        await lab.bench.until(base - 2)
-        await lab.host.write(1, 0x61)
-        await lab.bench.clocks(14)
+        await env.bench.until(base - 2)
+        await env.host.write(1, 0x61)
+        await env.bench.clocks(14)
         await task
         error = await axis.error()
         await axis.idle()
         axis.set(fhl_n=1)
         finish = await axis.finish()
-        lab.check("P2104-LIM-09", "pulses", len(axis.pulses), 8)
+        env.check("P2104-LIM-09", "pulses", len(axis.pulses), 8)
         kinds.append(finish)
-        lab.check("P2104-STP-03", f"error at {finish:#x}", error, 8 if finish == 0x8B else 0)
+        env.check("P2104-STP-03", f"error at {finish:#x}", error, 8 if finish == 0x8B else 0)
     order = [0x8B, 0xCB, 0xC3]
-    lab.check("P2104-LIM-09", "FHL first, both, 41 first", kinds, sorted(kinds, key=order.index))
-    lab.check(
+    env.check("P2104-LIM-09", "FHL first, both, 41 first", kinds, sorted(kinds, key=order.index))
+    env.check(
         "P2104-LIM-09", "each was met, both on one edge", (set(kinds), kinds.count(0xCB)), (set(order), 1)
     )
 
@@ -253,28 +253,28 @@ async def p2104_lim_09_two_requests_on_one_edge(dut: Any) -> None:
 @directed("P2104-INTV-01", "P2104-OPR-10", "P2104-BCK-05", "P2104-EX-14", builds=(F16, F11))
 async def p2104_intv_01_both_at_full_speed(dut: Any) -> None:
     """Both axes are exact at 250 kpps on the internal clock and at 500 kpps on EXTCK (P2104-INTV-01)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     fast = (0x02, 40, 1, 25)
-    first, second = await lab.both(fast)
-    lab.bench.set(run=0)
+    first, second = await env.both(fast)
+    env.bench.set(run=0)
     await first.go(0x43, 300)
     await second.go(0x44, 250, 1)
-    lab.bench.set(run=3)
+    env.bench.set(run=3)
     await first.idle()
     await second.idle()
     first.check_train("P2104-INTV-01", rates(fast[1:], indices(300, 25)))
     second.check_train("P2104-INTV-01", [1] * 249)
-    for axis in lab.axes:
+    for axis in env.axes:
         await axis.command(0xC0)
         await axis.init(0x0A, 3, 0, 4)
         await axis.go(0x44, 200, 0)
     for _ in range(220):
-        lab.bench.set(extck=3)
-        await lab.bench.clocks(16)
-        lab.bench.set(extck=0)
-        await lab.bench.clocks(16)
-    for axis in lab.axes:
+        env.bench.set(extck=3)
+        await env.bench.clocks(16)
+        env.bench.set(extck=0)
+        await env.bench.clocks(16)
+    for axis in env.axes:
         await axis.idle()
         # Pulse 1 has its full width: the clock was stopped before it, so no period is known yet
         # (P2104-TIM-05).
-        lab.check("P2104-INTV-01", "intervals at 32 clk an edge", axis.intervals[1:], [32] * 198)
+        env.check("P2104-INTV-01", "intervals at 32 clk an edge", axis.intervals[1:], [32] * 198)

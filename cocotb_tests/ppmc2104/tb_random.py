@@ -6,7 +6,7 @@ from typing import Any
 
 from cocotb_tests.harness import random_test, start_bench
 from cocotb_tests.harness.player import describe
-from cocotb_tests.harness.running import note
+from cocotb_tests.harness.run_context import note
 from cocotb_tests.ppmc2104.random_host import scenario
 from cocotb_tests.ppmc2104.random_player import HostPlayer
 
@@ -35,6 +35,6 @@ from .bench import PPMC2104
 async def p2104_random_host(dut: Any, seed: int) -> None:
     """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
-    side = await start_bench(dut, PPMC2104, **plan.pins)
-    note(side, describe(plan.actions))
-    await HostPlayer(side, plan).run()
+    bench = await start_bench(dut, PPMC2104, **plan.pins)
+    note(bench, describe(plan.actions))
+    await HostPlayer(bench, plan).run()

@@ -7,8 +7,8 @@ from typing import Any
 
 from cocotb_tests.harness import F11, F16, F48, F100, IBF, directed
 
-from .figures import INIT_A, INIT_B, STEP_CODES
-from .lab import Lab
+from .env import Env
+from .expected_timing import INIT_A, INIT_B, STEP_CODES
 
 CODES = ((0x42, 2), (0x43, 3), (0x44, 4), (0x45, 5), (0x46, 6), (0x47, 7), (0xC3, 3), (0xC6, 6))
 
@@ -18,8 +18,8 @@ async def p2104_rd_01_end_status(dut: Any) -> None:
     """After each operation and cause of its end, the first 80 returns its bits with bit 7, the second
     without bit 7 (P2104-RD-01).
     """
-    lab = await Lab.start(dut)
-    for axis, (code, low) in product(await lab.both(INIT_A), CODES):
+    env = await Env.start(dut)
+    for axis, (code, low) in product(await env.both(INIT_A), CODES):
         for cause, bits in (("", 0x00), ("40", 0x40), ("fl_n", 0x10), ("alm_n", 0x20), ("fhl_n", 0x08)):
             if (
                 (cause == "fhl_n" and low not in (3, 6))
@@ -39,30 +39,30 @@ async def p2104_rd_01_end_status(dut: Any) -> None:
             if cause.endswith("_n"):
                 axis.set(**{cause: 1})
             got = [await axis.finish() for _ in range(3)]
-            lab.check("P2104-RD-01", f"{code:#x}, {cause}", got, [0x80 | bits | low, bits | low, bits | low])
+            env.check("P2104-RD-01", f"{code:#x}, {cause}", got, [0x80 | bits | low, bits | low, bits | low])
 
 
 @directed("P2104-RD-04", "P2104-RD-08", "P2104-LIM-10")
 async def p2104_rd_04_all_levels(dut: Any) -> None:
     """For all levels of the twelve switches, a read returns the switches of its own axis (P2104-RD-04)."""
-    lab = await Lab.start(dut)
+    env = await Env.start(dut)
     order = ("org_n", "alm_n", "fl_n", "fhl_n", "bl_n", "bhl_n")
     places = (7, 6, 3, 2, 1, 0)
     for value in range(64):
         levels = [value >> i & 1 for i in range(6)]
-        for axis, own in ((lab.x1, levels), (lab.x2, [1 - v for v in levels])):
+        for axis, own in ((env.x1, levels), (env.x2, [1 - v for v in levels])):
             axis.set(**dict(zip(order, own, strict=True)))
-        await lab.bench.clocks(4)
-        for axis, own in ((lab.x1, levels), (lab.x2, [1 - v for v in levels])):
-            wanted = sum(level << place for level, place in zip(own, places, strict=True))
-            lab.check("P2104-RD-04", f"{value:06b}, axis {axis.n}", await axis.fetch(0x81), [wanted])
+        await env.bench.clocks(4)
+        for axis, own in ((env.x1, levels), (env.x2, [1 - v for v in levels])):
+            expected = sum(level << place for level, place in zip(own, places, strict=True))
+            env.check("P2104-RD-04", f"{value:06b}, axis {axis.n}", await axis.fetch(0x81), [expected])
 
 
 @directed("P2104-RD-05", "P2104-SW-05", "P2104-PHS-01")
 async def p2104_rd_05_output_signal(dut: Any) -> None:
     """82 returns the levels of patterns, direction and hold, with S1 in bit 7 (P2104-RD-05)."""
-    lab = await Lab.start(dut)
-    for axis in lab.axes:
+    env = await Env.start(dut)
+    for axis in env.axes:
         for code in STEP_CODES.values():
             await axis.init(code, *INIT_A[1:])
             await axis.send(0x85, [0])
@@ -70,16 +70,16 @@ async def p2104_rd_05_output_signal(dut: Any) -> None:
                 await axis.move(op, 2 if op & 1 else None)
                 for settled in (False, True):
                     if settled:
-                        await lab.bench.level_is(axis.pin("hold"), 1)
+                        await env.bench.level_is(axis.pin("hold"), 1)
                     pins = axis.phases_now
-                    wanted = sum((pins >> i & 1) << 7 - i for i in range(5))
-                    wanted |= settled << 2 | (op >> 3 & 1) << 1
-                    lab.check(
-                        "P2104-RD-05", f"82 after {op:#x}, hold {settled}", await axis.fetch(0x82), [wanted]
+                    expected = sum((pins >> i & 1) << 7 - i for i in range(5))
+                    expected |= settled << 2 | (op >> 3 & 1) << 1
+                    env.check(
+                        "P2104-RD-05", f"82 after {op:#x}, hold {settled}", await axis.fetch(0x82), [expected]
                     )
             await axis.command(0xC0)
             await axis.finish()
-    lab.check("P2104-RD-05", "axis 1 at the end", await lab.x1.fetch(0x82), [0xFC])
+    env.check("P2104-RD-05", "axis 1 at the end", await env.x1.fetch(0x82), [0xFC])
 
 
 @directed("P2104-RD-06", "P2104-END-06", "P2104-RD-08", "P2104-OPR-10")
@@ -87,8 +87,8 @@ async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
     """83 of a stopped move, read while the other axis moves, returns max(m - 1, 0); a new move with it
     completes the count (P2104-RD-06).
     """
-    lab = await Lab.start(dut)
-    axis, other = await lab.both(INIT_A)
+    env = await Env.start(dut)
+    axis, other = await env.both(INIT_A)
     await other.running(200)
     for n, stop_at, left in (
         (10, 3, 6),
@@ -102,14 +102,14 @@ async def p2104_rd_06_remaining_pulses(dut: Any) -> None:
         await axis.command(0x40)
         await axis.idle()
         finish = 0x84 if stop_at == n else 0xC4
-        lab.check("P2104-RD-06", f"83, {stop_at} of {n}", await axis.remaining(), left)
-        lab.check("P2104-RD-06", "once more", await axis.remaining(), left)
-        lab.check("P2104-END-06", "0 left, or 1", await axis.finish(), finish)
+        env.check("P2104-RD-06", f"83, {stop_at} of {n}", await axis.remaining(), left)
+        env.check("P2104-RD-06", "once more", await axis.remaining(), left)
+        env.check("P2104-END-06", "0 left, or 1", await axis.finish(), finish)
         if left < 100 and stop_at != n:
             await axis.move(0x44, left + 1, 9)
-            lab.check("P2104-END-06", "the rest", len(axis.pulses), n - stop_at)
+            env.check("P2104-END-06", "the rest", len(axis.pulses), n - stop_at)
             await axis.finish()
-    await lab.errors()
+    await env.errors()
 
 
 @directed("P2104-RD-07", "P2104-INT-02", "P2104-INT-04", "P2104-ERR-06")
@@ -117,17 +117,17 @@ async def p2104_rd_07_error_code_read(dut: Any) -> None:
     """In every state, 86 and A6 clear only the error register and the interrupt of their own axis
     (P2104-RD-07).
     """
-    lab = await Lab.start(dut, errint_n=0)
-    first, second = await lab.both(INIT_A)
+    env = await Env.start(dut, errint_n=0)
+    first, second = await env.both(INIT_A)
     await first.go(0x45, rate=255)
-    await lab.run("c 42 c A7")
-    since = lab.bench.now
-    lab.check("P2104-RD-07", "e2, status", await lab.run("e2 s"), [1, 0x84])
-    await lab.bench.clocks(200)
-    lab.check("P2104-RD-07", "e1, status, e1", await lab.run("e1 s e1"), [5, 0x04, 0])
-    await lab.bench.clocks(200)
-    levels = [v for _, v in lab.bench.edges("int_n", since)]
-    lab.check("P2104-INT-04", "one release each", levels, [1, 0, 1])
+    await env.run("c 42 c A7")
+    since = env.bench.now
+    env.check("P2104-RD-07", "e2, status", await env.run("e2 s"), [1, 0x84])
+    await env.bench.clocks(200)
+    env.check("P2104-RD-07", "e1, status, e1", await env.run("e1 s e1"), [5, 0x04, 0])
+    await env.bench.clocks(200)
+    levels = [v for _, v in env.bench.edges("int_n", since)]
+    env.check("P2104-INT-04", "one release each", levels, [1, 0, 1])
     await first.halt()
 
 
@@ -136,108 +136,108 @@ async def p2104_int_03_release_window(dut: Any) -> None:
     """A cause that occurs during a release does not shorten it: int_n is high for W and low again after
     it (P2104-INT-03).
     """
-    lab = await Lab.start(dut)
-    w = lab.cfg.w
-    axis = await lab.ready(1, INIT_A)
+    env = await Env.start(dut)
+    w = env.cfg.w
+    axis = await env.ready(1, INIT_A)
     for delay in (3, w // 4, w // 2, *range(w - 9, w + 2), w + 9):
-        lab.bench.set(errint_n=0)
+        env.bench.set(errint_n=0)
         await axis.move(0x42)
-        await lab.host.write(1, 0xA7)
-        await lab.bench.clocks(20)
-        since = lab.bench.now
-        await lab.x2.command(0x86)
+        await env.host.write(1, 0xA7)
+        await env.bench.clocks(20)
+        since = env.bench.now
+        await env.x2.command(0x86)
         # END1 is still pending: int_n is low again after the window.
-        await lab.bench.clocks(2 * w)
-        (up, one), (down, zero) = lab.bench.edges("int_n", since)
-        lab.check("P2104-INT-03", "levels", (one, zero), (1, 0))
-        lab.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
+        await env.bench.clocks(2 * w)
+        (up, one), (down, zero) = env.bench.edges("int_n", since)
+        env.check("P2104-INT-03", "levels", (one, zero), (1, 0))
+        env.window("P2104-INT-03", "H with a cause left", down - up, w, w + 2)
         # All causes are released; a new cause follows `delay` cycles after the release.
-        edge0 = await lab.host.command(0x80, poll=False)
-        await lab.bench.until(edge0 + delay)
-        cause = await lab.host.write(1, 0x87)
-        await lab.bench.clocks(3 * w + 40)
-        (up, one), (down, zero) = lab.bench.edges("int_n", edge0)
-        lab.window("P2104-INT-03", "C-event to H", up - edge0, 2, 12)
+        edge0 = await env.host.command(0x80, poll=False)
+        await env.bench.until(edge0 + delay)
+        cause = await env.host.write(1, 0x87)
+        await env.bench.clocks(3 * w + 40)
+        (up, one), (down, zero) = env.bench.edges("int_n", edge0)
+        env.window("P2104-INT-03", "C-event to H", up - edge0, 2, 12)
         inside = down - up <= w + 2
-        lab.window("P2104-INT-03", "H, new cause inside" if inside else "H", down - up, w, 2 * w + 40)
+        env.window("P2104-INT-03", "H, new cause inside" if inside else "H", down - up, w, 2 * w + 40)
         if not inside:
-            lab.window("P2104-INT-05", "cause to L", down - cause, 2, 14)
-        lab.check("P2104-INT-03", f"cause {delay} clk later", inside, delay < w - 4 or inside)
-        await lab.run("e1 e2")
-        await lab.bench.clocks(2 * w)
+            env.window("P2104-INT-05", "cause to L", down - cause, 2, 14)
+        env.check("P2104-INT-03", f"cause {delay} clk later", inside, delay < w - 4 or inside)
+        await env.run("e1 e2")
+        await env.bench.clocks(2 * w)
 
 
 @directed("P2104-INT-03")
 async def p2104_int_03_windows_restart(dut: Any) -> None:
     """If two of four causes are read within 5 us, the second release restarts the window (P2104-INT-03)."""
-    lab = await Lab.start(dut, errint_n=0)
-    await lab.both(INIT_A)
-    await lab.run("c 87 c A7")
+    env = await Env.start(dut, errint_n=0)
+    await env.both(INIT_A)
+    await env.run("c 87 c A7")
     for gap in (4, 12, 30, 50):
-        since = lab.bench.now
-        await lab.host.write(1, 0x86)
-        await lab.bench.clocks(gap)
-        edge0 = await lab.host.write(1, 0xA6)
-        await lab.bench.clocks(60)
-        await lab.host.write(1, 0x87)
-        await lab.bench.clocks(300)
-        edges = lab.bench.edges("int_n", since)
-        lab.check("P2104-INT-03", f"levels, gap {gap}", [v for _, v in edges], [1, 0])
-        lab.window("P2104-INT-03", "second C-event to L", edges[1][0] - edge0, 80 + 2, 80 + 14)
-        await lab.host.command(0x86)
-        await lab.bench.clocks(200)
-        await lab.run("c 87 c A7")
+        since = env.bench.now
+        await env.host.write(1, 0x86)
+        await env.bench.clocks(gap)
+        edge0 = await env.host.write(1, 0xA6)
+        await env.bench.clocks(60)
+        await env.host.write(1, 0x87)
+        await env.bench.clocks(300)
+        edges = env.bench.edges("int_n", since)
+        env.check("P2104-INT-03", f"levels, gap {gap}", [v for _, v in edges], [1, 0])
+        env.window("P2104-INT-03", "second C-event to L", edges[1][0] - edge0, 80 + 2, 80 + 14)
+        await env.host.command(0x86)
+        await env.bench.clocks(200)
+        await env.run("c 87 c A7")
 
 
 @directed("P2104-INT-01", "P2104-INT-02", "P2104-BAD-24", "P2104-AUX-01", "P2104-BAD-20")
 async def p2104_int_02_what_does_not_clear(dut: Any) -> None:
     """A pending END1 is cleared by 80 only: int_n stays low, and operations continue (P2104-INT-02)."""
-    lab = await Lab.start(dut)
-    first, second = await lab.both(INIT_B)
+    env = await Env.start(dut)
+    first, second = await env.both(INIT_B)
     await first.move(0x42)
-    since = lab.bench.now
-    lab.check("P2104-INT-01", "int_n", lab.bench.level("int_n"), 0)
+    since = env.bench.now
+    env.check("P2104-INT-01", "int_n", env.bench.level("int_n"), 0)
     await first.move(0x43, 4)
     await second.move(0x52)
     await first.command(0xC0)
     await first.init(*INIT_A)
-    await lab.run("c 81 r c 82 r c 83 rrr c A0 r c A6 r c 86 r c C2 r c C1")
+    await env.run("c 81 r c 82 r c 83 rrr c A0 r c A6 r c 86 r c C2 r c C1")
     for level in (0, 1, 0, 1):
-        lab.bench.set(errint_n=level)
-        await lab.bench.clocks(30)
+        env.bench.set(errint_n=level)
+        await env.bench.clocks(30)
     await first.move(0x52)
-    lab.check("P2104-INT-02", "edges of int_n", lab.bench.edges("int_n", since), [])
-    lab.check("P2104-BAD-24", "end status: the newest end", await first.finish(), 0x82)
-    await lab.bench.clocks(200)
-    lab.check("P2104-INT-02", "levels", [v for _, v in lab.bench.edges("int_n", since)], [1])
+    env.check("P2104-INT-02", "edges of int_n", env.bench.edges("int_n", since), [])
+    env.check("P2104-BAD-24", "end status: the newest end", await first.finish(), 0x82)
+    await env.bench.clocks(200)
+    env.check("P2104-INT-02", "levels", [v for _, v in env.bench.edges("int_n", since)], [1])
 
 
 @directed("P2104-INT-01", "P2104-LIM-08", "P2104-BAD-20")
 async def p2104_int_01_errint_when_it_happens(dut: Any) -> None:
     """The level of errint_n at the time of the error decides whether it asserts int_n (P2104-INT-01)."""
-    lab = await Lab.start(dut)
-    for axis in lab.axes:
+    env = await Env.start(dut)
+    for axis in env.axes:
         outcomes = []
         for lead in range(-4, 12):
-            lab.bench.set(errint_n=1)
-            await lab.bench.clocks(8)
-            since = lab.bench.now
-            lab.bench.at(since + lead + 6, errint_n=0)
-            await lab.host.write(1, 0x87 | axis.axis_bit, gap=8)
-            await lab.bench.clocks(20)
-            outcomes.append(lab.bench.level("int_n") == 0)
-            lab.check("P2104-INT-01", "ERROR", await lab.host.status() & (0x80 | IBF), 0x80)
+            env.bench.set(errint_n=1)
+            await env.bench.clocks(8)
+            since = env.bench.now
+            env.bench.at(since + lead + 6, errint_n=0)
+            await env.host.write(1, 0x87 | axis.axis_bit, gap=8)
+            await env.bench.clocks(20)
+            outcomes.append(env.bench.level("int_n") == 0)
+            env.check("P2104-INT-01", "ERROR", await env.host.status() & (0x80 | IBF), 0x80)
             await axis.error()
-            await lab.bench.clocks(100)
-        lab.check("P2104-INT-01", "L early enough or not", outcomes, sorted(outcomes, reverse=True))
-        lab.check("P2104-INT-01", "both were met", set(outcomes), {True, False})
+            await env.bench.clocks(100)
+        env.check("P2104-INT-01", "L early enough or not", outcomes, sorted(outcomes, reverse=True))
+        env.check("P2104-INT-01", "both were met", set(outcomes), {True, False})
 
 
 @directed("P2104-INT-01", "P2104-CMD-02", "P2104-STP-06", "P2104-LIM-03")
 async def p2104_int_01_every_end(dut: Any) -> None:
     """For any kind of end, int_n falls only with I = 0 (P2104-INT-01)."""
-    lab = await Lab.start(dut)
-    for axis, masked in product(await lab.both(INIT_A), (0, 0x10)):
+    env = await Env.start(dut)
+    for axis, masked in product(await env.both(INIT_A), (0, 0x10)):
         for how in ("itself", "40", "41", "alm_n", "fl_n", "fhl_n", "run wait"):
             axis.set(run=0 if how == "run wait" else 1)
             await axis.go(0x43 | masked, 5 if how == "itself" else 100)
@@ -250,13 +250,13 @@ async def p2104_int_01_every_end(dut: Any) -> None:
                 else:
                     await axis.command(int(how, 16))
             await axis.idle()
-            await lab.bench.clocks(4)
+            await env.bench.clocks(4)
             axis.set(run=1, alm_n=1, fl_n=1, fhl_n=1)
-            lab.check(
+            env.check(
                 "P2104-INT-01",
                 f"int_n, ended by {how}, I {masked >> 4}",
-                lab.bench.level("int_n"),
+                env.bench.level("int_n"),
                 masked >> 4,
             )
             await axis.finish()
-            await lab.bench.clocks(100)
+            await env.bench.clocks(100)

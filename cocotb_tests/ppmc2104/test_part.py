@@ -59,9 +59,9 @@ def test_p2104_par_01_ranges():
 @verifies("P2104-PORT-01", "P2104-PORT-05", "P2104-GEN-02")
 def test_p2104_port_05_ports():
     """The top module has exactly the ports of the table (P2104-PORT-01, P2104-PORT-05)."""
-    wanted = {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
+    expected = {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
     for direction, names in (("input", PPMC2104.inputs), ("output", PPMC2104.outputs)):
         for name in names:
             lowest = PPMC2104.lowest.get(name, 0)
-            wanted[name] = (direction, lowest + PPMC2104.width(name) - 1, lowest)
-    assert ports(part_design("ppmc2104", F16)) == wanted
+            expected[name] = (direction, lowest + PPMC2104.width(name) - 1, lowest)
+    assert ports(part_design("ppmc2104", F16)) == expected

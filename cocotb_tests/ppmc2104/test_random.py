@@ -22,19 +22,19 @@ random_item = RandomItems(
 pair_item = RandomItems(
     "ppmc2104",
     "tb_independent",
-    "p2104_axis_2_alone_and_beside_axis_1",
+    "p2104_axis_2_alone_and_with_axis_1",
     PAIR_SEEDS,
     lambda seed: pair(seed).config,
 )
-chaos_item = RandomItems(
+noise_item = RandomItems(
     "ppmc2104",
-    "tb_chaos",
-    "p2104_random_chaos",
+    "tb_noise_recovery",
+    "p2104_random_noise",
     CHAOS_SEEDS,
     in_turn(F16, F16, F11, F100, F16, D16),
 )
 pytest_generate_tests = generating(
-    test_random=random_item, test_independent_axes=pair_item, test_chaos=chaos_item
+    test_random=random_item, test_independent_axes=pair_item, test_noise=noise_item
 )
 
 
@@ -48,9 +48,9 @@ def test_independent_axes(item: Item, seeds: str, sim_options: SimOptions) -> No
     pair_item.run(item, seeds, sim_options)
 
 
-def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
+def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """After noise on all pins, the documented sequence makes the core work again."""
-    chaos_item.run(item, seeds, sim_options)
+    noise_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
@@ -59,7 +59,7 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     """
     assert scenario(5) == scenario(5) != scenario(6)
     assert pair(5) == pair(5) != pair(6)
-    assert random_item.complete and pair_item.complete and chaos_item.complete
+    assert random_item.complete and pair_item.complete and noise_item.complete
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == set("write send status read fetch finish wait pins blip raw reset".split())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code
 
 T1 = message(Code.INITIAL, "01 03E8 00C8 0007D0")

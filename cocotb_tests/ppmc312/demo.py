@@ -10,9 +10,9 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, BlockHost
+from cocotb_tests.harness import BlockHost, RtlBench
 from cocotb_tests.harness.bus import CSR
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness.sessions import DemoLog
 
 from .bench import PPMC312
 
@@ -61,7 +61,7 @@ async def free_curve(host: BlockHost) -> None:
         await host.ask(f"{header:02X} {len(bytes.fromhex(data)):02X} {data}")
 
 
-async def pulses(bench: Bench, count: int) -> None:
+async def pulses(bench: RtlBench, count: int) -> None:
     """Wait for `count` pulses."""
     for _ in range(count):
         await bench.edge("pout", 1, LONG)
@@ -70,35 +70,35 @@ async def pulses(bench: Bench, count: int) -> None:
 @cocotb.test()
 async def demo_blocks(dut: Any) -> None:
     """The host's program runs on the bus of a device that was just powered up, and the run is recorded."""
-    bench = await Bench.start(dut, PPMC312)
+    bench = await RtlBench.start(dut, PPMC312)
     host = Interrupted(bench)
-    story = Story(bench)
-    with story.chapter("reset", "after reset"):
+    demo_log = DemoLog(bench)
+    with demo_log.chapter("reset", "after reset"):
         await host.write(CSR, ANSWERS)
         await host.ask("03 01 40")
         await host.ask("03 01 4D")
-    with story.chapter("set_free", "load the free curve"):
+    with demo_log.chapter("set_free", "load the free curve"):
         await free_curve(host)
-    with story.chapter("free", f"{PULSES} pulses, free curve"):
+    with demo_log.chapter("free", f"{PULSES} pulses, free curve"):
         await host.ask(move(CW, PULSES))
         await host.response()
-    with story.chapter("set_sigmoid", "build the sigmoid table"):
+    with demo_log.chapter("set_sigmoid", "build the sigmoid table"):
         await host.ask(initial(0x08))
-    with story.chapter("sigmoid", f"{PULSES} pulses back, sigmoid"):
+    with demo_log.chapter("sigmoid", f"{PULSES} pulses back, sigmoid"):
         await host.ask(move(CCW, PULSES))
         await host.response()
-    with story.chapter("set_linear", "build the linear table"):
+    with demo_log.chapter("set_linear", "build the linear table"):
         await host.ask(initial(0x00))
-    with story.chapter("linear", f"{PULSES} pulses, linear"):
+    with demo_log.chapter("linear", f"{PULSES} pulses, linear"):
         await host.ask(move(CW, PULSES))
         await host.response()
-    with story.chapter("register", "instructions that wait"):
+    with demo_log.chapter("register", "instructions that wait"):
         await host.ask("03 06 43 00 00000000")
         await host.ask(f"03 08 87 04 {HIGH:04X} {TO_HIGH:08X}")
         await host.ask(f"03 08 88 04 {SLOWER:04X} {TO_SLOWER:08X}")
         await host.ask("03 02 81 05")
         await host.ask("03 01 4D")
-    with story.chapter("override", "changes at positions, stop by event 0"):
+    with demo_log.chapter("override", "changes at positions, stop by event 0"):
         await host.ask(f"03 04 85 00 {CRUISE:04X}")
         await pulses(bench, TO_HIGH)
         await host.response()
@@ -110,7 +110,7 @@ async def demo_blocks(dut: Any) -> None:
         bench.set(evt0_n=1)
         await host.response()
         await host.response()
-    with story.chapter("return", "high-speed zero return"):
+    with demo_log.chapter("return", "high-speed zero return"):
         await host.ask(f"03 06 43 00 {BEGIN:08X}")
         await host.ask("03 04 11 40 0000")
         await pulses(bench, BEGIN - HOME_FROM)
@@ -124,7 +124,7 @@ async def demo_blocks(dut: Any) -> None:
         await host.response()
         await host.ask("03 02 42 00")
     await bench.clocks(4000)
-    story.save()
+    demo_log.save()
 
 
 def overrun() -> int:

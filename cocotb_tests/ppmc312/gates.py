@@ -6,7 +6,9 @@ from cocotb_tests.harness.gate_tests import COSTLY_BUILDS, GENERATOR, PARAMETERS
 
 from . import test_part, test_random
 
-SAME_BLOCKS = "4 to 15 million clk; p312_serial_tour and the random hosts of the line have the same blocks"
+SAME_BLOCKS = (
+    "4 to 15 million clk; p312_serial_sequence and the random hosts of the line have the same blocks"
+)
 OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "motions", "polls", "resets")
 
 PART = PartTests(
@@ -31,14 +33,14 @@ PART = PartTests(
         "tb_terminals": "3 million clk, most of them waiting for clear pulses and for the current reduction",
         "tb_positions": "1 million clk; the other modules have positions and their reports, too",
         **{f"tb_serial_{name}": SAME_BLOCKS for name in OF_THE_LINE},
-        "tb_checks_motion": "15 million clk; tb_motion_walks and tb_bounds have shorter moves of all kinds",
+        "tb_checks_motion": "15 million clk; tb_motion_walks, tb_time_limits have shorter moves of all kinds",
     },
     quick=frozenset(
         {
             "p312_reads_drive_the_bus",
             "p312_write_window_in_any_order",
             "p312_forms_of_the_starts",
-            "p312_serial_tour",
+            "p312_serial_sequence",
         }
     ),
     four_state=frozenset({"p312_reads_drive_the_bus"}),

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import Side, start_bench
+from cocotb_tests.harness import DutBench, start_bench
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, NAMES, RAR, WAR, WCR, clean
 from openppmc.check.records import Access
 
 from .bench import PPMC312
-from .side_host import SideHost
+from .directed_host import DirectedHost
 
 LATE = 10_000
 """Cycles by which a response may follow that of the golden model."""
 
 
-class Host(SideHost):
+class Host(DirectedHost):
     """Host on the bus; blocks and answers are texts of hexadecimal bytes in logical order.
 
     `header` is the edge that ended the last strobe of the last block.
     """
 
-    def __init__(self, side: Side) -> None:
-        super().__init__(side)
+    def __init__(self, bench: DutBench) -> None:
+        super().__init__(bench)
         self.mark = self.t
         self.header = 0
 
@@ -40,31 +40,31 @@ class Host(SideHost):
 
     async def write(self, reg: int, byte: int, gap: int = 3) -> int:
         """Write one byte: a strobe of 3 cycles, then `gap` cycles without one; return the edge at its end."""
-        side = self.side
-        side.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
-        await side.clocks(3)
-        edge = side.set(cs_n=1, we_n=1)
-        side.accesses.append(Access(edge, NAMES.get(("write", reg), "write"), reg, byte))
-        await side.clocks(gap)
+        bench = self.bench
+        bench.set(cs_n=0, we_n=0, rs=reg, d_i=byte)
+        await bench.clocks(3)
+        edge = bench.set(cs_n=1, we_n=1)
+        bench.accesses.append(Access(edge, NAMES.get(("write", reg), "write"), reg, byte))
+        await bench.clocks(gap)
         return edge
 
     async def read(self, reg: int) -> int:
         """Read one byte: d_o at the end of a strobe of 5 cycles, followed by 3 cycles without a strobe."""
-        side = self.side
-        edge = side.set(cs_n=0, oe_n=0, rs=reg)
-        await side.clocks(5)
-        value = side.level("d_o")
-        side.accesses.append(Access(edge, NAMES.get(("read", reg), "read"), reg, value))
-        side.set(cs_n=1, oe_n=1)
-        await side.clocks(3)
+        bench = self.bench
+        edge = bench.set(cs_n=0, oe_n=0, rs=reg)
+        await bench.clocks(5)
+        value = bench.level("d_o")
+        bench.accesses.append(Access(edge, NAMES.get(("read", reg), "read"), reg, value))
+        bench.set(cs_n=1, oe_n=1)
+        await bench.clocks(3)
         return value
 
     async def strobe(self, length: int, gap: int = 3, **levels: int) -> None:
         """Drive any levels on the bus pins for `length` cycles, then no strobe for `gap` cycles."""
-        self.side.set(**levels)
-        await self.side.clocks(length)
-        self.side.set(cs_n=1, we_n=1, oe_n=1)
-        await self.side.clocks(gap)
+        self.bench.set(**levels)
+        await self.bench.clocks(length)
+        self.bench.set(cs_n=1, we_n=1, oe_n=1)
+        await self.bench.clocks(gap)
 
     async def put(self, text: str, war: int | None = None, gap: int = 3) -> None:
         """Write a block only; return `gap` cycles after its last strobe."""
@@ -79,7 +79,7 @@ class Host(SideHost):
         """Wait until MWEF = 0, polled every `every` cycles."""
         end = self.t + limit
         while await self.read(CSR) & MWEF:
-            assert self.t < end, f"no block is taken any more\n{self.side.context()}"
+            assert self.t < end, f"no block is taken any more\n{self.bench.context()}"
             await self.pause(every)
 
     async def issue(self, text: str) -> None:
@@ -92,7 +92,7 @@ class Host(SideHost):
         """Wait for the next response block and return it."""
         await self.wait(limit)
         count = 0x40 - await self.read(RAR)
-        assert count > 0, f"a response without a byte\n{self.side.context()}"
+        assert count > 0, f"a response without a byte\n{self.bench.context()}"
         block = bytes([await self.read(DRR) for _ in range(count)])[::-1]
         return clean(block.hex())
 
@@ -104,15 +104,17 @@ class Host(SideHost):
         end = self.t + limit
         late = self.t + LATE
         while await self.read(CSR) & MREF:
-            assert self.t < late, f"no response comes, though the golden model has one\n{self.side.context()}"
-            if not self.side.golden.core.responses.any_waiting:
+            assert self.t < late, (
+                f"no response comes, though the golden model has one\n{self.bench.context()}"
+            )
+            if not self.bench.golden.core.responses.any_waiting:
                 await self.arrival(end)
                 late = self.t + LATE
 
     async def arrival(self, end: int | None = None) -> None:
         """Wait until the golden model has a response, at the latest until edge `end`; no poll is made."""
-        while not self.side.golden.core.responses.any_waiting:
-            assert end is None or self.t < end, f"no response comes any more\n{self.side.context()}"
+        while not self.bench.golden.core.responses.any_waiting:
+            assert end is None or self.t < end, f"no response comes any more\n{self.bench.context()}"
             await self.step()
 
     async def ask(self, text: str) -> str:

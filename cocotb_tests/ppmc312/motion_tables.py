@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from cocotb_tests.ppmc312.directed_host import TICK
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.side_host import TICK
-from cocotb_tests.ppmc312.words import message, rates, stopped
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from openppmc.model.ppmc312.codes import Code
 
 STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")

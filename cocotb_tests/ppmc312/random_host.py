@@ -1,7 +1,7 @@
 """Random hosts of the PPMC-312: a seed decides build, tables, instructions, pins, and the kind of host.
 
 `build(seed)` returns the build, `play(dut, seed)` plays the seed. Most hosts are well-behaved
-(`lively_host`), some are rough (`rough_host`).
+(`reactive_host`), some misuse the device (`misuse_host`).
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ from cocotb_tests.harness import D16, F16, F50, Config
 from cocotb_tests.harness.random_host import Builds
 
 from .host import Host
-from .lively_host import Lively
-from .rough_host import Player
+from .misuse_host import MisuseHost
+from .reactive_host import ReactiveHost
 
 ODD = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
 build = Builds("p312", ((F16, 110), (F50, 22), (ODD, 22), (D16, 8)))
-ROUGH = 0.15
+MISUSE_SHARE = 0.15
 """Share of the hosts that mostly do not read, do not wait, and send invalid blocks."""
 
 
 async def play(dut: Any, seed: int) -> None:
     """Play one seed; raise AssertionError if the device hangs or returns an invalid answer."""
-    rough = random.Random(f"p312 manners {seed}").random() < ROUGH
-    await (Player if rough else Lively)(await Host.start(dut), seed).play()
+    misuse = random.Random(f"p312 manners {seed}").random() < MISUSE_SHARE
+    await (MisuseHost if misuse else ReactiveHost)(await Host.start(dut), seed).play()

@@ -6,12 +6,12 @@ import random
 from typing import Any
 
 from cocotb_tests.harness.bus import CSR, DWR, MREF, MWEF, WAR, WCR
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import HOST_PINS, INPUTS, WIDTHS, Code
 
 from .blocks import TF
 from .host import Host
-from .rough_host import reset_by_bus
+from .misuse_host import reset_by_bus
 
 SWITCHES = tuple(pin for pin in INPUTS if pin not in (*HOST_PINS, "rst_n", "mode"))
 BYTES = (0x03, 0x03, 0x01, 0x02, 0x20, 0x1D, 0x1C, 0x40, 0x4D, 0x82, 0x84, 0x86, 0x80, 0x00, 0x00, 0xFF)
@@ -35,7 +35,7 @@ async def play(dut: Any, seed: int) -> None:
                 changes.setdefault(at, {}).update(levels)
                 t = at
             t += rng.choice((1, 1, 1, 2, 2, 3, 3, 4, 7, 20))
-    host.side.drive(sorted(changes.items()))
+    host.bench.drive(sorted(changes.items()))
     await host.go(max(changes) + 4)
     await host.pins(**{pin: level for pin, level in INPUTS.items() if pin != "rst_n"})
     await host.pause(20)

@@ -13,10 +13,10 @@ from cocotb_tests.harness.random_host import Builds, MovingPins
 from openppmc.model.ppmc312.codes import State
 from openppmc.model.ppmc312.front.serial import LENGTHS
 
-from .aware import Aware
 from .builds import CHARS, F8V, F27X12
 from .serial_frames import SILENCE, summed
 from .serial_host import SerialHost
+from .state_aware_host import StateAwareHost
 
 build = Builds("p312 serial", ((F8V, 69), (F16, 14), (F27X12, 6), (CHARS, 7), (D16, 4)))
 PINS = ("evt0_n", "evt0_n", "evt1_n", "fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "index_n", "end_n", "run")
@@ -33,10 +33,10 @@ TABLE = "00 00 01F4 00C8 0001BD"
 
 async def play(dut: Any, seed: int) -> None:
     """Play one seed; raise AssertionError if the station hangs or returns an invalid answer."""
-    await (await Talker.on(dut, seed)).play()
+    await (await RandomSerialHost.on(dut, seed)).play()
 
 
-class Talker(Aware):
+class RandomSerialHost(StateAwareHost):
     """One random host. It acts on received data; the golden model only decides when it acts."""
 
     host: SerialHost
@@ -48,7 +48,7 @@ class Talker(Aware):
         self.noisy = False
 
     @classmethod
-    async def on(cls, dut: Any, seed: int) -> Talker:
+    async def on(cls, dut: Any, seed: int) -> RandomSerialHost:
         """Return the host of a seed, with a station that is ready."""
         talker = cls(seed)
         rng = talker.rng
@@ -58,7 +58,7 @@ class Talker(Aware):
             adr=rng.randrange(16),
             error=rng.choice((0, 0, 0, 0.02, -0.02, rng.uniform(-0.03, 0.03))),
         )
-        talker.background = MovingPins(host.side, ("mode", "mod", "adr"))
+        talker.background = MovingPins(host.bench, ("mode", "mod", "adr"))
         talker.frames = rng.randint(20, 30)
         talker.noisy = rng.random() < 0.3
         return talker
@@ -117,7 +117,7 @@ class Talker(Aware):
         """Discard the reply that is being sent and all earlier ones."""
         host = self.host
         await host.go(host.t)
-        await host.side.level_is("snd", 0)
+        await host.bench.level_is("snd", 0)
         host.forget()
 
     async def listen(self) -> None:
@@ -363,6 +363,6 @@ class Talker(Aware):
             await host.pause(12)
             await host.pins(rst_n=1)
             await host.pause(30)
-            await host.side.level_is("out_oe", 1)
+            await host.bench.level_is("out_oe", 1)
         host.forget()
         await self.instruct(TABLE)

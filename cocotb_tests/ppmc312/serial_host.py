@@ -10,20 +10,20 @@ from fractions import Fraction
 from math import ceil
 from typing import Any
 
-from cocotb_tests.harness import SerialLine, Side, start_bench
+from cocotb_tests.harness import DutBench, SerialLine, start_bench
 from cocotb_tests.harness.bus import clean
 from cocotb_tests.harness.line import characters
 
 from .bench import PPMC312
+from .directed_host import DirectedHost
 from .serial_frames import SPEEDS, T_EXEC, T_INIT, summed
-from .side_host import SideHost
 
 SLACK = 64
 """Cycles by which a reply may be late."""
 FRAME = re.compile(rb"[\x80-\xFF](?:[0-9a-f]{2})*[\x00-\x7F]", re.DOTALL)
 
 
-class SerialHost(SerialLine, SideHost):
+class SerialHost(SerialLine, DirectedHost):
     """Master of the line; create it with `await SerialHost.start(dut)`.
 
     Instructions are texts of hexadecimal bytes: code and data. Answers are texts: kind without the address,
@@ -31,10 +31,10 @@ class SerialHost(SerialLine, SideHost):
     number of cycles from the end of the master's last stop bit to the rise of snd.
     """
 
-    def __init__(self, side: Side, adr: int = 1, error: float = 0) -> None:
-        super().__init__(side)
+    def __init__(self, bench: DutBench, adr: int = 1, error: float = 0) -> None:
+        super().__init__(bench)
         self.adr = adr
-        params = {**side.part.defaults, **side.part.params(side.config)}
+        params = {**bench.part.defaults, **bench.part.params(bench.config)}
         self.sum_mode = str(params["SUM_MODE"])
         self.lead, self.wait = int(str(params["SND_LEAD"])), int(str(params["SND_WAIT"]))
         self.wire, self.waited = "", Fraction(0)
@@ -59,7 +59,7 @@ class SerialHost(SerialLine, SideHost):
         await host.pause(12)
         await host.pins(rst_n=1)
         await host.pause(12)
-        await host.side.level_is("out_oe", 1)
+        await host.bench.level_is("out_oe", 1)
         await host.pause(4)
         for instruction in setting:
             assert await host.ask(instruction) == "90"
@@ -67,7 +67,7 @@ class SerialHost(SerialLine, SideHost):
 
     def speed(self, mod: int) -> None:
         """Set the speed of the master to that of mod; that of the device changes only at its next reset."""
-        config = self.side.config
+        config = self.bench.config
         self.bit = config.clk_hz / (SPEEDS.get(mod, SPEEDS[7]) * config.xtal_hz / 16_000_000)
 
     # ------------------------------------------------------------------ time, pins
@@ -75,7 +75,7 @@ class SerialHost(SerialLine, SideHost):
     @property
     def t(self) -> int:
         """The next free edge: that of the DUT interface, or the first after the characters sent."""
-        return max(self._behind, self.side.now)
+        return max(self._behind, self.bench.now)
 
     @t.setter
     def t(self, edge: int) -> None:
@@ -106,7 +106,7 @@ class SerialHost(SerialLine, SideHost):
 
     def rise(self) -> int | None:
         """Return the edge of the next rise of snd that `hear` has not used, None if there is no such edge."""
-        return next(iter(self.side.rises("snd", self._heard)), None)
+        return next(iter(self.bench.rises("snd", self._heard)), None)
 
     async def begin(self, within: int = T_EXEC) -> int:
         """Return the edge of the next rise of snd.
@@ -116,7 +116,7 @@ class SerialHost(SerialLine, SideHost):
         await self.go(self.t)
         end = ceil(self.middle + max(Fraction(within), self.bit * (1 + self.wait))) + SLACK
         while (rise := self.rise()) is None:
-            await self.side.edge("snd", 1, max(1, end + 1 - self.t))
+            await self.bench.edge("snd", 1, max(1, end + 1 - self.t))
         assert rise <= end, f"snd rises {rise - end} clk too late"
         return rise
 
@@ -130,8 +130,8 @@ class SerialHost(SerialLine, SideHost):
         self.waited = rise - self.middle - self.bit / 2
         late = f"snd rises {float(self.waited):.1f} clk after the frame"
         assert not timed or self.waited >= self.bit * self.wait + self.bit / 2, late
-        while not (falls := self.side.falls("snd", rise)):
-            await self.side.edge("snd", 0)
+        while not (falls := self.bench.falls("snd", rise)):
+            await self.bench.edge("snd", 0)
         self._heard = falls[0]
         line = self._decode(rise, falls[0])
         self.wire = clean(line.hex())
@@ -142,7 +142,7 @@ class SerialHost(SerialLine, SideHost):
         bit, lead = self.bit, self.lead
         count, rest = divmod(round((fall - rise) / bit) - lead, 10)
         assert not rest and fall == rise + ceil((10 * count + lead) * bit), "snd falls in a character"
-        edges = [edge for edge in self.side.edges("txd", rise) if edge[0] <= fall]
+        edges = [edge for edge in self.bench.edges("txd", rise) if edge[0] <= fall]
         assert not edges or edges[0][0] >= rise + lead * bit, "too few idle bits before the first character"
         return characters(edges, rise + lead * bit, bit, count)
 
@@ -199,7 +199,7 @@ class SerialHost(SerialLine, SideHost):
     async def at_rest(self, after: int = 200, limit: int = 4_000_000) -> None:
         """Wait until the golden model reports the end of the motion, and `after` more cycles."""
         end = self.t + limit
-        while not self.side.golden.core.operation.at_rest:
-            assert self.t < end, f"the motion does not end\n{self.side.context()}"
+        while not self.bench.golden.core.operation.at_rest:
+            assert self.t < end, f"the motion does not end\n{self.bench.context()}"
             await self.step()
         await self.pause(after)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cocotb_tests.harness.bus import CSR, MWEF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code
 
 

@@ -10,7 +10,7 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, register, stopped
+from cocotb_tests.ppmc312.messages import message, register, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 STOP = message(Code.STOP, "00")
@@ -122,7 +122,7 @@ async def p312_second_stop_report_while_the_first_is_half_read(dut: Any) -> None
 
 
 @directed("P312-RSP-11", "P312-RSP-10", "P312-PAR-08", "P312-BAD-08", "P312-RSP-22")
-async def p312_reports_come_in_the_order_of_their_classes(dut: Any) -> None:
+async def p312_reports_are_in_the_order_of_their_classes(dut: Any) -> None:
     """All classes wait for the one that is being read; they are created from the last class to the first."""
     host = await Host.start(
         dut,
@@ -296,7 +296,7 @@ async def p312_hosts_that_never_read(dut: Any) -> None:
     await host.pause(2000)
     mark = host.t
     await host.pause(20_000)
-    assert not host.side.rises("pout", mark) and await host.read(CSR) & MWEF
+    assert not host.bench.rises("pout", mark) and await host.read(CSR) & MWEF
     # The bus ignores writes now; after one answer is read it accepts them, and FF needs no further read.
     await host.put(message(Code.RESET))
     assert (

@@ -9,7 +9,7 @@ import cocotb
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Answer, Code
 
 # A row has one letter for each of the states INI, NOR, ACC, FIX, ABN and WRN: O = accepted, . = rejected.

@@ -8,7 +8,7 @@ from cocotb_tests.harness import D16, F16, directed
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
 from cocotb_tests.ppmc312.blocks import T1
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Answer, Code
 
 ADDRESSES = range(8)
@@ -20,10 +20,10 @@ async def p312_write_takes_the_last_sample(dut: Any) -> None:
     # Register and data change during the strobe; the last level before its end is used.
     for end, levels in ((2, {"cs_n": 1}), (2, {"we_n": 1}), (1, {"cs_n": 1, "we_n": 1})):
         await host.pins(cs_n=0, we_n=0, rs=WCR, d_i=0x00)
-        host.side.set(rs=CSR, d_i=0x70)
+        host.bench.set(rs=CSR, d_i=0x70)
         await host.pause(end)
         await host.pins(**levels)
-        host.side.set(cs_n=1, we_n=1, rs=7, d_i=0x8F)
+        host.bench.set(cs_n=1, we_n=1, rs=7, d_i=0x8F)
         await host.pause(3)
         assert await host.read(CSR) == 0x74
         await host.write(CSR, 0x00)
@@ -47,10 +47,10 @@ async def p312_reads_drive_the_bus(dut: Any) -> None:
     for reg, value in zip(ADDRESSES, (0x00, 0, 0, 0x3C, 0, 0, 0, 0x12), strict=True):
         mark = host.t
         await host.strobe(9, 6, cs_n=0, oe_n=0, rs=reg)
-        (rise,), (fall,) = host.side.rises("d_oe", mark), host.side.falls("d_oe", mark)
+        (rise,), (fall,) = host.bench.rises("d_oe", mark), host.bench.falls("d_oe", mark)
         assert rise - mark in range(0, 5) and fall - mark - 9 in range(0, 5)
         assert host.out("d_o") == value, reg
-        assert len([edge for edge in host.side.edges("d_o", mark) if edge[0] > mark + 4]) == 0
+        assert len([edge for edge in host.bench.edges("d_o", mark) if edge[0] > mark + 4]) == 0
     # After one byte was read, a rewind returns to this byte.
     assert await host.read(RAR) == 0x3D and await host.read(RCR) == 0 and await host.read(RAR) == 0x3C
     assert await host.response() == message(Code.VERSION, "12")
@@ -63,7 +63,7 @@ async def p312_one_value_a_strobe(dut: Any) -> None:
     await host.issue(message(Code.VERSION))
     mark = host.t
     await host.strobe(400, 6, cs_n=0, oe_n=0, rs=CSR)
-    assert len(host.side.edges("d_o", mark)) <= 1 and await host.read(CSR) == 0x00
+    assert len(host.bench.edges("d_o", mark)) <= 1 and await host.read(CSR) == 0x00
     assert await host.response() == message(Code.VERSION, "12")
     assert await host.read(RAR) == 0x40 and await host.read(DRR) == 0
 
@@ -80,7 +80,7 @@ async def p312_no_access(dut: Any) -> None:
     ):
         for reg in (CSR, WCR, DWR, DRR):
             await host.strobe(5, 4, rs=reg, d_i=0x70, **levels)
-    assert not host.side.rises("d_oe", mark)
+    assert not host.bench.rises("d_oe", mark)
     for reg in (1, 4, 6, 7):
         await host.write(reg, 0x70)
     assert [await host.read(reg) for reg in ADDRESSES] == [0x04, 0, 0, 0x40, 0, 0, 0, 0]
@@ -214,7 +214,7 @@ async def p312_interrupt_of_both_kinds(dut: Any) -> None:
 @directed("P312-PAR-12", "P312-TIM-15", builds=(F16, D16))
 async def p312_wait_request_of_reads_and_writes(dut: Any) -> None:
     host = await Host.start(dut, message(Code.VERSION))
-    slow = host.side.config.datasheet
+    slow = host.bench.config.datasheet
     window = 10 if slow else 6
     for enabled in (0x40, 0x00):
         await host.write(CSR, enabled)
@@ -223,7 +223,7 @@ async def p312_wait_request_of_reads_and_writes(dut: Any) -> None:
         for gap in (window - 3, window + 3, 1, window, window - 1):
             mark = host.t
             await host.strobe(14, max(gap, 3), cs_n=0, oe_n=0, rs=DRR)
-            lows = host.side.falls("wrq_n", mark)
+            lows = host.bench.falls("wrq_n", mark)
             if not enabled:
                 assert not lows
             await host.read(RCR)
@@ -235,5 +235,5 @@ async def p312_wait_request_of_reads_and_writes(dut: Any) -> None:
     await host.pause(40)
     # Three of the four strobes follow the previous one too soon. With DATASHEET timing wrq_n stays low
     # between them.
-    assert len(host.side.falls("wrq_n", mark)) == (1 if slow else 3)
+    assert len(host.bench.falls("wrq_n", mark)) == (1 if slow else 3)
     assert await host.response() == message(Code.OUTPUT) and host.out("auxo_n") == 0x2E

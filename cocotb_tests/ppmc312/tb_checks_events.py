@@ -10,7 +10,7 @@ from cocotb_tests.harness import D16, F16, directed
 from cocotb_tests.harness.bus import CSR, MWEF
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 STOP = message(Code.STOP, "00")
@@ -85,7 +85,7 @@ async def p312_evt_in_use(dut: Any) -> None:
 
 
 @directed("P312-CHK-28", "P312-EVT-01", "P312-EVT-02")
-async def p312_event_buffer_goes_round(dut: Any) -> None:
+async def p312_event_buffer_wraps(dut: Any) -> None:
     host = await Host.start(
         dut,
         *TF,
@@ -140,7 +140,7 @@ async def p312_reset_and_setting_from_events(dut: Any) -> None:
     host = await Host.start(dut, *TF, "03 0D 49 00" + T1)
     await host.blip("evt0_n", gap=50_000)
     assert await host.response() == message(Code.INITIAL, source=Source.EVENT)
-    assert host.side.golden.core.table is not None and host.side.golden.core.table.na == 2000
+    assert host.bench.golden.core.table is not None and host.bench.golden.core.table.na == 2000
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
 
 
@@ -195,7 +195,7 @@ async def p312_override_interruption(dut: Any) -> None:
     assert await host.response() == message(Answer.OVERRIDE_FAILED, "01", source=Source.OVERRIDE)
     assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 08 00")
     await host.ask(STOP)
-    position = host.side.golden.position
+    position = host.bench.golden.position
     assert await host.response() == stopped(0x04, position)
     host.mark = mark
     assert len(host.pulses()) == position
@@ -218,7 +218,7 @@ async def p312_a_position_passed_one_pulse_later_is_not_missed(dut: Any) -> None
 
 
 @directed("P312-OVR-02")
-async def p312_equality_that_stands_is_no_trigger(dut: Any) -> None:
+async def p312_equality_that_persists_is_no_trigger(dut: Any) -> None:
     host = await Host.start(dut, *TF, at(0))
     await host.ask(message(Code.CONSTANT, "00 0190 00000002"))
     assert await host.response() == stopped(0x40, 2)
@@ -258,14 +258,14 @@ async def p312_a_stop_does_not_wait_for_a_read(dut: Any) -> None:
     assert await host.response() == message(Code.INPUT, "FF", source=Source.EVENT)
     assert await host.response() == message(Code.STOP)
     assert not await host.read(CSR) & MWEF
-    assert await host.response() == stopped(0x04, host.side.golden.position)
+    assert await host.response() == stopped(0x04, host.bench.golden.position)
     host.mark = mark
     assert host.pulses()[-1] <= header + 64
     assert await host.quiet()
 
 
 @directed("P312-RSP-20")
-async def p312_an_event_behind_an_unread_answer_is_an_alarm(dut: Any) -> None:
+async def p312_an_event_after_an_unread_answer_is_an_alarm(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.INPUT)))
     await host.issue(message(Code.VERSION))
     await host.pause(200)
@@ -278,7 +278,7 @@ async def p312_an_event_behind_an_unread_answer_is_an_alarm(dut: Any) -> None:
 
 
 @directed("P312-CHK-72")
-async def p312_position_stop_behind_an_unread_answer(dut: Any) -> None:
+async def p312_position_stop_after_an_unread_answer(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.CHANGE, "04 00C8 00000012"), at(19))
     await host.ask(message(Code.FOREVER_CONSTANT, "00 0064"))
     await host.pulse(19)

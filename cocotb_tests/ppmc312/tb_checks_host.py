@@ -10,15 +10,15 @@ from cocotb_tests.harness import D16, directed
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, RCR, WAR, WCR
 from cocotb_tests.ppmc312.blocks import RATES, T1, T3, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import OUTPUTS, SPONTANEOUS, Answer, Code
 
 
 @directed("P312-CHK-01", "P312-PAR-01", "P312-PRT-02")
 async def p312_reset_values(dut: Any) -> None:
     host = await Host.start(dut)
-    assert host.side.initial == OUTPUTS
-    assert host.side.edges("out_oe") == [(3, 1)]
+    assert host.bench.initial == OUTPUTS
+    assert host.bench.edges("out_oe") == [(3, 1)]
     assert (await host.read(CSR), await host.read(RAR)) == (0x04, 0x40)
     assert {name: host.out(name) for name in OUTPUTS if name not in ("d_o", "out_oe")} == {
         name: level for name, level in OUTPUTS.items() if name not in ("d_o", "out_oe")
@@ -215,11 +215,11 @@ async def p312_write_window(dut: Any) -> None:
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
     await host.write(DWR, 0x03)
     assert await host.quiet()
-    host.side.set(cs_n=0, we_n=0, oe_n=0, rs=CSR, d_i=0x70)
+    host.bench.set(cs_n=0, we_n=0, oe_n=0, rs=CSR, d_i=0x70)
     await host.pause(6)
-    host.side.set(cs_n=1, we_n=1, oe_n=1)
+    host.bench.set(cs_n=1, we_n=1, oe_n=1)
     await host.pause(6)
-    assert not host.side.rises("d_oe", host.t - 12) and await host.read(CSR) == 0x04
+    assert not host.bench.rises("d_oe", host.t - 12) and await host.read(CSR) == 0x04
 
 
 @directed("P312-BAD-01")
@@ -240,7 +240,7 @@ async def p312_wait_request(dut: Any) -> None:
     host.mark = host.t
     await host.put(message(Code.VERSION))
     await host.pause(20)
-    low, high = host.side.edges("wrq_n", host.mark)
+    low, high = host.bench.edges("wrq_n", host.mark)
     second, third = host.header - 6, host.header
     assert (low[1], high[1]) == (0, 1)
     assert low[0] - (second - 3) in range(0, 5) and high[0] - third in range(0, 13)
@@ -280,7 +280,7 @@ async def p312_alarm_clear_waits_for_the_pin(dut: Any) -> None:
     await host.ask(message(Code.ALARM_CLEAR))
     assert host.condition == 0x02
     await host.pause(400_000)
-    low, high = host.side.edges("aclr_n")[-2:]
+    low, high = host.bench.edges("aclr_n")[-2:]
     assert (low[1], high[1], high[0] - low[0]) == (0, 1, 393_216)
 
 
@@ -289,9 +289,9 @@ async def p312_software_reset(dut: Any) -> None:
     host = await Host.start(dut, T1, message(Code.POSITION_SET, "00 00000007"), message(Code.OUTPUT, "3F"))
     await host.write(CSR, 0x70)
     assert await host.ask(message(Code.RESET)) == message(Code.RESET)
-    assert await host.read(CSR) == 0x04 and host.condition == 0x01 and host.side.golden.position == 0
+    assert await host.read(CSR) == 0x04 and host.condition == 0x01 and host.bench.golden.position == 0
     assert host.out("auxo_n") == 0x3F and host.out("out_oe") == 1
-    assert host.side.edges("out_oe") == [(3, 1)]
+    assert host.bench.edges("out_oe") == [(3, 1)]
 
 
 @directed("P312-CHK-62", "P312-BAD-09")
@@ -312,7 +312,7 @@ async def p312_counter_clear_restarts(dut: Any) -> None:
     await host.ask(message(Code.COUNTER_CLEAR))
     again = host.t
     await host.pause(400_000)
-    (low, high) = host.side.edges("cclr_n")
+    (low, high) = host.bench.edges("cclr_n")
     assert high[0] - again - 393_216 in range(-60, 10) and high[0] - low[0] > 450_000
 
 
@@ -336,9 +336,9 @@ async def p312_terminals(dut: Any) -> None:
 @directed("P312-PRT-01", "P312-PRT-03")
 async def p312_serial_mode_is_silent_on_the_bus(dut: Any) -> None:
     host = await Host.start(dut)
-    host.side.set(mode=0)
-    await host.side.reset(20, settle=80)
+    host.bench.set(mode=0)
+    await host.bench.reset(20, settle=80)
     mark = host.t
     await host.put(message(Code.VERSION))
     assert await host.read(CSR) == 0
-    assert not host.side.rises("d_oe", mark)
+    assert not host.bench.rises("d_oe", mark)

@@ -10,7 +10,7 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, T2, T3, T4, TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, rates, stopped
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 MOVES = [
@@ -137,7 +137,7 @@ async def p312_positions_wrap(dut: Any) -> None:
 
 def highs(host: Host) -> list[int]:
     """Return the high times of pout since `mark`."""
-    changes = host.side.edges("pout", host.mark)
+    changes = host.bench.edges("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
 
 
@@ -196,7 +196,7 @@ async def p312_stop_report_left_unread(dut: Any) -> None:
     assert await host.response() == stopped(0x40, 1)
     assert await host.response() == message(Answer.ALARM, "03", source=SPONTANEOUS)
     assert await host.response() == message(Code.STEP)
-    assert host.condition == 0x10 and host.side.golden.position == 2 and await host.quiet()
+    assert host.condition == 0x10 and host.bench.golden.position == 2 and await host.quiet()
 
 
 @directed("P312-CHK-44", "P312-STA-02", "P312-BAD-18", "P312-BAD-19")
@@ -224,7 +224,7 @@ async def p312_current_reduction(dut: Any) -> None:
     await host.response()
     last = host.pulses()[-1]
     await host.pause(1_620_000)
-    (edge,) = host.side.falls("cd_n")
+    (edge,) = host.bench.falls("cd_n")
     assert abs(edge - last - 1_606_400) <= 4
     await host.ask(message(Code.STEP, "00"))
     await host.response()
@@ -233,7 +233,7 @@ async def p312_current_reduction(dut: Any) -> None:
     await host.ask(message(Code.CONSTANT, "00 0190 0000000A"))
     await host.response()
     await host.pause(1_000_000)
-    assert host.out("cd_n") == 1 and len(host.side.falls("cd_n")) == 1
+    assert host.out("cd_n") == 1 and len(host.bench.falls("cd_n")) == 1
 
 
 @directed("P312-CHK-68", "P312-MOT-01")
@@ -241,7 +241,7 @@ async def p312_start_delay(dut: Any) -> None:
     host = await Host.start(dut, *TF)
     await host.ask(message(Code.CONSTANT, "40 0190 00000003"))
     await host.pulse(1)
-    (turned,) = host.side.rises("dir", host.mark)
+    (turned,) = host.bench.rises("dir", host.mark)
     assert host.pulses()[0] - turned in (80, 81, 82)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, rates, stopped
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from openppmc.model.ppmc312.codes import Answer, Code
 
 STOP = message(Code.STOP, "00")
@@ -81,12 +81,12 @@ async def p312_zero_return(dut: Any) -> None:
     await host.pins(org_n=1)
     await host.pulse(27)
     await host.pulse(37, 4)
-    assert host.side.golden.position == 17
+    assert host.bench.golden.position == 17
     await host.pulse(38)
     await host.pins(org_n=0)
     assert await host.response() == stopped(0x20, 16)
     assert len(host.pulses()) == 38
-    turned = host.side.rises("dir", host.mark)
+    turned = host.bench.rises("dir", host.mark)
     assert len(turned) == 1 and 6400 <= turned[0] - host.pulses()[26] <= 6464
     gaps = [
         round(gap / 16) for gap in (b - a for a, b in zip(host.pulses(), host.pulses()[1:], strict=False))

@@ -9,7 +9,7 @@ from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.builds import F8V, F27
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import Code
 
 STOP = message(Code.STOP, "00")
@@ -17,7 +17,7 @@ STOP = message(Code.STOP, "00")
 
 def highs(host: Host) -> list[int]:
     """Return the high times of pout since `mark`."""
-    changes = host.side.edges("pout", host.mark)
+    changes = host.bench.edges("pout", host.mark)
     return [b - a for (a, level), (b, _) in zip(changes, changes[1:], strict=False) if level]
 
 

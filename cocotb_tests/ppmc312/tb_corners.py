@@ -14,7 +14,7 @@ from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.blocks import T1, TF, TG
 from cocotb_tests.ppmc312.builds import F8V
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 STOP, SLOW_STOP = message(Code.STOP, "00"), message(Code.SLOW_STOP, "00")
@@ -22,7 +22,7 @@ FAST_CURVE = ("02 03 01 00 02", "00 04 0004 0190", "01 06 000005 000005")
 
 
 @directed("P312-CMD-80", "P312-OVR-03")
-async def p312_position_stop_that_comes_after_the_end(dut: Any) -> None:
+async def p312_position_stop_after_the_end(dut: Any) -> None:
     """A stop at the last pulse of a fast motion is processed only after the end and fails in state NOR."""
     host = await Host.start(
         dut, *FAST_CURVE, message(Code.STOP, "04 0000000A"), message(Code.STOP, "04 0000FFFF")
@@ -34,22 +34,22 @@ async def p312_position_stop_that_comes_after_the_end(dut: Any) -> None:
 
 
 @directed("P312-CMD-20", "P312-BAD-09")
-async def p312_reset_while_running_leaves_nothing_behind(dut: Any) -> None:
+async def p312_reset_while_running_leaves_no_state(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.EVENT_SET, "00", message(Code.RESET)))
     await host.ask(message(Code.FOREVER_CONSTANT, "40 0064"))
     await host.pulse(10, 20)
     await host.blip("evt0_n")
     assert await host.response() == message(Code.RESET)
-    assert (host.condition, host.out("pout"), host.out("dir"), host.side.golden.position) == (0x01, 0, 0, 0)
+    assert (host.condition, host.out("pout"), host.out("dir"), host.bench.golden.position) == (0x01, 0, 0, 0)
     await host.pause(1000)
-    assert host.side.golden.next_event is None
+    assert host.bench.golden.next_event is None
 
 
 @directed("P312-PRT-02", "P312-TIM-01", builds=(D16,))
 async def p312_pins_keep_their_reset_levels_until_out_oe(dut: Any) -> None:
     host = await Host.start(dut)
-    host.side.set(alm_n=0)
-    await host.side.reset(40, settle=5)
+    host.bench.set(alm_n=0)
+    await host.bench.reset(40, settle=5)
     assert await host.read(CSR) == MWEF | MREF
     await host.pause(25_000)
     assert host.out("out_oe") == 0 and host.out("cd_n") == 1
@@ -75,7 +75,7 @@ async def p312_alarm_while_held_and_in_end_wait(dut: Any) -> None:
     await host.pins(alm_n=1, run=1)
     await host.ask(message(Code.ALARM_CLEAR))
     await host.pause(20_000)
-    assert host.condition == 0x02 and host.side.golden.position == 0
+    assert host.condition == 0x02 and host.bench.golden.position == 0
     await host.ask(message(Code.END_TERMINAL, "01"))
     await host.ask(message(Code.STEP, "00"))
     await host.pause(20_000)
@@ -133,7 +133,7 @@ async def p312_second_hold_report_unread_is_an_alarm(dut: Any) -> None:
     assert await host.response() == message(Answer.HOLD_EXECUTED, source=SPONTANEOUS)
     assert await host.response() == message(Answer.ALARM, "02", source=SPONTANEOUS)
     assert await host.response() == message(Code.STEP)
-    assert host.side.golden.position == 1
+    assert host.bench.golden.position == 1
 
 
 @cocotb.parametrize(case=[(0x81, 0x10), (0x80, 0x04)])
@@ -208,7 +208,7 @@ async def p312_writes_while_an_instruction_is_processed_are_ignored(dut: Any) ->
 async def p312_high_speed_limit_before_pulse_1_and_at_a_slow_rate(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "00C8"))
     await host.issue(message(Code.FOREVER_CONSTANT, "00 0064"))
-    while not host.side.golden.motion.active:
+    while not host.bench.golden.motion.active:
         await host.step()
     await host.pins(fhl_n=0)
     await host.pause(200)
@@ -277,7 +277,7 @@ async def p312_gap_between_responses(dut: Any) -> None:
     await host.pause(20_000)
     for answer in (message(Code.INPUT, "00"), stopped(0x40, 1)):
         assert await host.response() == answer
-    levels = host.side.edges("irq_n", host.mark)
+    levels = host.bench.edges("irq_n", host.mark)
     gaps = [b - a for (a, level), (b, _) in zip(levels, levels[1:], strict=False) if level]
     assert gaps and min(gaps) >= 8
 
@@ -305,7 +305,7 @@ async def p312_version_of_the_build(dut: Any) -> None:
 
 @cocotb.parametrize(form=[message(Code.STEP, "00"), message(Code.RAMP, "00 0000 00000003")])
 @directed("P312-INP-20", "P312-TIM-12", builds=(F16, D16))
-async def p312_run_is_judged_on_one_clk(dut: Any, form: str) -> None:
+async def p312_run_is_sampled_in_one_cycle(dut: Any, form: str) -> None:
     """RUN low for one cycle holds the operation only if it is the cycle before t0."""
     host = await Host.start(dut, *TF)
     await host.issue(form)

@@ -11,8 +11,8 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import RATES, T1, TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message
 from cocotb_tests.ppmc312.table_read import read_table
-from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 

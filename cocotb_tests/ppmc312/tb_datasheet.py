@@ -10,7 +10,7 @@ from cocotb_tests.harness import D16, directed
 from cocotb_tests.harness.bus import CSR, MREF
 from cocotb_tests.ppmc312.blocks import T1, T2, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 STOP = message(Code.STOP, "00")
@@ -86,10 +86,10 @@ async def p312_datasheet_output_time_and_ready_time(dut: Any) -> None:
     host = await Host.start(
         dut,
     )
-    assert host.side.edges("out_oe")[0][0] - 25_600 in range(0, 8)
+    assert host.bench.edges("out_oe")[0][0] - 25_600 in range(0, 8)
     await host.issue(message(Code.OUTPUT, "01"))
     await host.wait()
-    (edge,) = host.side.edges("auxo_n")
+    (edge,) = host.bench.edges("auxo_n")
     assert abs(edge[0] - host.header - 4800) <= 16
     assert await host.response() == message(Code.OUTPUT)
     await host.issue(message(Code.INITIAL, "01 03E8 03E8 0007D0"))
@@ -130,7 +130,7 @@ async def p312_datasheet_start_times(dut: Any, case: Any) -> None:
     header = host.header
     await host.pulse(1)
     assert abs(host.pulses()[0] - header - 16 * us) <= 16
-    assert host.pulses()[0] - host.side.rises("dir", host.mark)[0] in (80, 81, 82)
+    assert host.pulses()[0] - host.bench.rises("dir", host.mark)[0] in (80, 81, 82)
 
 
 @directed("P312-TIM-12", "P312-TIM-14", builds=(D16,))

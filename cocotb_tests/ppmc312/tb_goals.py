@@ -11,7 +11,7 @@ from typing import Any
 from cocotb_tests.harness import F50, directed
 from cocotb_tests.ppmc312.blocks import T1
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 from openppmc.model.ppmc312.stages import build
 

@@ -9,10 +9,10 @@ import cocotb
 
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, stopped
 from cocotb_tests.ppmc312.motion_tables import SLOW_STOP, change
 from cocotb_tests.ppmc312.serial_host import SerialHost
 from cocotb_tests.ppmc312.table_read import read_table
-from cocotb_tests.ppmc312.words import message, stopped
 from openppmc.model.ppmc312.codes import Answer, Code, Source
 
 from .serial_frames import T_INIT

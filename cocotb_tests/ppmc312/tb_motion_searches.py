@@ -6,10 +6,10 @@ from typing import Any
 
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF, TG
+from cocotb_tests.ppmc312.directed_host import TICK
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import SLOW_STOP, STOP
-from cocotb_tests.ppmc312.side_host import TICK
-from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
@@ -45,7 +45,7 @@ async def p312_searches_in_every_form(dut: Any) -> None:
             await host.pins(org_n=1, index_n=1)
             await host.pulse(22, 20)
             assert host.out("dir") == 1 - ccw and host.out("zclmp_n") == 1
-            assert not host.side.falls("zclmp_n", mark)
+            assert not host.bench.falls("zclmp_n", mark)
             await host.pins(org_n=0, index_n=1 - index)
             assert await host.response() == stopped(0x20, (19 - 3) * sign)
             edges = host.pulses()
@@ -106,7 +106,7 @@ async def p312_zero_return_that_ends_otherwise(dut: Any) -> None:
 
 
 @directed("P312-MOT-42", "P312-MOT-43", "P312-MOT-30")
-async def p312_zero_return_whose_origin_meets_a_slow_stop(dut: Any) -> None:
+async def p312_zero_return_whose_origin_coincides_with_a_slow_stop(dut: Any) -> None:
     # The rate is too low for a deceleration. If stop and origin occur in one interval, the stop has priority,
     # and there is no return.
     for origin_first in (False, True):

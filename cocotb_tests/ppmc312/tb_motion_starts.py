@@ -7,8 +7,8 @@ from typing import Any
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, ODD, STOP, change, run_out
-from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 
@@ -25,7 +25,7 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
     "P312-GEN-06",
     "P312-CMD-8V",
 )
-async def p312_rates_that_may_be_asked_for(dut: Any) -> None:
+async def p312_rates_that_may_be_requested(dut: Any) -> None:
     host = await Host.start(dut, *TG)
     for code, tail in (
         (0x82, "00000001"),

@@ -7,13 +7,13 @@ from typing import Any
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, SLOW_STOP, STOP, change
-from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 @directed("P312-MOT-34", "P312-MOT-06", "P312-MOT-03", "P312-INP-12")
-async def p312_causes_that_come_together(dut: Any) -> None:
+async def p312_causes_in_the_same_cycle(dut: Any) -> None:
     for start, levels, cause in (
         (f"{ALWAYS} 0190", {"alm_n": 0, "fl_n": 0, "org_n": 0}, 0x80),
         (message(Code.ORIGIN_SEARCH, "00 0190"), {"fl_n": 0, "org_n": 0, "fhl_n": 0}, 0x01),
@@ -28,7 +28,7 @@ async def p312_causes_that_come_together(dut: Any) -> None:
         if cause == 0x80:
             assert await host.response() == message(Answer.ALARM, "00", source=SPONTANEOUS)
         assert await host.response() == stopped(cause, 3)
-        assert host.side.falls("pout", low)[0] - host.pulses()[2] == 80
+        assert host.bench.falls("pout", low)[0] - host.pulses()[2] == 80
     # Instruction 81 and a high-speed limit apply to the same boundary.
     host = await Host.start(dut, *TF, message(Code.SPEED_LIMIT, "FFFF"))
     await host.ask(f"{ALWAYS} 0064")

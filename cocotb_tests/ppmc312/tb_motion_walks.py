@@ -8,10 +8,10 @@ import cocotb
 
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF, TG, TH
+from cocotb_tests.ppmc312.directed_host import TICK
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, ODD, SLOW_STOP, STOP, change, run_out
-from cocotb_tests.ppmc312.side_host import TICK
-from cocotb_tests.ppmc312.words import message, rates, stopped
 from openppmc.model.ppmc312.codes import Code, Source
 
 # Equal neighbouring rates: R[122..126] = 400 400 200 200 100, pa = pd = 2 2 3 4 5.

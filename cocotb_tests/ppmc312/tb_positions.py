@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
@@ -175,7 +175,7 @@ async def p312_interlock_by_its_position(dut: Any) -> None:
         await host.ask(message(Code.CONSTANT, "00 0190 00000004"))
         mark = host.mark
         assert await host.response() == message(Answer.INTERLOCK_END, source=SPONTANEOUS)
-        (edge,) = host.side.rises("intlk_n", mark)
+        (edge,) = host.bench.rises("intlk_n", mark)
         number = 2 if sign else 3
         host.mark = mark
         assert 0 <= edge - host.pulses()[number - 1] <= 4

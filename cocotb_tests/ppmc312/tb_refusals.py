@@ -7,7 +7,7 @@ from typing import Any
 from cocotb_tests.harness import directed
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, register
+from cocotb_tests.ppmc312.messages import message, register
 from openppmc.model.ppmc312.codes import Answer, Code
 
 
@@ -104,9 +104,9 @@ async def p312_parameter_abnormality(dut: Any) -> None:
     # No block has changed any state.
     assert (
         await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
-        and host.side.golden.position == 0
+        and host.bench.golden.position == 0
     )
-    assert await host.quiet() and not host.side.rises("pout", 0)
+    assert await host.quiet() and not host.bench.rises("pout", 0)
 
 
 @directed("P312-BLK-01", "P312-CMD-49", "P312-GEN-05")

@@ -8,12 +8,12 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR
 from cocotb_tests.ppmc312.blocks import TF
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 @directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
-async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
+async def p312_a_read_during_the_software_reset(dut: Any) -> None:
     """A read strobe that coincides with a software reset drives one value in time and until its end.
 
     The strobes begin up to 40 cycles after the header of FF.
@@ -30,9 +30,9 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
             await host.go(host.header + after)
             mark = host.t
             await host.strobe(12, 6, cs_n=0, oe_n=0, rs=reg)
-            (rise,), (fall,) = host.side.rises("d_oe", mark), host.side.falls("d_oe", mark)
+            (rise,), (fall,) = host.bench.rises("d_oe", mark), host.bench.falls("d_oe", mark)
             assert rise - mark in range(0, 5) and fall - mark - 12 in range(0, 5), after
-            assert not [edge for edge in host.side.edges("d_o", mark) if edge[0] > rise], after
+            assert not [edge for edge in host.bench.edges("d_o", mark) if edge[0] > rise], after
             seen.append(host.out("d_o"))
             await host.pause(40)
             # No effect of the strobe remains after the reset.
@@ -46,7 +46,7 @@ async def p312_a_read_that_meets_the_software_reset(dut: Any) -> None:
 
 
 @directed("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
-async def p312_a_write_that_meets_the_software_reset(dut: Any) -> None:
+async def p312_a_write_during_the_software_reset(dut: Any) -> None:
     """A write to CSR at any time is cleared if it is before the reset and is kept if it is after it."""
     seen = []
     for after in range(1, 41):
@@ -90,10 +90,10 @@ async def p312_reset_in_the_middle_of_a_block(dut: Any) -> None:
     await host.write(WCR, 0x20)
     await host.write(WAR, 0x1D)
     await host.write(DWR, 0x40)
-    host.side.set(rst_n=0, cs_n=0, oe_n=0, rs=CSR)
+    host.bench.set(rst_n=0, cs_n=0, oe_n=0, rs=CSR)
     await host.pause(12)
     await host.pins(rst_n=1)
-    host.side.set(cs_n=1, oe_n=1)
+    host.bench.set(cs_n=1, oe_n=1)
     await host.pause(17)
     assert (await host.read(CSR), await host.read(RAR), host.condition) == (0x04, 0x40, 0x01)
     levels = {"auxo_n": 0x3F, "exon_n": 1, "zclmp_n": 1, "irq_n": 1, "dir": 0, "pout": 0, "out_oe": 1}
@@ -159,21 +159,21 @@ async def p312_software_reset_clears_all(dut: Any) -> None:
 
 
 @directed("P312-PRT-03", "P312-PRT-01")
-async def p312_mode_is_taken_at_the_end_of_a_reset(dut: Any) -> None:
+async def p312_mode_is_sampled_at_the_end_of_a_reset(dut: Any) -> None:
     host = await Host.start(dut)
     await host.pins(mode=0, mod=5, adr=9)
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
-    await host.side.reset(12, settle=18)
-    host.side.set(mode=1)
+    await host.bench.reset(12, settle=18)
+    host.bench.set(mode=1)
     await host.pause(30)
     mark = host.t
     await host.write(CSR, 0x70)
     await host.put(message(Code.VERSION))
     assert await host.read(CSR) == 0 and await host.quiet(500) is False
-    assert not host.side.rises("d_oe", mark) and host.out("irq_n") == host.out("wrq_n") == 1
+    assert not host.bench.rises("d_oe", mark) and host.out("irq_n") == host.out("wrq_n") == 1
     assert (host.out("txd"), host.out("snd")) == (1, 0)
-    await host.side.reset(12, settle=28)
+    await host.bench.reset(12, settle=28)
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
 
 

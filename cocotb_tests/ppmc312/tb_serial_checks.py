@@ -31,8 +31,8 @@ async def p312_serial_poll_at_19200(dut: Any) -> None:
     assert await host.hear() == "90" and host.wire == "91 6E"
     bit = Fraction(16_000_000, 19_200)
     assert host.middle + bit <= rise <= host.middle + bit + 64
-    assert [t for t, level in host.side.edges("snd", rise) if not level] == [rise + ceil(21 * bit)]
-    assert host.side.edges("txd", rise)[0] == (rise + ceil(bit), 0)
+    assert [t for t, level in host.bench.edges("snd", rise) if not level] == [rise + ceil(21 * bit)]
+    assert host.bench.edges("txd", rise)[0] == (rise + ceil(bit), 0)
 
 
 @directed("P312-CHK-55", "P312-SER-14", "P312-SER-45")
@@ -69,7 +69,7 @@ ANSWERS = {
 
 @cocotb.parametrize(checksum=["09", "4D"])
 @directed("P312-CHK-57", "P312-SER-13", "P312-SER-41", builds=(F16, CHARS))
-async def p312_serial_frame_of_the_sheet(dut: Any, checksum: str) -> None:
+async def p312_serial_frame_of_the_data_sheet(dut: Any, checksum: str) -> None:
     """The frame of the data sheet is valid with exactly one of the two checksums in each build."""
     host = await SerialHost.start(dut)
     assert await exchange(host, f"{SHEET} {checksum}") == ANSWERS[host.sum_mode][checksum]
@@ -106,7 +106,7 @@ async def p312_serial_unknown_code(dut: Any) -> None:
     end = host.middle
     assert await host.quiet(310_000)
     assert await host.hear(324_000) == "B0 47" and host.wire == "B1 34 37 07"
-    rise = max(t for t, level in host.side.edges("snd") if level)
+    rise = max(t for t, level in host.bench.edges("snd") if level)
     assert 320_000 <= rise - end <= 320_016
 
 
@@ -147,7 +147,7 @@ async def p312_serial_stop_at_a_position(dut: Any) -> None:
     await host.at_rest(after=0)
     polls = [await exchange(host, "81 7E") for _ in range(3)]
     assert polls == ["B1 32 38 26", "A1 33 37 27", "91 6E"]
-    assert await host.ask("42") == "A0 00 00 10 00" and len(host.side.rises("pout", mark)) == 0x1000
+    assert await host.ask("42") == "A0 00 00 10 00" and len(host.bench.rises("pout", mark)) == 0x1000
 
 
 @directed("P312-CHK-67", "P312-SER-30")

@@ -42,7 +42,7 @@ async def p312_serial_control_codes(dut: Any) -> None:
 
 
 @directed("P312-SER-10")
-async def p312_serial_a_control_code_begins_anew(dut: Any) -> None:
+async def p312_serial_a_control_code_restarts_the_frame(dut: Any) -> None:
     host = await SerialHost.start(dut)
     for begin in ("81", "91", "91 32", "91 32 36", "91 32 36 31", "91 32 36 31 35", "91 33 33", "91 4A"):
         await host.raw(begin)

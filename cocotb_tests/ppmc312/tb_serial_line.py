@@ -67,11 +67,11 @@ async def p312_serial_a_slow_line_driver_has_its_time(dut: Any, mod: int) -> Non
     for line, answer in REPLIES.items():
         await host.raw(line)
         assert await host.hear() == answer
-        rise = host.side.rises("snd")[-1]
+        rise = host.bench.rises("snd")[-1]
         assert 0 <= host.waited - (host.wait + Fraction(1, 2)) * host.bit <= 6
-        assert host.side.falls("txd", rise)[0] == rise + ceil(host.lead * host.bit)
+        assert host.bench.falls("txd", rise)[0] == rise + ceil(host.lead * host.bit)
         characters = len(bytes.fromhex(host.wire))
-        assert host.side.falls("snd", rise) == [rise + ceil((host.lead + 10 * characters) * host.bit)]
+        assert host.bench.falls("snd", rise) == [rise + ceil((host.lead + 10 * characters) * host.bit)]
 
 
 @directed("P312-SER-15", "P312-SER-18", builds=(F16, SLOW, SLOWEST))
@@ -103,8 +103,8 @@ async def p312_serial_a_reply_that_is_ready_about_half_a_bit_after_the_frame(dut
         await host.raw("91 32 35")
         await host.character(0x49)
         middle = ceil(host.middle)
-        await host.side.until(middle - clk)
-        host.side.set(evt0_n=0)
+        await host.bench.until(middle - clk)
+        host.bench.set(evt0_n=0)
         assert await host.hear() == "A0 00"
         waited.append(host.waited)
         await host.pins(evt0_n=1)

@@ -61,7 +61,7 @@ async def p312_serial_origin(dut: Any, index: int, ccw: int) -> None:
     await host.pins(**{pin: 0})
     await host.pause(2_500)
     await host.pins(**{pin: 1})
-    await host.side.level_is("dir", 1 - ccw)
+    await host.bench.level_is("dir", 1 - ccw)
     assert await host.poll() == "80"
     await host.pins(**{pin: 0})
     await host.at_rest()

@@ -8,7 +8,7 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness import directed
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code
 
 from .serial_frames import TS, summed
@@ -128,7 +128,7 @@ async def p312_serial_newer_reports_replace_older_ones(dut: Any) -> None:
     await host.at_rest()
     assert await host.polls(2) == ["A0 37", "90"]
     for position in (2, 4):
-        assert await host.asks(f"04 {host.side.golden.position + position:08X}", "44") == ["90", "90"]
+        assert await host.asks(f"04 {host.bench.golden.position + position:08X}", "44") == ["90", "90"]
         await host.pins(run=0)
         assert await host.ask("84 01F4 00000006") == "90"
         await host.pins(run=1)
@@ -219,8 +219,8 @@ async def last_bit(host: SerialHost, frame: bytes, shift: int, **levels: int) ->
     middle = host.t + 9 * 192 + 96
     changes[middle + shift] = {**changes.get(middle + shift, {}), **levels}
     for at in sorted(changes):
-        await host.side.until(at)
-        host.side.set(**changes[at])
+        await host.bench.until(at)
+        host.bench.set(**changes[at])
     host.middle = Fraction(middle)
     await host.go(middle + 96)
 

@@ -8,7 +8,7 @@ import cocotb
 
 from cocotb_tests.harness import D16, directed
 from cocotb_tests.harness.bus import CSR
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code
 
 from .host import Host
@@ -45,7 +45,7 @@ async def p312_serial_reset_in_a_character(dut: Any, place: float) -> None:
     await host.raw("91 32")
     t = host.t
     await host.go(t)
-    host.side.set(rxd=0)
+    host.bench.set(rxd=0)
     await host.go(t + int(place * 192))
     await reset(host)
     await host.pins(rxd=1)
@@ -156,7 +156,7 @@ async def p312_serial_the_mode_is_latched(dut: Any) -> None:
     assert await host.poll() == "90"
     await host.say("FF")
     await host.pause(200)
-    bus = Host(host.side)
+    bus = Host(host.bench)
     assert await bus.read(CSR) == 0x00 and await bus.response() == message(Code.RESET)
     assert await bus.ask(message(Code.VERSION)) == message(Code.VERSION, "12")
     await host.raw("81 7E")
@@ -179,7 +179,7 @@ async def p312_serial_the_bus_does_nothing(dut: Any) -> None:
         assert host.out("d_oe") == 0 and host.out("irq_n") == 1 and host.out("wrq_n") == 1
         await host.pins(cs_n=1, we_n=1, oe_n=1)
         await host.pause(6)
-    assert not any(host.side.edges(output) for output in ("d_oe", "d_o", "irq_n", "wrq_n"))
+    assert not any(host.bench.edges(output) for output in ("d_oe", "d_o", "irq_n", "wrq_n"))
     await host.pause(20_000)
     assert await host.poll() == "A0 38"
 
@@ -190,7 +190,7 @@ async def p312_serial_parallel_parts_do_not_listen(dut: Any) -> None:
     for line in ("81 7E", "91 34 31 2D"):
         await host.raw(line)
         assert await host.quiet(5_000)
-    assert not host.side.edges("snd") and not host.side.edges("txd")
+    assert not host.bench.edges("snd") and not host.bench.edges("txd")
 
 
 @cocotb.parametrize(mod=[0, 1, 2, 3, 4])

@@ -8,8 +8,8 @@ from cocotb_tests.harness import directed
 from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, T2, T3, T4, TF, TG
 from cocotb_tests.ppmc312.host import Host
+from cocotb_tests.ppmc312.messages import message
 from cocotb_tests.ppmc312.table_read import read_table
-from cocotb_tests.ppmc312.words import message
 from openppmc.model.ppmc312.codes import Answer, Code, Source
 from openppmc.model.ppmc312.stages import build
 
@@ -108,7 +108,7 @@ async def p312_an_event_edge_during_00_and_01_is_dropped(dut: Any) -> None:
                 for rest in TF[1:]:
                     await host.ask(rest)
             elif cond == 0x01:
-                host = Host(host.side)
+                host = Host(host.bench)
                 for block_ in TF:
                     await host.ask(block_)
             assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")

@@ -9,7 +9,7 @@ from cocotb_tests.harness.bus import clean
 from cocotb_tests.ppmc312.blocks import T1, TF
 from cocotb_tests.ppmc312.builds import F27
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message, stopped
+from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code, Source
 
 CLEAR = 393_216
@@ -62,22 +62,22 @@ async def p312_pins_and_reads(dut: Any) -> None:
 @directed("P312-CMD-22", "P312-CMD-24", "P312-INP-33", "P312-CHK-37")
 async def p312_clear_pulses(dut: Any) -> None:
     host = await Host.start(dut, message(Code.COUNTER_CLEAR), message(Code.ALARM_CLEAR))
-    first = {name: host.side.falls(name)[0] for name in ("cclr_n", "aclr_n")}
+    first = {name: host.bench.falls(name)[0] for name in ("cclr_n", "aclr_n")}
     await host.pause(CLEAR + 100)
     for name, fall in first.items():
-        assert host.side.edges(name) == [(fall, 0), (fall + CLEAR, 1)]
+        assert host.bench.edges(name) == [(fall, 0), (fall + CLEAR, 1)]
     # The two pulses are independent; another instruction 24 restarts only the time of its own pulse.
     await host.ask(message(Code.ALARM_CLEAR))
-    again = host.side.falls("aclr_n")[-1]
+    again = host.bench.falls("aclr_n")[-1]
     await host.pause(200_000)
     await host.ask(message(Code.COUNTER_CLEAR))
     await host.issue(message(Code.ALARM_CLEAR))
     restart = host.header
     await host.response()
     await host.pause(2 * CLEAR)
-    assert host.side.falls("aclr_n")[-1] == again
-    assert 0 < host.side.rises("aclr_n")[-1] - CLEAR - restart < 100
-    fall, rise = host.side.edges("cclr_n")[-2:]
+    assert host.bench.falls("aclr_n")[-1] == again
+    assert 0 < host.bench.rises("aclr_n")[-1] - CLEAR - restart < 100
+    fall, rise = host.bench.edges("cclr_n")[-2:]
     assert rise[0] - fall[0] == CLEAR
 
 
@@ -90,15 +90,15 @@ async def p312_times_of_the_crystal_at_another_clock(dut: Any) -> None:
     await host.ask(message(Code.MASK, "01 01"))
     await host.ask(message(Code.CONSTANT, "40 0190 00000002"))
     assert await host.response() == stopped(0x40, -2)
-    turned = host.side.rises("dir", host.mark)[0]
+    turned = host.bench.rises("dir", host.mark)[0]
     assert host.pulses()[0] - turned in (135, 136, 137)
-    changes = host.side.edges("pout", host.mark)
+    changes = host.bench.edges("pout", host.mark)
     assert [b[0] - a[0] for a, b in zip(changes[::2], changes[1::2], strict=True)] == [135, 135]
     last = host.pulses()[-1]
     await host.pause(2_720_000)
-    (fall, _), (rise, _) = host.side.edges("cclr_n")
+    (fall, _), (rise, _) = host.bench.edges("cclr_n")
     assert rise - fall == CLEAR * 27 // 16
-    assert abs(host.side.falls("cd_n")[0] - last - 2_700_000 - 10_800) <= 5
+    assert abs(host.bench.falls("cd_n")[0] - last - 2_700_000 - 10_800) <= 5
 
 
 @directed("P312-OUT-01", "P312-CHK-45", "P312-MOT-06")
@@ -110,7 +110,7 @@ async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
     await host.pins(fl_n=0)
     low = host.t
     await host.pause(1_600_200)
-    (edge,) = host.side.falls("cd_n")
+    (edge,) = host.bench.falls("cd_n")
     assert 0 <= edge - low - 1_600_000 < 10
     assert host.condition == 0x08  # the END wait does not delay it
     await host.pins(end_n=0, fl_n=1)
@@ -124,7 +124,7 @@ async def p312_current_reduction_after_each_kind_of_end(dut: Any) -> None:
     await host.pins(alm_n=0)
     low = host.t
     await host.pause(10)
-    assert 0 < host.side.falls("cd_n")[-1] - low < 8
+    assert 0 < host.bench.falls("cd_n")[-1] - low < 8
     await host.response()
     await host.pins(alm_n=1)
     await host.pause(10)
@@ -136,8 +136,8 @@ async def p312_zero_clamp(dut: Any) -> None:
     host = await Host.start(dut, *TF, message(Code.ZERO_CLAMP))
     await host.issue(message(Code.STEP, "40"))
     await host.response()
-    turned = host.side.rises("dir", host.mark)
-    assert host.side.rises("zclmp_n", host.mark) == turned
+    turned = host.bench.rises("dir", host.mark)
+    assert host.bench.rises("zclmp_n", host.mark) == turned
     await host.response()
     assert host.out("zclmp_n") == 1
     # With FO, the clamp is activated inside the window or by END, after the output has ended. Without EN it

@@ -11,8 +11,8 @@ from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.random_host import in_turn
 
 from . import random_serial
-from .census import counting, thin
-from .census_serial import counting_frames, thin_frames
+from .host_coverage import counting, thin
+from .host_coverage_serial import counting_frames, thin_frames
 from .random_host import ODD, build, play
 
 SEEDS = range(1, 151)

@@ -6,7 +6,7 @@ from math import ceil
 
 import cocotb
 
-from ..harness import Block, Unit, rng, same
+from ..harness import Block, BlockDriver, rng, same
 
 KINDS = "undefined init halt decel operation read switching aux_out exc_off aux_on aux_off".split()
 ACTIONS = "init start halt decel exc_off aux_on aux_off aux_out switching read".split()
@@ -115,19 +115,19 @@ def judge_code(kind: str, params: int, state: dict[str, int]) -> tuple[int | Non
 async def command_random(dut):
     """For random codes, data and states, status, actions and parameters are those of the tables."""
     rand = rng()
-    u = Unit(dut, "command", BLOCKS, "take_o act_o")
+    u = BlockDriver(dut, "command", BLOCKS, "take_o act_o")
     await u.reset()
     error, number, code, kind, data = 0, 0, 0, "undefined", []
     finished = 0
     for n in range(4000):
-        wanted = not error and number > 0
-        is_command = rand.random() < (0.1 if wanted else 0.8)
+        expected = not error and number > 0
+        is_command = rand.random() < (0.1 if expected else 0.8)
         pick = rand.choice(CODES) if is_command else (rand.getrandbits(8), "undefined", 0)
         byte, new_kind, params = pick
         kept, value = rand.getrandbits(8), rand.choice((0, 0, 0, 4, 5))
         state = {name: rand.randrange(2) for name in ("busy_i", "ramp_i", "decelerating_i", "initialised_i")}
         state["busy_i"] &= rand.randrange(2)
-        if wanted and kind != "aux_out":
+        if expected and kind != "aux_out":
             state["busy_i"] = 0  # no other command collects parameters during a motion
         decoded = KINDS.index(new_kind) << 3 | params
         gate = {"open_i": rand.random() < 0.8, "stops_only_i": rand.random() < 0.2}
@@ -141,7 +141,7 @@ async def command_random(dut):
             refused, act = judge_code(new_kind, params, state)
             error, number = (0, params) if refused is None else (1, refused)
             code, kind, data = byte, new_kind, []
-        elif takes and not wanted:
+        elif takes and not expected:
             error, number = 1, 6 if state["busy_i"] else 3
         elif takes:
             data.append(kept)
@@ -172,7 +172,7 @@ async def command_random(dut):
 async def setup_frozen(dut, idle):
     """The first initialisation sets everything; later ones do not change the frozen bits until off_i."""
     rand = rng()
-    u = Unit(dut, f"setup{idle}", BLOCKS, "setup_o initialised_o")
+    u = BlockDriver(dut, f"setup{idle}", BLOCKS, "setup_o initialised_o")
     await u.reset()
     chop, positive, half, motor, ready = 0, 1 - idle, 0, 0, 0
     same("reset", await u.settle(), (positive << 3, 0))
@@ -202,7 +202,7 @@ async def setup_frozen(dut, idle):
 async def finish_answers(dut, unread_flag):
     """For random motions and reads, status, answers and interrupt are those of the rules."""
     rand = rng()
-    u = Unit(dut, f"finish{unread_flag}", BLOCKS, "answer_o int_no")
+    u = BlockDriver(dut, f"finish{unread_flag}", BLOCKS, "answer_o int_no")
     await u.reset()
     unread, silent, op, pending = 0, 0, 0, 0
     for n in range(800):
@@ -233,7 +233,7 @@ async def finish_answers(dut, unread_flag):
             unread, pending = 0, 0
 
 
-async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
+async def clk_to_action(u: BlockDriver, where: str, closed: bool) -> int:
     """Return the clock edges until act_o outputs an action.
 
     With `closed`, check that the mailbox is closed until then.
@@ -250,7 +250,7 @@ async def clk_to_action(u: Unit, where: str, closed: bool) -> int:
 @cocotb.test()
 async def proc_time_fast(dut):
     """In FAST, actions pass in the same cycle; an initialisation is complete with its table."""
-    u = Unit(dut, "fast", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o")
+    u = BlockDriver(dut, "fast", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o")
     await u.reset()
     for name in ACTIONS:
         phase_init = name == "init"
@@ -269,8 +269,8 @@ async def proc_time_fast(dut):
 async def proc_time_datasheet(dut, name):
     """In DATASHEET, start, first pulse, end and opening of the mailbox occur at their times."""
     clk, xtal, bits, low, high, timed = VARIANTS[name]
-    u = Unit(
-        dut, f"proc_time_{name}", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o", Unit.FREE
+    u = BlockDriver(
+        dut, f"proc_time_{name}", BLOCKS, "act_o open_o go_o end_delay_o phase_init_o ready_o", BlockDriver.FREE
     )
     await u.reset()
 

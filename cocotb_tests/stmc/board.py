@@ -1,17 +1,17 @@
-"""The board `j105_stmc` for the tests: its design, and a lab on an ISA bus."""
+"""The board `j105_stmc` for the tests: its design, and an environment on an ISA bus."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import Bench, Config, IsaHost, start_bench
+from cocotb_tests.harness import Config, IsaHost, RtlBench, start_bench
 from cocotb_tests.harness.build import Design
 from cocotb_tests.harness.isa import IsaMaster
 from cocotb_tests.harness.project import include_dirs, part, sources
 
 from .bench import J105_STMC
-from .figures import Init
-from .lab import Lab
+from .env import Env
+from .expected_timing import Init
 
 BASE = 0x3B0
 
@@ -40,22 +40,22 @@ def design(config: Config) -> Design:
     )
 
 
-class BoardLab(Lab):
-    """A `Lab` with an ISA host; `master` is the bus."""
+class BoardEnv(Env):
+    """An `Env` with an ISA host; `master` is the bus."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: RtlBench) -> None:
         self.master = IsaMaster(bench)
         self.base = int(dict(bench.config.extra).get("BASE_ADDR", BASE))
         super().__init__(bench, IsaHost(self.master, self.base))
 
     @classmethod
-    async def start(cls, dut: Any, init: Init | None = None, clock: int = 0, **pins: int) -> BoardLab:
+    async def start(cls, dut: Any, init: Init | None = None, clock: int = 0, **pins: int) -> BoardEnv:
         """Reset with the input levels `pins`; the board itself makes the clock of its core."""
         bench = await start_bench(dut, J105_STMC, **pins)
-        assert isinstance(bench, Bench)
+        assert isinstance(bench, RtlBench)
         return cls(bench)
 
-    async def ended(self, timeout: int = 1_000_000) -> int:
+    async def wait_end(self, timeout: int = 1_000_000) -> int:
         """Wait for the end of the last `go` and return the edge on which irq rises."""
         if rises := self.bench.rises("irq", self.since):
             await self.bench.align()

@@ -8,9 +8,9 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, IsaHost
+from cocotb_tests.harness import IsaHost, RtlBench
 from cocotb_tests.harness.isa import IsaMaster
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness.sessions import DemoLog
 from openppmc.check.records import steps
 
 from .bench import J105_STMC
@@ -39,7 +39,7 @@ async def results(host: IsaHost) -> None:
     await host.fetch(0x83, 3)
 
 
-async def step(bench: Bench, n: int, since: int) -> int:
+async def step(bench: RtlBench, n: int, since: int) -> int:
     """Wait for the n-th step from `since` on and return its edge."""
     seen = [(since, bench.level("drv"))]
     while len(steps([*seen, *bench.edges("drv", since)])) < n:
@@ -51,24 +51,24 @@ async def step(bench: Bench, n: int, since: int) -> int:
 @cocotb.test()
 async def demo_board(dut: Any) -> None:
     """The program of a host on the bus is recorded from power-up to the end."""
-    bench = await Bench.start(dut, J105_STMC)
+    bench = await RtlBench.start(dut, J105_STMC)
     host = IsaHost(IsaMaster(bench), BASE)
-    story = Story(bench)
-    with story.chapter("reset", "after reset"):
+    demo_log = DemoLog(bench)
+    with demo_log.chapter("reset", "after reset"):
         await host.status()
         await host.fetch(0x81)
-    with story.chapter("init", "initialise"):
+    with demo_log.chapter("init", "initialise"):
         await host.init(INIT, SLOW, FAST, RAMP)
         await host.status()
         # The table build keeps this command in the buffer: IBF indicates when the board is ready.
         await host.fetch(0x82)
         await bench.clocks(8000)
-    with story.chapter("move", f"{STEPS} steps with ramps"):
+    with demo_log.chapter("move", f"{STEPS} steps with ramps"):
         await host.move(MOVE, STEPS)
         await results(host)
-    with story.chapter("pause", "rest"):
+    with demo_log.chapter("pause", "rest"):
         await bench.clocks(64_000)
-    with story.chapter("limit", "accelerate to the limit"):
+    with demo_log.chapter("limit", "accelerate to the limit"):
         await host.send(TO_LIMIT)
         start = bench.now
         last = await step(bench, STEPS_TO_SLOW_DOWN, start)
@@ -77,9 +77,9 @@ async def demo_board(dut: Any) -> None:
         bench.at(last + 2500, l1_n=0)
         await results(host)
         await host.fetch(0x81)
-    with story.chapter("pause2", "rest"):
+    with demo_log.chapter("pause2", "rest"):
         await bench.clocks(64_000)
-    with story.chapter("reference", "back to the reference point"):
+    with demo_log.chapter("reference", "back to the reference point"):
         await host.send(TO_REFERENCE, [DIVISOR])
         start = bench.now
         last = await step(bench, 2, start)
@@ -87,7 +87,7 @@ async def demo_board(dut: Any) -> None:
         last = await step(bench, STEPS_TO_REFERENCE, start)
         bench.at(last + 3000, cnp_n=0)
         await results(host)
-    with story.chapter("rest", "rest until HOLD rises"):
+    with demo_log.chapter("rest", "rest until HOLD rises"):
         await bench.edge("hold", 1, timeout=LONG)
         await bench.clocks(16_000)
-    story.save()
+    demo_log.save()

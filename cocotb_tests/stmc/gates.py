@@ -11,9 +11,9 @@ from . import test_board, test_part, test_random
 # Clocks and DATASHEET times are tested with the PPMC-104BFP, which has the same blocks.
 PART = PartTests(
     test_part,
-    frozenset({"test_stmc", "test_random", "test_chaos"}),
+    frozenset({"test_stmc", "test_random", "test_noise"}),
     test_random,
-    {test_random.random_item: (1, 3, 4, 5, 7, 8, 10, 13, 65), test_random.chaos_item: (1, 4)},
+    {test_random.random_item: (1, 3, 4, 5, 7, 8, 10, 13, 65), test_random.noise_item: (1, 4)},
     frozenset({"f16", "sheet", "d25x8"}),
     not_applicable={
         "test_stmc_parameter_ranges": PARAMETERS,

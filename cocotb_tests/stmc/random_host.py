@@ -12,7 +12,7 @@ from cocotb_tests.harness.config import D25X8
 from cocotb_tests.harness.player import ExternalClock, Scenario, random_clock
 from cocotb_tests.harness.random_host import HostWriter
 
-from .figures import F8X20, F12, F200, ODD, SHEET, SWITCHES
+from .expected_timing import F8X20, F12, F200, ODD, SHEET, SWITCHES
 
 # The builds of the random tests with their weights; few seeds use DATASHEET, because these runs are long.
 WEIGHTS: list[tuple[Config, int]] = [
@@ -104,7 +104,7 @@ class _Writer(HostWriter):
         d1, d2, pa = rng.choice(WRONG) if rng.random() < (0.06 if first else 0.3) else self.ramp()
         code = rng.choice(INIT_CODES)
         code = code | 0x10 if self.external and rng.random() < 0.9 else code & ~0x10
-        self.told(code, [d1, d2, pa & 0xFF, pa >> 8], 0.8)
+        self.send_command(code, [d1, d2, pa & 0xFF, pa >> 8], 0.8)
         if rng.random() < 0.3:  # sends bytes during the table build
             self.blind([self.random_write() for _ in range(rng.randint(1, 3))])
         if rng.random() < 0.3:
@@ -155,7 +155,7 @@ class _Writer(HostWriter):
         rng = self.rng
         if rng.random() < 0.12:
             self.add("pins", {rng.choice(SWITCHES): 0})
-        self.told(*self.motion_bytes(), 0.85)
+        self.send_command(*self.motion_bytes(), 0.85)
         for _ in range(rng.choice((0, 0, 0, 1, 1, 2, 3, 5))):
             self.disturb()
         if rng.random() < 0.9:

@@ -5,7 +5,7 @@ A moving core stays in its state because `ext_clk` is stopped; the tests make it
 
 from __future__ import annotations
 
-from .lab import Lab
+from .env import Env
 
 # D1 = 3 and D2 = 1 make gaps of few ticks. The level is 1 from gap 3 on.
 SMALL = (0x1A, 3, 1, 4)
@@ -15,18 +15,18 @@ STEADY = ("S steady", "C", "S to limit", "S single")
 MOVING = (*RAMP, *STEADY)
 
 
-async def enter(lab: Lab, state: str) -> None:
+async def enter(env: Env, state: str) -> None:
     """Reset and enter `state`. Raises KeyError for an unknown state."""
-    await lab.reset()
+    await env.reset()
     if state.endswith("U"):
         if state != "U":
-            await lab.host.command(0x1A)
+            await env.host.command(0x1A)
         return
-    await lab.init(*SMALL)
+    await env.init(*SMALL)
     if state == "I":
         return
     if state == "W from I":
-        await lab.host.command(0x43)
+        await env.host.command(0x43)
         return
     code, n, divisor, steps = {
         "S": (0x43, 100, None, 0),
@@ -40,17 +40,17 @@ async def enter(lab: Lab, state: str) -> None:
         "S to limit": (0x47, None, 1, 0),
         "S single": (0x42, None, None, 0),
     }[state]
-    await lab.go(code, n, divisor)
+    await env.go(code, n, divisor)
     if state == "S single":
         return
-    await lab.bench.clocks(lab.cfg.cyc(80) + 8)
-    await lab.tick_until(steps)
+    await env.bench.clocks(env.cfg.cyc(80) + 8)
+    await env.tick_until(steps)
     if state in ("D", "S flagged"):
-        await lab.host.command(0x41)
+        await env.host.command(0x41)
 
 
-async def leave(lab: Lab) -> None:
+async def leave(env: Env) -> None:
     """Stop a motion, if one is running."""
-    if lab.bench.level("hold") == 0:
-        await lab.host.command(0x40)
-        await lab.idle()
+    if env.bench.level("hold") == 0:
+        await env.host.command(0x40)
+        await env.idle()

@@ -6,55 +6,55 @@ from typing import Any
 
 from cocotb_tests.harness import BUSY, D16, DATA, IBF, OBF, directed
 
-from .figures import INTERNAL, MOST, SHEET, STANDARD
-from .lab import WRITE_EVENT, Lab
+from .env import WRITE_EVENT, Env
+from .expected_timing import INTERNAL, MOST, SHEET, STANDARD
 
 
 @directed("AC-35", "STMC-MOT-09", "STMC-MOT-10", "STMC-FIN-05")
 async def stmc_ac_35_interrupt(dut: Any) -> None:
     """A motion asserts int_n only without bit 4, and only 80 releases int_n (AC-35)."""
-    lab = await Lab.start(dut)
-    await lab.move(0x53, 1)
-    lab.check("AC-35", "edges of int_n", lab.bench.edges("int_n"), [])
-    await lab.move(0x43, 1)
-    lab.check("AC-35", "int_n", lab.bench.level("int_n"), 0)
-    await lab.move(0x42)
-    await lab.host.status()
-    lab.check("AC-35", "edges of int_n", [v for _, v in lab.bench.edges("int_n")], [0])
-    await lab.host.command(0x80)
-    lab.check("AC-35", "int_n before the byte is read", lab.bench.level("int_n"), 1)
-    lab.check("AC-35", "FIN", await lab.host.read_data(), 0x82)
+    env = await Env.start(dut)
+    await env.move(0x53, 1)
+    env.check("AC-35", "edges of int_n", env.bench.edges("int_n"), [])
+    await env.move(0x43, 1)
+    env.check("AC-35", "int_n", env.bench.level("int_n"), 0)
+    await env.move(0x42)
+    await env.host.status()
+    env.check("AC-35", "edges of int_n", [v for _, v in env.bench.edges("int_n")], [0])
+    await env.host.command(0x80)
+    env.check("AC-35", "int_n before the byte is read", env.bench.level("int_n"), 1)
+    env.check("AC-35", "FIN", await env.host.read_data(), 0x82)
 
 
 @directed("AC-36", "STMC-FSM-01", "STMC-FSM-02", "STMC-RD-01", "STMC-BAD-17", "STMC-INI-03")
 async def stmc_ac_36_bytes_during_a_move(dut: Any) -> None:
     """During a move, 80, 0A, C0, 42 and a data byte return errors 1, 1, 0, 1, 6 (AC-36)."""
-    lab = await Lab.start(dut)
-    await lab.go(0x43, 100)
-    got = await lab.statuses("c 80 c 0A c C0 c 42 d 00")
-    lab.check("AC-36", "statuses", got, [0x94, 0x94, 0x84, 0x94, 0xE4])
-    await lab.result("AC-36", 100, 0x83, 0)
+    env = await Env.start(dut)
+    await env.go(0x43, 100)
+    got = await env.statuses("c 80 c 0A c C0 c 42 d 00")
+    env.check("AC-36", "statuses", got, [0x94, 0x94, 0x84, 0x94, 0xE4])
+    await env.result("AC-36", 100, 0x83, 0)
 
 
 @directed("AC-37", "STMC-BUS-21", "STMC-BUS-22", "STMC-BAD-10", "STMC-BAD-11")
 async def stmc_ac_37_answer_replaced(dut: Any) -> None:
     """When 81 is accepted, its byte replaces a half-read answer (AC-37)."""
-    lab = await Lab.start(dut)
-    lab.check("AC-37", "bytes", await lab.host.run("c 83 r c 81 r"), [0, 0xCF])
-    lab.check("AC-37", "OBF", await lab.host.status() & OBF, 0)
-    lab.check("AC-37", "data register", await lab.host.read(DATA), 0xCF)
-    lab.check("AC-37", "status", await lab.host.status(), 0)
+    env = await Env.start(dut)
+    env.check("AC-37", "bytes", await env.host.run("c 83 r c 81 r"), [0, 0xCF])
+    env.check("AC-37", "OBF", await env.host.status() & OBF, 0)
+    env.check("AC-37", "data register", await env.host.read(DATA), 0xCF)
+    env.check("AC-37", "status", await env.host.status(), 0)
 
 
 @directed("AC-38", "STMC-CMD-01", "STMC-BAD-02", "STMC-BAD-04")
 async def stmc_ac_38_command_instead_of_data(dut: Any) -> None:
     """42 cancels an incomplete command 3 and makes one step; a later data byte returns error 3 (AC-38)."""
-    lab = await Lab.start(dut)
-    lab.since = lab.bench.now
-    await lab.host.run("c 43 d 05 c 42")
-    await lab.idle()
-    lab.check("AC-38", "steps", len(lab.pulses), 1)
-    lab.check("AC-38", "status", await lab.statuses("d 00"), [0xB0])
+    env = await Env.start(dut)
+    env.since = env.bench.now
+    await env.host.run("c 43 d 05 c 42")
+    await env.idle()
+    env.check("AC-38", "steps", len(env.pulses), 1)
+    env.check("AC-38", "status", await env.statuses("d 00"), [0xB0])
 
 
 @directed("AC-39", "STMC-INI-02", "STMC-BAD-05")
@@ -62,120 +62,120 @@ async def stmc_ac_39_refused_initialisation(dut: Any) -> None:
     """Illegal divisors (5/20/8 and others) return error 5; before an initialisation nothing is set,
     after it the old data stay (AC-39).
     """
-    lab = await Lab.start(dut, None)
+    env = await Env.start(dut, None)
     refused = ((5, 20), (0, 0), (20, 0), (0, 5), (254, 255))
     for d1, d2 in refused:
-        lab.check("AC-39", f"status of {d1}, {d2}", await lab.host.init(0x1A, d1, d2, 8), 0xD0)
-    lab.check("AC-39", "42, s", (await lab.statuses("c 42"), lab.bench.level("s")), ([0xA0], 0))
-    await lab.init(*STANDARD)
+        env.check("AC-39", f"status of {d1}, {d2}", await env.host.init(0x1A, d1, d2, 8), 0xD0)
+    env.check("AC-39", "42, s", (await env.statuses("c 42"), env.bench.level("s")), ([0xA0], 0))
+    await env.init(*STANDARD)
     for d1, d2 in refused:
-        lab.check("AC-39", f"status of {d1}, {d2}", await lab.host.init(0x1A, d1, d2, 8), 0xD0)
-        await lab.move(0x43, 4)
-        lab.train("AC-39", [20, 12, 20])
+        env.check("AC-39", f"status of {d1}, {d2}", await env.host.init(0x1A, d1, d2, 8), 0xD0)
+        await env.move(0x43, 4)
+        env.train("AC-39", [20, 12, 20])
 
 
 @directed("AC-40", "STMC-INI-07", "STMC-BUS-14", "STMC-BAD-09", "STMC-FSM-03")
-async def stmc_ac_40_bytes_meet_the_build(dut: Any) -> None:
+async def stmc_ac_40_bytes_during_the_build(dut: Any) -> None:
     """If 40 and then 80 are written during a table build, only 80 is executed, without an error (AC-40)."""
-    lab = await Lab.start(dut)
-    await lab.host.init(0x1A, 255, 5, 400)
-    edge0 = await lab.host.write(1, 0x40)
-    await lab.bench.until(edge0 + 12)
-    await lab.host.write(1, 0x80)
-    lab.check("AC-40", "status", await lab.host.poll(IBF, 0), OBF)
-    lab.check("AC-40", "FIN", await lab.host.read_data(), 0x80)
-    await lab.move(0x43, 4)
-    lab.check("AC-40", "first gap", lab.intervals[0], 255 * 16)
+    env = await Env.start(dut)
+    await env.host.init(0x1A, 255, 5, 400)
+    edge0 = await env.host.write(1, 0x40)
+    await env.bench.until(edge0 + 12)
+    await env.host.write(1, 0x80)
+    env.check("AC-40", "status", await env.host.poll(IBF, 0), OBF)
+    env.check("AC-40", "FIN", await env.host.read_data(), 0x80)
+    await env.move(0x43, 4)
+    env.check("AC-40", "first gap", env.intervals[0], 255 * 16)
 
 
 @directed("AC-41", "STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-01", "STMC-OUT-02", builds=(SHEET,))
 async def stmc_ac_41_chopper(dut: Any) -> None:
     """With bit 5, the pattern is chopped at standstill and full during a step (AC-41)."""
-    lab = await Lab.start(dut, None)
-    await lab.host.init(0x3A, 20, 5, 8)
-    await lab.bench.level_is("s", 0b00000, 60_000)
-    off = lab.bench.now
+    env = await Env.start(dut, None)
+    await env.host.init(0x3A, 20, 5, 8)
+    await env.bench.level_is("s", 0b00000, 60_000)
+    off = env.bench.now
     for _ in range(8):
-        lab.check("AC-41", "outputs", await lab.out(), 0xC4)
-        await lab.bench.clocks(400)
-    lab.check("AC-41", "hold", lab.bench.edges("hold"), [])
-    lab.check("AC-41", "phases", set(lab.stretches(off - 1)), {(0b00011, 1040), (0, 1740)})
-    while lab.bench.level("s"):
-        await lab.bench.edge("s")
-    await lab.go(0x42)
-    begin = lab.bench.falls("hold")[0]
-    end = await lab.ended()
-    lab.check("AC-41", "full pattern with hold", lab.bench.level_at("s", begin), 0b00011)
-    step = next(t for t, level in lab.bench.edges("s", begin) if level == 0b00110)
-    lab.window("AC-41", "hold to the step", step - begin, 80, 82)
-    first_off = await lab.bench.edge("s", 0)
-    lab.window("AC-41", "first on-time", first_off - end, 1032, 1048)
-    rise = await lab.bench.edge("hold", 1)
-    lab.window("AC-41", "hold", rise - step, 1600, 1624)
+        env.check("AC-41", "outputs", await env.out(), 0xC4)
+        await env.bench.clocks(400)
+    env.check("AC-41", "hold", env.bench.edges("hold"), [])
+    env.check("AC-41", "phases", set(env.stretches(off - 1)), {(0b00011, 1040), (0, 1740)})
+    while env.bench.level("s"):
+        await env.bench.edge("s")
+    await env.go(0x42)
+    begin = env.bench.falls("hold")[0]
+    end = await env.wait_end()
+    env.check("AC-41", "full pattern with hold", env.bench.level_at("s", begin), 0b00011)
+    step = next(t for t, level in env.bench.edges("s", begin) if level == 0b00110)
+    env.window("AC-41", "hold to the step", step - begin, 80, 82)
+    first_off = await env.bench.edge("s", 0)
+    env.window("AC-41", "first on-time", first_off - end, 1032, 1048)
+    rise = await env.bench.edge("hold", 1)
+    env.window("AC-41", "hold", rise - step, 1600, 1624)
 
 
 @directed("AC-42", "STMC-CLK-05")
 async def stmc_ac_42_no_ticks(dut: Any) -> None:
     """Without an external clock a started move waits; 40 ends it, 41 leaves one step (AC-42)."""
-    lab = await Lab.start(dut, clock=0)
-    await lab.go(0x43, 6)
-    await lab.bench.clocks(5_000)
-    lab.check("AC-42", "BUSY", await lab.host.status(), BUSY)
-    await lab.command(0x40)
-    await lab.result("AC-42", 0, 0xC3, 5)
-    await lab.go(0x43, 6)
-    lab.check("AC-42", "status after 41", await lab.command(0x41), BUSY)
-    await lab.bench.clocks(500)
-    lab.check("AC-42", "steps without ticks", lab.pulses, [])
-    await lab.ticks(3)
-    await lab.result("AC-42", 1, 0xC3, 4)
+    env = await Env.start(dut, clock=0)
+    await env.go(0x43, 6)
+    await env.bench.clocks(5_000)
+    env.check("AC-42", "BUSY", await env.host.status(), BUSY)
+    await env.command(0x40)
+    await env.result("AC-42", 0, 0xC3, 5)
+    await env.go(0x43, 6)
+    env.check("AC-42", "status after 41", await env.command(0x41), BUSY)
+    await env.bench.clocks(500)
+    env.check("AC-42", "steps without ticks", env.pulses, [])
+    await env.ticks(3)
+    await env.result("AC-42", 1, 0xC3, 4)
 
 
 @directed("AC-43", "STMC-RUN-01")
 async def stmc_ac_43_bit_5_of_a_motion(dut: Any) -> None:
     """63 acts like 43 (AC-43)."""
-    lab = await Lab.start(dut)
-    await lab.go(0x63, 1)
-    await lab.result("AC-43", 1, 0x83, 0)
-    lab.check("AC-43", "pattern", lab.patterns, [0b00110])
+    env = await Env.start(dut)
+    await env.go(0x63, 1)
+    await env.result("AC-43", 1, 0x83, 0)
+    env.check("AC-43", "pattern", env.patterns, [0b00110])
 
 
 @directed("AC-44", "STMC-RD-01", "STMC-BAD-01")
 async def stmc_ac_44_family_codes(dut: Any) -> None:
     """By default 81, 82, 83 return inputs, outputs and three bytes; 84 is error 0 (AC-44, R-01)."""
-    lab = await Lab.start(dut)
-    got = await lab.host.run("c 81 r c 82 r c 83 rrr c 84 s")
-    lab.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])
+    env = await Env.start(dut)
+    got = await env.host.run("c 81 r c 82 r c 83 rrr c 84 s")
+    env.check("AC-44", "answers", got, [0xCF, 0xC4, 0, 0, 0, 0x80])
 
 
 @directed("AC-45", "STMC-RD-01", "STMC-BAD-01", builds=(SHEET,))
-async def stmc_ac_45_sheet_codes(dut: Any) -> None:
+async def stmc_ac_45_data_sheet_codes(dut: Any) -> None:
     """With READ_MAP "SHEET", 81 is error 0 and 84 returns three bytes (AC-45)."""
-    lab = await Lab.start(dut)
-    lab.check("AC-45", "answers", await lab.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
+    env = await Env.start(dut)
+    env.check("AC-45", "answers", await env.host.run("c 81 s c 84 rrr"), [0x80, 0, 0, 0])
 
 
 @directed("AC-48", "STMC-DS-01", "STMC-DS-05", "STMC-DS-07", "STMC-DS-08", builds=(D16,))
 async def stmc_ac_48_datasheet_times(dut: Any) -> None:
     """In DATASHEET, start, steps, end and answer of a two-step motion occur at their times (AC-48)."""
-    lab = await Lab.start(dut, INTERNAL, clock=0)
-    bench = lab.bench
-    edge0 = await lab.go(0x44, 2, 10, poll=False)
+    env = await Env.start(dut, INTERNAL, clock=0)
+    bench = env.bench
+    edge0 = await env.go(0x44, 2, 10, poll=False)
     hold = await bench.edge("hold", 0)
-    lab.window("AC-48", "hold", hold - edge0, 432, 432 + 24)
-    first = await lab.pulse(1)
-    lab.window("AC-48", "first step", first - edge0, 3104, 3104 + 24)
-    last = await lab.pulse(2)
-    lab.check("AC-48", "gap", last - first, 12_800)
-    end = await lab.ended()
-    lab.window("AC-48", "int_n", end - last, 416, 416 + 16)
-    await lab.host.write(1, 0x80)
+    env.window("AC-48", "hold", hold - edge0, 432, 432 + 24)
+    first = await env.pulse(1)
+    env.window("AC-48", "first step", first - edge0, 3104, 3104 + 24)
+    last = await env.pulse(2)
+    env.check("AC-48", "gap", last - first, 12_800)
+    end = await env.wait_end()
+    env.window("AC-48", "int_n", end - last, 416, 416 + 16)
+    await env.host.write(1, 0x80)
     await bench.until(last + 2_400)
     while bench.now < last + 2_490:
-        lab.check("AC-48", "IBF", await lab.host.status(), IBF)
-    status = await lab.host.poll(IBF, 0, dense=100)
-    lab.window("AC-48", "taken", bench.now - last, 2_496, 2_496 + 16 + 12)
-    lab.check("AC-48", "status and byte", (status, await lab.host.read_data()), (OBF, 0x84))
+        env.check("AC-48", "IBF", await env.host.status(), IBF)
+    status = await env.host.poll(IBF, 0, dense=100)
+    env.window("AC-48", "taken", bench.now - last, 2_496, 2_496 + 16 + 12)
+    env.check("AC-48", "status and byte", (status, await env.host.read_data()), (OBF, 0x84))
 
 
 @directed("AC-49", "STMC-BAD-16")
@@ -183,18 +183,18 @@ async def stmc_ac_49_reset_in_motion(dut: Any) -> None:
     """When rst_n falls during a move, all outputs take their reset levels immediately, and all state is
     cleared (AC-49).
     """
-    lab = await Lab.start(dut)
-    await lab.go(0x43, 100)
-    await lab.in_gap(5)
-    lab.set(rst_n=0)
-    await lab.bench.clocks(1)
-    lab.check("AC-49", "outputs", lab.outputs(), {"int_n": 1, "s": 0, "hold": 1})
-    await lab.bench.clocks(5)
-    lab.set(rst_n=1)
-    await lab.bench.clocks(5)
-    lab.check("AC-49", "status", await lab.host.status(), 0)
-    lab.check("AC-49", "42", await lab.statuses("c 42"), [0xA0])
-    lab.check("AC-49", "registers", await lab.host.run("c 80 r c 83 rrr c 82 r"), [0x80, 0, 0, 0, 4])
+    env = await Env.start(dut)
+    await env.go(0x43, 100)
+    await env.in_gap(5)
+    env.set(rst_n=0)
+    await env.bench.clocks(1)
+    env.check("AC-49", "outputs", env.outputs(), {"int_n": 1, "s": 0, "hold": 1})
+    await env.bench.clocks(5)
+    env.set(rst_n=1)
+    await env.bench.clocks(5)
+    env.check("AC-49", "status", await env.host.status(), 0)
+    env.check("AC-49", "42", await env.statuses("c 42"), [0xA0])
+    env.check("AC-49", "registers", await env.host.run("c 80 r c 83 rrr c 82 r"), [0x80, 0, 0, 0, 4])
 
 
 @directed("AC-50", "STMC-DEC-03", "STMC-IN-04")
@@ -202,45 +202,45 @@ async def stmc_ac_50_start_at_the_deceleration_limit(dut: Any) -> None:
     """With l3_n low, commands 3, 6, 3 with N = 1, and 7 make 1, 1, 1, 0 steps; with l1_n low they make
     no step (AC-50).
     """
-    lab = await Lab.start(dut)
-    await lab.pins(l3_n=0)
+    env = await Env.start(dut)
+    await env.pins(l3_n=0)
     for code, n, rate, steps, finish, rest in (
         (0x43, 100, None, 1, 0x8B, 98),
         (0x46, None, None, 1, 0x8E, MOST - 1),
         (0x43, 1, None, 1, 0x83, 0),
         (0x47, None, 10, 0, 0x8F, MOST),
     ):
-        await lab.go(code, n, rate)
-        await lab.result("AC-50", steps, finish, rest)
-    await lab.pins(l1_n=0)
-    await lab.go(0x43, 100)
-    await lab.result("AC-50", 0, 0x93, 99)
+        await env.go(code, n, rate)
+        await env.result("AC-50", steps, finish, rest)
+    await env.pins(l1_n=0)
+    await env.go(0x43, 100)
+    await env.result("AC-50", 0, 0x93, 99)
 
 
 @directed("AC-51", "STMC-CMD-01", "STMC-BAD-11")
 async def stmc_ac_51_answer_outlives_a_step(dut: Any) -> None:
     """If a step runs while the remaining value is half read, its other two bytes stay available (AC-51)."""
-    lab = await Lab.start(dut)
-    await lab.go(0x43, 100)
-    await lab.in_gap(10)
-    await lab.command(0x40)
-    await lab.idle()
-    lab.check("AC-51", "first byte", await lab.host.run("c 83 r"), [0x58])
-    await lab.host.command(0x42)
-    await lab.idle()
-    lab.check("AC-51", "other bytes", await lab.host.run("rr"), [0, 0])
-    lab.check("AC-51", "OBF", await lab.host.status() & OBF, 0)
+    env = await Env.start(dut)
+    await env.go(0x43, 100)
+    await env.in_gap(10)
+    await env.command(0x40)
+    await env.idle()
+    env.check("AC-51", "first byte", await env.host.run("c 83 r"), [0x58])
+    await env.host.command(0x42)
+    await env.idle()
+    env.check("AC-51", "other bytes", await env.host.run("rr"), [0, 0])
+    env.check("AC-51", "OBF", await env.host.status() & OBF, 0)
 
 
 @directed("AC-52", "STMC-BUS-06", "STMC-BAD-12")
 async def stmc_ac_52_both_strobes(dut: Any) -> None:
     """If both strobes are low together and rise together, nothing was driven or written (AC-52)."""
-    lab = await Lab.start(dut)
-    before = await lab.host.status()
-    since = lab.bench.now
-    await lab.host.raw(10, cs_n=0, rd_n=0, wr_n=0, a0=1, d_i=0x42)
-    await lab.host.raw(20 + WRITE_EVENT, cs_n=1, rd_n=1, wr_n=1)
-    lab.check("AC-52", "d_oe", lab.bench.edges("d_oe", since), [])
-    lab.check("AC-52", "d_o", lab.bench.edges("d_o", since), [])
-    lab.check("AC-52", "status", await lab.host.status(), before)
-    lab.quiet("AC-52", since)
+    env = await Env.start(dut)
+    before = await env.host.status()
+    since = env.bench.now
+    await env.host.raw(10, cs_n=0, rd_n=0, wr_n=0, a0=1, d_i=0x42)
+    await env.host.raw(20 + WRITE_EVENT, cs_n=1, rd_n=1, wr_n=1)
+    env.check("AC-52", "d_oe", env.bench.edges("d_oe", since), [])
+    env.check("AC-52", "d_o", env.bench.edges("d_o", since), [])
+    env.check("AC-52", "status", await env.host.status(), before)
+    env.quiet("AC-52", since)

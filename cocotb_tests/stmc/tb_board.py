@@ -9,8 +9,8 @@ from cocotb.triggers import Timer
 from cocotb_tests.harness import F8, F16, IBF, OBF, directed, rtl_only
 from cocotb_tests.harness.isa import Times
 
-from .board import OTHER, BoardLab
-from .figures import A, gaps
+from .board import OTHER, BoardEnv
+from .expected_timing import A, gaps
 from .tb_acceptance_moves import W1
 
 NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edges"
@@ -20,21 +20,21 @@ NANOSECONDS = "the ISA bus has cycles of nanoseconds, and the model only clk edg
 @directed("AC-46", "J105-01", "J105-02", "J105-05", "J105-07")
 async def j105_ac_46_a_move(dut: Any) -> None:
     """On the board, check 5 leads to the same steps; drv follows s, and irq is asserted (AC-46)."""
-    lab = await BoardLab.start(dut)
-    bench = lab.bench
-    await lab.init(0x1A, *A)
-    lab.check("AC-46", "irq", bench.level("irq"), 0)
-    lab.since = bench.now
-    await lab.host.run("c 43 d 13 d 00 d 00")
-    end = await lab.ended(600_000)
-    lab.window("J105-05", "last step to irq", end - lab.pulses[-1], 0, 10)
-    ticks = [round(gap * 48_675 / 16_000_000) for gap in lab.intervals]
-    lab.check("AC-46", "gaps in ticks", ticks, W1)
-    wanted = [(t, level & 15) for t, level in bench.edges("s", lab.since)]
-    lab.check("J105-07", "drv", bench.edges("drv", lab.since), wanted)
-    lab.check("AC-46", "irq", bench.level("irq"), 1)
-    lab.check("AC-46", "FIN", await lab.finish(), 0x83)
-    lab.check("AC-46", "irq after 80", bench.level("irq"), 0)
+    env = await BoardEnv.start(dut)
+    bench = env.bench
+    await env.init(0x1A, *A)
+    env.check("AC-46", "irq", bench.level("irq"), 0)
+    env.since = bench.now
+    await env.host.run("c 43 d 13 d 00 d 00")
+    end = await env.wait_end(600_000)
+    env.window("J105-05", "last step to irq", end - env.pulses[-1], 0, 10)
+    ticks = [round(gap * 48_675 / 16_000_000) for gap in env.intervals]
+    env.check("AC-46", "gaps in ticks", ticks, W1)
+    expected = [(t, level & 15) for t, level in bench.edges("s", env.since)]
+    env.check("J105-07", "drv", bench.edges("drv", env.since), expected)
+    env.check("AC-46", "irq", bench.level("irq"), 1)
+    env.check("AC-46", "FIN", await env.finish(), 0x83)
+    env.check("AC-46", "irq after 80", bench.level("irq"), 0)
 
 
 @rtl_only(NANOSECONDS)
@@ -43,35 +43,35 @@ async def j105_01_addresses(dut: Any) -> None:
     """Of all addresses next to those of the board, with and without aen, only its two addresses respond
     (J105-01).
     """
-    lab = await BoardLab.start(dut)
-    master, base = lab.master, lab.base
+    env = await BoardEnv.start(dut)
+    master, base = env.master, env.base
     around = {base ^ bit for bit in (1 << n for n in range(1, 10))} | {base - 1, base + 2, base + 3}
     for address in sorted(around):
         await master.write(address & 0x3FF, 0x43)
         driven, _, _ = await master.read(address & 0x3FF)
-        lab.check("J105-01", f"sd_oe at {address:#x}", driven, 0)
+        env.check("J105-01", f"sd_oe at {address:#x}", driven, 0)
     for address in (base, base + 1):
         await master.write(address, 0x43, aen=1)
         driven, _, _ = await master.read(address, aen=1)
-        lab.check("J105-01", f"sd_oe with aen at {address:#x}", driven, 0)
-    lab.check("J105-01", "status", await lab.host.status(), 0)
-    lab.check("J105-01", "data register", await lab.host.read(0), 0)
-    lab.check("J105-01", "a command", await lab.host.command(0x42), 0xA0)
-    lab.check("J105-01", "a data byte", await lab.host.data(0x42), 0xB0)
+        env.check("J105-01", f"sd_oe with aen at {address:#x}", driven, 0)
+    env.check("J105-01", "status", await env.host.status(), 0)
+    env.check("J105-01", "data register", await env.host.read(0), 0)
+    env.check("J105-01", "a command", await env.host.command(0x42), 0xA0)
+    env.check("J105-01", "a data byte", await env.host.data(0x42), 0xB0)
 
 
 @rtl_only(NANOSECONDS)
 @directed("J105-03", "J105-04", builds=(F16, F8))
 async def j105_03_bus_is_released_at_once(dut: Any) -> None:
     """When ior_n, sa or aen ends a read at any phase to clk, sd_oe falls immediately (J105-03)."""
-    lab = await BoardLab.start(dut)
-    bench = lab.bench
-    await lab.host.command(0xC0)
+    env = await BoardEnv.start(dut)
+    bench = env.bench
+    await env.host.command(0xC0)
     for part in range(8):
         for end in ({"ior_n": 1}, {"aen": 1}, {"sa": 0x000}):
             await bench.align()
             await Timer(bench.period * part // 16 * 2 + 2, "ps")
-            bench.set_between_edges(sa=lab.base + 1, aen=0)
+            bench.set_between_edges(sa=env.base + 1, aen=0)
             await Timer(100_000, "ps")
             bench.set_between_edges(ior_n=0)
             await Timer(600_000 + 2, "ps")
@@ -80,8 +80,8 @@ async def j105_03_bus_is_released_at_once(dut: Any) -> None:
             got = bench.level("sd_oe"), bench.level("sd_o")
             bench.set_between_edges(**end)
             await Timer(4, "ps")
-            lab.check("J105-03", f"sd_oe after {end}", bench.level("sd_oe"), 0)
-            lab.check("J105-04", "sd_oe and status", got, (1, 0x80))
+            env.check("J105-03", f"sd_oe after {end}", bench.level("sd_oe"), 0)
+            env.check("J105-04", "sd_oe and status", got, (1, 0x80))
             bench.set_between_edges(ior_n=1)
             await bench.align()
             await bench.clocks(6)
@@ -93,34 +93,34 @@ async def j105_03_bus_is_released_at_once(dut: Any) -> None:
 @directed("AC-47", "J105-06", builds=(F16,))
 async def j105_ac_47_step_clock(dut: Any) -> None:
     """At divisor 141 on 48.675 kHz, 21 steps have exact distances, without drift (AC-47)."""
-    lab = await BoardLab.start(dut)
-    await lab.init(0x1A, 141, 141, 0)
-    lab.since = lab.bench.now
-    await lab.host.run("c 43 d 14 d 00 d 00")
-    await lab.ended(1_500_000)
-    steps = lab.pulses
-    lab.check("AC-47", "steps", len(steps), 21)
-    lab.window("AC-47", "sum of the gaps", steps[-1] - steps[0], 926_963, 926_966)
-    for gap in lab.intervals:
-        lab.window("AC-47", "gap", gap, 46_346, 46_350)
+    env = await BoardEnv.start(dut)
+    await env.init(0x1A, 141, 141, 0)
+    env.since = env.bench.now
+    await env.host.run("c 43 d 14 d 00 d 00")
+    await env.wait_end(1_500_000)
+    steps = env.pulses
+    env.check("AC-47", "steps", len(steps), 21)
+    env.window("AC-47", "sum of the gaps", steps[-1] - steps[0], 926_963, 926_966)
+    for gap in env.intervals:
+        env.window("AC-47", "gap", gap, 46_346, 46_350)
 
 
 @rtl_only(NANOSECONDS)
 @directed("J105-06", "J105-08", builds=(F8, OTHER))
 async def j105_06_other_clocks(dut: Any) -> None:
     """With other core clocks and step clocks, every step of a ramp is where EXT_HZ puts it (J105-06)."""
-    lab = await BoardLab.start(dut)
-    ext_hz = int(dict(lab.cfg.extra).get("EXT_HZ", 48_675))
-    await lab.init(0x1A, 20, 5, 8)
-    lab.since = lab.bench.now
-    await lab.host.run("c 43 d 0B d 00 d 00")
-    await lab.ended(2_000_000)
+    env = await BoardEnv.start(dut)
+    ext_hz = int(dict(env.cfg.extra).get("EXT_HZ", 48_675))
+    await env.init(0x1A, 20, 5, 8)
+    env.since = env.bench.now
+    await env.host.run("c 43 d 0B d 00 d 00")
+    await env.wait_end(2_000_000)
     ticks = 0
-    for step, gap in zip(lab.pulses[1:], gaps(12), strict=True):
+    for step, gap in zip(env.pulses[1:], gaps(12), strict=True):
         ticks += gap
-        exact = ticks * lab.cfg.clk_hz / ext_hz
-        lab.window(
-            "J105-06", f"step after {ticks} ticks", step - lab.pulses[0], int(exact) - 2, int(exact) + 3
+        exact = ticks * env.cfg.clk_hz / ext_hz
+        env.window(
+            "J105-06", f"step after {ticks} ticks", step - env.pulses[0], int(exact) - 2, int(exact) + 3
         )
 
 
@@ -130,26 +130,26 @@ async def j105_07_drivers(dut: Any) -> None:
     """With 5 phases, negative logic and the chopper, drv is s[4:1], during steps and at standstill
     (J105-07).
     """
-    lab = await BoardLab.start(dut)
-    bench = lab.bench
+    env = await BoardEnv.start(dut)
+    bench = env.bench
     for code in (0x2F, 0x22, 0x2E):
         await bench.align()
         bench.set(rst_n=0)
         await bench.clocks(3)
         bench.set(rst_n=1)
         await bench.clocks(6)
-        await lab.init(code, 9, 3, 3)
-        await lab.move(0x44, 4, 2)
+        await env.init(code, 9, 3, 3)
+        await env.move(0x44, 4, 2)
         await bench.clocks(6_000)
-        await lab.finish()
-    wanted: list[tuple[int, int]] = []
+        await env.finish()
+    expected: list[tuple[int, int]] = []
     last = 0
     for t, level in bench.edges("s"):
         if level & 15 != last:
             last = level & 15
-            wanted.append((t, last))
-    lab.check("J105-07", "edges of drv", bench.edges("drv"), wanted)
-    lab.check("J105-07", "edges seen", len(wanted) > 20, True)
+            expected.append((t, last))
+    env.check("J105-07", "edges of drv", bench.edges("drv"), expected)
+    env.check("J105-07", "edges seen", len(expected) > 20, True)
 
 
 @rtl_only(NANOSECONDS)
@@ -158,47 +158,47 @@ async def j105_05_interrupt(dut: Any) -> None:
     """irq rises at the end of a motion only without bit 4, and falls with 80, not with the read of its
     byte (J105-05).
     """
-    lab = await BoardLab.start(dut)
-    await lab.init(0x0A, 9, 3, 3)
-    await lab.move(0x52)
-    lab.check("J105-05", "irq", lab.bench.edges("irq"), [])
-    await lab.move(0x42)
-    await lab.bench.clocks(4)
-    lab.check("J105-05", "irq", lab.bench.level("irq"), 1)
-    await lab.host.command(0x80)
-    lab.check("J105-05", "irq after 80", lab.bench.level("irq"), 0)
-    lab.check("J105-05", "FIN", await lab.host.read_data(), 0x82)
+    env = await BoardEnv.start(dut)
+    await env.init(0x0A, 9, 3, 3)
+    await env.move(0x52)
+    env.check("J105-05", "irq", env.bench.edges("irq"), [])
+    await env.move(0x42)
+    await env.bench.clocks(4)
+    env.check("J105-05", "irq", env.bench.level("irq"), 1)
+    await env.host.command(0x80)
+    env.check("J105-05", "irq after 80", env.bench.level("irq"), 0)
+    env.check("J105-05", "FIN", await env.host.read_data(), 0x82)
 
 
 @rtl_only(NANOSECONDS)
 @directed("J105-02", "STMC-BAD-13")
 async def j105_02_short_cycles(dut: Any) -> None:
     """Accesses of 2 ns to 5 cycles, at any phase, are executed completely or not at all (J105-02)."""
-    lab = await BoardLab.start(dut)
-    bench, master, rng = lab.bench, lab.master, lab.bench.rng
+    env = await BoardEnv.start(dut)
+    bench, master, rng = env.bench, env.master, env.bench.rng
     master.times = Times(late=0)  # data change with the strobe, so that only the length of the strobe decides
     clk_ns = bench.period / 1000
     done = missed = 0
     for _ in range(150):
-        await lab.host.command(0xC0)
+        await env.host.command(0xC0)
         length = rng.choice((rng.uniform(0.02, 1.5), rng.uniform(0.02, 5.0))) * clk_ns
         await Timer(rng.randrange(0, bench.period, 2), "ps")
-        await master.write(lab.base + 1, 0x0A, command=length)
+        await master.write(env.base + 1, 0x0A, command=length)
         await bench.clocks(12)
-        status = await lab.host.status()
-        lab.check("STMC-BAD-13", f"status {status:#x} is 80 or 40", status in (0x80, 0x40), True)
+        status = await env.host.status()
+        env.check("STMC-BAD-13", f"status {status:#x} is 80 or 40", status in (0x80, 0x40), True)
         if length >= 3 * clk_ns:
-            lab.check("J105-02", f"status after a write of {length:.0f} ns", status, 0x40)
+            env.check("J105-02", f"status after a write of {length:.0f} ns", status, 0x40)
         done, missed = done + (status == 0x40), missed + (status == 0x80)
-        await lab.host.command(0x81)
+        await env.host.command(0x81)
         await Timer(rng.randrange(0, bench.period, 2), "ps")
-        await master.read(lab.base, command=length)
+        await master.read(env.base, command=length)
         await bench.clocks(12)
-        gone = not await lab.host.status() & OBF
+        gone = not await env.host.status() & OBF
         short = length < 5 * clk_ns
-        lab.check("STMC-BAD-13", f"byte gone after {length:.0f} ns", gone or short, True)
-        lab.check("STMC-BAD-13", "byte", await lab.host.read(0), 0xCF)
-    lab.check("STMC-BAD-13", f"{done} done, {missed} missed", done > 20 and missed > 20, True)
+        env.check("STMC-BAD-13", f"byte gone after {length:.0f} ns", gone or short, True)
+        env.check("STMC-BAD-13", "byte", await env.host.read(0), 0xCF)
+    env.check("STMC-BAD-13", f"{done} done, {missed} missed", done > 20 and missed > 20, True)
 
 
 @rtl_only(NANOSECONDS)
@@ -207,30 +207,30 @@ async def j105_01_cycles_in_the_table_build(dut: Any) -> None:
     """Accesses to other addresses, masked by aen, or illegal ones do not disturb a table build
     (J105-01).
     """
-    lab = await BoardLab.start(dut)
-    bench, master = lab.bench, lab.master
-    await lab.host.init(0x1A, 255, 1, 60)
+    env = await BoardEnv.start(dut)
+    bench, master = env.bench, env.master
+    await env.host.init(0x1A, 255, 1, 60)
     for n in range(12):
-        await master.write((lab.base ^ 1 << n % 9 + 1) + 1, 0x42)
-        await master.write(lab.base + 1, 0x40, aen=1)
-        await master.read(lab.base + 1, aen=1)
+        await master.write((env.base ^ 1 << n % 9 + 1) + 1, 0x42)
+        await master.write(env.base + 1, 0x40, aen=1)
+        await master.read(env.base + 1, aen=1)
         await bench.align()
-        bench.set(sa=lab.base + 1, sd_i=0x42)
+        bench.set(sa=env.base + 1, sd_i=0x42)
         await bench.clocks(2)
         bench.set(ior_n=0, iow_n=0)
         await bench.clocks(6)
         bench.set(ior_n=1, iow_n=1)
         await bench.clocks(6)
-        lab.check("J105-01", "status in the build", await lab.host.status(), 0)
-    lab.check("STMC-INI-07", "a byte waits for the build", await lab.host.write(1, 0x80) > 0, True)
-    lab.check("STMC-INI-07", "IBF", await lab.host.status(), IBF)
-    await lab.host.poll(IBF, 0, 40_000)
-    lab.check("STMC-INI-07", "FIN", await lab.host.read(0), 0x80)
-    lab.since = bench.now
-    await lab.host.run("c 43 d 03 d 00 d 00")
-    await lab.ended(600_000)
-    ticks = [round(gap * 48_675 / 16_000_000) for gap in lab.intervals]
-    lab.check("J105-01", "gaps in ticks", ticks, gaps(4, (255, 1, 60)))
+        env.check("J105-01", "status in the build", await env.host.status(), 0)
+    env.check("STMC-INI-07", "a byte waits for the build", await env.host.write(1, 0x80) > 0, True)
+    env.check("STMC-INI-07", "IBF", await env.host.status(), IBF)
+    await env.host.poll(IBF, 0, 40_000)
+    env.check("STMC-INI-07", "FIN", await env.host.read(0), 0x80)
+    env.since = bench.now
+    await env.host.run("c 43 d 03 d 00 d 00")
+    await env.wait_end(600_000)
+    ticks = [round(gap * 48_675 / 16_000_000) for gap in env.intervals]
+    env.check("J105-01", "gaps in ticks", ticks, gaps(4, (255, 1, 60)))
 
 
 @rtl_only(NANOSECONDS)
@@ -239,16 +239,16 @@ async def j105_all_parameters(dut: Any) -> None:
     """With other values of all parameters, codes and times are those of the parameters (J105-07,
     STMC-DS-03).
     """
-    lab = await BoardLab.start(dut)
-    bench = lab.bench
-    await lab.init(0x2A, 9, 3, 3)
-    lab.check("STMC-INP-01", "inputs by the sister parts' code", await lab.inputs(), 0xCF)
-    await lab.move(0x42)
-    end = await lab.ended()
-    delay = lab.cfg.cyc(2_500)
-    lab.window("STMC-HLD-01", "hold", await bench.edge("hold", 1) - end, delay - 2, delay + 16)
-    await bench.clocks(lab.cfg.cyc(3 * 1_012))
-    slack = lab.cfg.cyc(4) + 1
-    for level, clk in lab.stretches(end)[1:]:
-        nominal = lab.cfg.cyc(401 if level else 611)
-        lab.window("STMC-CHP-01", f"clk of s = {level}", clk, nominal - slack, nominal + slack)
+    env = await BoardEnv.start(dut)
+    bench = env.bench
+    await env.init(0x2A, 9, 3, 3)
+    env.check("STMC-INP-01", "inputs by the sister parts' code", await env.inputs(), 0xCF)
+    await env.move(0x42)
+    end = await env.wait_end()
+    delay = env.cfg.cyc(2_500)
+    env.window("STMC-HLD-01", "hold", await bench.edge("hold", 1) - end, delay - 2, delay + 16)
+    await bench.clocks(env.cfg.cyc(3 * 1_012))
+    slack = env.cfg.cyc(4) + 1
+    for level, clk in env.stretches(end)[1:]:
+        nominal = env.cfg.cyc(401 if level else 611)
+        env.window("STMC-CHP-01", f"clk of s = {level}", clk, nominal - slack, nominal + slack)

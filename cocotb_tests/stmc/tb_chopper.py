@@ -6,49 +6,49 @@ from typing import Any
 
 from cocotb_tests.harness import F16, directed
 
-from .figures import F12, INTERNAL, ODD, SHEET, T0
-from .lab import Lab
+from .env import Env
+from .expected_timing import F12, INTERNAL, ODD, SHEET, T0
 
 CHOP: tuple[int, int, int, int] = (0x2A, 20, 5, 8)
 
 
-def xt(lab: Lab, name: str, default: int) -> int:
+def xt(env: Env, name: str, default: int) -> int:
     """Return a time parameter of the build in crystal periods."""
-    return int(dict(lab.cfg.extra).get(name, default))
+    return int(dict(env.cfg.extra).get(name, default))
 
 
-def check_chopping(lab: Lab, rule: str, since: int, pattern: int, off: int) -> None:
+def check_chopping(env: Env, rule: str, since: int, pattern: int, off: int) -> None:
     """Check that every complete phase since an edge is CHOP_ON or CHOP_OFF within 4 crystal periods + 1
     cycle, without drift.
     """
-    slack = lab.cfg.cyc(4) + 1
-    on_xt, off_xt = xt(lab, "CHOP_ON_XT", 1_040), xt(lab, "CHOP_OFF_XT", 1_740)
-    rows = lab.stretches(since)
-    lab.check(rule, "several phases seen", len(rows) >= 4, True)
-    lab.check(rule, "levels", {level for level, _ in rows}, {pattern, off})
+    slack = env.cfg.cyc(4) + 1
+    on_xt, off_xt = xt(env, "CHOP_ON_XT", 1_040), xt(env, "CHOP_OFF_XT", 1_740)
+    rows = env.stretches(since)
+    env.check(rule, "several phases seen", len(rows) >= 4, True)
+    env.check(rule, "levels", {level for level, _ in rows}, {pattern, off})
     for level, clk in rows:
-        nominal = lab.cfg.cyc(on_xt if level == pattern else off_xt)
-        lab.window(rule, f"clk of s = {level:05b}", clk, nominal - slack, nominal + slack)
-    begins = [t for t, level in lab.bench.edges("s", since) if level == off]
-    period = lab.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
+        nominal = env.cfg.cyc(on_xt if level == pattern else off_xt)
+        env.window(rule, f"clk of s = {level:05b}", clk, nominal - slack, nominal + slack)
+    begins = [t for t, level in env.bench.edges("s", since) if level == off]
+    period = env.cfg.cyc(4 * -(-on_xt // 4) + 4 * -(-off_xt // 4))
     total = begins[-1] - begins[0]
     count = len(begins) - 1
     # Rounding up to whole quanta makes a period up to 8 crystal periods longer.
-    lab.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
+    env.window(rule, f"{count} periods", total, (period - 8) * count - 1, period * count + 1)
 
 
 @directed("STMC-CHP-01", builds=(F16, F12, ODD))
 async def stmc_chp_01_phases(dut: Any) -> None:
     """With bit 5, on and off times repeat without drift at standstill, for each logic (STMC-CHP-01)."""
-    lab = await Lab.start(dut, None, clock=0)
+    env = await Env.start(dut, None, clock=0)
     for code, pattern, off in ((0x2A, 0b00011, 0b00000), (0x22, 0b11100, 0b11111), (0x2F, 0b00011, 0)):
-        await lab.reset()
-        await lab.host.init(code, 20, 5, 8)
-        await lab.bench.edge("s", off, 60_000)
-        since = lab.bench.now
-        await lab.bench.clocks(lab.cfg.cyc(20_000))
-        check_chopping(lab, "STMC-CHP-01", since, pattern, off)
-        lab.check("STMC-CHP-01", "hold", lab.bench.edges("hold"), [])
+        await env.reset()
+        await env.host.init(code, 20, 5, 8)
+        await env.bench.edge("s", off, 60_000)
+        since = env.bench.now
+        await env.bench.clocks(env.cfg.cyc(20_000))
+        check_chopping(env, "STMC-CHP-01", since, pattern, off)
+        env.check("STMC-CHP-01", "hold", env.bench.edges("hold"), [])
 
 
 @directed("STMC-CHP-01", "STMC-CHP-02", "STMC-HLD-02", builds=(F16, F12))
@@ -56,67 +56,67 @@ async def stmc_chp_02_motion(dut: Any) -> None:
     """A motion that starts in any phase of the chopper has the full pattern, and a complete on-time
     follows its end (STMC-CHP-02).
     """
-    lab = await Lab.start(dut, CHOP, clock=0)
-    on, slack = lab.cfg.cyc(1_040), lab.cfg.cyc(4) + 1
+    env = await Env.start(dut, CHOP, clock=0)
+    on, slack = env.cfg.cyc(1_040), env.cfg.cyc(4) + 1
     table = [0b00011, 0b00110, 0b01100, 0b01001]
     at = 0
     for wait in (100, 700, 1_300, 2_000, 2_700):
-        await lab.bench.clocks(wait)
-        begin = lab.bench.now
-        edge0 = await lab.go(0x42, poll=False)
-        end = await lab.ended()
-        low = [t for t, _ in lab.bench.edges("s", begin) if t <= edge0 + 14]
+        await env.bench.clocks(wait)
+        begin = env.bench.now
+        edge0 = await env.go(0x42, poll=False)
+        end = await env.wait_end()
+        low = [t for t, _ in env.bench.edges("s", begin) if t <= edge0 + 14]
         for t in range(edge0 + 14, end, 7):
-            lab.check("STMC-CHP-02", "s while BUSY", lab.bench.level_at("s", t) > 0, True)
+            env.check("STMC-CHP-02", "s while BUSY", env.bench.level_at("s", t) > 0, True)
         at += 1
-        step = next(t for t, level in lab.bench.edges("s", edge0) if level == table[at % 4])
-        lab.window("STMC-MOT-06", "step", step - edge0, lab.cfg.cyc(T0), lab.cfg.cyc(T0) + 14)
-        lab.check("STMC-CHP-02", "edges before BUSY", len(low) <= 2, True)
-        off = await lab.bench.edge("s", 0)
-        lab.window("STMC-CHP-01", "first on-time", off - end, on - slack, on + slack + 2)
-        await lab.finish()
+        step = next(t for t, level in env.bench.edges("s", edge0) if level == table[at % 4])
+        env.window("STMC-MOT-06", "step", step - edge0, env.cfg.cyc(T0), env.cfg.cyc(T0) + 14)
+        env.check("STMC-CHP-02", "edges before BUSY", len(low) <= 2, True)
+        off = await env.bench.edge("s", 0)
+        env.window("STMC-CHP-01", "first on-time", off - end, on - slack, on + slack + 2)
+        await env.finish()
 
 
 @directed("STMC-CHP-02", "STMC-INI-04", "STMC-INI-07")
 async def stmc_chp_02_initialisations(dut: Any) -> None:
     """When bit 5 is cleared or set again, the chopping changes when the build is complete (STMC-CHP-02)."""
-    lab = await Lab.start(dut, CHOP, clock=0)
-    await lab.bench.edge("s", 0)
-    await lab.host.init(0x0A, 20, 5, 8)
-    since = lab.bench.now
-    await lab.ready()
-    complete = lab.bench.now
-    lab.check("STMC-CHP-02", "chopped during the build", len(lab.bench.edges("s", since)) >= 2, True)
-    await lab.bench.clocks(6_000)
-    lab.check("STMC-CHP-02", "full pattern", lab.bench.edges("s", complete), [])
-    lab.check("STMC-CHP-02", "s", lab.bench.level("s"), 0b00011)
-    await lab.host.init(*CHOP)
-    since = lab.bench.now
-    await lab.bench.clocks(300)
-    lab.check("STMC-CHP-02", "s during the build", lab.bench.edges("s", since), [])
-    await lab.ready()
-    off = await lab.bench.edge("s", 0)
-    lab.window("STMC-CHP-01", "a full on-time after the build", off - since, 1_040, 1_040 + 6_000)
+    env = await Env.start(dut, CHOP, clock=0)
+    await env.bench.edge("s", 0)
+    await env.host.init(0x0A, 20, 5, 8)
+    since = env.bench.now
+    await env.ready()
+    complete = env.bench.now
+    env.check("STMC-CHP-02", "chopped during the build", len(env.bench.edges("s", since)) >= 2, True)
+    await env.bench.clocks(6_000)
+    env.check("STMC-CHP-02", "full pattern", env.bench.edges("s", complete), [])
+    env.check("STMC-CHP-02", "s", env.bench.level("s"), 0b00011)
+    await env.host.init(*CHOP)
+    since = env.bench.now
+    await env.bench.clocks(300)
+    env.check("STMC-CHP-02", "s during the build", env.bench.edges("s", since), [])
+    await env.ready()
+    off = await env.bench.edge("s", 0)
+    env.window("STMC-CHP-01", "a full on-time after the build", off - since, 1_040, 1_040 + 6_000)
     # A rejected initialisation leaves the old bit 5 active.
-    await lab.host.init(0x0A, 5, 20, 8)
-    since = lab.bench.now
-    await lab.bench.clocks(9_000)
-    check_chopping(lab, "STMC-CHP-01", since, 0b00011, 0)
+    await env.host.init(0x0A, 5, 20, 8)
+    since = env.bench.now
+    await env.bench.clocks(9_000)
+    check_chopping(env, "STMC-CHP-01", since, 0b00011, 0)
 
 
 @directed("STMC-CHP-01", "STMC-MOT-05", "STMC-HLD-01")
 async def stmc_chp_01_motion_without_a_step(dut: Any) -> None:
     """If 42 makes no step because l1_n is low, a complete on-time still begins at its end (STMC-CHP-01)."""
-    lab = await Lab.start(dut, CHOP, clock=0)
-    await lab.pins(l1_n=0)
+    env = await Env.start(dut, CHOP, clock=0)
+    await env.pins(l1_n=0)
     for wait in (0, 900, 1_700):
-        await lab.bench.clocks(wait)
-        await lab.go(0x42)
-        end = await lab.ended()
-        off = await lab.bench.edge("s", 0)
-        lab.window("STMC-CHP-01", "first on-time", off - end, 1_035, 1_047)
-        await lab.finish()
-    lab.check("STMC-HLD-01", "hold", lab.bench.level("hold"), 0)
+        await env.bench.clocks(wait)
+        await env.go(0x42)
+        end = await env.wait_end()
+        off = await env.bench.edge("s", 0)
+        env.window("STMC-CHP-01", "first on-time", off - end, 1_035, 1_047)
+        await env.finish()
+    env.check("STMC-HLD-01", "hold", env.bench.level("hold"), 0)
 
 
 @directed("STMC-OUT-02", "STMC-OUT-01", builds=(SHEET,))
@@ -124,15 +124,15 @@ async def stmc_out_02_outputs_while_chopped(dut: Any) -> None:
     """While chopping, each read of the outputs returns the unchopped pattern, and HOLD as its pin
     (STMC-OUT-02).
     """
-    lab = await Lab.start(dut, CHOP, clock=0)
+    env = await Env.start(dut, CHOP, clock=0)
     for wait in (1, 300, 500, 700, 900, 1_100):
-        await lab.bench.clocks(wait)
-        lab.check("STMC-OUT-02", "outputs", await lab.out(), 0xC4)
-    await lab.move(0x4A)
-    lab.check("STMC-OUT-01", "outputs before hold", await lab.out(), 0x92)
-    await lab.bench.level_is("hold", 1)
-    await lab.bench.clocks(4)
-    lab.check("STMC-OUT-01", "outputs after hold", await lab.out(), 0x96)
+        await env.bench.clocks(wait)
+        env.check("STMC-OUT-02", "outputs", await env.out(), 0xC4)
+    await env.move(0x4A)
+    env.check("STMC-OUT-01", "outputs before hold", await env.out(), 0x92)
+    await env.bench.level_is("hold", 1)
+    await env.bench.clocks(4)
+    env.check("STMC-OUT-01", "outputs after hold", await env.out(), 0x96)
 
 
 @directed("STMC-HLD-01", "STMC-HLD-02", builds=(SHEET, ODD))
@@ -140,35 +140,35 @@ async def stmc_hld_01_hold(dut: Any) -> None:
     """hold rises HOLD_XT crystal periods after the last end, also if motions restart or make no step
     (STMC-HLD-01).
     """
-    lab = await Lab.start(dut, INTERNAL, clock=0)
-    delay = lab.cfg.cyc(xt(lab, "HOLD_XT", 544_000))
+    env = await Env.start(dut, INTERNAL, clock=0)
+    delay = env.cfg.cyc(xt(env, "HOLD_XT", 544_000))
     for code, n, rate in ((0x42, None, None), (0x44, 3, 1), (0x43, 1, None)):
-        await lab.go(code, n, rate)
-        end = await lab.ended()
-        rise = await lab.bench.edge("hold", 1)
-        lab.window("STMC-HLD-01", "hold", rise - end, delay, delay + 16)
-        await lab.finish()
-    begin = lab.bench.now
+        await env.go(code, n, rate)
+        end = await env.wait_end()
+        rise = await env.bench.edge("hold", 1)
+        env.window("STMC-HLD-01", "hold", rise - end, delay, delay + 16)
+        await env.finish()
+    begin = env.bench.now
     for _ in range(4):
-        await lab.move(0x42)
-        await lab.finish()
-        await lab.bench.clocks(delay - 400)
-        await lab.init(0x0A, 9, 9, 0)
-    lab.check("STMC-HLD-02", "edges of hold", len(lab.bench.edges("hold", begin)) % 2, 1)
-    await lab.pins(mon=0)
-    await lab.bench.level_is("hold", 1)
-    await lab.go(0x42)
-    end = await lab.ended()
-    lab.check("STMC-HLD-01", "falls without a step", lab.bench.level("hold"), 0)
-    rise = await lab.bench.edge("hold", 1)
-    lab.window("STMC-HLD-01", "hold without a step", rise - end, delay, delay + 16)
+        await env.move(0x42)
+        await env.finish()
+        await env.bench.clocks(delay - 400)
+        await env.init(0x0A, 9, 9, 0)
+    env.check("STMC-HLD-02", "edges of hold", len(env.bench.edges("hold", begin)) % 2, 1)
+    await env.pins(mon=0)
+    await env.bench.level_is("hold", 1)
+    await env.go(0x42)
+    end = await env.wait_end()
+    env.check("STMC-HLD-01", "falls without a step", env.bench.level("hold"), 0)
+    rise = await env.bench.edge("hold", 1)
+    env.window("STMC-HLD-01", "hold without a step", rise - end, delay, delay + 16)
 
 
 @directed("STMC-HLD-01")
 async def stmc_hld_01_default(dut: Any) -> None:
     """With the default, hold rises 34 ms after a step (STMC-HLD-01)."""
-    lab = await Lab.start(dut, INTERNAL, clock=0)
-    await lab.go(0x42)
-    end = await lab.ended()
-    rise = await lab.bench.edge("hold", 1)
-    lab.window("STMC-HLD-01", "hold", rise - end, 544_000, 544_016)
+    env = await Env.start(dut, INTERNAL, clock=0)
+    await env.go(0x42)
+    end = await env.wait_end()
+    rise = await env.bench.edge("hold", 1)
+    env.window("STMC-HLD-01", "hold", rise - end, 544_000, 544_016)

@@ -8,8 +8,8 @@ from typing import Any
 from cocotb_tests.harness import F16, directed
 from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, sweep
 
-from .figures import F8X20, Ramp, divisor
-from .lab import Lab
+from .env import Env
+from .expected_timing import F8X20, Ramp, divisor
 
 
 def rates(ramp: Ramp, which: Sequence[int]) -> list[int]:
@@ -23,15 +23,15 @@ async def stmc_clk_04_sweep(dut: Any) -> None:
     """With edges 4 to 17 cycles apart, D2 1 to 5, and any deceleration point, gaps are exact
     (STMC-CLK-04).
     """
-    lab = await Lab.start(dut, None, clock=0)
-    rng = lab.bench.rng
-    await lab.init(0x1A, 10, 5, 4)
-    moves = await ExtMoves.of(lab, (9, 4, 4), "l3_n", lows=False, rate_of=rates)
+    env = await Env.start(dut, None, clock=0)
+    rng = env.bench.rng
+    await env.init(0x1A, 10, 5, 4)
+    moves = await ExtMoves.of(env, (9, 4, 4), "l3_n", lows=False, rate_of=rates)
     for fast in range(5):
         for ramp in (
             (rng.randint(fast + 1, 40), fast, 4),
             (fast + rng.randint(1, 9), fast, rng.randint(1, 9)),
         ):
-            await lab.init(0x1A, ramp[0] + 1, fast + 1, ramp[2])
+            await env.init(0x1A, ramp[0] + 1, fast + 1, ramp[2])
             for move in sweep(ramp, rng, rates):
                 await moves.check(move)

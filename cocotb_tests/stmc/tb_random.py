@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import BUSY, IBF, OBF, Bench, HostBus, random_test, start_bench
+from cocotb_tests.harness import BUSY, IBF, OBF, HostBus, RtlBench, random_test, start_bench
 from cocotb_tests.harness.player import SinglePlayer, describe
-from cocotb_tests.harness.random_host import UNCOMPARED, Noise
-from cocotb_tests.harness.running import note
+from cocotb_tests.harness.random_host import UNCOMPARED, PinNoise
+from cocotb_tests.harness.run_context import note
 
 from .bench import STMC
-from .figures import gaps, internal_offsets
+from .expected_timing import gaps, internal_offsets
 from .random_host import scenario
 
 STROBES = ("wr_n", "wr_n", "wr_n", "rd_n", "cs_n")
@@ -39,16 +39,16 @@ CODES = (
 async def stmc_random_host(dut: Any, seed: int) -> None:
     """During the transactions of a random host, all outputs change as in the golden model."""
     plan = scenario(seed)
-    side = await start_bench(dut, STMC, **plan.pins)
-    note(side, describe(plan.actions))
-    await SinglePlayer(side, plan, "STMC-STP-01").run()
+    bench = await start_bench(dut, STMC, **plan.pins)
+    note(bench, describe(plan.actions))
+    await SinglePlayer(bench, plan, "STMC-STP-01").run()
 
 
 @random_test("STMC-BAD-13", "STMC-BAD-14", "STMC-BAD-15", "STMC-CLK-04", "STMC-INI-04", uncompared=UNCOMPARED)
-async def stmc_random_chaos(dut: Any, seed: int) -> None:
+async def stmc_random_noise(dut: Any, seed: int) -> None:
     """After noise on all input pins, 40 and an initialisation make the core work again."""
-    bench = await Bench.start(dut, STMC, seed=seed)
-    noise = Noise(bench, STROBES, CODES)
+    bench = await RtlBench.start(dut, STMC, seed=seed)
+    noise = PinNoise(bench, STROBES, CODES)
     await noise.make(bench.rng.choice((2_000, 10_000, 40_000)))
     await noise.stop()
     host = HostBus(bench, timeout=bench.config.cyc(264_000 + 209 * 65_536))
@@ -72,7 +72,7 @@ async def stmc_random_chaos(dut: Any, seed: int) -> None:
     steps = [t for t, _ in bench.edges("s", start)]
     if len({level for _, level in bench.edges("s", start)}) > 2:
         steps = steps[-7:]
-    wanted = internal_offsets(bench.config, gaps(7, (5, 2, 4)))
+    expected = internal_offsets(bench.config, gaps(7, (5, 2, 4)))
     got = [t - steps[-7] for t in steps[-7:]]
-    bench.check("STMC-INI-04", "steps after recovery", got, wanted)
+    bench.check("STMC-INI-04", "steps after recovery", got, expected)
     bench.check("STMC-INI-04", "finish status", await host.fetch(0x80), [0x83])

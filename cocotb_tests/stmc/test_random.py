@@ -9,7 +9,7 @@ from cocotb_tests.harness import D16, F16, RandomItems, SimOptions, generating
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.random_host import in_turn
 
-from .figures import F12, ODD
+from .expected_timing import F12, ODD
 from .random_host import DATASHEET_WEIGHTS, WEIGHTS, scenario
 
 SEEDS = range(1, 151)
@@ -17,14 +17,14 @@ CHAOS_SEEDS = range(1, 17)
 
 
 random_item = RandomItems("stmc", "tb_random", "stmc_random_host", SEEDS, lambda seed: scenario(seed).config)
-chaos_item = RandomItems(
+noise_item = RandomItems(
     "stmc",
     "tb_random",
-    "stmc_random_chaos",
+    "stmc_random_noise",
     CHAOS_SEEDS,
     in_turn(F16, F16, F12, ODD, F16, D16),
 )
-pytest_generate_tests = generating(test_random=random_item, test_chaos=chaos_item)
+pytest_generate_tests = generating(test_random=random_item, test_noise=noise_item)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
@@ -32,9 +32,9 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
     random_item.run(item, seeds, sim_options)
 
 
-def test_chaos(item: Item, seeds: str, sim_options: SimOptions) -> None:
+def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """After noise on all pins, the core works again."""
-    chaos_item.run(item, seeds, sim_options)
+    noise_item.run(item, seeds, sim_options)
 
 
 def test_scenarios_are_reproducible_and_varied() -> None:
@@ -42,7 +42,7 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     build.
     """
     assert scenario(5) == scenario(5) != scenario(6)
-    assert random_item.complete and chaos_item.complete and len(SEEDS) >= 150
+    assert random_item.complete and noise_item.complete and len(SEEDS) >= 150
     plans = [scenario(seed) for seed in SEEDS]
     kinds = {action[0] for plan in plans for action in plan.actions}
     assert kinds == set("write send status read fetch finish wait pins blip raw reset".split())

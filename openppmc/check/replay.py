@@ -31,7 +31,7 @@ def new_model(part: str, params: Mapping[str, object]) -> Any:
     return parts.part(part).load("model")(**{name.lower(): value for name, value in params.items()})
 
 
-class Follower:
+class ModelRunner:
     """Model with a stream of inputs.
 
     Args:
@@ -71,7 +71,7 @@ def expected_edges(
     Raises:
         ValueError: a pin or level is unknown.
     """
-    follower = Follower(new_model(part, params))
+    follower = ModelRunner(new_model(part, params))
     model = follower.catch_up([Change(*row) for row in inputs], end)
     return [Edge(*edge) for edge in model.edges if edge.t <= end]
 
@@ -80,7 +80,7 @@ def compare_recording(
     recording: Recording,
     initial: Mapping[str, int] | None = None,
     seen: str = "board",
-    follower: Follower | None = None,
+    follower: ModelRunner | None = None,
     pins: Pinned | None = None,
 ) -> Comparison:
     """Replay the inputs of a recording into a golden model and compare every output.
@@ -92,7 +92,7 @@ def compare_recording(
         follower: a model that has run with this recording already.
         pins: pins of the part for reports; by default those of the model.
     """
-    follower = follower or Follower(new_model(recording.part, recording.params))
+    follower = follower or ModelRunner(new_model(recording.part, recording.params))
     if pins is None or initial is None:
         own = pins_of(follower.model)
         pins, initial = pins or own, own.outputs if initial is None else initial

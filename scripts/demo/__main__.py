@@ -63,7 +63,7 @@ def simulate(demo: Demo, steps: Steps) -> tuple[Recording, list[dict[str, Any]]]
         lambda: last_line(RUN / "progress"),
     )
     return Recording.from_json((RUN / "recording.json").read_text()), json.loads(
-        (RUN / "story.json").read_text()
+        (RUN / "chapters.json").read_text()
     )
 
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from cocotb_tests.pmc006.story import BUILD, FINE, LEAD, MOTOR, MOVES, WAY
+from cocotb_tests.pmc006.demo_program import BUILD, FINE, LEAD, MOTOR, MOVES, WAY
 from openppmc.capture.pmc006.words import Words006
 from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare

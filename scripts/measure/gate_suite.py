@@ -44,14 +44,14 @@ class GateTest:
 
     Attributes:
         params: parameters of the part's top.
-        inside: as in `PartTests`.
+        probes: as in `PartTests`.
     """
 
     family: str
     item: Item
     quick: bool = False
     params: tuple[tuple[str, Any], ...] = ()
-    inside: tuple[str, ...] = ()
+    probes: tuple[str, ...] = ()
     four_state: bool = False
 
     @property
@@ -65,7 +65,7 @@ class GateTest:
         if self.top == board.TOP:
             folder = gates.netlist(self.family, board.TOP, board.sources(), board.params(config))
             return gates.design(self.family, board.TOP, folder)
-        return gates.part_design(self.family, self.item.part, dict(self.params), self.inside)
+        return gates.part_design(self.family, self.item.part, dict(self.params), self.probes)
 
     @property
     def group(self) -> tuple[str, str]:
@@ -108,7 +108,7 @@ def _test(part: PartTests, item: Item, family: str) -> GateTest:
     pins = part.pins or common_part.PARTS[item.part]
     params = {**pins.params(item.config), **part.params}
     sampled = part.is_quick(item), part.is_four_state(item)
-    more = tuple(params.items()), part.inside
+    more = tuple(params.items()), part.probes
     return GateTest(family, _tagged(item, family), sampled[0], *more, sampled[1])
 
 

@@ -149,13 +149,13 @@ def slang(top: str, files: list[Path], params: dict[str, int | str]) -> str:
         stderr=subprocess.STDOUT,
     )
     lines = [line.strip() for line in done.stdout.splitlines() if line.strip()]
-    told = [line for line in lines if "warning:" in line.lower() or "error:" in line.lower()]
-    if done.returncode and not told:
-        told = lines[-4:] or [f"ended with exit code {done.returncode}"]
-    return "\n".join(dict.fromkeys(told))
+    messages = [line for line in lines if "warning:" in line.lower() or "error:" in line.lower()]
+    if done.returncode and not messages:
+        messages = lines[-4:] or [f"ended with exit code {done.returncode}"]
+    return "\n".join(dict.fromkeys(messages))
 
 
-def listed() -> str:
+def file_list() -> str:
     """Check that rtl/files.yml lists every RTL file once, and that every listed file exists."""
     groups = project.listed()
     names = [path for group in groups.values() for path in group.files]
@@ -175,7 +175,7 @@ def listed() -> str:
     return "\n".join(found)
 
 
-def walled() -> str:
+def group_dependencies() -> str:
     """Check that files use only modules and packages of groups in `needs`, and that no `needs` is unused."""
     return "\n".join(walls(project.listed()))
 
@@ -198,7 +198,7 @@ def text_files() -> list[Path]:
     return [path for path in paths if path.suffix in TEXT_SUFFIXES and path.is_file()]
 
 
-def texts() -> str:
+def text_marks() -> str:
     """Check for leftover marks, tabs, and spaces at line ends."""
     found = []
     for path in text_files():
@@ -213,6 +213,12 @@ def texts() -> str:
             if "\t" in line:
                 found.append(f"{relative(path)}:{number}: tab")
     return "\n".join(found)
+
+
+def spelling() -> str:
+    """Check the text files with codespell; `[tool.codespell]` in pyproject.toml has its settings."""
+    files = [relative(path) for path in text_files()]
+    return tool(sys.executable, "-m", "codespell_lib", *files, ok_output=True)
 
 
 def locked() -> str:
@@ -292,8 +298,8 @@ def checks() -> list[Check]:
         ),
         Check("mypy --strict", "openppmc", lambda: tool(sys.executable, "-m", "mypy", ok_output=True)),
         Check("figures", "docs/sizes.json", lambda: "\n".join(figures.stale(figures.read()))),
-        Check("rtl/files.yml", "complete", listed),
-        Check("rtl/files.yml", "dependencies of groups", walled),
+        Check("rtl/files.yml", "complete", file_list),
+        Check("rtl/files.yml", "dependencies of groups", group_dependencies),
         Check("modules", "ports and lines", all_findings),
         Check(
             "tables",
@@ -326,8 +332,9 @@ def checks() -> list[Check]:
             lambda: tool(sys.executable, "-m", "scripts.fpga.boards", "--check", ok_output=True),
         ),
         Check("requirements.lock", "installed packages", locked),
-        Check("texts", "marks, tabs, line ends", texts),
+        Check("texts", "marks, tabs, line ends", text_marks),
         Check("prose", "lint/prose.txt", prose.errors),
+        Check("codespell", "spelling", spelling),
     ]
 
 

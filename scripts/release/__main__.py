@@ -14,7 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from cocotb_tests.harness import project
 from cocotb_tests.harness.project import ProjectError, console, relative
 from scripts.release import bitstreams, notes, python, site, sources, verilog
-from scripts.release.state import Release, present
+from scripts.release.state import Release, current_release
 
 DIST = project.ROOT / "dist"
 SCRATCH = project.BUILD / "release"
@@ -81,9 +81,9 @@ def main() -> int:
     if strange := sorted(skip - set(SLOW)):
         raise ProjectError(f"SKIP={strange[0]}: expected {' or '.join(SLOW)}")
     only = tuple(args.only.replace(",", " ").split())
-    bitstreams.wanted(only)
+    bitstreams.selected(only)
     trial = bool(skip or only)
-    release = present(only, trial)
+    release = current_release(only, trial)
     if "site" not in skip:
         site.check()
     build(release, skip)

@@ -12,7 +12,7 @@ from scripts.release.archive import zipped
 from scripts.release.state import Release
 
 
-def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
+def selected(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
     """Return name -> board and host.
 
     Raises ProjectError for an unknown name.
@@ -32,7 +32,7 @@ def wanted(only: tuple[str, ...]) -> dict[str, tuple[Board, str]]:
 def make(release: Release, out: Path, scratch: Path, say: Callable[[str], None]) -> None:
     """Write the archive to `out`; `say` is called with the bitstream that is being built."""
     files: dict[str, Path | bytes] = {}
-    chosen = wanted(release.only)
+    chosen = selected(release.only)
     for number, (name, (on, host)) in enumerate(chosen.items(), 1):
         count = f"{number} of {len(chosen)}"
         build_board(

@@ -88,7 +88,7 @@ def check_tag(version: str, commit: str, tagged: str) -> None:
         raise ProjectError(f"v{version} exists already, on {tagged[:10]}, and this is {commit[:10]}")
 
 
-def present(only: tuple[str, ...] = (), trial: bool = False) -> Release:
+def current_release(only: tuple[str, ...] = (), trial: bool = False) -> Release:
     """Return the release of this checkout; raise ProjectError if it cannot make one.
 
     A trial only needs a commit: text below [Unreleased] and a tag of the version on another commit are

@@ -21,8 +21,8 @@ from openppmc.sim.common.build import SimError
 from scripts.site import wasm
 from scripts.site.progress import say
 from scripts.site.sessions import sessions
+from scripts.site.texts import tables
 from scripts.site.webparts import WEB_PARTS, WebPart
-from scripts.site.words import tables
 
 LENGTHS = {
     "byte": {"lead": 0, "strobe": 2, "readStrobe": 4, "gap": 2},

@@ -9,7 +9,7 @@ from itertools import count, islice
 from cocotb_tests.bank.random_host import in_motion
 from cocotb_tests.harness.model_bench import OnModel, on_model
 from cocotb_tests.harness.random_items import RandomItems
-from cocotb_tests.harness.running import ended
+from cocotb_tests.harness.run_context import last_test
 from openppmc.check.records import Recording
 from scripts.site.webparts import WebPart
 
@@ -38,6 +38,6 @@ def recorded(part: WebPart, seed: int) -> Recording:
     item = _items(part)(seed)
     test = getattr(importlib.import_module(item.module), item.test)
     on_model(test.func(OnModel(item.config, seed)))
-    last = ended()
-    assert last is not None and last.side is not None
-    return last.side.recording()
+    last = last_test()
+    assert last is not None and last.bench is not None
+    return last.bench.recording()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from math import ceil
 
-from cocotb_tests.bank.lab import WindowBus
+from cocotb_tests.bank.env import WindowBus
 from cocotb_tests.harness.bus import CSR, DRR, DWR, MREF, MWEF, RAR, WAR, WCR, HostBus
 from cocotb_tests.harness.line import SerialLine
 from openppmc.model.pmc006.line import command
@@ -18,7 +18,7 @@ class WindowPlayer(BytePlayer):
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
-        self.host = WindowBus(self.side)
+        self.host = WindowBus(self.bench)
         self.words |= {"axis": self.axis, "put": self.put, "get": self.get}
 
     async def axis(self, words: list[str]) -> list[str]:
@@ -41,7 +41,7 @@ class BlockPlayer(Player):
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
-        self.host = HostBus(self.side, 3, 5, 3)
+        self.host = HostBus(self.bench, 3, 5, 3)
         self.words |= {
             "w": self.write,
             "r": self.read,
@@ -60,7 +60,7 @@ class BlockPlayer(Player):
         return self.check("register", await self.host.read(int(words[0])), words[1:])
 
     async def _ready(self, bit: int) -> None:
-        pauses = Pauses(self.side)
+        pauses = Pauses(self.bench)
         while await self.host.read(CSR) & bit:
             await pauses.next()
 
@@ -86,7 +86,7 @@ class BlockPlayer(Player):
     async def count(self, words: list[str]) -> list[str]:
         """Check the number of pulses since the beginning or the last `count`."""
         found = self.pulses(self.part.motors[0])
-        self.mark = self.side.now
+        self.mark = self.bench.now
         if found != int(words[0]):
             raise ScriptError(f"{found} pulses")
         return words[1:]
@@ -101,23 +101,23 @@ class FramePlayer(Player):
         super().__init__(part, **pins)
         self.bit = Fraction(part.config.clk_hz, int(str(part.params["BAUD"])))
         self.line = SerialLine()
-        self.line.side = self.side
+        self.line.bench = self.bench
         self.line.open_line(self.bit)
         self.words |= {"f": self.frame, "idle": self.idle}
 
     async def _ask(self, letter: str, data: int) -> int:
-        side = self.side
-        self.line.back_to(side.now)
+        bench = self.bench
+        self.line.back_to(bench.now)
         await self.line.send(command(self.ADDRESS, letter, data))
-        await side.until(max(side.now, self.line.t))
+        await bench.until(max(bench.now, self.line.t))
         got = []
         for _ in range(8):
-            if side.level("txd"):
-                await side.edge("txd", 0, timeout=PATIENCE)
-            start, byte = side.now, 0
+            if bench.level("txd"):
+                await bench.edge("txd", 0, timeout=PATIENCE)
+            start, byte = bench.now, 0
             for place in range(1, 10):
-                await side.until(start + ceil((place + Fraction(1, 2)) * self.bit))
-                byte |= side.level("txd") << place - 1
+                await bench.until(start + ceil((place + Fraction(1, 2)) * self.bit))
+                byte |= bench.level("txd") << place - 1
             got.append(byte & 0xFF)
         if sum(got[:7]) & 0xFF != got[7]:
             raise ScriptError(f"{bytes(got).hex(' ')}: not a valid reply")
@@ -130,7 +130,7 @@ class FramePlayer(Player):
         if rest and rest[0] != "=":
             data, rest = int(rest[0], 0), rest[1:]
         if letter in "sz":
-            self.mark = self.side.now
+            self.mark = self.bench.now
         got = await self._ask(letter, data)
         if rest[:1] == ["="]:
             if got != int(rest[1], 0) & 0xFFFFFFFF:
@@ -141,7 +141,7 @@ class FramePlayer(Player):
     async def idle(self, words: list[str]) -> list[str]:
         """Read status 1 every millisecond until the motor is stopped."""
         while await self._ask("j", 0) & 1:
-            await self.side.clocks(self.part.config.clk_hz // 1000)
+            await self.bench.clocks(self.part.config.clk_hz // 1000)
         return words
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from cocotb_tests.pmc006.story import FINE, PROGRAM, START
+from cocotb_tests.pmc006.demo_program import FINE, PROGRAM, START
 from openppmc.model.pmc006.program import assemble
 
 _WORDS = "\n".join(f"f W 0x{word:08X}" for word in assemble(PROGRAM).words[: 2 * PROGRAM.count("\n")])

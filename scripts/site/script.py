@@ -40,17 +40,17 @@ def statements(text: str) -> Iterator[tuple[int, list[str]]]:
 class Pauses:
     """Growing pauses between polls; raise ScriptError if PATIENCE is exceeded."""
 
-    def __init__(self, side: ModelBench) -> None:
-        self.side, self.end, self.count, self.pause = side, side.now + PATIENCE, 0, FIRST
+    def __init__(self, bench: ModelBench) -> None:
+        self.bench, self.end, self.count, self.pause = bench, bench.now + PATIENCE, 0, FIRST
 
     async def next(self) -> None:
         """Wait for one pause."""
-        if self.side.now > self.end:
+        if self.bench.now > self.end:
             raise ScriptError("the polled status does not occur before the time limit")
         self.count += 1
         if self.count >= DENSE:
             self.pause = min(LONGEST, self.pause * 5 // 4 + 1)
-            await self.side.clocks(self.pause)
+            await self.bench.clocks(self.pause)
 
 
 class Player:
@@ -62,9 +62,9 @@ class Player:
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         self.part = part
-        self.side = ModelBench(part.part, OnModel(part.config), part.settle, **{**part.idle, **pins})
+        self.bench = ModelBench(part.part, OnModel(part.config), part.settle, **{**part.idle, **pins})
         self.got: list[int] = []
-        self.mark = self.side.now
+        self.mark = self.bench.now
         self.clocks: dict[str, Any] = {}
         self.words: dict[str, Callable[[list[str]], Awaitable[list[str]]]] = {
             "set": self.set_pins,
@@ -78,7 +78,7 @@ class Player:
     def play(self, text: str) -> Recording:
         """Run the whole text; raise ScriptError with the line of an error."""
         on_model(self._play(text))
-        return self.side.recording()
+        return self.bench.recording()
 
     async def _play(self, text: str) -> None:
         for number, words in statements(text):
@@ -105,12 +105,12 @@ class Player:
     async def set_pins(self, words: list[str]) -> list[str]:
         """Set levels of input pins: `set l1_n=0 csel=1`."""
         levels = dict(word.split("=") for word in words)
-        self.side.set(**{pin: int(level, 0) for pin, level in levels.items()})
+        self.bench.set(**{pin: int(level, 0) for pin, level in levels.items()})
         return []
 
     async def wait(self, words: list[str]) -> list[str]:
         """Wait for a time: `wait 400`, `wait 5us`, `wait 2ms`."""
-        await self.side.clocks(self.length(words[0]))
+        await self.bench.clocks(self.length(words[0]))
         return words[1:]
 
     def length(self, text: str) -> int:
@@ -127,7 +127,7 @@ class Player:
         axis = int(words[1]) if len(words) > 1 and words[1].isdigit() else first
         motor = self.part.motors[axis - first]
         while self.pulses(motor) < int(words[0]):
-            await self.side.edge(self.output(motor), None if motor.phases else motor.edge, timeout=PATIENCE)
+            await self.bench.edge(self.output(motor), None if motor.phases else motor.edge, timeout=PATIENCE)
         return words[2 if len(words) > 1 and words[1].isdigit() else 1 :]
 
     @staticmethod
@@ -138,30 +138,30 @@ class Player:
     def pulses(self, motor: Motor) -> int:
         """Return the number of steps of a motor since the mark."""
         output = self.output(motor)
-        edges = self.side.edges(output, self.mark)
+        edges = self.bench.edges(output, self.mark)
         if not motor.phases:
             return sum(level == motor.edge for _, level in edges)
-        before = [(t, level) for t, level in self.side.edges(output, 0) if t < self.mark and level]
+        before = [(t, level) for t, level in self.bench.edges(output, 0) if t < self.mark and level]
         return len(steps([*before[-1:], *edges]))
 
     async def until(self, words: list[str]) -> list[str]:
         """Wait until an output has a level: `until int_n 0`."""
-        if self.side.level(words[0]) != int(words[1]):
-            await self.side.edge(words[0], int(words[1]), timeout=PATIENCE)
+        if self.bench.level(words[0]) != int(words[1]):
+            await self.bench.edge(words[0], int(words[1]), timeout=PATIENCE)
         return words[2:]
 
     async def reset(self, words: list[str]) -> list[str]:
         """Set rst_n low for RESET cycles."""
-        self.side.set(rst_n=0)
-        await self.side.clocks(RESET)
-        self.side.set(rst_n=1)
-        await self.side.clocks(RESET)
-        self.mark = self.side.now
+        self.bench.set(rst_n=0)
+        await self.bench.clocks(RESET)
+        self.bench.set(rst_n=1)
+        await self.bench.clocks(RESET)
+        self.mark = self.bench.now
         return words
 
     async def clock(self, words: list[str]) -> list[str]:
         """Start a square wave with a period in cycles: `clock ext_clk 329`; 0 ends it."""
-        pin, period, now = words[0], int(words[1]), self.side.now
+        pin, period, now = words[0], int(words[1]), self.bench.now
 
         def changes() -> Iterator[tuple[int, dict[str, int]]]:
             t = now
@@ -173,9 +173,9 @@ class Player:
 
         if pin in self.clocks:
             self.clocks.pop(pin).cancel()
-        self.side.set(**{pin: 0})
+        self.bench.set(**{pin: 0})
         if period:
-            self.clocks[pin] = self.side.drive(changes())
+            self.clocks[pin] = self.bench.drive(changes())
         return words[2:]
 
 
@@ -184,7 +184,7 @@ class BytePlayer(Player):
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         super().__init__(part, **pins)
-        self.host = HostBus(self.side)
+        self.host = HostBus(self.bench)
         self.words |= {
             "c": self.command,
             "d": self.data,
@@ -197,13 +197,13 @@ class BytePlayer(Player):
 
     async def poll(self, mask: int, value: int) -> int:
         """Read the status until the bits of `mask` have this value; return the status."""
-        pauses = Pauses(self.side)
+        pauses = Pauses(self.bench)
         while (status := await self.host.status()) & mask != value:
             await pauses.next()
         return status
 
     async def command(self, words: list[str]) -> list[str]:
-        self.mark = self.side.now
+        self.mark = self.bench.now
         await self.host.write(COMMAND, int(words[0], 16))
         await self.poll(IBF, 0)
         return words[1:]
@@ -214,7 +214,7 @@ class BytePlayer(Player):
         return words[1:]
 
     async def blind(self, words: list[str]) -> list[str]:
-        self.mark = self.side.now
+        self.mark = self.bench.now
         await self.host.write(COMMAND, int(words[0], 16))
         return words[1:]
 

@@ -6,7 +6,7 @@ from math import isnan
 
 import pytest
 
-from cocotb_tests.pmc006.story import FINE, MOVES, PROGRAM
+from cocotb_tests.pmc006.demo_program import FINE, MOVES, PROGRAM
 from openppmc.capture.pmc006.words import Words006
 from openppmc.check.records import Access
 from openppmc.model.pmc006.line import command, reply

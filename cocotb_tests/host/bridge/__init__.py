@@ -1,7 +1,7 @@
 """Tests of the UART bridge against docs/uart_bridge.md.
 
 bench.py         Bench: clock, line (bit level, any rate error), frames, the bus slave
-slave.py         Toy: a mailbox part whose behaviour depends only on its accesses
+slave.py         RegisterModel: a mailbox part whose behaviour depends only on its accesses
 settings.py      build configurations
 tb_line.py       UB-LIN; tb_frames.py UB-FRM; tb_ops.py ops, UB-BUS; tb_waits.py UB-WAIT;
 tb_messages.py   UB-SEQ, UB-ANS, UB-MSG; tb_random.py random scripts against the golden model

@@ -13,11 +13,11 @@ from cocotb.triggers import Event, FallingEdge, RisingEdge, Timer, ValueChange, 
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import Config, watchdog
-from cocotb_tests.harness.clock import clockwork
+from cocotb_tests.harness.sim_backend import sim_backend
 from openppmc.host.frames import Broken, Deframer, encode
 
 from .settings import baud_of
-from .slave import Toy
+from .slave import RegisterModel
 
 SECOND = 10**12  # one second in ps
 
@@ -39,7 +39,7 @@ class Bench:
     `baud` is the rate of the host; `error` is its deviation (0.02: the host is 2 % fast).
     """
 
-    def __init__(self, dut: Any, slave: Toy | None) -> None:
+    def __init__(self, dut: Any, slave: RegisterModel | None) -> None:
         self.dut = dut
         self.config = Config.from_json(os.environ["OPENPPMC_CONFIG"])
         self.rng = random.Random(int(os.environ.get("OPENPPMC_SEED", "1")))
@@ -58,10 +58,10 @@ class Bench:
         self._frame = Event()
 
     @classmethod
-    async def start(cls, dut: Any, slave: Toy | None = None) -> Bench:
+    async def start(cls, dut: Any, slave: RegisterModel | None = None) -> Bench:
         """Start clock, reset and monitors."""
         watchdog.arm()
-        bench = cls(dut, slave or Toy())
+        bench = cls(dut, slave or RegisterModel())
         dut.clk_i.set(Immediate(0))
         dut.rst_ni.set(Immediate(1))
         idle = {"rxd_i": 1, "d_i": 0, "int_ni": 1, "pins_i": 0xFF, "watch_i": 0, "count_i": 0}
@@ -69,7 +69,7 @@ class Bench:
             getattr(dut, pin).value = level
         await Timer(bench.period // 2, "ps")
         dut.rst_ni.value = 0
-        clockwork().clock(clockwork().port("clk_i"), bench.period // 2)
+        sim_backend().clock(sim_backend().port("clk_i"), bench.period // 2)
         await Timer(4 * bench.period, "ps")
         dut.rst_ni.value = 1
         await bench.clocks(4)
@@ -87,7 +87,7 @@ class Bench:
             getattr(dut, pin).value = level
         await Timer(bench.period // 2, "ps")
         dut.rst_n.value = 0
-        clockwork().clock(clockwork().port("clk"), bench.period // 2)
+        sim_backend().clock(sim_backend().port("clk"), bench.period // 2)
         await Timer(4 * bench.period, "ps")
         dut.rst_n.value = 1
         await bench.clocks(settle)

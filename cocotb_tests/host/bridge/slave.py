@@ -10,7 +10,7 @@ import random
 IBF, OBF, ERR = 0x02, 0x01, 0x80
 
 
-class Toy:
+class RegisterModel:
     """Mailbox with 16 registers; 1 is the status, 0 the data register.
 
     After a write to 0 or 1, IBF stays for up to `lag` status reads. A write to 1 may produce `answers`

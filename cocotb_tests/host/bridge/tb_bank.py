@@ -87,6 +87,6 @@ async def bank_pins(dut):
             getattr(dut, pin).value = ALL & ~(1 << axis)
             seen = await bench.done(chosen(axis) + "06" + chosen(axis ^ 1) + "06")
             same(f"{pin}[{axis}]", seen, bytes([0xFF & ~(4 << n), 0xFF]))
-            same("lamp", int(dut.led_switch.value), int(pin != "cnp_n"))
+            same("LED", int(dut.led_switch.value), int(pin != "cnp_n"))
             getattr(dut, pin).value = ALL
     same("nothing moves", int(dut.led_moving.value), 0)

@@ -63,11 +63,11 @@ async def carrier_straps(dut: Any, part: str) -> None:
     for strap in (*range(8), None):
         await bench.done(f"07 {0xFF & ~(1 << strap) if strap is not None else 0xFF:02X}")
         await bench.clocks(8)
-        wanted = {
+        expected = {
             pin: ones[pin] & ~(1 << bits.index(strap) if strap in bits else 0)
             for pin, bits in STRAPS[part].items()
         }
-        same(f"strap {strap} at 0", levels(), wanted)
+        same(f"strap {strap} at 0", levels(), expected)
     for pin in ones:
         getattr(dut, pin).value = 0
         await bench.clocks(8)

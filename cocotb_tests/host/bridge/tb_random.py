@@ -13,7 +13,7 @@ from openppmc.model.carrier.bridge import Bridge
 
 from .bench import Bench, same
 from .settings import FAST, TWO, axes_of, params_of
-from .slave import Toy, without_polls
+from .slave import RegisterModel, without_polls
 
 LONGEST_SCRIPT = 253
 
@@ -75,7 +75,7 @@ def random_script(rng: random.Random) -> bytes:
 class Pair:
     """RTL and golden model, each with its own instance of the same part."""
 
-    def __init__(self, bench: Bench, twin: Toy) -> None:
+    def __init__(self, bench: Bench, twin: RegisterModel) -> None:
         params = params_of(bench.config)
         self.bench, self.twin = bench, twin
         axes = axes_of(bench.config)
@@ -85,7 +85,7 @@ class Pair:
         bench.dut.count_i.value = sum((twin.count(n + 1) & 0xFFFFFFFF) << 32 * n for n in range(axes))
 
     def pins(self, level: int) -> None:
-        """Set the levels of all pins on both sides; bit 0 is int_n."""
+        """Set the levels of all pins in the RTL and in the twin; bit 0 is int_n."""
         self.bench.slave.pin_levels = self.twin.pin_levels = level
         self.bench.dut.pins_i.value = level
 
@@ -120,8 +120,8 @@ async def random_scripts(dut):
     bench = await Bench.start(dut)
     rng = bench.rng
     seed = rng.getrandbits(32)
-    bench.slave = Toy(seed, refuse=0.05)
-    pair = Pair(bench, Toy(seed, refuse=0.05))
+    bench.slave = RegisterModel(seed, refuse=0.05)
+    pair = Pair(bench, RegisterModel(seed, refuse=0.05))
     line = encode(b"\x00\x00")
     for n in range(250):
         if rng.random() < 0.85:
@@ -139,8 +139,8 @@ async def random_noise(dut):
     """
     bench = await Bench.start(dut)
     rng = bench.rng
-    pair = Pair(bench, Toy())
-    bench.slave = Toy()
+    pair = Pair(bench, RegisterModel())
+    bench.slave = RegisterModel()
     for n in range(150):
         # The script has only WRITE, READ and NOP, so that any remainder of it takes no time.
         script = b"".join(

@@ -11,7 +11,7 @@ from cocotb.handle import Immediate
 from cocotb.triggers import FallingEdge, Timer, ValueChange, with_timeout
 
 from cocotb_tests.harness import PARTS, BusStyle, Config, configs
-from cocotb_tests.harness.clock import clockwork
+from cocotb_tests.harness.sim_backend import sim_backend
 
 from .bench import SECOND, same
 
@@ -68,7 +68,7 @@ async def start(dut: Any, busc: int) -> Host:
         getattr(dut, pin).value = level
     await Timer(PERIOD // 2, "ps")
     dut.lock.value = 0
-    clockwork().clock(clockwork().port("clk"), PERIOD // 2)
+    sim_backend().clock(sim_backend().port("clk"), PERIOD // 2)
     await Timer(4 * PERIOD, "ps")
     same("lamps in reset", int(dut.lamps.value), 0)
     dut.lock.value = 1

@@ -9,7 +9,7 @@ from openppmc.host.frames import encode
 
 from .bench import SECOND, Bench, now, same
 from .settings import FAST, SLOW
-from .slave import ERR, IBF, OBF, Toy
+from .slave import ERR, IBF, OBF, RegisterModel
 
 
 @cocotb.test()
@@ -18,7 +18,7 @@ async def waits_handshake(dut):
     """Each write follows IBF = 0, each read follows OBF = 1, and the bytes are in order (UB-OPS-01,
     UB-WAIT-01, UB-OPS-02).
     """
-    bench = await Bench.start(dut, Toy(lag=4))
+    bench = await Bench.start(dut, RegisterModel(lag=4))
     for _ in range(30):
         n = bench.rng.randint(1, 15)
         command = bytes([3, *(bench.rng.getrandbits(8) for _ in range(n - 1))])
@@ -49,7 +49,7 @@ async def waits_refused(dut):
     """ERR after a byte of CALL causes result 2 without a status, and no further byte is written
     (UB-ANS-02, UB-ANS-04, UB-OPS-01).
     """
-    bench = await Bench.start(dut, Toy(refuse=1.0))
+    bench = await Bench.start(dut, RegisterModel(refuse=1.0))
     answer = await bench.ask("00 24 53 11 22 33")
     log = bench.accesses()
     same("head", answer, bytes([2, 2, log[-1][2], log[0][2]]))
@@ -128,7 +128,7 @@ async def waits_limit_each(dut):
     succeeds (UB-WAIT-01).
     """
 
-    class Lazy(Toy):
+    class Lazy(RegisterModel):
         def read(self, a: int) -> int:
             self.hold_ibf = int(now() - written[-1] < 2 * SECOND // 1000)
             return super().read(a)

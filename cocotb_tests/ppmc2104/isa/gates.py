@@ -23,5 +23,5 @@ PART = PartTests(
     netlists=False,
     pins=ISA_4AXIS,
     params={"BASE_ADDR": BASE},
-    inside=("d", "d_oe", "int_n"),
+    probes=("d", "d_oe", "int_n"),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import groupby
 
-from cocotb_tests.harness import Bench
+from cocotb_tests.harness import RtlBench
 from cocotb_tests.harness.compare import compare_recording, write_report
 from openppmc.check.comparison import Comparison
 from openppmc.check.records import Change, Edge, Recording
@@ -28,7 +28,7 @@ def part_pins(pins: dict[str, int], number: int) -> dict[str, int]:
     }
 
 
-def part_stimulus(bench: Bench, number: int) -> list[Change]:
+def part_stimulus(bench: RtlBench, number: int) -> list[Change]:
     """Return the pin changes of a part, as its clk edges sample them."""
     pins = {**ISA_4AXIS.inputs, "rst_n": 1}
     seen: dict[str, int] = {"rst_n": 1, **PPMC2104.inputs}
@@ -41,7 +41,7 @@ def part_stimulus(bench: Bench, number: int) -> list[Change]:
     return changes
 
 
-def part_edges(bench: Bench, number: int) -> list[Edge]:
+def part_edges(bench: RtlBench, number: int) -> list[Edge]:
     """Return the output edges of a part."""
     rows: list[Edge] = []
 
@@ -58,7 +58,7 @@ def part_edges(bench: Bench, number: int) -> list[Edge]:
     return sorted(rows, key=lambda edge: edge.t)
 
 
-def compare_part(bench: Bench, number: int) -> Comparison:
+def compare_part(bench: RtlBench, number: int) -> Comparison:
     """Compare all outputs of part 0 or 1."""
     recording = Recording(
         part="ppmc2104",
@@ -72,7 +72,7 @@ def compare_part(bench: Bench, number: int) -> Comparison:
     return compare_recording(recording)
 
 
-def check_both(bench: Bench, at_least: int = 0) -> None:
+def check_both(bench: RtlBench, at_least: int = 0) -> None:
     """Check that both parts equal their models and that irq follows int_n.
 
     Args: at_least: minimum number of edges of each part that must have been compared.
@@ -89,7 +89,7 @@ def check_both(bench: Bench, at_least: int = 0) -> None:
     check_irq(bench)
 
 
-def arming_writes(bench: Bench) -> list[tuple[int, int]]:
+def arming_writes(bench: RtlBench) -> list[tuple[int, int]]:
     """Return (edge, level) with level 1 from the edge that samples a write of the source register, any
     byte (ISA-11).
     """
@@ -102,19 +102,19 @@ def arming_writes(bench: Bench) -> list[tuple[int, int]]:
     return found[1:]
 
 
-def check_irq(bench: Bench) -> None:
+def check_irq(bench: RtlBench) -> None:
     """Check that irq is the registered OR of both interrupts, low while a write re-arms it (ISA-06,
     ISA-11).
     """
     # Edge from which a level counts: for int_n the next edge, for the pins the edge itself.
     calls = [(t + 1, "call", int(value != 0b11)) for t, value in bench.edges("int_n")]
     events = sorted(calls + [(t, "write", level) for t, level in arming_writes(bench)])
-    now, level, wanted = {"call": 0, "write": 0}, 0, []
+    now, level, expected = {"call": 0, "write": 0}, 0, []
     for t, group in groupby(events, key=lambda event: event[0]):
         now.update({name: value for _, name, value in group})
         if (new := now["call"] & ~now["write"] & 1) != level:
             level = new
-            wanted.append((t, level))
+            expected.append((t, level))
     end = bench.now - 1
     got = [edge for edge in bench.edges("irq") if edge[0] <= end]
-    bench.check("ISA-06", "edges of irq", got, [edge for edge in wanted if edge[0] <= end])
+    bench.check("ISA-06", "edges of irq", got, [edge for edge in expected if edge[0] <= end])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from cocotb_tests.harness import Bench, Config, Drive, IsaHost, Part
+from cocotb_tests.harness import AxisDriver, Config, IsaHost, Part, RtlBench
 from cocotb_tests.harness.build import Design
 from cocotb_tests.harness.isa import STROBES_ISA
 from cocotb_tests.harness.project import include_dirs, part, sources
@@ -65,12 +65,12 @@ def design(config: Config, **params: int) -> Design:
 class Setting:
     """The test bench, one bus master, the host of each part, and the four axes as `axes[1]` … `axes[4]`."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: RtlBench) -> None:
         self.bench = bench
         self.master = IsaMaster(bench)
         self.hosts = [IsaHost(self.master, BASE + 2 * number) for number in range(PARTS)]
         self.axes = {
-            axis: Drive(
+            axis: AxisDriver(
                 bench,
                 self.hosts[(axis - 1) // 2],
                 f"pout_n[{axis}]",
@@ -85,7 +85,7 @@ class Setting:
     @classmethod
     async def start(cls, dut: Any, **pins: int) -> Setting:
         """Reset the module and wait until the parts accept bytes."""
-        return cls(await Bench.start(dut, ISA_4AXIS, **pins))
+        return cls(await RtlBench.start(dut, ISA_4AXIS, **pins))
 
     async def set_up(self, axis: int, code: int, rl: int, rh: int, pa: int) -> None:
         """Send the initial setting of an axis and wait for its ramp table."""

@@ -9,7 +9,7 @@ from typing import Any
 import cocotb
 
 from cocotb_tests.harness import D16, F16, F25, IsaHost, configs
-from cocotb_tests.harness.drive import rates
+from cocotb_tests.harness.axis_driver import rates
 
 from .models import check_both
 from .setting import BUSY1, BUSY2, CMND1, CMND2, ERROR, SOURCE, Setting
@@ -68,7 +68,7 @@ async def isa_interrupt_handler(dut: Any) -> None:
     for axis in setting.axes:
         await setting.set_up(axis, 0x02, *RAMP_B)
     found: list[tuple[int, int]] = []
-    wanted = []
+    expected = []
     for turn in range(6):
         for axis, drive in setting.axes.items():
             # The lengths are equal, slightly different or very different, so that ends occur together, during
@@ -76,8 +76,8 @@ async def isa_interrupt_handler(dut: Any) -> None:
             await drive.go(
                 0x44, n=4 + (0, axis, 5 * axis, 0, -axis, 1)[turn] % 9, rate=(29, 10, 49)[turn % 3]
             )
-            wanted.append((axis, 0x84))
-        while len(found) < len(wanted):
+            expected.append((axis, 0x84))
+        while len(found) < len(expected):
             if not controller.requests():
                 await bench.edge("irq", 1)
             controller.acknowledge()
@@ -88,7 +88,7 @@ async def isa_interrupt_handler(dut: Any) -> None:
             assert nothing_left, "ISA-08: a cause was left behind"
             assert controller.requests() or not bench.level("irq"), "ISA-08: irq stayed high"
         await bench.clocks(100)
-    bench.check("ISA-08", "ends", sorted(found), sorted(wanted))
+    bench.check("ISA-08", "ends", sorted(found), sorted(expected))
     bench.check("ISA-08", "irq at the end", bench.level("irq"), 0)
     check_both(bench, at_least=200)
 

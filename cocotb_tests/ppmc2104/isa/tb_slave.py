@@ -6,7 +6,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Block, Unit, rng, same
+from cocotb_tests.harness import Block, BlockDriver, rng, same
 
 PORTS = "sa_i:10 aen_i ior_ni iow_ni sd_o:8 sd_oe_o irq_o cs_no:{n} a0_o d_i:{d} d_oe_i:{n} int_ni:{n}"
 BLOCKS = {
@@ -18,7 +18,7 @@ BLOCKS = {
 @cocotb.test()
 async def isa_slave_one_part(dut: Any) -> None:
     """With one part at 3B0h, 3B0h and 3B1h select it unless AEN is high; IOR enables the data bus."""
-    unit = Unit(dut, "one", BLOCKS, "cs_no a0_o sd_oe_o sd_o irq_o")
+    unit = BlockDriver(dut, "one", BLOCKS, "cs_no a0_o sd_oe_o sd_o irq_o")
     await unit.reset(int_ni=1, ior_ni=1, iow_ni=1)
     for address in range(1024):
         for aen in (0, 1):
@@ -42,7 +42,7 @@ async def isa_slave_one_part(dut: Any) -> None:
 @cocotb.test()
 async def isa_slave_three_parts(dut: Any) -> None:
     """With three parts and the source register at 2F8h, each address belongs to at most one of them."""
-    unit = Unit(dut, "three", BLOCKS, "cs_no sd_oe_o sd_o")
+    unit = BlockDriver(dut, "three", BLOCKS, "cs_no sd_oe_o sd_o")
     await unit.reset(int_ni=7, ior_ni=1, iow_ni=1)
     data, random = 0x332211, rng()
     for address in [*range(0x2F0, 0x308), *(random.randrange(1024) for _ in range(200))]:
@@ -65,7 +65,7 @@ async def isa_slave_write_of_the_source(dut: Any) -> None:
     """While an interrupt is pending, only a write of the source register deasserts irq, and only during
     the write.
     """
-    unit = Unit(dut, "three", BLOCKS, "irq_o")
+    unit = BlockDriver(dut, "three", BLOCKS, "irq_o")
     await unit.reset(int_ni=5, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0)
     await unit.clk()
     for address in (*range(0x2F8, 0x300), 0x3FE, 0x2EE, 0x0FE):
@@ -84,7 +84,7 @@ async def isa_slave_write_of_the_source(dut: Any) -> None:
     await unit.clk(sa_i=0x2FE, iow_ni=0)
     await unit.clk(iow_ni=1)
     same("irq without a cause", await unit.settle(), 0)
-    other = Unit(dut, "one", BLOCKS, "irq_o")
+    other = BlockDriver(dut, "one", BLOCKS, "irq_o")
     await other.reset(int_ni=0, ior_ni=1, iow_ni=1, aen_i=0, sa_i=0x3B2)
     for address in range(0x3B0, 0x3B8):
         await other.clk(sa_i=address, iow_ni=0)

@@ -5,7 +5,7 @@ wave.py        characters as levels of a line, also several that overlap
 models.py      the same line made of golden models, with the same pins
 master.py      a master of the line, for the RTL and for golden models
 compare.py     compares each RTL station with a golden model that receives the same input levels
-scenes.py      disturbances on a line; after each of them one poll recovers every station
+scenarios.py   disturbances on a line; after each of them one poll recovers every station
 tb_line.py     runs the scenes on the RTL and compares all outputs; test_line.py runs them,
                also on models alone
 stream.py      random characters for `make soak PART=ppmc312-serial`; tb_stream.py: samples on the RTL

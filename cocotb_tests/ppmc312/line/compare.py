@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import groupby, zip_longest
 
-from cocotb_tests.harness import Bench
+from cocotb_tests.harness import RtlBench
 from cocotb_tests.harness.compare import compare_recording, write_report
 from openppmc.check.comparison import Comparison
 from openppmc.check.records import Change, Edge, Recording, by_signal
@@ -16,7 +16,7 @@ from .models import heard, straps
 from .setting import ALL, LINE, OUTPUTS, SINGLE, STATIONS
 
 
-def line_recording(bench: Bench) -> Recording:
+def line_recording(bench: RtlBench) -> Recording:
     """Return everything that a bench of the line has recorded. The bench was not reset after its start."""
     recording = bench.recording()
     recording.part = LINE.name
@@ -87,7 +87,7 @@ def compare_line(recording: Recording) -> list[Comparison]:
     return comparisons
 
 
-def check_line(bench: Bench, at_least: int = 0) -> list[Comparison]:
+def check_line(bench: RtlBench, at_least: int = 0) -> list[Comparison]:
     """Check that every station equals its model; AssertionError with a report at the first that does not.
 
     Args:

@@ -13,8 +13,8 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench
-from cocotb_tests.harness.sessions import Story
+from cocotb_tests.harness import RtlBench
+from cocotb_tests.harness.sessions import DemoLog
 from cocotb_tests.ppmc312.line.master import Master, RtlPort
 from cocotb_tests.ppmc312.line.setting import LINE, STATIONS
 
@@ -35,7 +35,7 @@ Chapter = Callable[[str, str], AbstractContextManager[None]]
 
 
 def no_chapter(key: str, title: str) -> AbstractContextManager[None]:
-    """Replace `Story.chapter` in a run without a story."""
+    """Replace `DemoLog.chapter` in a run without a log."""
     return nullcontext()
 
 
@@ -68,13 +68,13 @@ async def program(master: Master, chapter: Chapter = no_chapter) -> list[int]:
 @cocotb.test()
 async def demo_line(dut: Any) -> None:
     """The master's program runs on sixteen stations that were just powered up, and the run is recorded."""
-    bench = await Bench.start(dut, LINE, settle=8)
-    master, story = Master(RtlPort(bench)), Story(bench)
-    found = await program(master, story.chapter)
-    wanted = [-pulses if ccw(station) else pulses for station, pulses in enumerate(PULSES)]
-    bench.check("P312-SER-20", "positions read back", found, wanted)
+    bench = await RtlBench.start(dut, LINE, settle=8)
+    master, demo_log = Master(RtlPort(bench)), DemoLog(bench)
+    found = await program(master, demo_log.chapter)
+    expected = [-pulses if ccw(station) else pulses for station, pulses in enumerate(PULSES)]
+    bench.check("P312-SER-20", "positions read back", found, expected)
     await bench.clocks(400)
-    story.save()
+    demo_log.save()
     talk = [
         *((said.begin, said.end, "master", said.data.hex()) for said in master.said),
         *((said.begin, said.end, "station", said.data.hex()) for said in master.heard),

@@ -6,7 +6,7 @@ from collections.abc import Coroutine
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from cocotb_tests.harness import Bench
+from cocotb_tests.harness import RtlBench
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL, checksum, frame
 
 from .setting import BIT
@@ -41,7 +41,7 @@ class Port(Protocol):
 class RtlPort:
     """The bench of `ppmc312_line`."""
 
-    def __init__(self, bench: Bench) -> None:
+    def __init__(self, bench: RtlBench) -> None:
         self.bench = bench
 
     @property
@@ -93,7 +93,7 @@ class Reply(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Said:
+class SentCharacters:
     """Characters on the line: start of the first start bit, end of the last stop bit."""
 
     begin: int
@@ -128,8 +128,8 @@ class Master:
 
     def __init__(self, port: Port, bit: float = BIT, mode: str = "BINARY") -> None:
         self.port, self.bit, self.mode = port, bit, mode
-        self.said: list[Said] = []
-        self.heard: list[Said] = []
+        self.said: list[SentCharacters] = []
+        self.heard: list[SentCharacters] = []
 
     # ------------------------------------------------------------------ characters
 
@@ -145,7 +145,7 @@ class Master:
         end = begin + length(data, self.bit, gap)
         await self.drive(wave(data, begin, self.bit, gap))
         await self.port.until(round(end - (gap + 0.5) * self.bit))
-        self.said.append(Said(begin, round(end), data))
+        self.said.append(SentCharacters(begin, round(end), data))
 
     async def hear(self, limit: int) -> bytes:
         """Receive characters until the line stays high for two bits; b"" if none begins in `limit` cycles."""
@@ -159,7 +159,9 @@ class Master:
                 break  # a break, or a collision
             wait = round(2.5 * self.bit)
         if data:
-            self.heard.append(Said(begin, round(start_end(begin, len(data), self.bit)), bytes(data)))
+            self.heard.append(
+                SentCharacters(begin, round(start_end(begin, len(data), self.bit)), bytes(data))
+            )
         return bytes(data)
 
     async def quiet(self, bits: float = 20) -> None:

@@ -11,7 +11,7 @@ from openppmc.model.ppmc312.front.serial import INSTRUCTION
 
 from .master import T_INIT, Master, NoFrameError
 from .models import ModelLine
-from .scenes import SETTING, polled
+from .scenarios import SETTING, polled
 from .setting import STATIONS
 from .wave import length, merged, wave
 

@@ -10,7 +10,7 @@ from cocotb.triggers import FallingEdge, RisingEdge, Timer, with_timeout
 from cocotb.utils import get_sim_time
 
 from cocotb_tests.harness import same
-from cocotb_tests.harness.line import Wire
+from cocotb_tests.harness.line import UartBfm
 from cocotb_tests.ppmc312.serial_frames import SPEEDS, summed
 from openppmc.model.ppmc312.front.serial import INSTRUCTION, POLL
 
@@ -19,7 +19,7 @@ INPUTS = {"btn_n": 1, "uart_rxd": 1, "rs485_rxd": 1, "fl_n": 1, "alm_n": 1, "aux
 LINK, MOVING, SWITCH, RUNNING = range(4)  # indices of the LEDs
 
 
-class Master(Wire):
+class Master(UartBfm):
     """Master on one of the two lines."""
 
     def __init__(self, rxd: Any, txd: Any, de: Any) -> None:
@@ -27,7 +27,7 @@ class Master(Wire):
         self._de = de
         self.bytes = bytearray()
 
-    def came(self, byte: int) -> None:
+    def on_char(self, byte: int) -> None:
         """Collect a reply; DE must be asserted."""
         same("DE", int(self._de.value), 1)
         self.bytes.append(byte)
@@ -64,13 +64,13 @@ class Board:
         """Set both masters to the speed of these straps."""
         self.usb.rate = self.rs485.rate = float(SPEEDS[mod])
 
-    def lamp(self, which: int) -> int:
+    def led(self, which: int) -> int:
         """Return the state of an LED, 1 = on."""
         return int(self.dut.leds.value) >> which & 1
 
     async def boot(self) -> None:
         """Wait until the LED "running" is on."""
-        while not self.lamp(RUNNING):
+        while not self.led(RUNNING):
             await Timer(50, "us")
         await Timer(50, "us")
 
@@ -91,13 +91,13 @@ async def board312_serial_open_straps(dut: Any) -> None:
     The station answers either master on both lines, and DE frames the answer.
     """
     board = await start(dut)
-    same("lamp before", board.lamp(LINK), 0)
+    same("LED before", board.led(LINK), 0)
     for master, other in ((board.usb, board.rs485), (board.rs485, board.usb)):
         other.bytes.clear()
         same("DE", int(dut.rs485_de.value), 0)
         same("inputs", await master.ask(15, "25"), "AF a5")
         same("the other line", bytes(other.bytes), bytes(master.bytes))
-        same("lamp", board.lamp(LINK), 1)
+        same("LED", board.led(LINK), 1)
         same("ready", await master.ask(15), "9F")
     same("DE", int(dut.rs485_de.value), 0)
     same("bus", int(dut.d_oe.value), 0)
@@ -136,7 +136,7 @@ async def board312_serial_straps_and_button(dut: Any) -> None:
     same("still station 3", await rs485.ask(3), "93")
     dut.btn_n.value = 0
     await Timer(10, "us")
-    same("running", board.lamp(RUNNING), 0)
+    same("running", board.led(RUNNING), 0)
     same("auxo_n", int(dut.auxo_n.value), 0x3F)
     dut.btn_n.value = 1
     await Timer(100, "us")
@@ -146,7 +146,7 @@ async def board312_serial_straps_and_button(dut: Any) -> None:
 
 
 @cocotb.test()
-async def board312_serial_motion_and_lamps(dut: Any) -> None:
+async def board312_serial_motion_and_leds(dut: Any) -> None:
     """A move commanded by USB makes its pulses and is polled on RS-485; limit and alarm light an LED."""
     board = await start(dut)
     usb, pulses = board.usb, []
@@ -154,11 +154,11 @@ async def board312_serial_motion_and_lamps(dut: Any) -> None:
     async def count() -> None:
         while True:
             await RisingEdge(dut.pout)
-            pulses.append(board.lamp(MOVING))
+            pulses.append(board.led(MOVING))
 
     cocotb.start_soon(count())
     same("table", await usb.ask(15, "00 00 0140 00A0 000360"), "9F")
-    same("lamp", board.lamp(MOVING), 0)
+    same("LED", board.led(MOVING), 0)
     same("move", await usb.ask(15, "A4 0140 0000001E"), "9F")
     same("direction", int(dut.dir.value), 1)
     said = await board.rs485.ask(15)
@@ -166,13 +166,13 @@ async def board312_serial_motion_and_lamps(dut: Any) -> None:
         said = await board.rs485.ask(15)
     same("END code", said, "AF 38")
     same("pulses", len(pulses), 30)
-    same("lamp", (sum(pulses[1:]), board.lamp(MOVING)), (29, 1))
+    same("LED", (sum(pulses[1:]), board.led(MOVING)), (29, 1))
     same("position", await board.rs485.ask(15, "42"), "AF ffffffe2")
     for name in ("fl_n", "alm_n"):
-        same("lamp", board.lamp(SWITCH), 0)
+        same("LED", board.led(SWITCH), 0)
         getattr(dut, name).value = 0
         await Timer(10, "us")
-        same(f"lamp of {name}", board.lamp(SWITCH), 1)
+        same(f"LED of {name}", board.led(SWITCH), 1)
         getattr(dut, name).value = 1
         await Timer(10, "us")
     same("alarm", await board.rs485.ask(15), "BF 46")

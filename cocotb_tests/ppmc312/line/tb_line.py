@@ -8,17 +8,17 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, configs, verifies
+from cocotb_tests.harness import RtlBench, configs, verifies
 
 from .compare import check_line
 from .master import Master, RtlPort
-from .scenes import BAD, GOOD, ONE_MUTE, TWINS, Scene, twins
+from .scenarios import BAD, GOOD, ONE_MUTE, TWINS, Scene, twins
 from .setting import F8L, LINE
 
 
 async def play(dut: Any, scenes: Sequence[Scene], at_least: int, **pins: int) -> None:
     """Run all scenes one after the other, then compare every output."""
-    bench = await Bench.start(dut, LINE, settle=8, **pins)
+    bench = await RtlBench.start(dut, LINE, settle=8, **pins)
     cocotb.log.info("seed %d", bench.seed)
     master = Master(RtlPort(bench))
     for scene in scenes:

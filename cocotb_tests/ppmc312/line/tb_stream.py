@@ -7,7 +7,7 @@ from typing import Any
 
 import cocotb
 
-from cocotb_tests.harness import Bench, configs, verifies
+from cocotb_tests.harness import RtlBench, configs, verifies
 
 from .compare import check_line
 from .master import Master, RtlPort
@@ -24,7 +24,7 @@ SIZE = 120
 async def line_stream(dut: Any) -> None:
     """After each part of a random stream on the line, every station answers its first or second poll."""
     seed = int(os.environ.get("OPENPPMC_SEED", "1"))
-    bench = await Bench.start(dut, LINE, settle=8, **pins_of(seed))
+    bench = await RtlBench.start(dut, LINE, settle=8, **pins_of(seed))
     cocotb.log.info("seed %d", seed)
     try:
         late = await play(Master(RtlPort(bench)), seed, SIZE)

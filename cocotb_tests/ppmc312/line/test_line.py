@@ -11,7 +11,7 @@ from cocotb_tests.harness.collect import Item
 
 from .master import Master, at_once
 from .models import ModelLine
-from .scenes import BAD, ONE_MUTE, TWINS, twins
+from .scenarios import BAD, ONE_MUTE, TWINS, twins
 from .setting import LINE, design
 from .stream import model_line, play
 from .tb_stream import SIZE

@@ -13,7 +13,7 @@ from cocotb.utils import get_sim_time
 
 from openppmc.model.ppmc312.stages import DIVIDERS
 
-from ...harness import Unit, rng, same
+from ...harness import BlockDriver, rng, same
 from . import stage_types
 from .stage_types import CLOCKS
 
@@ -26,7 +26,7 @@ LONGEST = 12_000
 class Bench:
     """A running clock; times are numbers of its rising edges."""
 
-    def __init__(self, u: Unit) -> None:
+    def __init__(self, u: BlockDriver) -> None:
         self.u = u
         self.clock = Clock(u.pins["clk_i"], 2, "step", impl="gpi")
         self.rises: list[int] = []
@@ -87,7 +87,7 @@ def some_rates(rand: random.Random, tick: Fraction, count: int) -> list[int]:
 async def interval_exact(dut, clk):
     """For every internal base clock, pulse 1 follows after the set-up time and all others without drift."""
     rand = rng()
-    u = Unit(dut, f"interval{clk // 1_000_000}", BLOCKS, limit=Unit.FREE)
+    u = BlockDriver(dut, f"interval{clk // 1_000_000}", BLOCKS, limit=BlockDriver.FREE)
     width = ceil(Fraction(80 * clk, XTAL))
     for base, divider in DIVIDERS.items():
         tick = Fraction(divider * clk, XTAL)
@@ -114,7 +114,7 @@ async def interval_exact(dut, clk):
 @cocotb.test()
 async def interval_shortest(dut):
     """Intervals below 4 cycles last 4 cycles, and the next interval counts from the actual pulse."""
-    u = Unit(dut, "interval8", BLOCKS)
+    u = BlockDriver(dut, "interval8", BLOCKS)
     rates = [2, 2, 3, 2, 100, 3, 4, 5, 2, 7, 50]
     async with Bench(u) as bench:
         await bench.strobe(arm_i=1)
@@ -131,7 +131,7 @@ async def interval_external(dut):
     """
     rand = rng()
     for clk, base in ((8_000_000, 6), (16_000_000, 7), (50_000_000, 6)):
-        u = Unit(dut, f"interval{clk // 1_000_000}", BLOCKS)
+        u = BlockDriver(dut, f"interval{clk // 1_000_000}", BLOCKS)
         width = ceil(Fraction(80 * clk, XTAL))
         rates = [2, 3, 2, 5, 40, 2, 9, rand.randint(2, 90), rand.randint(2, 90), 7]
         edges: list[int] = []

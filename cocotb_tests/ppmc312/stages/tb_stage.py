@@ -17,7 +17,7 @@ from openppmc.model.ppmc312.stages import (
     sigmoid_weights,
 )
 
-from ...harness import Unit, rng, same
+from ...harness import BlockDriver, rng, same
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start
 
@@ -50,7 +50,7 @@ SETTINGS = [
 async def muldiv_exact(dut):
     """For random and extreme operands, products, quotients and remainders are exact and in time."""
     rand = rng()
-    u = Unit(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
+    u = BlockDriver(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
     for n in range(300):
         steps, mul = rand.randint(1, 24), rand.randrange(2)
@@ -80,7 +80,7 @@ async def muldiv_exact(dut):
 async def muldiv_product_is_divided(dut):
     """A product that is kept can be divided without a reload."""
     rand = rng()
-    u = Unit(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
+    u = BlockDriver(dut, "muldiv", BLOCKS, "busy_o hi_o lo_o")
     await u.reset()
     for n in range(40):
         pulses, speed = rand.getrandbits(24), rand.getrandbits(32)
@@ -100,7 +100,7 @@ async def muldiv_product_is_divided(dut):
 @cocotb.test()
 async def cosine_weights(dut):
     """Two cycles after its index, the weight of a stage is valid; with linear_i = 1 it is the index."""
-    u = Unit(dut, "rom", BLOCKS, "weight_o")
+    u = BlockDriver(dut, "rom", BLOCKS, "weight_o")
     u.choose()
     order = [*range(STAGES), *rng().sample(range(STAGES), STAGES)]
     got = [await u.clk(linear_i=0, index_i=i) for i in [*order, 0, 0]]
@@ -109,7 +109,7 @@ async def cosine_weights(dut):
     same("linear weights", got[2:], order)
 
 
-async def _idle(u: Unit, port: str) -> int:
+async def _idle(u: BlockDriver, port: str) -> int:
     """Run until this output is low; return the number of cycles."""
     await u.settle()
     return await u.run_until(port, 0) if u.get(port) else 0
@@ -124,7 +124,7 @@ def curve_word(setting: tuple[int, ...]) -> int:
     )
 
 
-async def _read(u: Unit) -> list[list[tuple[int, ...]]]:
+async def _read(u: BlockDriver) -> list[list[tuple[int, ...]]]:
     """Return rate, acceleration and deceleration pulses of all stages, from both read ports."""
     words: list[list[tuple[int, ...]]] = []
     for side in (0, 1):
@@ -139,7 +139,7 @@ async def _read(u: Unit) -> list[list[tuple[int, ...]]]:
     return [planner, motion[::-1]]
 
 
-async def _check(u: Unit, table: Table, what: str, clk: int, pulses: tuple[int, int]) -> None:
+async def _check(u: BlockDriver, table: Table, what: str, clk: int, pulses: tuple[int, int]) -> None:
     """Check description, look-ups and words of the active table."""
     want = pack(
         (1, 1), (table.separate, 1), (clk, 3), (table.sa, 7), (table.sd, 7), (table.rates[table.sa], 16)
@@ -174,7 +174,7 @@ def settings(rand: random.Random, count: int) -> list[tuple[int, ...]]:
 @cocotb.test()
 async def stage_tables_exact(dut):
     """For reference and random settings, all stages equal those of the model, or both reject the setting."""
-    u = Unit(dut, "unit", BLOCKS, limit=Unit.FREE)
+    u = BlockDriver(dut, "unit", BLOCKS, limit=BlockDriver.FREE)
     await u.reset()
     thin = longest = 0
     for setting in settings(rng(), 10):
@@ -218,7 +218,7 @@ def curves(rand: random.Random) -> Table:
     return curve(rates, pulses[0], pulses[1] if split else None, clk=rand.randrange(8))
 
 
-async def _load(u: Unit, table: Table) -> None:
+async def _load(u: BlockDriver, table: Table) -> None:
     """Load a free curve, word by word, fastest stage first."""
     await u.clk(
         open_i=1,
@@ -257,7 +257,7 @@ def operation(rand: random.Random, table: Table) -> tuple[int, int | None]:
 async def stage_plans_exact(dut):
     """For random curves, rates and pulse counts, plans and rate look-ups equal those of the model."""
     rand = rng()
-    u = Unit(dut, "unit", BLOCKS)
+    u = BlockDriver(dut, "unit", BLOCKS)
     await u.reset()
     kinds: dict[int, int] = {}
     for case in range(24):

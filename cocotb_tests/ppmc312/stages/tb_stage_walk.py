@@ -11,7 +11,7 @@ from openppmc.model.ppmc312.codes import Cause
 from openppmc.model.ppmc312.motion.sequence import Change, Sequence
 from openppmc.model.ppmc312.stages import STAGES, Plan, Table, constant, curve, ramped
 
-from ...harness import Unit, rng, same
+from ...harness import BlockDriver, rng, same
 from . import stage_types
 from .stage_types import Target, brief, pack, walk_start
 
@@ -49,27 +49,27 @@ def some_rate(rand: random.Random, table: Table) -> int:
     return rand.choice((min(max(near, low), high), rand.randint(low, high)))
 
 
-class Walker:
+class SequencerRun:
     """The sequencer during a motion, with a table that responds two cycles after the address."""
 
-    def __init__(self, u: Unit, table: Table, plan: Plan, rand: random.Random) -> None:
+    def __init__(self, u: BlockDriver, table: Table, plan: Plan, rand: random.Random) -> None:
         self.u, self.table, self.plan, self.rand = u, table, plan, rand
         self.reads = deque([(0, 0), (0, 0)])
         self.sequence = Sequence(plan)
-        self.story: list[str] = []
+        self.history: list[str] = []
         self.busy = rand.choice((0.1, 0.4))
         self.flat_for, self.slow, self.searched = SEARCH, 0, 0
         self.what = f"{brief(table)}: {plan.n} pulses at {plan.rate}, {plan.up} up, {plan.down} down"
 
     async def clk(self, **inputs: int) -> tuple[int, ...]:
         """Run one cycle; return the watched outputs before its edge."""
-        out = await self.look(**inputs)
+        out = await self.sample(**inputs)
         self.reads.popleft()
         self.reads.append(divmod(self.u.get("table_addr_o"), 128))
         await self.u.clk()
         return out
 
-    async def look(self, **inputs: int) -> tuple[int, ...]:
+    async def sample(self, **inputs: int) -> tuple[int, ...]:
         """Return the watched outputs with these inputs and the response of the table in this cycle."""
         side, i = self.reads[0]
         table, i = self.table, min(i, STAGES - 1)
@@ -125,13 +125,13 @@ class Walker:
         for left in range(longest - 1, 0, -1):
             what = requests.get(left)
             if what:
-                self.story.append(f"{what} after pulse {self.sequence.done}")
+                self.history.append(f"{what} after pulse {self.sequence.done}")
             if what == "slow":
                 slow = 1
                 self.sequence.request(Cause.SLOW)
             elif what:
                 rate = self.aim()
-                self.story[-1] += f" to {rate}"
+                self.history[-1] += f" to {rate}"
                 self.sequence.change(Change(rate, what == "ramp"))
                 plan = self.plan_word(Target.of(self.table, rate).packed)
                 target = {left - TARGET_CLK: {"profile_i": plan, "change_ramp_i": what == "ramp"}}
@@ -145,8 +145,8 @@ class Walker:
         """Output all pulses; return the reason why they end."""
         for _ in range(limit):
             await self.interval()
-            where = f"{self.what}, {self.story}, boundary {self.sequence.done + 1}"
-            end, low, count, rate = await self.look()
+            where = f"{self.what}, {self.history}, boundary {self.sequence.done + 1}"
+            end, low, count, rate = await self.sample()
             self.slow = self.u.get("slow_i") and not self.u.get("next_slow_o")
             flat_for = self.flat_for - SEARCH * self.sequence.sought
             was_stage = self.sequence.in_table
@@ -179,19 +179,19 @@ def some_plan(rand: random.Random, table: Table) -> Plan:
 async def stage_seq_walks(dut):
     """For random curves, operations and requests, each pulse and the end equal those of the model."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, WATCH)
+    u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
     ends: dict[str, int] = {}
     for _ in range(220):
         table = small_curve(rand)
-        walker = Walker(u, table, some_plan(rand, table), rand)
-        await walker.load()
-        end = await walker.run(60)
+        run = SequencerRun(u, table, some_plan(rand, table), rand)
+        await run.load()
+        end = await run.run(60)
         ends[end] = ends.get(end, 0) + 1
     same("ends that occurred", sorted(ends), ["LOW", "NORMAL", "SLOW", "endless"])
 
 
-class Meeting(Walker):
+class CollisionRun(SequencerRun):
     """A ramp of instruction 87 collides with the deceleration point; random requests follow."""
 
     def plan_requests(self) -> dict[int, str]:
@@ -210,7 +210,7 @@ class Meeting(Walker):
         return self.table.high if before == self.ramp else self.table.rates[self.table.first]
 
     @classmethod
-    def some(cls, u: Unit, rand: random.Random) -> Meeting:
+    def some(cls, u: BlockDriver, rand: random.Random) -> CollisionRun:
         """Return a table and an operation with a deceleration of enough pulses for several requests."""
         while True:
             table = small_curve(rand)
@@ -221,27 +221,27 @@ class Meeting(Walker):
             if plan.down > 3 and table.sd >= table.sa + rand.randrange(3):
                 # often with stages that only the acceleration ramp has, where no final deceleration starts
                 break
-        walker = cls(u, table, plan, rand)
-        walker.jump, walker.ramp, walker.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
-        return walker
+        run = cls(u, table, plan, rand)
+        run.jump, run.ramp, run.busy = rand.randint(6, 10), rand.randint(1, 5), 0.4
+        return run
 
 
 @cocotb.test()
 async def stage_seq_searches(dut):
     """When a stage becomes a constant rate, t(rate) is found for the requests that follow."""
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, WATCH)
+    u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
     searched = 0
     for _ in range(240):
-        walker = Meeting.some(u, rand)
-        await walker.load()
-        await walker.run(120)
-        searched += walker.searched
+        run = CollisionRun.some(u, rand)
+        await run.load()
+        await run.run(120)
+        searched += run.searched
     assert searched > 100, f"a search ran in {searched} intervals only"
 
 
-class Forgotten(Walker):
+class LateStopRun(SequencerRun):
     """A change is decided during a search, and a deceleration stop follows.
 
     A stage of the acceleration ramp becomes a constant rate. 88 is decided during the search for this rate,
@@ -262,22 +262,22 @@ class Forgotten(Walker):
 
 
 @cocotb.test()
-async def stage_seq_search_of_a_walk_that_forgets_a_change(dut):
+async def stage_seq_stop_during_a_search_for_a_change(dut):
     """Instruction 81 discards an 88 that was decided within a search if the search has ended.
 
     Otherwise it waits for the 88.
     """
     rand = rng()
-    u = Unit(dut, "seq", BLOCKS, WATCH)
+    u = BlockDriver(dut, "seq", BLOCKS, WATCH)
     await u.reset()
     table = curve([169, 250, 332, 169, 363], [5, 5, 6, 6, 6], [4, 2])
     ends = set()
     for before in (*range(-8, 4), 40):
-        walker = Forgotten(u, table, ramped(table, 169, 52), rand)
-        walker.jump = SEARCH + FOUND + before
-        await walker.load()
-        end = await walker.run(80)
-        ends.add((end, walker.searched > 0))
+        run = LateStopRun(u, table, ramped(table, 169, 52), rand)
+        run.jump = SEARCH + FOUND + before
+        await run.load()
+        end = await run.run(80)
+        ends.add((end, run.searched > 0))
     # At 363, loaded where 81 waits, no deceleration is left; the final deceleration lasts
     # until the end of the count.
     same("ends, each behind a search", sorted(ends), [("LOW", True), ("NORMAL", True)])

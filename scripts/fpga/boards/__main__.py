@@ -45,10 +45,10 @@ def all_files(layout: Callable[[str], str] = laid_out) -> dict[Path, str]:
     return found
 
 
-def left_over(wanted: dict[Path, str]) -> list[Path]:
+def left_over(expected: dict[Path, str]) -> list[Path]:
     """Return tops and constraint files that belong to no description."""
     there = [*(project.RTL / "boards").glob("*/board_*.sv"), *FOLDER.glob("*/*/*")]
-    return sorted(path for path in there if path.is_file() and path not in wanted)
+    return sorted(path for path in there if path.is_file() and path not in expected)
 
 
 def main() -> int:
@@ -58,9 +58,9 @@ def main() -> int:
         "--check", action="store_true", help="write nothing, list the files that are outdated"
     )
     options = parser.parse_args()
-    wanted = all_files()
-    stale = [path for path, text in wanted.items() if not path.is_file() or path.read_text() != text]
-    over = left_over(wanted)
+    expected = all_files()
+    stale = [path for path, text in expected.items() if not path.is_file() or path.read_text() != text]
+    over = left_over(expected)
     if options.check:
         for path in stale:
             console.print(f"{relative(path)}: outdated; run `make boards`")
@@ -69,11 +69,11 @@ def main() -> int:
         return int(bool(stale or over))
     for path in stale:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(wanted[path])
+        path.write_text(expected[path])
         console.print(f"wrote {relative(path)}")
     if over:
         raise ProjectError(f"{relative(over[0])} belongs to no part of a board.yml: remove it")
-    console.print(f"boards: {len(wanted)} files, {len(stale)} of them new or changed")
+    console.print(f"boards: {len(expected)} files, {len(stale)} of them new or changed")
     return 0
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from scripts.fpga.boards.pads import Fitted, Pad
-from scripts.fpga.boards.words import head, title, wrapped
+from scripts.fpga.boards.texts import head, title, wrapped
 
 
 def pcf(fitted: Fitted, pad: Pad) -> list[str]:

@@ -7,8 +7,8 @@ from cocotb_tests.harness.project import ProjectError
 from scripts.fpga.boards.carrier import Port
 from scripts.fpga.boards.description import SHOWS, Description
 from scripts.fpga.boards.pads import HOST_RESET, Fitted
+from scripts.fpga.boards.texts import clk, head, title, wrapped
 from scripts.fpga.boards.verilog import declaration, instance, literal, part_select, without_comma
-from scripts.fpga.boards.words import clk, head, title, wrapped
 
 OWN_LEDS = ("lock", "req_n", "lamps")
 """Ports of a carrier that contains reset and LED logic; to others, the top adds ppmc_board_leds."""
@@ -68,7 +68,7 @@ class Top:
         group = ""
         for port in self.carrier.ports.values():
             name = next((pin for pin in self.two_way if self.carrier.side(pin) is port), port.name)
-            bits = [] if self.around(port)[0] else self.fitted.bits(name)
+            bits = [] if self.own_connection(port)[0] else self.fitted.bits(name)
             if not bits:
                 continue
             if port.group != group:
@@ -100,7 +100,7 @@ class Top:
         self.wires += ["clk", "lock"]
         return instance(self.pll, params, "u_clock", {f"{port}_i": port, "clk_o": "clk", "lock_o": "lock"})
 
-    def reset_wanted(self) -> str:
+    def reset_request(self) -> str:
         """Return the expression that is 0 while the button or the host requests a reset."""
         button = f"{'!' if self.board.reset['active'] else ''}{self.board.reset['port']}"
         return f"{button} && {HOST_RESET}" if self.fitted.bits(HOST_RESET) else button
@@ -112,21 +112,21 @@ class Top:
         leds = {"link_i": "led_link", "moving_i": "led_moving", "switch_i": "led_switch", "leds_o": "leds"}
         self.wires += ["rst_n", *list(leds.values())[:3]]
         lock = "lock" if self.pll else "1'b1"
-        start = {"clk_i": self.clk, "lock_i": lock, "req_ni": self.reset_wanted(), "rst_no": "rst_n"}
+        start = {"clk_i": self.clk, "lock_i": lock, "req_ni": self.reset_request(), "rst_no": "rst_n"}
         return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_leds", {**start, **leds})
 
-    def around(self, port: Port) -> tuple[bool, str | None]:
+    def own_connection(self, port: Port) -> tuple[bool, str | None]:
         """Return whether a port of the carrier is for clock, reset or LEDs, and its connection."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
         if self.own_leds and port.name in OWN_LEDS:
             lock = None if self.pll else "1'b1"
-            return True, {"lock": lock, "req_n": self.reset_wanted(), "lamps": "leds"}[port.name]
+            return True, {"lock": lock, "req_n": self.reset_request(), "lamps": "leds"}[port.name]
         return port.name in ("rst_n", "led_link", "led_moving", "led_switch"), None
 
     def connection(self, port: Port) -> str | None:
         """Return the connection of a port of the carrier; None: the signal with the same name."""
-        own, known = self.around(port)
+        own, known = self.own_connection(port)
         if own:
             return known
         name, _, role = port.name.rpartition("_")

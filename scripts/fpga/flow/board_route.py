@@ -47,8 +47,8 @@ def run(command: list[str], folder: Path, what: str) -> None:
         raise ProjectError(f"{command[0]} is not installed: run `make setup`") from None
     if done.returncode:
         lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
-        told = [line for line in lines if "error" in line.lower()][:4] or lines[-4:]
-        raise ProjectError("\n".join([f"{command[0]} failed for {what} (in {relative(folder)})", *told]))
+        errors = [line for line in lines if "error" in line.lower()][:4] or lines[-4:]
+        raise ProjectError("\n".join([f"{command[0]} failed for {what} (in {relative(folder)})", *errors]))
 
 
 def options(on: Board, constraints: Path) -> list[str]:

@@ -72,7 +72,7 @@ def build_id(on: Board) -> bytes:
 def git_state() -> tuple[bytes, bool]:
     """Return the commit of the checkout (b"" without git), and whether there are changes since."""
     words = {"commit": ["rev-parse", "HEAD"], "changes": ["status", "--porcelain"]}
-    told = {}
+    fields = {}
     for name, arguments in words.items():
         try:
             done = subprocess.run(
@@ -82,8 +82,8 @@ def git_state() -> tuple[bytes, bool]:
             return b"", False
         if done.returncode:
             return b"", False
-        told[name] = done.stdout.strip()
-    return bytes.fromhex(told["commit"]), bool(told["changes"])
+        fields[name] = done.stdout.strip()
+    return bytes.fromhex(fields["commit"]), bool(fields["changes"])
 
 
 def board_job(on: Board, host: str, params: Mapping[str, int | str] | None = None) -> dict[str, Any]:

@@ -68,8 +68,8 @@ def _digest(job: Mapping[str, Any], yosys: str) -> str:
     if job["family"] == plain.FAMILY:
         for module in (plain, plain_text):
             sha.update(Path(module.__file__).read_bytes())
-    if "inside" in job:
-        sha.update(repr(job["inside"]).encode())
+    if "probes" in job:
+        sha.update(repr(job["probes"]).encode())
     rest = (job["top"], sorted(job["params"].items()), job["family"], recipe, WAIVED[job["family"]])
     sha.update(repr((*rest, yosys)).encode())
     return sha.hexdigest()[:16]
@@ -89,7 +89,7 @@ def mapped(family: str, folder: Path) -> Path:
 
 
 def netlist(
-    family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any], inside: Sequence[str] = ()
+    family: str, top: str, sources: Sequence[Path], params: Mapping[str, Any], probes: Sequence[str] = ()
 ) -> Path:
     """Return the folder with netlist.v and netlist.vlt of `top` for these parameters; build it if missing.
 
@@ -98,7 +98,7 @@ def netlist(
     fails.
 
     Args:
-        inside: signals of the top that are visible in addition to its ports.
+        probes: signals of the top that are visible in addition to its ports.
     """
     job = {
         "top": top,
@@ -109,8 +109,8 @@ def netlist(
         "recipe": BEST[family],
         "keep": family == plain.FAMILY,
     }
-    if inside:
-        job["inside"] = list(inside)
+    if probes:
+        job["probes"] = list(probes)
     folder = NETLISTS / f"{top}-{family}-{_digest(job, importlib.metadata.version('pyosys'))}"
     with locked(NETLISTS / f"{folder.name}.lock"):
         done = folder / "netlist.vlt"
@@ -121,7 +121,7 @@ def netlist(
             if family == plain.FAMILY:
                 plain.finish(folder / "netlist.v", made, top, sources, job["params"])
             ports = list(json.loads(made.read_text())["modules"][top]["ports"])
-            done.write_text(control_file(top, [*ports, *inside], family))
+            done.write_text(control_file(top, [*ports, *probes], family))
         done.touch()
     return folder
 
@@ -146,7 +146,7 @@ def design(family: str, top: str, folder: Path) -> Design:
     return Design(top, [*own, library / "cells_sim.v", *sources], [library], args=ARGS)
 
 
-def part_design(family: str, part: str, params: Mapping[str, Any], inside: Sequence[str] = ()) -> Design:
-    """Return the netlist of a part as a design for the runner; params and inside as for `netlist`."""
+def part_design(family: str, part: str, params: Mapping[str, Any], probes: Sequence[str] = ()) -> Design:
+    """Return the netlist of a part as a design for the runner; params and probes as for `netlist`."""
     row = project.part(part)
-    return design(family, row.top, netlist(family, row.top, project.sources(row), params, inside))
+    return design(family, row.top, netlist(family, row.top, project.sources(row), params, probes))

@@ -65,8 +65,8 @@ def yosys(words: list[str]) -> int:
         log.seek(0)
         lines = [line.strip() for line in log if line.strip()]
     if code:
-        told = [line for line in lines if "ERROR: " in line or line.startswith("error: ")] or lines[-3:]
-        print("\n".join(told), file=sys.stderr)
+        errors = [line for line in lines if "ERROR: " in line or line.startswith("error: ")] or lines[-3:]
+        print("\n".join(errors), file=sys.stderr)
     return code
 
 

@@ -49,7 +49,7 @@ def declared(top: str, sources: Sequence[Path]) -> dict[str, Parameter]:
     return parameters(next(path for path in sources if path.stem == top))
 
 
-def given(top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> dict[str, Value]:
+def check_params(top: str, sources: Sequence[Path], params: Mapping[str, Value]) -> dict[str, Value]:
     """Check parameters of a top module; raise ProjectError for an unknown parameter or a wrong type."""
     known = declared(top, sources)
     for name, value in params.items():

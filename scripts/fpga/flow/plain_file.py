@@ -23,7 +23,7 @@ def write(top: str, folder: Path, params: Mapping[str, plain.Value] | None = Non
     else:
         tops = (*known, *boards.PART_OF)
         raise ProjectError(f"TOP={top}: no such part, bridge or board (known: {', '.join(tops)})")
-    values = plain.given(top, sources, params or {})
+    values = plain.check_params(top, sources, params or {})
     made = gates.netlist(plain.FAMILY, top, sources, values) / "netlist.v"
     folder.mkdir(parents=True, exist_ok=True)
     path, new = folder / f"{top}.v", folder / f".{top}.v"

@@ -48,7 +48,7 @@ class Source:
     """Comments of a module's source: the header, and those after ports and signals."""
 
     head: tuple[str, ...]
-    beside: Mapping[str, str]
+    comments: Mapping[str, str]
 
 
 def source(text: str) -> Source:
@@ -59,13 +59,13 @@ def source(text: str) -> Source:
         if not line.startswith("//"):
             break
         head.append(line)
-    beside = {}
+    comments: dict[str, str] = {}
     for line in lines:
         if match := re.match(
             r"^ +(?:input|output|inout|logic|\w+_t)\b[^=/]*?(\w+) *[,;]? *// *(\S.*)$", line
         ):
-            beside.setdefault(match[1], match[2])
-    return Source(tuple(head), beside)
+            comments.setdefault(match[1], match[2])
+    return Source(tuple(head), comments)
 
 
 def _plain_names(text: str) -> str:
@@ -215,8 +215,8 @@ def _written(module: Module, said: Source, name: str) -> str:
         match = module.declared[signal]
         return f"{indent}{kind}{match['range'] or ''} {signal}{match['rest']}"
 
-    def beside(line: str, signal: str) -> str:
-        comment = said.beside.get(signal.rstrip("_"))
+    def with_comment(line: str, signal: str) -> str:
+        comment = said.comments.get(signal.rstrip("_"))
         return f"{line}  // {comment}" if comment else line
 
     lines = [*said.head, f"module {name} ("]
@@ -224,12 +224,12 @@ def _written(module: Module, said: Source, name: str) -> str:
         match = module.declared[port]
         kind = f"{match['kind']:<6} {'reg' if port in module.register else 'wire'}"
         end = "," if number + 1 < len(module.ports) else ""
-        lines.append(beside(declared(port, kind, "    ") + end, port))
+        lines.append(with_comment(declared(port, kind, "    ") + end, port))
     lines += [");", ""]
     inner = [signal for signal in module.declared if signal not in module.ports]
     for signal in sorted(inner, key=lambda one: (bool(_NUMBERED.fullmatch(one)), one in module.register)):
         kind = "reg" if signal in module.register else "wire"
-        lines.append(beside(declared(signal, kind, "  ") + ";", signal))
+        lines.append(with_comment(declared(signal, kind, "  ") + ";", signal))
     lines.append("")
     for line in module.lines:
         indent = " " * (len(line) - len(line.lstrip()) + 4)

@@ -22,8 +22,8 @@ def main() -> int:
     )
     parser.add_argument("--verilator", metavar="PROGRAM", help="with --try: use only this Verilator")
     options = parser.parse_args()
-    wanted = {**core_files(), **list_files()}
-    stale = [path for path, text in wanted.items() if not path.is_file() or path.read_text() != text]
+    expected = {**core_files(), **list_files()}
+    stale = [path for path, text in expected.items() if not path.is_file() or path.read_text() != text]
     if options.check:
         for path in stale:
             console.print(f"{relative(path)}: outdated; run `make packages`")
@@ -41,9 +41,9 @@ def main() -> int:
         return 0
     for path in stale:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(wanted[path])
+        path.write_text(expected[path])
         console.print(f"wrote {relative(path)}")
-    console.print(f"packages: {len(wanted)} files, {len(stale)} of them new or changed")
+    console.print(f"packages: {len(expected)} files, {len(stale)} of them new or changed")
     return 0
 
 

@@ -110,7 +110,7 @@ def write_library(names: Iterable[str] = (), folder: Path = LIBRARY) -> Path:
     return made
 
 
-def judged(name: str, folder: Path) -> Built:
+def built_result(name: str, folder: Path) -> Built:
     """Return the result in FuseSoC's folder of a board; ProjectError: no bitstream, or another clock."""
     on = BOARDS[name]
     found = [path for path in folder.glob(f"*{on.suffix}") if path.stat().st_size]
@@ -149,9 +149,9 @@ def build(name: str, library: Path, work: Path = WORK) -> Built:
     log.write_text(done.stdout, encoding="utf-8")
     if done.returncode:
         lines = [line for line in done.stdout.splitlines() if "error" in line.lower()]
-        told = lines[:4] or done.stdout.splitlines()[-4:]
-        raise ProjectError("\n".join([f"fusesoc --target={name} failed ({relative(log)})", *told]))
-    return judged(name, folder)
+        messages = lines[:4] or done.stdout.splitlines()[-4:]
+        raise ProjectError("\n".join([f"fusesoc --target={name} failed ({relative(log)})", *messages]))
+    return built_result(name, folder)
 
 
 def main() -> int:

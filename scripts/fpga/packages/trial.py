@@ -163,9 +163,9 @@ def try_other(program: str) -> None:
     if found is None:
         raise ProjectError(f"{program}: there is no such program (VERILATOR=/usr/bin/verilator)")
     tool = Verilator(Path(found).absolute())
-    asked = [found, "--lint-only", "no_such_file.sv"]
-    told = subprocess.run(asked, env=tool.environment(ROOT), text=True, capture_output=True, check=False)
-    if "%Error" not in told.stderr:
+    command = [found, "--lint-only", "no_such_file.sv"]
+    result = subprocess.run(command, env=tool.environment(ROOT), text=True, capture_output=True, check=False)
+    if "%Error" not in result.stderr:
         raise ProjectError(f"{program}: it reports no error for a missing file; this is not a Verilator")
     console.print(run(found, "--version", env=tool.environment(ROOT)).strip())
     try_verilator(tool)

@@ -20,14 +20,14 @@ from openppmc.sim import SimError as BoardError
 from scripts.demo.demos import Demo
 from scripts.fpga.flow.machine import machine
 from scripts.measure.bench import board, captures, costs
-from scripts.measure.bench.sides import LABELS, PLAIN, Times, turns
+from scripts.measure.bench.run_times import LABELS, PLAIN, Times, turns
 from scripts.measure.sizes.report import markdown_table
 
 RUNS = 3
 HEADS = ["side", "cycles", "output edges", "seconds", "cycles / s", "time, Verilator alone = 1"]
 
 
-def tell(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
+def write_section(marker: str, title: str, text: str, heads: list[str], rows: Sequence[list[str]]) -> None:
     """Print a table and write it, with `text` above it, to docs/benchmarks.md."""
     table = Table(title=title, title_justify="left")
     for index, head in enumerate(heads):
@@ -86,7 +86,7 @@ def bench(name: str, demo: Demo) -> None:
             " The virtual board runs at full speed with a turning motor; its cycles / s are of "
             "processor time."
         )
-        tell(
+        write_section(
             "board",
             "virtual board",
             f"The virtual board at {board.CLK_HZ / 1e6:g} MHz and {board.BAUD:,} baud, through pyserial. "
@@ -94,7 +94,7 @@ def bench(name: str, demo: Demo) -> None:
             board.HEADS,
             figures.rows(),
         )
-        tell(
+        write_section(
             "costs",
             "cycles of commands",
             "Waits of a host, counted at the pins of the PPMC-104 (FAST) with the shortest bus accesses: "
@@ -104,7 +104,7 @@ def bench(name: str, demo: Demo) -> None:
             costs.rows(costs.measure()),
         )
         captures.bench()
-    tell(name, f"run of `make demo PART={name}`, median of {RUNS} turns", text, HEADS, rows)
+    write_section(name, f"run of `make demo PART={name}`, median of {RUNS} turns", text, HEADS, rows)
     console.print("written: docs/benchmarks.md")
 
 

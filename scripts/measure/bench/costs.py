@@ -8,7 +8,7 @@ from cocotb_tests.harness.build import build, part_design
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.config import F16
 from cocotb_tests.harness.runner import run_sim
-from scripts.measure.bench.sides import FOLDER
+from scripts.measure.bench.run_times import FOLDER
 
 PART, MODULE, TEST = "ppmc104", "cocotb_tests.ppmc104.costs", "count_costs"
 CLOCKS = (16, 100)  # MHz

@@ -44,11 +44,11 @@ def stop_children() -> int:
     return len(children)
 
 
-def carry_out(work: Any, what: Any, wanted: str) -> tuple[Result, float]:
+def carry_out(work: Any, what: Any, expected: str) -> tuple[Result, float]:
     """Run a job; return its result and its seconds. Raises ProjectError if this worker has other sources."""
-    if wanted != _own_tree():
+    if expected != _own_tree():
         raise ProjectError(
-            f"a worker has other sources than the campaign ({_own_tree()}, not {wanted}); "
+            f"a worker has other sources than the campaign ({_own_tree()}, not {expected}); "
             "repeat without changing files"
         )
     begin = time.monotonic()

@@ -20,7 +20,7 @@ from cocotb_tests.harness.project import run as guarded
 from scripts.measure.campaign.cluster import add_arguments, workers_of
 from scripts.measure.campaign.jobs import Campaign, Job, Result
 from scripts.measure.campaign.run import run
-from scripts.measure.fuzz.bench import difference, shortened
+from scripts.measure.fuzz.bench import difference, shrink_report
 from scripts.measure.fuzz.lines import LINES
 from scripts.measure.fuzz.words import stream
 
@@ -38,7 +38,7 @@ def play(what: tuple[str, int, int]) -> Result:
     line = LINES[name]
     words = stream(random.Random(f"{name} {seed}"), size, line.good, line.special)
     if difference(name, line, words) is not None:
-        return Result(False, {"message": f"seed {seed}: {shortened(name, line, words)}"})
+        return Result(False, {"message": f"seed {seed}: {shrink_report(name, line, words)}"})
     return Result(
         True, {"compared": {f"{name} bytes": len(words), "events": sum(1 for _ in line.expected(words))}}
     )

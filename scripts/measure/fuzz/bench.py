@@ -81,7 +81,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
     return None
 
 
-def shortened(name: str, line: Line, words: array[int]) -> str:
+def shrink_report(name: str, line: Line, words: array[int]) -> str:
     """Return a difference as text, with the smallest number of last words that still differ."""
     found = difference(name, line, words)
     assert found is not None

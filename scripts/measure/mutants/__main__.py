@@ -47,22 +47,22 @@ def failing(mutant: Mutant, items: list[Item]) -> dict[Item, Outcome]:
     return {}
 
 
-def found(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
+def find_tests(mutant: Mutant, wide: bool) -> dict[Item, Outcome]:
     """Return the tests that find the mutant: the listed test, else the first that its words select."""
     items, every = mutant.items(), mutant.items(wide=True)
     listed = [item for item in every if item.test == mutant.caught]
     return failing(mutant, listed) or failing(mutant, items) or (failing(mutant, every) if wide else {})
 
 
-def judge(what: tuple[Mutant, bool]) -> Result:
+def check_entry(what: tuple[Mutant, bool]) -> Result:
     """Return whether the result agrees with the entry, and a line about it."""
-    right, line = _judged(*what)
+    right, line = _check_entry(*what)
     return Result(right, {"line": line})
 
 
-def _judged(mutant: Mutant, wide: bool) -> tuple[bool, str]:
+def _check_entry(mutant: Mutant, wide: bool) -> tuple[bool, str]:
     try:
-        bad = found(mutant, wide)
+        bad = find_tests(mutant, wide)
     except (SimError, ValueError) as error:
         return False, f"{mutant.id}: {error}"
     if not bad:
@@ -86,7 +86,7 @@ def main() -> int:
         raise ProjectError(f"{' '.join(args.words)}: no such mutant")
     wrong = 0
     jobs = [Job(f"{one.id}{' wide' if args.wide else ''}", (one, args.wide)) for one in chosen]
-    for done in run(Campaign("mutants", judge, jobs, len(jobs)), workers_of(args), args.fresh):
+    for done in run(Campaign("mutants", check_entry, jobs, len(jobs)), workers_of(args), args.fresh):
         line = done.data.get("line") or f"{done.key}: {done.data['message']}"
         console.print(
             f"{'as listed' if done.good else 'NOT AS LISTED'}  {line}", markup=False, soft_wrap=True

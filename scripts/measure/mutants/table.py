@@ -66,7 +66,7 @@ class Mutant:
             and not item.skipped
         ]
 
-    def whole(self, item: Item) -> Design:
+    def unchanged_design(self, item: Item) -> Design:
         """Return the unchanged design that `item` simulates."""
         make = getattr(self._module(), "design", lambda config: part_design(item.part, config))
         made: Design = make(item.config)
@@ -77,8 +77,11 @@ class Mutant:
         copy = BUILD / "mutants" / self.id / Path(self.file).name
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_text(self.source(), encoding="utf-8")
-        whole = self.whole(item)
-        return replace(whole, sources=[copy if path == ROOT / self.file else path for path in whole.sources])
+        unchanged_design = self.unchanged_design(item)
+        return replace(
+            unchanged_design,
+            sources=[copy if path == ROOT / self.file else path for path in unchanged_design.sources],
+        )
 
     def _module(self) -> ModuleType:
         return importlib.import_module(f"cocotb_tests.{self.part}.{self.suite}")

@@ -23,8 +23,8 @@ def line(outcome: Outcome, breaking: bool) -> str:
     """Return the printed line of an outcome."""
     took = f"{outcome.seconds:.1f} s"
     if breaking:
-        told = "found     " if outcome.refuted else "NOT FOUND "
-        return f"{told} {outcome.name}: {outcome.trouble or 'all properties hold'} ({took})"
+        found_text = "found     " if outcome.refuted else "NOT FOUND "
+        return f"{found_text} {outcome.name}: {outcome.trouble or 'all properties hold'} ({took})"
     if outcome.trouble:
         again = f"\n         again: make prove T={outcome.name}"
         return f"FAILED   {outcome.name}: {outcome.trouble} ({took}){again}"

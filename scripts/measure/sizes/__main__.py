@@ -46,10 +46,10 @@ def run_all(works: list[Work[T]], keep: Callable[[int, T], None]) -> None:
                 )
 
 
-def sizes(wanted: list[Design]) -> figures.Figures:
+def sizes(selected: list[Design]) -> figures.Figures:
     """Synthesise and count cells; designs with the same netlist are synthesised once."""
     first: dict[tuple[str, str, str], Design] = {}
-    for design in wanted:
+    for design in selected:
         first.setdefault((design.job["top"], design.key if not design.board else "", design.digest()), design)
     found: dict[str, dict[str, Any]] = {}
     works: list[Work[dict[str, int]]] = [(design.key, design.size) for design in first.values()]
@@ -57,7 +57,7 @@ def sizes(wanted: list[Design]) -> figures.Figures:
 
     def keep(at: int, counts: dict[str, int]) -> None:
         same, _ = listed[at]
-        for design in wanted:
+        for design in selected:
             if (design.job["top"], design.key if not design.board else "", design.digest()) == same:
                 found[design.key] = {**counts, "of": design.digest()}
 
@@ -65,17 +65,17 @@ def sizes(wanted: list[Design]) -> figures.Figures:
     return found
 
 
-def measure(wanted: list[Design], rates: bool) -> None:
+def measure(selected: list[Design], rates: bool) -> None:
     """Measure the changed designs; clock rates of a design with changed RTL are deleted first."""
     held = figures.read() if figures.FILE.is_file() else {}
     known = {design.key for design in designs.all_designs()}
     held = {key: entry for key, entry in held.items() if key in known or key.startswith(figures.PEER)}
-    changed = [design for design in wanted if held.get(design.key, {}).get("of") != design.digest()]
+    changed = [design for design in selected if held.get(design.key, {}).get("of") != design.digest()]
     for at in range(0, len(changed), 8):
         held |= sizes(changed[at : at + 8])
         figures.write(held)
     todo = []
-    for design in wanted if rates else []:
+    for design in selected if rates else []:
         entry = held[design.key]
         if design.rated and figures.rate(entry) is None:
             entry["mhz"] = []
@@ -94,13 +94,13 @@ def measure(wanted: list[Design], rates: bool) -> None:
     console.print("written: docs/sizes.json; `make docs` writes the tables")
 
 
-def check(wanted: Iterable[Design], fresh: bool) -> int:
+def check(selected: Iterable[Design], fresh: bool) -> int:
     """Compare with the committed sizes; return the exit code.
 
     A design with the digest of its figures has their size; it is synthesized again only if `fresh`.
     """
     held = figures.read()
-    counted = [design for design in wanted if design.recipe == "tuned" and not design.board]
+    counted = [design for design in selected if design.recipe == "tuned" and not design.board]
     changed = [design for design in counted if fresh or held.get(design.key, {}).get("of") != design.digest()]
     now = sizes(changed)
     result = figures.compare(held, now)
@@ -150,18 +150,18 @@ def main() -> int:
     if args.instances:
         show_instances(args.part or "ppmc104")
         return 0
-    wanted = designs.all_designs()
+    selected = designs.all_designs()
     if args.peers:
-        wanted = designs.of_peers(args.peers, peers.read(args.peers))
+        selected = designs.of_peers(args.peers, peers.read(args.peers))
     if args.part:
-        wanted = [design for design in wanted if design.part == args.part]
+        selected = [design for design in selected if design.part == args.part]
     if args.only:
-        wanted = [design for design in wanted if args.only in design.key]
-    if not wanted:
+        selected = [design for design in selected if args.only in design.key]
+    if not selected:
         return fail("no design matches; leave out --only or --part")
     if args.check:
-        return check(wanted, args.fresh)
-    measure(wanted, not args.no_rates)
+        return check(selected, args.fresh)
+    measure(selected, not args.no_rates)
     return 0
 
 

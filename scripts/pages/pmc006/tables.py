@@ -43,7 +43,7 @@ async def _start() -> tuple[str, int]:
     host = await new(FAST)
     await host.ask("s", 300)
     e = host.e
-    return "`s` to `mon_busy`", next(t for t in host.side.golden.log.rises("mon_busy", e)) - e
+    return "`s` to `mon_busy`", next(t for t in host.bench.golden.log.rises("mon_busy", e)) - e
 
 
 async def _first_step() -> tuple[str, int]:
@@ -61,13 +61,13 @@ async def _stop() -> tuple[str, int]:
     await host.pins(ext1=0)
     t = host.t - 1
     await host.ms(1)
-    return "EXT1 to `mon_busy` low", next(edge for edge in host.side.golden.log.falls("mon_busy", t)) - t
+    return "EXT1 to `mon_busy` low", next(edge for edge in host.bench.golden.log.falls("mon_busy", t)) - t
 
 
 async def _output() -> tuple[str, int]:
     host = await new({})
     await host.ask("y", 8)
-    return "`y` to `gpo`", host.side.golden.log.of("gpo", host.e)[0][0] - host.e
+    return "`y` to `gpo`", host.bench.golden.log.of("gpo", host.e)[0][0] - host.e
 
 
 CASES: tuple[Callable[[], Awaitable[tuple[str, int]]], ...] = (_start, _first_step, _stop, _output)

@@ -111,7 +111,7 @@ async def on_the_way(number: int, block: str, origin: int = 0) -> tuple[Host, in
 
 def look(host: Host, schedule: Schedule, columns: Sequence[int | None]) -> Samples:
     """Return the model's pins and flags at the edges of the columns."""
-    model = host.side.golden
+    model = host.bench.golden
     return record(model, model.inputs, schedule, columns, flags)
 
 

@@ -77,10 +77,10 @@ async def _played(block: str, number: int, change: str) -> list[int]:
         await host.pulse(number, 40)
         await host.issue(change)
     for _ in range(2000):
-        if host.side.golden.next_event is None or len(host.side.rises("pout")) >= SHOWN:
+        if host.bench.golden.next_event is None or len(host.bench.rises("pout")) >= SHOWN:
             break
         await host.step()
-    edges = host.side.rises("pout")[:SHOWN]
+    edges = host.bench.rises("pout")[:SHOWN]
     return [(b - a) // CLK for a, b in pairwise(edges)]
 
 
@@ -125,7 +125,7 @@ async def _returned(switch: int, free: int, out: int) -> list[int]:
     await host.pulse(out + out - switch - free)
     await host.pins(org_n=0)
     await host.response()
-    return host.side.rises("pout")
+    return host.bench.rises("pout")
 
 
 def origin() -> bytes:

@@ -117,7 +117,7 @@ async def _set_up(mode: Config, block: str) -> int:
     await host.write(CSR, 0x10)
     await host.issue(block)
     await host.response()
-    return host.side.falls("irq_n", host.header)[0] - host.header
+    return host.bench.falls("irq_n", host.header)[0] - host.header
 
 
 async def _start(mode: Config, block: str) -> int:
@@ -130,7 +130,7 @@ async def _start(mode: Config, block: str) -> int:
 async def _ready(mode: Config, _: str) -> int:
     """Return the cycles from the release of rst_n to out_oe."""
     host = await Host.start(OnModel(mode))
-    return host.side.rises("out_oe")[0]
+    return host.bench.rises("out_oe")[0]
 
 
 async def _stop(mode: Config, block: str) -> int:
@@ -140,7 +140,7 @@ async def _stop(mode: Config, block: str) -> int:
     await host.pulse(2)
     await host.issue(block)
     await host.response()
-    return host.side.falls("irq_n", host.header)[0] - host.header
+    return host.bench.falls("irq_n", host.header)[0] - host.header
 
 
 async def _output(mode: Config, block: str) -> int:
@@ -148,7 +148,7 @@ async def _output(mode: Config, block: str) -> int:
     host = await Host.start(OnModel(mode))
     await host.issue(block)
     await host.wait()
-    return host.side.edges("auxo_n")[0][0] - host.header
+    return host.bench.edges("auxo_n")[0][0] - host.header
 
 
 TIMES = (

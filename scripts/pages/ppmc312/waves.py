@@ -134,11 +134,11 @@ async def start() -> Drawing:
     ahead = await ready(*TF)
     await ahead.issue(move)
     await ahead.pause(8)  # the block is being processed
-    while flags(ahead.side.golden)["mwef"]:
+    while flags(ahead.bench.golden)["mwef"]:
         await ahead.pause(1)
     free = ahead.t - 1 - ahead.header
     first = await ahead.pulse(1) - ahead.header
-    turned = ahead.side.rises("dir")[0] - ahead.header
+    turned = ahead.bench.rises("dir")[0] - ahead.header
     host = await ready(*TF)
     schedule, end = block_cycles(host.t + 4, move)
     columns = (
@@ -214,7 +214,7 @@ async def turn() -> Drawing:
     back = "03 04 11 00 0000"
     ahead, last = await on_the_way(27, back, 15)
     again = await ahead.pulse(28) - last
-    turned = ahead.side.rises("dir")[0] - last
+    turned = ahead.bench.rises("dir")[0] - last
     host, last = await on_the_way(27, back, 15)
     columns = (-1, 0, 1, None, 79, 80, 81, None, 6399, 6400, *range(6401, turned + 3), None,
                *range(again - 1, again + 3))  # fmt: skip

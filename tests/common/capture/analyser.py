@@ -13,7 +13,7 @@ from vcd import VCDWriter
 
 from openppmc.capture.common.decoding import decoder
 
-from .sessions import CLK_HZ, Tape
+from .sessions import CLK_HZ, PinLog
 
 PS = 10**12
 
@@ -32,7 +32,7 @@ class Seen:
 
 
 def probe(
-    tape: Tape,
+    log: PinLog,
     rate: float = 50e6,
     jitter: int = 0,
     begin: float = 0.0,
@@ -53,13 +53,13 @@ def probe(
     step = round(PS / rate)
     stretch = 1 - ppm * 1e-6
     source = random.Random(seed)
-    widths, lowest = dict(tape.model.WIDTHS), decoder(tape.part).pins.lowest
+    widths, lowest = dict(log.model.WIDTHS), decoder(log.part).pins.lowest
     ports: dict[str, tuple[int, list[tuple[int, int]]]] = {}
-    for name, level in {**tape.inputs, **tape.outputs}.items():
+    for name, level in {**log.inputs, **log.outputs}.items():
         ports[name] = (level, [])
-    for t, name, level in tape.changes:
+    for t, name, level in log.changes:
         ports[name][1].append((t, level))
-    for edge in tape.model.edges:
+    for edge in log.model.edges:
         ports[edge.signal][1].append((edge.t, edge.value))
     if "d_i" in ports:
         ports["d"], widths["d"] = _bus(ports), 8
@@ -83,7 +83,7 @@ def probe(
                 elif value >> bit & 1 != (kept[-1][1] if kept else level):
                     kept.append((max(at, kept[-1][0] + step) if kept else at, value >> bit & 1))
             seen.wires[wire] = (level, kept)
-    seen.end = min(over, round(tape.end * PS / CLK_HZ * stretch - start)) // step * step
+    seen.end = min(over, round(log.end * PS / CLK_HZ * stretch - start)) // step * step
     return seen
 
 

@@ -22,7 +22,7 @@ MS = 1000 * US
 
 
 @dataclass
-class Tape:
+class PinLog:
     """A model of a device whose pin changes are kept.
 
     Attributes:
@@ -53,68 +53,68 @@ class Tape:
         self.model.pins(40 * US, rst_n=1)
         return 45 * US
 
-    def finish(self, t: int) -> Tape:
+    def finish(self, t: int) -> PinLog:
         """Run to time t, the end of the recording."""
         self.model.run_until(t)
         self.end = t
         return self
 
 
-def _bytes(tape: Tape, t: int, *written: tuple[int, int]) -> int:
+def _bytes(log: PinLog, t: int, *written: tuple[int, int]) -> int:
     """Write (register, byte) pairs with a status read after each; return the time after the last one."""
     for register, byte in written:
-        t = tape.model.write(t, register, byte, strobe=11) + 2 * US
-        tape.model.read(t, 1, strobe=11)
+        t = log.model.write(t, register, byte, strobe=11) + 2 * US
+        log.model.read(t, 1, strobe=11)
         t += 2 * US
     return t
 
 
-def _answers(tape: Tape, t: int, code: int, count: int) -> int:
-    t = _bytes(tape, t, (1, code)) + 20 * US
+def _answers(log: PinLog, t: int, code: int, count: int) -> int:
+    t = _bytes(log, t, (1, code)) + 20 * US
     for _ in range(count):
-        tape.model.read(t, 0, strobe=11)
+        log.model.read(t, 0, strobe=11)
         t += 20 * US
     return t
 
 
-def ppmc104() -> Tape:
+def ppmc104() -> PinLog:
     """Record a ramp and a run into a limit."""
-    tape = Tape("ppmc104", Ppmc104(CLK_HZ))
-    t = _bytes(tape, tape.reset(), (1, 0x2A), (0, 99), (0, 9), (0, 60), (0, 0)) + 3 * MS
-    t = _bytes(tape, t, (1, 0x43), (0, 199), (0, 0), (0, 0)) + 25 * MS
-    t = _answers(tape, t, 0x80, 1)
-    t = _bytes(tape, t + 10 * MS, (1, 0x4D), (0, 49)) + 3 * MS
-    tape.model.pins(t, l2_n=0)
-    t = _answers(tape, t + MS, 0x83, 3)
-    return tape.finish(t + 45 * MS)
+    log = PinLog("ppmc104", Ppmc104(CLK_HZ))
+    t = _bytes(log, log.reset(), (1, 0x2A), (0, 99), (0, 9), (0, 60), (0, 0)) + 3 * MS
+    t = _bytes(log, t, (1, 0x43), (0, 199), (0, 0), (0, 0)) + 25 * MS
+    t = _answers(log, t, 0x80, 1)
+    t = _bytes(log, t + 10 * MS, (1, 0x4D), (0, 49)) + 3 * MS
+    log.model.pins(t, l2_n=0)
+    t = _answers(log, t + MS, 0x83, 3)
+    return log.finish(t + 45 * MS)
 
 
-def ppmc2104() -> Tape:
+def ppmc2104() -> PinLog:
     """Record a move of both axes at the same time, then a single step."""
-    tape = Tape("ppmc2104", Ppmc2104(CLK_HZ))
-    t = _bytes(tape, tape.reset(), (1, 0x12), (0, 127), (0, 39), (0, 50), (0, 0)) + 3 * MS
-    t = _bytes(tape, t, (1, 0x36), (0, 255), (0, 79), (0, 30), (0, 0)) + 3 * MS
-    t = _bytes(tape, t, (1, 0x43), (0, 150), (0, 0), (0, 0), (1, 0x6B), (0, 90), (0, 0), (0, 0)) + 60 * MS
-    t = _answers(tape, t, 0x80, 1)
-    t = _answers(tape, t, 0xA0, 1)
-    t = _bytes(tape, t, (1, 0x42)) + 5 * MS
-    return tape.finish(t + 20 * MS)
+    log = PinLog("ppmc2104", Ppmc2104(CLK_HZ))
+    t = _bytes(log, log.reset(), (1, 0x12), (0, 127), (0, 39), (0, 50), (0, 0)) + 3 * MS
+    t = _bytes(log, t, (1, 0x36), (0, 255), (0, 79), (0, 30), (0, 0)) + 3 * MS
+    t = _bytes(log, t, (1, 0x43), (0, 150), (0, 0), (0, 0), (1, 0x6B), (0, 90), (0, 0), (0, 0)) + 60 * MS
+    t = _answers(log, t, 0x80, 1)
+    t = _answers(log, t, 0xA0, 1)
+    t = _bytes(log, t, (1, 0x42)) + 5 * MS
+    return log.finish(t + 20 * MS)
 
 
-def stmc() -> Tape:
+def stmc() -> PinLog:
     """Record a ramp of steps, then one backwards."""
-    tape = Tape("stmc", Stmc(CLK_HZ))
-    t = _bytes(tape, tape.reset(), (1, 0x0A), (0, 20), (0, 4), (0, 20), (0, 0)) + 3 * MS
-    t = _bytes(tape, t, (1, 0x43), (0, 99), (0, 0), (0, 0)) + 90 * MS
-    t = _answers(tape, t, 0x80, 1)
-    t = _bytes(tape, t, (1, 0x4B), (0, 10), (0, 0), (0, 0)) + 30 * MS
-    return tape.finish(t)
+    log = PinLog("stmc", Stmc(CLK_HZ))
+    t = _bytes(log, log.reset(), (1, 0x0A), (0, 20), (0, 4), (0, 20), (0, 0)) + 3 * MS
+    t = _bytes(log, t, (1, 0x43), (0, 99), (0, 0), (0, 0)) + 90 * MS
+    t = _answers(log, t, 0x80, 1)
+    t = _bytes(log, t, (1, 0x4B), (0, 10), (0, 0), (0, 0)) + 30 * MS
+    return log.finish(t)
 
 
-def ppmc312() -> Tape:
+def ppmc312() -> PinLog:
     """Record blocks through the windows: a table, a move, its report."""
-    tape = Tape("ppmc312", Ppmc312(CLK_HZ))
-    model, t = tape.model, tape.reset()
+    log = PinLog("ppmc312", Ppmc312(CLK_HZ))
+    model, t = log.model, log.reset()
 
     def access(t: int, write: bool, rs: int, byte: int = 0) -> int:
         levels = {"cs_n": 0, "we_n" if write else "oe_n": 0, "rs": rs}
@@ -140,33 +140,33 @@ def ppmc312() -> Tape:
     t = send(t, blocks.acceleration(blocks.CCW, 500)) + 20 * MS
     t = fetch(fetch(t, 4), 8)
     t = send(t, blocks.block(0x42, b"\x00")) + 100 * US
-    return tape.finish(fetch(t, 8) + 110 * MS)
+    return log.finish(fetch(t, 8) + 110 * MS)
 
 
-def _say(tape: Tape, t: int, data: bytes, baud: int) -> int:
+def _say(log: PinLog, t: int, data: bytes, baud: int) -> int:
     """Send characters on rxd."""
     bit = CLK_HZ / baud
     for number, byte in enumerate(data):
         levels = [0, *(byte >> place & 1 for place in range(8)), 1]
         for place, level in enumerate(levels):
-            tape.model.pins(t + round((number * 10 + place) * bit), rxd=level)
+            log.model.pins(t + round((number * 10 + place) * bit), rxd=level)
     return t + round(len(data) * 10 * bit)
 
 
-def ppmc312_serial() -> Tape:
+def ppmc312_serial() -> PinLog:
     """Record frames to two stations, one of which is present."""
-    tape = Tape("ppmc312-serial", Ppmc312(CLK_HZ, straps={"mode": 0, "mod": 6, "adr": 3}))
-    t = tape.reset() + 3 * MS
+    log = PinLog("ppmc312-serial", Ppmc312(CLK_HZ, straps={"mode": 0, "mod": 6, "adr": 3}))
+    t = log.reset() + 3 * MS
     for station, data in ((3, "00000140004000047e"), (5, "42"), (3, "8300000000012c"), (3, "42")):
-        t = _say(tape, t, frame(INSTRUCTION | station, bytes.fromhex(data)), 38_400) + 8 * MS
-    t = _say(tape, t + 30 * MS, frame(POLL | 3), 38_400) + 6 * MS
-    return tape.finish(t)
+        t = _say(log, t, frame(INSTRUCTION | station, bytes.fromhex(data)), 38_400) + 8 * MS
+    t = _say(log, t + 30 * MS, frame(POLL | 3), 38_400) + 6 * MS
+    return log.finish(t)
 
 
-def pmc006() -> Tape:
+def pmc006() -> PinLog:
     """Record settings, a move and its end, in frames."""
-    tape = Tape("pmc006", Pmc006(CLK_HZ, baud=19_200))
-    t = tape.reset() + 90 * MS
+    log = PinLog("pmc006", Pmc006(CLK_HZ, baud=19_200))
+    t = log.reset() + 90 * MS
     for code, value in (
         ("j", 0),
         ("m", 8),
@@ -177,11 +177,11 @@ def pmc006() -> Tape:
         ("j", 0),
         ("c", 0),
     ):
-        t = _say(tape, t, command(255, code, value), 19_200) + 12 * MS
-    return tape.finish(t + 40 * MS)
+        t = _say(log, t, command(255, code, value), 19_200) + 12 * MS
+    return log.finish(t + 40 * MS)
 
 
-SESSIONS: dict[str, Callable[[], Tape]] = {
+SESSIONS: dict[str, Callable[[], PinLog]] = {
     "ppmc104": ppmc104,
     "ppmc2104": ppmc2104,
     "stmc": stmc,

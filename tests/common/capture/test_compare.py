@@ -16,7 +16,7 @@ from openppmc.capture.common.pinmap import PinMap
 from openppmc.capture.common.signals import US
 
 from .analyser import Seen, probe, write_saleae, write_sigrok_csv, write_sr, write_vcd
-from .sessions import CLK_HZ, SESSIONS, Tape
+from .sessions import CLK_HZ, SESSIONS, PinLog
 
 PARTS = tuple(SESSIONS)
 WRITERS: dict[str, Callable[[Seen, Path], Path]] = {
@@ -31,7 +31,7 @@ SHORT = ("mon_step",)
 
 
 @cache
-def session(part: str) -> Tape:
+def session(part: str) -> PinLog:
     """Return a session, played once for all tests."""
     return SESSIONS[part]()
 

@@ -15,7 +15,7 @@ from openppmc.capture.common.files import read_capture
 from openppmc.capture.common.pinmap import PinMap, read_map
 
 from .analyser import Seen, probe, write_vcd
-from .sessions import Tape
+from .sessions import PinLog
 from .test_compare import session
 
 LONGEST_S = 20
@@ -173,8 +173,8 @@ def test_many_reports_of_a_312(tmp_path: Path) -> None:
 
 def test_a_long_serial_line(tmp_path: Path) -> None:
     """The time to find the baud rate of a line increases linearly with the number of characters."""
-    tape: Tape = session("pmc006")
-    seen = probe(tape, rate=1e7, without=("txd",))
+    log: PinLog = session("pmc006")
+    seen = probe(log, rate=1e7, without=("txd",))
     level, changes = seen.wires["rxd"]
     seen.wires = {"rxd": (level, [(t + n * seen.end, one) for n in range(60) for t, one in changes])}
     seen.end *= 60

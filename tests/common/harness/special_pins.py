@@ -41,7 +41,7 @@ def pins(text: str) -> tuple[str, ...]:
 LITEX = "https://github.com/litex-hub/litex-boards/tree/master/litex_boards/platforms/"
 SIPEED9 = "https://github.com/sipeed/TangNano-9K-example/tree/main/spi_lcd/src/lcd114_test.cst"
 SIPEED = "https://github.com/sipeed/TangNano-20K-example/tree/main/"
-MISTERY = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20k/"
+MISTERY_NANO = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20k/"
 ULX3S = "https://github.com/emard/ulx3s/tree/master/"
 APICULA = "https://github.com/YosysHQ/apicula (pin functions of the package in its chip database)"
 DIGILENT = "https://digilent.com/reference/programmable-logic/arty-a7/reference-manual"
@@ -106,21 +106,21 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
     ),
     "tangnano20k": (
         Special(pins("25 26"), Kind.NEVER, "HDMI CEC and hot plug; LCD", LITEX + "sipeed_tang_nano_20k.py"),
-        Special(pins("57 59-63"), Kind.NEVER, "configuration flash", MISTERY + "atarist.cst"),
+        Special(pins("57 59-63"), Kind.NEVER, "configuration flash", MISTERY_NANO + "atarist.cst"),
         Special(pins("5-9"), Kind.NEVER, "JTAG, RECONFIG_N", APICULA),
         Special(pins("52 53"), Kind.DRIVEN, "HDMI DDC", LITEX + "sipeed_tang_nano_20k.py"),
-        Special(pins("75 76 86 13"), Kind.DRIVEN, "BL616", MISTERY + "atarist.cst"),
+        Special(pins("75 76 86 13"), Kind.DRIVEN, "BL616", MISTERY_NANO + "atarist.cst"),
         Special(
             pins("27-42 48 49 77"),
             Kind.SOCKET,
             "LCD",
-            SIPEED + "rgb_lcd, " + MISTERY + "atarist_lcd.cst",
+            SIPEED + "rgb_lcd, " + MISTERY_NANO + "atarist_lcd.cst",
         ),
         Special(pins("80-85"), Kind.SOCKET, "card socket", LITEX + "sipeed_tang_nano_20k.py"),
         Special(pins("51 54-56"), Kind.LOADED, "audio amplifier", SIPEED + "audio/src/audio.cst"),
-        Special(pins("15-18"), Kind.LOADED, "lamps 1 to 4", LITEX + "sipeed_tang_nano_20k.py"),
-        Special(pins("19 20"), Kind.LOADED, "lamps 5 and 6", LITEX + "sipeed_tang_nano_20k.py"),
-        Special(pins("79"), Kind.LOADED, "coloured lamp", SIPEED + "ws2812/src/ws2812.cst"),
+        Special(pins("15-18"), Kind.LOADED, "LEDs 1 to 4", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("19 20"), Kind.LOADED, "LEDs 5 and 6", LITEX + "sipeed_tang_nano_20k.py"),
+        Special(pins("79"), Kind.LOADED, "RGB LED", SIPEED + "ws2812/src/ws2812.cst"),
         Special(pins("87"), Kind.NEVER, "MODE1", APICULA),
         Special(pins("88"), Kind.LOADED, "MODE0", APICULA),
     ),

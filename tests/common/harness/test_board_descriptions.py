@@ -145,13 +145,13 @@ def test_written_files_are_fresh() -> None:
 
     `make lint` also compares the spaces, because it has the program that formats the tops.
     """
-    wanted = all_files(layout=str)
+    expected = all_files(layout=str)
     same = {
-        path: "".join(path.read_text(encoding="utf-8").split()) == "".join(wanted[path].split())
-        for path in wanted
+        path: "".join(path.read_text(encoding="utf-8").split()) == "".join(expected[path].split())
+        for path in expected
     }
     assert all(same.values()), [path.name for path, fresh in same.items() if not fresh]
-    assert not left_over(wanted)
+    assert not left_over(expected)
 
 
 VECTORS = """

@@ -128,8 +128,8 @@ def test_ports_and_pins(top: str, file: str, clock_file: str, clock: str, mhz: f
     path = CONSTRAINTS / file
     text = path.read_text()
     pairs = pins(text, path.suffix)
-    wanted = sorted(bit for port in ports(top).values() for bit in port.bits)
-    assert sorted(port for port, _ in pairs) == wanted
+    expected = sorted(bit for port in ports(top).values() for bit in port.bits)
+    assert sorted(port for port, _ in pairs) == expected
     sites = [pin for _, pin in pairs]
     assert sorted(set(sites)) == sorted(sites), "a pin is used twice"
 
@@ -159,10 +159,10 @@ def test_table_of_the_pins(top: str, file: str) -> None:
     told = re.findall(r"^\| `([^`]+)` \| ([a-z, ]+) \| (\w+) \|", table, re.M)
     words = {"input": "in", "output": "out", "inout": "in, out"}
     direction = {bit: words[port.direction] for port in ports(top).values() for bit in port.bits}
-    wanted = [
+    expected = [
         (bit, direction[bit], pin) for bit, pin in pins((CONSTRAINTS / file).read_text(), Path(file).suffix)
     ]
-    assert sorted(told) == sorted(wanted)
+    assert sorted(told) == sorted(expected)
 
 
 @pytest.mark.parametrize("on", EVERY, ids=[on.stem("uart") for on in EVERY])

@@ -123,11 +123,11 @@ def test_repeated_levels_are_not_edges() -> None:
 
 
 def test_asynchronous_reset_edges_have_one_clk_of_tolerance_and_no_more() -> None:
-    wanted = [Edge(100, "hold", 0), Edge(150, "hold", 1)]
+    want = [Edge(100, "hold", 0), Edge(150, "hold", 1)]
 
     def differs(t: int, resets: list[int]) -> bool:
         got = [Edge(100, "hold", 0), Edge(t, "hold", 1)]
-        return compare_edges(wanted, got, INITIAL, 1000, resets)[2] is not None
+        return compare_edges(want, got, INITIAL, 1000, resets)[2] is not None
 
     assert not differs(149, [150])
     assert not differs(150, [150])

@@ -6,8 +6,8 @@ import pytest
 
 from cocotb_tests.harness import PARTS
 from cocotb_tests.harness.compare import compare_recording, replay
+from cocotb_tests.harness.dut_bench import new_model
 from cocotb_tests.harness.project import ProjectError
-from cocotb_tests.harness.side import new_model
 from openppmc.capture.common.words import exchanges
 from openppmc.capture.ppmc104.words import Words104
 from openppmc.capture.ppmc312.words import Words312

@@ -7,9 +7,9 @@ from typing import Any
 import cocotb
 import pytest
 
-from cocotb_tests.harness import D16, F16, ModelBench, OnModel, Side, directed, on_model, start_bench
+from cocotb_tests.harness import D16, F16, DutBench, ModelBench, OnModel, directed, on_model, start_bench
 from cocotb_tests.harness.collect import rules_of
-from cocotb_tests.harness.running import present
+from cocotb_tests.harness.run_context import current_test
 from cocotb_tests.ppmc104.bench import PPMC104
 
 
@@ -19,25 +19,25 @@ class Simulated(ModelBench):
     simulated = True
 
 
-class Judge:
-    """Compares nothing; stores the sides, and fails on request."""
+class Comparer:
+    """Compares nothing; stores the benches, and fails on request."""
 
     def __init__(self) -> None:
-        self.sides: list[Any] = []
+        self.benches: list[Any] = []
         self.finds = ""
 
-    def __call__(self, side: Any) -> None:
-        self.sides.append(side)
+    def __call__(self, bench: Any) -> None:
+        self.benches.append(bench)
         if self.finds:
             raise AssertionError(self.finds)
 
 
 @pytest.fixture
-def judge(monkeypatch: pytest.MonkeyPatch) -> Judge:
-    """Replace the comparison; `start_bench` returns sides that must be compared."""
-    found = Judge()
-    monkeypatch.setattr("cocotb_tests.harness.running.check_against_model", found)
-    monkeypatch.setattr("cocotb_tests.harness.running.ModelBench", Simulated)
+def comparer(monkeypatch: pytest.MonkeyPatch) -> Comparer:
+    """Replace the comparison; `start_bench` returns benches that must be compared."""
+    found = Comparer()
+    monkeypatch.setattr("cocotb_tests.harness.run_context.check_against_model", found)
+    monkeypatch.setattr("cocotb_tests.harness.run_context.ModelBench", Simulated)
     return found
 
 
@@ -50,36 +50,36 @@ async def start() -> Any:
     return await start_bench(OnModel(), PPMC104)
 
 
-def test_a_test_is_compared_at_its_end(judge: Judge) -> None:
+def test_a_test_is_compared_at_its_end(comparer: Comparer) -> None:
     @directed("P104-STP-01", builds=(F16, D16))
     async def good(dut: Any) -> None:
         assert dut.config == F16
         await start()
-        assert not judge.sides
+        assert not comparer.benches
 
     run(good)
-    assert len(judge.sides) == 1
-    assert present() is None
+    assert len(comparer.benches) == 1
+    assert current_test() is None
     assert rules_of(good) == ("P104-STP-01",)
     assert good.func._openppmc_configs == (F16, D16)
     assert good.func._openppmc_uncompared == ""
 
 
-def test_a_second_start_compares_the_first_side_and_stills_it(judge: Judge) -> None:
+def test_a_second_start_compares_the_first_side_and_stills_it(comparer: Comparer) -> None:
     @directed()
     async def twice(dut: Any) -> None:
         first = await start()
         task = first.at(100, csel=0)
         second = await start()
-        assert judge.sides == [first] and task.over
-        assert second is not first and present().side is second  # type: ignore[union-attr]
+        assert comparer.benches == [first] and task.over
+        assert second is not first and current_test().bench is second  # type: ignore[union-attr]
 
     run(twice)
-    assert len(judge.sides) == 2
+    assert len(comparer.benches) == 2
 
 
-def test_a_difference_fails_the_test(judge: Judge) -> None:
-    judge.finds = "pout_n differs"
+def test_a_difference_fails_the_test(comparer: Comparer) -> None:
+    comparer.finds = "pout_n differs"
 
     @directed()
     async def fine(dut: Any) -> None:
@@ -89,8 +89,8 @@ def test_a_difference_fails_the_test(judge: Judge) -> None:
         run(fine)
 
 
-def test_a_difference_before_a_second_start_is_told_once(judge: Judge) -> None:
-    judge.finds = "pout_n differs"
+def test_a_difference_before_a_second_start_is_reported_once(comparer: Comparer) -> None:
+    comparer.finds = "pout_n differs"
 
     @directed()
     async def twice(dut: Any) -> None:
@@ -99,7 +99,7 @@ def test_a_difference_before_a_second_start_is_told_once(judge: Judge) -> None:
 
     with pytest.raises(AssertionError, match="^pout_n differs$"):
         run(twice)
-    assert len(judge.sides) == 1
+    assert len(comparer.benches) == 1
 
 
 @pytest.mark.parametrize(
@@ -109,8 +109,8 @@ def test_a_difference_before_a_second_start_is_told_once(judge: Judge) -> None:
         ("d_o is 3", "the golden model differs: d_o is 3"),
     ],
 )
-def test_a_failed_check_tells_what_the_model_shows(judge: Judge, finds: str, opinion: str) -> None:
-    judge.finds = finds
+def test_a_failed_check_states_the_result_of_the_model(comparer: Comparer, finds: str, opinion: str) -> None:
+    comparer.finds = finds
 
     @directed()
     async def wrong(dut: Any) -> None:
@@ -123,7 +123,7 @@ def test_a_failed_check_tells_what_the_model_shows(judge: Judge, finds: str, opi
     assert found.traceback[-1].name == "wrong", "the line of the test is in the traceback"
 
 
-def test_a_timeout_stays_one(judge: Judge) -> None:
+def test_a_timeout_stays_one(comparer: Comparer) -> None:
     @directed()
     async def hangs(dut: Any) -> None:
         await (await start()).edge("pout_n", 0, timeout=50)
@@ -132,7 +132,7 @@ def test_a_timeout_stays_one(judge: Judge) -> None:
         run(hangs)
 
 
-def test_uncompared_is_not_compared(judge: Judge) -> None:
+def test_uncompared_is_not_compared(comparer: Comparer) -> None:
     @directed("P104-BCK-05", uncompared="no rule fixes it")
     async def free(dut: Any) -> None:
         await start()
@@ -142,11 +142,11 @@ def test_uncompared_is_not_compared(judge: Judge) -> None:
         AssertionError, match="^wrong\nthe outputs of this test are not compared with the golden model$"
     ):
         run(free)
-    assert not judge.sides
+    assert not comparer.benches
     assert free.func._openppmc_uncompared == "no rule fixes it"
 
 
-def test_parameters_go_with_it(judge: Judge) -> None:
+def test_parameters_go_with_it(comparer: Comparer) -> None:
     @directed("P104-STP-01")
     @cocotb.parametrize(count=[1, 2])
     async def many(dut: Any, count: int) -> None:
@@ -163,12 +163,12 @@ def test_parameters_go_with_it(judge: Judge) -> None:
         assert [case.name.rpartition("/")[2] for case in cases] == ["count=1", "count=2"]
         for case in cases:
             on_model(case.func(OnModel(), **case.kwargs))
-    assert len(judge.sides) == 4
+    assert len(comparer.benches) == 4
 
 
 def test_golden_follows_and_is_never_ahead() -> None:
-    """`golden` has the pins of its side so far, and has run up to the edge before the next one."""
-    bench, golden = ModelBench(PPMC104, OnModel()), Side.golden.fget
+    """`golden` has the pins of its bench so far, and has run up to the edge before the next one."""
+    bench, golden = ModelBench(PPMC104, OnModel()), DutBench.golden.fget
     model = golden(bench)
     assert model.now == bench.now - 1
     on_model(bench.clocks(10))

@@ -22,9 +22,9 @@ SUITES = gate_suite.suites()
 def test_all_directed_tests_run_on_each_family(family: str) -> None:
     items = [(part, param.values[0]) for part in SUITES for param in part.directed.ITEMS]
     items = [(part, item) for part, item in items if family in gate_suite.families(part)]
-    wanted = {item.id for part, item in items if not part.is_too_long(item) and part.built(item)}
+    expected = {item.id for part, item in items if not part.is_too_long(item) and part.built(item)}
     here = {t.item.id for t in gate_suite.everything(None, (family,))}
-    assert {f"{name}-{family}" for name in wanted} <= here
+    assert {f"{name}-{family}" for name in expected} <= here
 
 
 def test_the_sample_of_random_hosts_uses_each_of_their_configurations() -> None:

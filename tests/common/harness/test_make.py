@@ -49,7 +49,7 @@ WRONG = {
     "test J=²": "J=²: expected a whole number from 1 to 64",
     "test WITH=lab": "WITH=lab: expected campaign or ophyd or litex or fusesoc or versions",
     "test WAVES=yes": "WAVES=yes: expected a whole number from 0 to 1",
-    "test INSIDE=2": "INSIDE=2: expected a whole number from 0 to 1",
+    "test PROBE=2": "PROBE=2: expected a whole number from 0 to 1",
     "test MODEL=": "MODEL=: expected a whole number from 0 to 1",
     "test SIM_MAIN=icarus": "SIM_MAIN=icarus: expected own or cocotb",
     "test-verilog SIM=verilator": "SIM=verilator: expected icarus or own or cocotb",
@@ -153,12 +153,20 @@ def test_boards_without_yaml() -> None:
     assert boards() == found
 
 
-def test_the_old_name_says_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_old_name_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """`make test-lab` prints a note and runs the same as `make test WITH=ophyd`."""
     monkeypatch.setattr(env, "missing", lambda _: [])
     note, _, command = run.plan(["test-lab", "T=a"]).partition(" >&2; ")
     assert "use `make test WITH=ophyd" in note
     assert command == run.plan(["test", "WITH=ophyd", "T=a"])
+
+
+def test_the_old_variable_states_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`make test INSIDE=1` prints a note and runs the same as `make test PROBE=1`."""
+    monkeypatch.setattr(env, "missing", lambda _: [])
+    note, _, command = run.plan(["test", "INSIDE=1"]).partition(" >&2; ")
+    assert "use PROBE for INSIDE" in note
+    assert command == run.plan(["test", "PROBE=1"])
 
 
 def test_the_environment_is_made_first(monkeypatch: pytest.MonkeyPatch) -> None:

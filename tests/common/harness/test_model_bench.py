@@ -14,8 +14,8 @@ from cocotb_tests.harness.collect import all_tests, rules_of
 from cocotb_tests.harness.model_tests import model_tests
 
 RTL_ONLY = {
-    "p2104_ac_03_write_times_of_the_sheet",
-    "p2104_ac_04_read_times_of_the_sheet",
+    "p2104_ac_03_write_times_of_the_data_sheet",
+    "p2104_ac_04_read_times_of_the_data_sheet",
     "p2104_ac_05_no_invisible_write",
     "p2104_ac_66_clk_o",
 }
@@ -26,65 +26,65 @@ ACCEPTANCE = {
 }
 
 
-def bench(part: str = "ppmc104", **pins: int) -> ModelBench:
+def new_bench(part: str = "ppmc104", **pins: int) -> ModelBench:
     return ModelBench(PARTS[part], OnModel(F16), **pins)
 
 
 def test_time_goes_forward_only() -> None:
     """From now = 4, later times are reached, and a time in the past is rejected."""
-    side = bench()
-    assert side.now == 4 and on_model(side.until(10)) == 10 and on_model(side.clocks(5)) == 15
+    bench = new_bench()
+    assert bench.now == 4 and on_model(bench.until(10)) == 10 and on_model(bench.clocks(5)) == 15
     with pytest.raises(ValueError, match="already edge 15"):
-        on_model(side.until(14))
+        on_model(bench.until(14))
     with pytest.raises(ValueError, match="already edge 15"):
-        side.at(14, l1_n=0)
+        bench.at(14, l1_n=0)
 
 
 def test_pins_change_at_their_stamps() -> None:
     """Present and scheduled pin changes are in the model's recording at their edges, bit by bit."""
-    side = bench("ppmc2104", busc=1)
-    assert side.set(**{"fl_n[2]": 0}) == 4
-    cancelled = side.at(20, errint_n=0)
-    side.at(12, auxi=3)
+    bench = new_bench("ppmc2104", busc=1)
+    assert bench.set(**{"fl_n[2]": 0}) == 4
+    cancelled = bench.at(20, errint_n=0)
+    bench.at(12, auxi=3)
     cancelled.cancel()
-    on_model(side.until(30))
-    assert side.stimulus == [(0, "busc", 1), (4, "fl_n", 0b01), (12, "auxi", 3)]
-    assert side.pin("fl_n[2]") == 0 and side.pin("fl_n") == 0b01
+    on_model(bench.until(30))
+    assert bench.stimulus == [(0, "busc", 1), (4, "fl_n", 0b01), (12, "auxi", 3)]
+    assert bench.pin("fl_n[2]") == 0 and bench.pin("fl_n") == 0b01
 
 
-def test_an_external_clock_runs_beside_the_test() -> None:
+def test_an_external_clock_runs_during_the_test() -> None:
     """An external clock of 20 cycles has its edges at the correct times until it is stopped."""
-    side = bench()
-    clock = side.external_clock(repeat(20), high=5)
-    on_model(side.until(50))
+    bench = new_bench()
+    clock = bench.external_clock(repeat(20), high=5)
+    on_model(bench.until(50))
     clock.cancel()
-    on_model(side.until(200))
-    assert [(c.t, c.value) for c in side.stimulus] == [(4, 1), (9, 0), (24, 1), (29, 0), (44, 1), (49, 0)]
-    assert side.pin_rises("clock") == [4, 24, 44]
+    on_model(bench.until(200))
+    assert [(c.t, c.value) for c in bench.stimulus] == [(4, 1), (9, 0), (24, 1), (29, 0), (44, 1), (49, 0)]
+    assert bench.pin_rises("clock") == [4, 24, 44]
 
 
 def test_waits_end_at_the_edge_or_after_their_time() -> None:
     """After a wait for a pulse, now is the next edge; a wait for an edge that does not occur times out."""
-    side = bench()
+    bench = new_bench()
 
     async def step() -> int:
-        host = HostBus(side)
+        host = HostBus(bench)
         await host.init(0x0A, 9, 4, 4)
         await host.command(0xC1)
         await host.command(0x42, poll=False)
-        edge = await side.edge("pout_n", 0)
-        assert side.now == edge + 1 and side.pulses() == [edge]
-        assert await side.level_is("pout_n", 1) == side.rises("pout_n")[0] + 1
+        edge = await bench.edge("pout_n", 0)
+        assert bench.now == edge + 1 and bench.pulses() == [edge]
+        assert await bench.level_is("pout_n", 1) == bench.rises("pout_n")[0] + 1
         return edge
 
     assert on_model(step()) > 0
-    now = side.now
+    now = bench.now
     with pytest.raises(TimeoutError, match="no level 0 of aux_n within 500 cycles"):
-        on_model(side.edge("aux_n", 0, 500))
-    assert side.now == now + 500
+        on_model(bench.edge("aux_n", 0, 500))
+    assert bench.now == now + 500
 
 
-def test_a_wait_for_the_simulator_is_told() -> None:
+def test_a_wait_for_the_simulator_is_reported() -> None:
     """A coroutine that suspends is closed, and the error reports it."""
     with pytest.raises(RuntimeError, match="only a simulator has"):
         on_model(asyncio.sleep(0))
@@ -92,9 +92,9 @@ def test_a_wait_for_the_simulator_is_told() -> None:
 
 def test_the_bench_is_that_of_the_part_in_its_build() -> None:
     """The model has the parameters of its build, and the outputs have their reset levels."""
-    side: Any = on_model(start_bench(OnModel(D16), PARTS["ppmc104"], settle=0))
-    assert side.now == 0 and not side.simulated and side.model.datasheet
-    assert {name: side.level(name) for name in side.outputs} == PARTS["ppmc104"].reset_levels()
+    bench: Any = on_model(start_bench(OnModel(D16), PARTS["ppmc104"], settle=0))
+    assert bench.now == 0 and not bench.simulated and bench.model.datasheet
+    assert {name: bench.level(name) for name in bench.outputs} == PARTS["ppmc104"].reset_levels()
 
 
 @pytest.mark.parametrize("part", ACCEPTANCE)
@@ -104,9 +104,11 @@ def test_which_acceptance_checks_run_on_the_model(part: str) -> None:
     made = model_tests(__name__, f"cocotb_tests.{part}", *names)
     modules = [importlib.import_module(f"cocotb_tests.{part}.{name}") for name in names]
     tests = {test.func.__name__: test for module in modules for test in all_tests(module)}
-    wanted = {f"test_{name.partition('_')[2]}": test for name, test in tests.items() if name not in RTL_ONLY}
-    assert set(made) == set(wanted)
-    for name, test in wanted.items():
+    expected = {
+        f"test_{name.partition('_')[2]}": test for name, test in tests.items() if name not in RTL_ONLY
+    }
+    assert set(made) == set(expected)
+    for name, test in expected.items():
         assert rules_of(made[name]) == rules_of(test) and made[name].__doc__ == test.func.__doc__
 
 

@@ -152,7 +152,7 @@ def test_diagrams_are_drawn_with_wide_labels():
     assert float(width) > 5 * 6
 
 
-def test_letters_stand_where_a_line_changes():
+def test_letters_mark_where_a_line_changes():
     """Letters are assigned to the changes of a line in turn; a dot skips a change."""
     samples = [{"a": 0}, {"a": 1}, {"a": 1}, None, {"a": 0}, {"a": 1}]
     assert marked(Row("a", "a"), samples, "A.B").nodes == {1: "A", 5: "B"}

@@ -12,12 +12,12 @@ from openppmc import parts
 @pytest.mark.parametrize("name", list(PARTS))
 def test_pins_are_the_ports_of_the_rtl(name: str) -> None:
     """The bench has the ports of the top's header, with direction, width and lowest bit."""
-    part, wanted = PARTS[name], {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
+    part, expected = PARTS[name], {"clk": ("input", 0, 0), "rst_n": ("input", 0, 0)}
     for direction, pins in (("input", part.inputs), ("output", part.outputs)):
         for pin in pins:
             lowest = part.lowest.get(pin, 0)
-            wanted[pin] = (direction, lowest + part.width(pin) - 1, lowest)
-    assert ports(part_design(name, F16)) == wanted
+            expected[pin] = (direction, lowest + part.width(pin) - 1, lowest)
+    assert ports(part_design(name, F16)) == expected
 
 
 @pytest.mark.parametrize("name", list(PARTS))

@@ -100,7 +100,7 @@ def test_missing_tool_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
         engine.abc()
 
 
-def test_what_abc_says(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_messages_of_abc(monkeypatch: pytest.MonkeyPatch) -> None:
     """The output of abc is read as proved, failed with output and cycle, or open: never proved by mistake."""
     answers: list[str] = []
     monkeypatch.setattr(engine, "ask", lambda folder, what, script: answers.pop(0) if answers else "")

@@ -63,7 +63,7 @@ def test_a_process_that_ends_within_a_test(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("names", ["", "a", "abb", "ac"])
-def test_other_tests_than_those_asked_for_are_a_failure(tmp_path: Path, names: str) -> None:
+def test_other_tests_than_those_requested_are_a_failure(tmp_path: Path, names: str) -> None:
     found = read(tmp_path, part("a", GOOD % "a") + part("b", GOOD % "b"), names)
     assert all(outcome.kind == "failed" and "exactly" in outcome.text for outcome in found.values())
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness import Part, SimOptions, cocotb_items, inside, run_item
+from cocotb_tests.harness import Part, SimOptions, cocotb_items, probe, run_item
 from cocotb_tests.harness.build import Design, locked
 from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.paths import BUILD, FAILURES, ROOT, relative
-from cocotb_tests.harness.runner import HINT, attempt, outcome_of, run_group, seen
+from cocotb_tests.harness.runner import HINT, attempt, outcome_of, run_group, with_probes
 from cocotb_tests.harness.simulate import Job
 from cocotb_tests.harness.variants import MUTANT
 
@@ -111,7 +111,7 @@ def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text
     assert f"repeat with: make test T={ITEMS[name].id} SEED=1 CLK_HZ=16000000" in text
-    assert "determin" not in text and "not reproduced" not in text and "behind" not in text
+    assert "deterministic" not in text and "not reproduced" not in text and "only after" not in text
 
 
 def test_a_failure_leaves_log_and_waves(design: Design) -> None:
@@ -126,12 +126,12 @@ def test_a_failure_leaves_log_and_waves(design: Design) -> None:
 def test_what_needs_another_test_names_it(design: Design) -> None:
     """Of three tests before a failing one, one causes the failure; the command repeats these two tests."""
     text = said(design, "passes", "leaks", "raises", "follows")
-    assert "(fails only behind leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
+    assert "(fails only after leaks-f16-own; alone it passes)" in text and "assert not ['something']" in text
     assert "repeat with: make test T=leaks-f16-own,follows-f16-own SEED=1 CLK_HZ=16000000" in text
 
 
 @pytest.mark.parametrize("others", [(), ("passes",)])
-def test_only_the_same_run_once_more_tells_of_chance(
+def test_only_the_same_run_again_shows_nondeterminism(
     design: Design, tmp_path: Path, others: tuple[str, ...]
 ) -> None:
     """A test that fails only the first time, alone or in a group, is called not deterministic."""
@@ -143,25 +143,25 @@ def test_waves_may_hide_a_failure(design: Design) -> None:
     """A failure that disappears with waves is reported as not reproduced, not as not deterministic."""
     text = said(design, "shy")
     assert "nobody looks" in text and "(not reproduced with waves: there it passed)" in text
-    assert "determin" not in text
+    assert "deterministic" not in text
 
 
-def test_a_hidden_signal_says_so(design: Design) -> None:
+def test_a_hidden_signal_is_reported(design: Design) -> None:
     """A hidden signal is reported as such, alone and in a group; with all signals visible the test passes."""
     for names in (("pries",), ("passes", "pries")):
         text = said(design, *names)
         assert "AttributeError: runs_top contains no child object named u_inner" in text and HINT in text
         assert "not reproduced" not in text
-    assert attempt(ITEMS["pries"], SimOptions(inside=True), design=design) == ""
+    assert attempt(ITEMS["pries"], SimOptions(probe=True), design=design) == ""
 
 
-def test_a_test_may_look_inside(design: Design) -> None:
+def test_a_test_may_probe_signals(design: Design) -> None:
     """The signals that a test names are visible; other signals stay hidden."""
-    assert ITEMS["looks"].inside == ("u_inner.count",)
+    assert ITEMS["looks"].probes == ("u_inner.count",)
     assert attempt(ITEMS["looks"], design=design) == ""
-    assert seen(design, ()) == design and not seen(design, ("q",), True).ports
+    assert with_probes(design, ()) == design and not with_probes(design, ("q",), True).ports
     with pytest.raises(ValueError, match="expected paths"):
-        inside("u_inner/count")
+        probe("u_inner/count")
 
 
 def test_waves_of_a_test_that_passes(design: Design, capsys: pytest.CaptureFixture[str]) -> None:

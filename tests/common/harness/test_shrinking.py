@@ -1,4 +1,4 @@
-"""Shrinking of failing random runs: how a recording is split into acts, and a mutant found with few acts."""
+"""Shrinking of failing random runs: a recording is split into transactions; few detect a mutant."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ import pytest
 
 from cocotb_tests.harness import PARTS, Config, HostBus, ModelBench, OnModel, on_model
 from cocotb_tests.harness.compare import compare_recording
-from cocotb_tests.harness.random_items import replay_item, shortened
+from cocotb_tests.harness.dut_bench import new_model
+from cocotb_tests.harness.random_items import replay_item, shrink_report
 from cocotb_tests.harness.replay import REPLAY
-from cocotb_tests.harness.running import running_test
+from cocotb_tests.harness.run_context import running_test
 from cocotb_tests.harness.shrink import (
-    Act,
     Shrinker,
     Step,
-    acts_of,
+    Transaction,
     changes_of,
     exchanges,
+    in_time_order,
     messages,
-    together,
-    told,
+    report_lines,
+    transactions_of,
 )
-from cocotb_tests.harness.side import new_model
 from cocotb_tests.pmc006 import random_host as talker
 from cocotb_tests.ppmc104.bench import PPMC104
 from cocotb_tests.ppmc312 import random_host, random_noise, random_serial
@@ -34,7 +34,7 @@ from scripts.measure.replay import main as replay
 
 
 def busy_run(seed: int = 1) -> Recording:
-    """Return a run of over sixty acts on a PPMC-104 with a change of csel, an alarm and a read of it."""
+    """Return a run of over sixty transactions on a PPMC-104 with a change of csel, an alarm and its read."""
 
     async def run(bench: ModelBench) -> None:
         host, rng = HostBus(bench), random.Random(seed)
@@ -77,10 +77,10 @@ class Mutant:
         return self.model.edges
 
 
-def difference(recording: Recording, acts: Sequence[Act]) -> int | None:
-    """Return the edge at which these acts distinguish the mutant from the golden model."""
+def difference(recording: Recording, transactions: Sequence[Transaction]) -> int | None:
+    """Return the edge at which these transactions distinguish the mutant from the golden model."""
     some = Recording(
-        "ppmc104", recording.params, 1, recording.end, changes_of(PPMC104, acts), recording.edges
+        "ppmc104", recording.params, 1, recording.end, changes_of(PPMC104, transactions), recording.edges
     )
     golden = new_model("ppmc104", some.params)
     for change in some.stimulus:
@@ -92,33 +92,33 @@ def difference(recording: Recording, acts: Sequence[Act]) -> int | None:
 
 
 def shrunk(recording: Recording, **limits: Any) -> Shrinker:
-    async def fails(acts: Sequence[Act]) -> int | None:
-        return difference(recording, acts)
+    async def fails(transactions: Sequence[Transaction]) -> int | None:
+        return difference(recording, transactions)
 
-    shrinker = Shrinker(acts_of(recording), fails, **limits)
+    shrinker = Shrinker(transactions_of(recording), fails, **limits)
     asyncio.run(shrinker.run())
     return shrinker
 
 
 def test_a_mutant_is_shrunk_to_a_handful() -> None:
-    """Of sixty acts, two set up the fault and two read it; all others and the pauses are removed."""
+    """Of sixty transactions, two set up the fault and two read it; all others and the pauses are removed."""
     recording = busy_run()
-    assert len(acts_of(recording)) >= 60 and difference(recording, acts_of(recording))
+    assert len(transactions_of(recording)) >= 60 and difference(recording, transactions_of(recording))
     shrinker = shrunk(recording)
-    assert [act.what for act in shrinker.acts] == [
+    assert [txn.what for txn in shrinker.transactions] == [
         f"csel = {1 - PPMC104.inputs['csel']}", "alm_n = 0", "write C 81", "read data",
     ]  # fmt: skip
     assert not shrinker.stopped and shrinker.trials < 200
-    assert shrinker.acts[-1].end < 150 < acts_of(recording)[-1].begin
-    assert shrunk(recording).acts == shrinker.acts
+    assert shrinker.transactions[-1].end < 150 < transactions_of(recording)[-1].begin
+    assert shrunk(recording).transactions == shrinker.transactions
 
 
 def test_limits_end_the_search_with_the_best_so_far() -> None:
     recording = busy_run()
     for limits, said in (({"trials_at_most": 12}, "after 12 trials"), ({"seconds": 0}, "after 0 s")):
         shrinker = shrunk(recording, **limits)
-        assert shrinker.stopped == said and difference(recording, shrinker.acts)
-    assert 4 < len(shrunk(recording, trials_at_most=12).acts) < len(acts_of(recording))
+        assert shrinker.stopped == said and difference(recording, shrinker.transactions)
+    assert 4 < len(shrunk(recording, trials_at_most=12).transactions) < len(transactions_of(recording))
 
 
 def normal(changes: Sequence[Change]) -> list[Change]:
@@ -141,84 +141,84 @@ def played(play: Any, seed: int, build: Config) -> Recording:
     """Return the recording of a random host on the golden model."""
     with running_test(None, seed) as running:
         on_model(play(OnModel(build, seed), seed))
-        assert running.side
-        return running.side.recording()
+        assert running.bench
+        return running.bench.recording()
 
 
 def test_all_acts_together_are_the_run() -> None:
-    """All acts together contain every pin change at its time; all messages together contain every act.
+    """All transactions contain every pin change at its time; all messages contain every transaction.
 
     Checked for a bus, a line, noise, clocks and resets.
     """
     recordings = [busy_run(), *(played(play, seed, build(seed)) for play, build, seed in HOSTS)]
     for recording in recordings:
-        acts = acts_of(recording)
-        assert normal(changes_of(PARTS[recording.part], acts)) == normal(recording.stimulus)
-        assert len(acts) < len(recording.stimulus)
-        assert together(messages(acts)) == together(exchanges(acts)) == acts
+        transactions = transactions_of(recording)
+        assert normal(changes_of(PARTS[recording.part], transactions)) == normal(recording.stimulus)
+        assert len(transactions) < len(recording.stimulus)
+        assert in_time_order(messages(transactions)) == in_time_order(exchanges(transactions)) == transactions
 
 
-def place(words: Sequence[str], wanted: Sequence[str], start: int = 0) -> int | None:
+def place(words: Sequence[str], expected: Sequence[str], start: int = 0) -> int | None:
     """Return the first position where a run of words ends in a list."""
-    size = len(wanted)
+    size = len(expected)
     ends = range(start + size, len(words) + 1)
-    return next((end for end in ends if words[end - size : end] == list(wanted)), None)
+    return next((end for end in ends if words[end - size : end] == list(expected)), None)
 
 
 def test_messages_are_left_out_together() -> None:
-    """Two blocks that only work as a whole, then a response, are found among more than a thousand acts."""
-    acts = acts_of(played(random_host.play, 1, random_host.build(1)))
-    blocks = [run for run in messages(acts) if run[0].what == "WCR := 20" and len(run) > 9]
-    responses = [run for run in messages(acts) if run[-1].kind.startswith("DRR")]
+    """Two blocks that only work as a whole, and a response, are found among a thousand transactions."""
+    transactions = transactions_of(played(random_host.play, 1, random_host.build(1)))
+    blocks = [run for run in messages(transactions) if run[0].what == "WCR := 20" and len(run) > 9]
+    responses = [run for run in messages(transactions) if run[-1].kind.startswith("DRR")]
     table, motion = blocks[0], blocks[len(blocks) // 2]
     answer = next(run for run in responses if run[0].begin > motion[-1].end)
-    wanted = [
-        [act.what for act in run] for run in (table, motion, [act for act in answer if "DRR" in act.what])
+    expected = [
+        [txn.what for txn in run] for run in (table, motion, [txn for txn in answer if "DRR" in txn.what])
     ]
 
-    async def fails(some: Sequence[Act]) -> int | None:
-        done = [act for act in some if act.access and act.access.kind != "CSR read"]
-        words, end = [act.what for act in done], 0
-        for run in wanted:
+    async def fails(some: Sequence[Transaction]) -> int | None:
+        done = [txn for txn in some if txn.access and txn.access.kind != "CSR read"]
+        words, end = [txn.what for txn in done], 0
+        for run in expected:
             found = place(words, run, end)
             if found is None:
                 return None
             end = found
         return done[end - 1].end
 
-    shrinker = Shrinker(acts, fails)
+    shrinker = Shrinker(transactions, fails)
     asyncio.run(shrinker.run())
-    assert [act.what for act in shrinker.acts] == sum(wanted, [])
-    assert len(acts) > 1_000 and len(told(shrinker.acts)) == 3
+    assert [txn.what for txn in shrinker.transactions] == sum(expected, [])
+    assert len(transactions) > 1_000 and len(report_lines(shrinker.transactions)) == 3
     assert not shrinker.stopped and shrinker.trials < 200
 
 
-def access(t: int, kind: str, byte: int, reg: int = 0) -> Act:
+def access(t: int, kind: str, byte: int, reg: int = 0) -> Transaction:
     strobe = (Step(t, "rd_n", 1, 0), Step(t + 4, "rd_n", 1, 1))
     word = kind if kind.endswith("read") else f"{kind} {byte:02X}"
-    return Act(word, strobe, Access(t, kind, reg, byte))
+    return Transaction(word, strobe, Access(t, kind, reg, byte))
 
 
-def test_a_message_is_told_in_a_line() -> None:
+def test_a_message_is_described_in_a_line() -> None:
     """A block, a response or polls are one line; an access after a pause has its own time."""
     block = [access(20, "WCR :=", 0x20, 2), access(28, "WAR :=", 0x1E, 3)]
     block += [access(36, "DWR :=", 0x40, 5), access(44, "DWR :=", 0x03, 5)]
     polls = [access(60, "CSR read", 4), access(68, "CSR read", 0)]
     response = [access(90, "RAR read", 0x3E, 3), access(98, "DRR read", 1, 7), access(106, "DRR read", 2, 7)]
     reads = [*polls, *response, access(500, "CSR read", 4)]
-    assert told([*block, *reads]) == [
+    assert report_lines([*block, *reads]) == [
         "WCR := 20, WAR := 1E, DWR := 40 03 at 20",
         "CSR read 2 times, RAR read, DRR read 2 times at 60",
         "CSR read at 500",
     ]  # fmt: skip
-    again = [act.moved(900) for act in block]
+    again = [txn.moved(900) for txn in block]
     assert [len(run) for run in messages([*block, *reads, *again])] == [4, 5, 1, 4]
     assert [len(run) for run in exchanges([*reads, *block, *reads, *again])] == [6, 10, 4]
 
 
 def rows(part: str, *changes: tuple[int, str, int]) -> list[str]:
-    acts = acts_of(Recording(part, {}, stimulus=[Change(*change) for change in changes]))
-    return [str(act) for act in acts]
+    transactions = transactions_of(Recording(part, {}, stimulus=[Change(*change) for change in changes]))
+    return [str(txn) for txn in transactions]
 
 
 def line(t: int, byte: int) -> list[tuple[int, str, int]]:
@@ -227,7 +227,7 @@ def line(t: int, byte: int) -> list[tuple[int, str, int]]:
     return [(t + 192 * k, "rxd", bit) for k, bit in enumerate(bits) if bit != [1, *bits][k]]
 
 
-def test_acts_are_told_in_words() -> None:
+def test_transactions_are_described_as_text() -> None:
     """Acts are shown as text: pin names, bit numbers, resets, bytes of a frame, groups of clock periods."""
     assert rows("ppmc104", (40, "alm_n", 0), (50, "rst_n", 0), (62, "rst_n", 1)) == [
         "alm_n = 0 at 40", "reset for 12 clk at 50",
@@ -247,16 +247,16 @@ def test_acts_are_told_in_words() -> None:
 def test_what_is_left_out_takes_nothing_along() -> None:
     """An access contains its own address and data, also if the one before it is omitted."""
     recording = busy_run()
-    one = next(act for act in acts_of(recording) if act.what == "write C 81")
-    wanted = {(change.pin, change.value) for change in changes_of(PPMC104, [one])}
-    assert {("a0", 1), ("d_i", 0x81), ("wr_n", 0)} <= wanted
+    one = next(txn for txn in transactions_of(recording) if txn.what == "write C 81")
+    expected = {(change.pin, change.value) for change in changes_of(PPMC104, [one])}
+    assert {("a0", 1), ("d_i", 0x81), ("wr_n", 0)} <= expected
     moved = one.moved(5)
     assert (moved.begin, moved.end) == (one.begin + 5, one.end + 5)
     assert moved.access and one.access and moved.access.t == one.access.t + 5
 
 
-def test_a_run_without_a_recording_says_so(tmp_path: Any) -> None:
-    assert shortened(tmp_path) == "not shrunk: no difference from the golden model was recorded"
+def test_a_run_without_a_recording_is_reported(tmp_path: Any) -> None:
+    assert shrink_report(tmp_path) == "not shrunk: no difference from the golden model was recorded"
 
 
 def test_replay_needs_a_recording(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:

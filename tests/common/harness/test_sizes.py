@@ -94,7 +94,7 @@ def test_a_damaged_file_is_one_clear_error(tmp_path: Path, text: str, message: s
 @pytest.mark.parametrize(("lut", "code"), [(1050, 0), (1051, 1), (500, 0)])
 def test_the_check_returns_the_exit_code(monkeypatch: pytest.MonkeyPatch, lut: int, code: int) -> None:
     monkeypatch.setattr(figures, "read", lambda: OLD)
-    monkeypatch.setattr(size, "sizes", lambda wanted: changed(lut=lut))
+    monkeypatch.setattr(size, "sizes", lambda expected: changed(lut=lut))
     assert size.check([], fresh=False) == code
 
 
@@ -109,7 +109,7 @@ def test_the_check_synthesizes_changed_designs(
     monkeypatch.setattr(designs.Design, "digest", lambda self: "same")
     monkeypatch.setattr(figures, "read", lambda: {design.key: {"of": of}})
     synthesized: list[designs.Design] = []
-    monkeypatch.setattr(size, "sizes", lambda wanted: synthesized.extend(wanted) or {})
+    monkeypatch.setattr(size, "sizes", lambda expected: synthesized.extend(expected) or {})
     assert size.check([design], fresh) == 0 and len(synthesized) == count
 
 

@@ -30,7 +30,7 @@ def uses(file: str) -> list[tuple[str, str, Special]]:
     ]
 
 
-def told(name: str) -> dict[str, set[str]]:
+def describe(name: str) -> dict[str, set[str]]:
     """Return the pins per other function in the table of docs/boards.md for a board."""
     page = (project.DOCS / "boards.md").read_text()
     found = re.search(rf"<!-- special {name} -->(.*?)<!-- /special {name} -->", page, re.DOTALL)
@@ -39,10 +39,10 @@ def told(name: str) -> dict[str, set[str]]:
 
 
 @pytest.mark.parametrize("name", sorted({board(file) for file in USED}))
-def test_second_jobs_are_told(name: str) -> None:
+def test_second_functions_are_documented(name: str) -> None:
     """Every used pin that has another function is in the board's table, in the row of that function."""
     used = {(special.job, pin) for file in USED if board(file) == name for _, pin, special in uses(file)}
-    page = {(job, pin) for job, names in told(name).items() for pin in names}
+    page = {(job, pin) for job, names in describe(name).items() for pin in names}
     assert used <= page, f"not told: {sorted(used - page)}"
 
 

@@ -98,7 +98,7 @@ def test_part_of_rule() -> None:
     assert part_of_rule("AC-07") is None
 
 
-def test_proofs_stand_beside_the_tests() -> None:
+def test_proofs_are_listed_with_the_tests() -> None:
     """The row of a rule names its proofs, with the number of cycles of a bounded one."""
     rules = {"P104-OPR-02": "Count", "P104-BUS-01": "Register map"}
     trace = join(rules, [record("a", *rules)], "ppmc104")

@@ -64,7 +64,7 @@ def test_optocoupler_of_a_limit_is_fail_safe() -> None:
 
 
 @pytest.mark.parametrize("family", ["iCE40", "ECP5", "GW1NR", "GW2AR", "Artix-7", "Cyclone V"])
-def test_state_before_configuration_is_told(family: str) -> None:
+def test_state_before_configuration_is_documented(family: str) -> None:
     page = (project.DOCS / "boards.md").read_text()
     table = page.split("pins before configuration")[1].split("\n\n")[0]
     assert family in table
@@ -77,7 +77,7 @@ def test_lines_active_before_configuration(line: str) -> None:
     assert f"`{line}`" in section
 
 
-def test_readme_says_what_was_not_done() -> None:
+def test_readme_states_what_was_not_done() -> None:
     """Below the table with "complete", the page states what was not tested, and what was done instead."""
     parts = (project.ROOT / "README.md").read_text().split("\n## Parts\n")[1].split("\n## ")[0]
     text = " ".join(parts.split("|")[-1].split())

@@ -58,7 +58,7 @@ def test_verdict(tmp_path, monkeypatch):
 
     def judged(reached: str, verdict: str, asked: str) -> plain_boards.Built:
         log.write_text(line.format("20.00", "FAIL", asked) + line.format(reached, verdict, asked))
-        return plain_boards.judged("icebreaker", tmp_path)
+        return plain_boards.built_result("icebreaker", tmp_path)
 
     with pytest.raises(ProjectError, match="no bitstream in "):
         judged("27.74", "PASS", "24.00")

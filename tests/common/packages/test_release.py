@@ -85,19 +85,19 @@ def test_a_trial_of_an_unreleased_tree(monkeypatch, tmp_path):
     changelog.write_text(UNRELEASED.replace("1.2.0", state.__version__))
     monkeypatch.setattr(state, "CHANGELOG", changelog)
     monkeypatch.setattr(state, "git", git_of("a" * 40))
-    made = state.present((), trial=True)
+    made = state.current_release((), trial=True)
     assert made.trial and made.version == f"{state.__version__}+trial" and made.notes == "- new"
     assert made.name("site", ".tar.gz") == f"openppmc-site-{state.__version__}+trial.tar.gz"
     with pytest.raises(ProjectError, match="exists already, on aaaaaaaaaa"):
-        state.present()
+        state.current_release()
     monkeypatch.setattr(state, "git", git_of(""))
     with pytest.raises(
         ProjectError, match=r"below \[Unreleased\] the heading .*; a trial needs SKIP= or ONLY="
     ):
-        state.present()
+        state.current_release()
     monkeypatch.setattr(state, "git", git_of("", " M README.md"))
     with pytest.raises(ProjectError, match="^README.md is not committed"):
-        state.present((), trial=True)
+        state.current_release((), trial=True)
 
 
 @pytest.mark.parametrize(
@@ -113,11 +113,11 @@ def test_skip_and_only_make_a_trial(monkeypatch, capsys, arguments, trial):
     """SKIP or ONLY selects a trial, and the last line says so; otherwise it is a release."""
     asked = []
 
-    def present(only, trial):
+    def current_release(only, trial):
         asked.append(trial)
         return release(trial=trial)
 
-    monkeypatch.setattr(command, "present", present)
+    monkeypatch.setattr(command, "current_release", current_release)
     monkeypatch.setattr(command, "build", lambda of, skip: None)
     monkeypatch.setattr(command.site, "check", lambda: None)
     monkeypatch.setattr(command, "DIST", project.BUILD / "test" / "no_dist")
@@ -171,7 +171,7 @@ def test_a_changed_tree_is_refused(monkeypatch):
     """A file that is not committed is named in one line."""
     monkeypatch.setattr(state, "git", lambda *words: " M README.md" if words[0] == "status" else "")
     with pytest.raises(ProjectError, match="^README.md is not committed"):
-        state.present()
+        state.current_release()
 
 
 @pytest.mark.parametrize("pack, suffix", [(archive.tar_gz, ".tar.gz"), (archive.zipped, ".zip")])
@@ -210,16 +210,16 @@ def test_unknown_bitstreams_are_named():
     with pytest.raises(
         ProjectError, match="ONLY=nosuch: no such bitstream .there are icebreaker, icebreaker-bus"
     ):
-        bitstreams.wanted(("nosuch",))
-    assert list(bitstreams.wanted(("ulx3s-25f-stmc",))) == ["ulx3s-25f-stmc"]
-    assert len(bitstreams.wanted(())) > 30
+        bitstreams.selected(("nosuch",))
+    assert list(bitstreams.selected(("ulx3s-25f-stmc",))) == ["ulx3s-25f-stmc"]
+    assert len(bitstreams.selected(())) > 30
 
 
 def test_a_missing_tool_is_told_before_anything_is_made(monkeypatch):
     """A missing npm is reported in one line before the build; without the site npm is not required."""
     made = []
     monkeypatch.setattr(site.shutil, "which", lambda name: None)
-    monkeypatch.setattr(command, "present", lambda only, trial: release())
+    monkeypatch.setattr(command, "current_release", lambda only, trial: release())
     monkeypatch.setattr(command, "build", lambda of, skip: made.append(skip))
     monkeypatch.setattr(command, "DIST", project.BUILD / "test" / "no_dist")
     (project.BUILD / "test" / "no_dist").mkdir(parents=True, exist_ok=True)

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import cocotb
 import pytest
 
-from cocotb_tests.harness.clock import Stock
 from cocotb_tests.harness.project import ProjectError
+from cocotb_tests.harness.sim_backend import CocotbBackend
 from openppmc import __version__
 from scripts.fpga import verilog
 from scripts.fpga.flow import plain
@@ -120,7 +120,7 @@ def test_an_output_without_level_is_an_error(monkeypatch):
     irq = SimpleNamespace(value=Bits("X"), _name="irq")
     for enable, wanted in ((resting, 0b100), (driven, None)):
         monkeypatch.setattr(cocotb, "top", SimpleNamespace(d_o=d_o, d_oe=enable, irq=irq), raising=False)
-        pins = object.__new__(Stock)
+        pins = object.__new__(CocotbBackend)
         pins.now, pins._handles = lambda: 5.0, [d_o, irq]
         if wanted is None:
             with pytest.raises(AssertionError, match="d_o = 1X0 at 5 ps: a bit without a level"):

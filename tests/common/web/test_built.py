@@ -17,7 +17,7 @@ from cocotb_tests.harness.project import ProjectError
 from scripts.site import wasm
 from scripts.site.__main__ import build
 from scripts.site.pages import SITE, packages
-from tests.common.web.tally import told
+from tests.common.web.counters import add
 
 HERE = ROOT / "tests/common/web"
 pytestmark = [
@@ -58,7 +58,7 @@ def checked() -> dict[str, dict[str, str]]:
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:
         if line.get("told"):
-            told(f"site: {line['told']}")
+            add(f"site: {line['told']}")
     return {line["name"]: line for line in lines}
 
 

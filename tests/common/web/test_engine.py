@@ -20,7 +20,7 @@ from scripts.site.players import player
 from scripts.site.script import Player
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, Motor, WebPart
-from tests.common.web.tally import left_out, told
+from tests.common.web.counters import add, left_out
 
 pytestmark = pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 LONG = 22_000_000
@@ -68,7 +68,7 @@ def test_sessions(name):
         assert mismatch is None, mismatch
         assert got["end"] == recording.end
         count += sum(map(len, actual.values()))
-    told(f"{name}: {len(texts)} sessions by the page's engine, {count} edges as in the golden model{left}")
+    add(f"{name}: {len(texts)} sessions by the page's engine, {count} edges as in the golden model{left}")
 
 
 BYTES = "c 0A d C7 d 31 d 64 d 00 c 43 d 63 d 00 d 00"
@@ -85,7 +85,7 @@ MOVES = {
 
 def step_times(play: Player, motor: Motor) -> list[int]:
     """Return the cycles of a motor's steps on the golden model; phases at standstill are not steps."""
-    edges = play.side.edges(play.output(motor))
+    edges = play.bench.edges(play.output(motor))
     if not motor.phases:
         return [t for t, level in edges if level == motor.edge]
     return steps(edges)

@@ -17,7 +17,7 @@ from scripts.site.players import player
 from scripts.site.script import ScriptError
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, WebPart
-from tests.common.web.tally import left_out, told
+from tests.common.web.counters import add, left_out
 
 HOSTS = 50
 LONG = 10_000_000
@@ -57,7 +57,7 @@ def test_sessions_of_the_manual(name):
         if recording.end < LONG:
             counts.append(compared(part, recording))
     left = left_out(name, ends, LONG, "left to the page's engine")
-    told(f"{name}: {len(counts)} sessions of the manual, {sum(counts)} edges as in the golden model{left}")
+    add(f"{name}: {len(counts)} sessions of the manual, {sum(counts)} edges as in the golden model{left}")
     assert sum(counts) > 1000
 
 
@@ -66,7 +66,7 @@ def test_random_hosts(name):
     """With 50 random hosts, every edge of every output is that of the golden model."""
     part = WEB_PARTS[name]
     counts = [compared(part, hosts.recorded(part, seed)) for seed in islice(hosts.seeds(part), HOSTS)]
-    told(f"{name}: {HOSTS} random hosts, {sum(counts)} edges as in the golden model")
+    add(f"{name}: {HOSTS} random hosts, {sum(counts)} edges as in the golden model")
     assert len(counts) == HOSTS and min(counts) > 10
 
 
@@ -74,7 +74,7 @@ def test_random_hosts(name):
 def test_size(name):
     """A web server sends less than 200 KB for a module."""
     size = wasm.packed(wasm.build(name))
-    told(f"{name}: {size / 1024:.0f} KB packed")
+    add(f"{name}: {size / 1024:.0f} KB packed")
     assert size < wasm.MOST
 
 
@@ -120,7 +120,7 @@ def test_speed():
     """With pulses running, WebAssembly has at least 0.3 of the speed of native code."""
     part = WEB_PARTS["ppmc104"]
     native, module_speed = speed(part, native=True), speed(part, native=False)
-    told(
+    add(
         f"ppmc104: {module_speed:.1f} million clk/s as WebAssembly, {native:.1f} native: "
         f"{module_speed / native:.2f} of it"
     )

@@ -20,7 +20,7 @@ from scripts.site.pages import SITE, packages, playground
 from scripts.site.players import player
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS
-from tests.common.web.tally import told
+from tests.common.web.counters import add
 
 HERE = ROOT / "tests/common/web"
 SHOTS = ROOT / "build/site/shots"
@@ -54,7 +54,7 @@ def checked() -> dict[str, dict[str, str]]:
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:
         if line.get("told"):
-            told(f"page: {line['told']}")
+            add(f"page: {line['told']}")
     return {line["name"]: line for line in lines}
 
 
@@ -92,7 +92,7 @@ def test_vcd():
     assert end > recording.end
     _, actual, mismatch = compare_edges(recording.edges, edges, initial, recording.end)
     assert mismatch is None, mismatch
-    told(f"page: VCD of ppmc104's session 2, {sum(map(len, actual.values()))} edges as in the golden model")
+    add(f"page: VCD of ppmc104's session 2, {sum(map(len, actual.values()))} edges as in the golden model")
 
 
 def test_data_sheet(tmp_path):

@@ -11,8 +11,8 @@ from openppmc.capture.ppmc104.words import Words104
 from openppmc.model.single.codes import decode
 from scripts.site.hooks import PARTS, run_links
 from scripts.site.sessions import sessions
+from scripts.site.texts import tables
 from scripts.site.webparts import WEB_PARTS
-from scripts.site.words import tables
 
 PAGES = [part for part in PARTS if (ROOT / "docs" / part / "examples.md").is_file()]
 WITHOUT = {("stmc", "9")}

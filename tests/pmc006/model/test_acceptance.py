@@ -56,7 +56,7 @@ def test_ac_29() -> None:
                 ones = 0
                 for _ in range(256):
                     await host.pause(1)
-                    ones += host.side.golden.pwm(phase)
+                    ones += host.bench.golden.pwm(phase)
                 assert ones == await host.out(f"phase_{phase}_ref")
 
     on_model(check())

@@ -189,7 +189,7 @@ def test_beside_a_host() -> None:
         plant = host.attach()
         await host.ok(a=0, e=1000)
         await host.ms(2)
-        assert {change.pin for change in host.side.stimulus} > {"cmp_a", "cmp_b"}
+        assert {change.pin for change in host.bench.stimulus} > {"cmp_a", "cmp_b"}
         winding = plant.windings["a"]
         assert abs(winding.current(plant.seconds(host.t)) - 45 * 4 / 255) < 0.03
         await host.ok(g=1)

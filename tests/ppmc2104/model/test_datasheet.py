@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness import verifies
-from cocotb_tests.ppmc2104.sheet import CONSTANT, SETTING, detection
+from cocotb_tests.ppmc2104.datasheet_timing import CONSTANT, SETTING, detection
 from openppmc.model import Latency
 from tests.ppmc2104.model.host import B1, B2, LONG, Host
 

@@ -244,7 +244,7 @@ def test_a_motion_explains_two_positions() -> None:
     assert axis.position == 0x25 and axis.counters.garbled == 1
 
 
-class Blind:
+class CorruptPosition:
     """Inverts bit 7 of the last byte of the next `left` replies with a position."""
 
     def __init__(self, left: int) -> None:
@@ -269,7 +269,7 @@ def test_a_jump_is_no_motion() -> None:
         axis.initialise(*FAST)
         axis.jog(CW)
         bus.line.pause(0.2)
-        port.spoil = Blind(1)  # type: ignore[method-assign]
+        port.spoil = CorruptPosition(1)  # type: ignore[method-assign]
         before = axis.position
         assert 0 < before < 8000 and axis.counters.garbled == 1
         assert 0 <= axis.position - before < 2000

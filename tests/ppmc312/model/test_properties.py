@@ -63,7 +63,7 @@ def test_any_move(
     edges = host.pulses()
     assert [edge - edges[0] for edge in edges] == [clks(ticks) for ticks in begins[:n]]
     assert 0 <= stored - edges[0] - clks(begins[n]) <= 64
-    changes = host.side.edges("pout", host.mark)
+    changes = host.bench.edges("pout", host.mark)
     falls = [t for t, level in changes if not level]
     for k, (rise, fall) in enumerate(zip(edges, falls, strict=True)):
         half = clks(begins[k] + steps[k].rate // 2) - clks(begins[k])

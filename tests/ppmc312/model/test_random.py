@@ -11,7 +11,7 @@ from cocotb_tests.harness import D16, F16, OnModel, on_model
 from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.blocks import TF, TG, TH
 from cocotb_tests.ppmc312.host import Host
-from cocotb_tests.ppmc312.words import message
+from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import LENGTHS, Code, State
 
 FIRST = int(os.environ.get("OPENPPMC_SEED", "0"))
@@ -50,7 +50,7 @@ async def play(rng: random.Random) -> None:
     """Perform all actions of the host."""
     setting, build = rng.choice((TF, TG, TH)), rng.choice((F16, F16, D16))
     host = await Host.start(OnModel(build), *setting)
-    model, reads = host.side.golden, rng.choice((0.2, 0.9, 1.0))
+    model, reads = host.bench.golden, rng.choice((0.2, 0.9, 1.0))
     for _ in range(60):
         if not await host.read(CSR) & MWEF:
             await host.put(instruction(rng)[:32].hex())
@@ -83,7 +83,7 @@ async def play(rng: random.Random) -> None:
         elif not await host.read(CSR) & MWEF:
             break
     assert await host.ask(message(Code.RESET)) == message(Code.RESET) and host.condition == State.INI
-    edges = host.side.edges("pout")
+    edges = host.bench.edges("pout")
     highs = [b - a for (a, level), (b, _) in zip(edges, edges[1:], strict=False) if level]
     assert all(high == 80 for high in highs[:-1])
     assert await host.ask(message(Code.VERSION)) == message(Code.VERSION, "12")

@@ -23,10 +23,10 @@ class LineRun:
 
 def load(folder: Path) -> LineRun:
     """Read the result of a run from its folder."""
-    told = json.loads((folder / "talk.json").read_text())
+    data = json.loads((folder / "talk.json").read_text())
     return LineRun(
         Recording.from_json((folder / "recording.json").read_text()),
-        json.loads((folder / "story.json").read_text()),
-        exchanges(told["talk"]),
-        told["positions"],
+        json.loads((folder / "chapters.json").read_text()),
+        exchanges(data["talk"]),
+        data["positions"],
     )

@@ -17,7 +17,7 @@ LIMIT = 60
 """Limit of a solver in s; a proof takes a few seconds."""
 
 
-def _held(proof: Proof) -> set[str]:
+def _block_files(proof: Proof) -> set[str]:
     """Return the names of the files in the block of a proof, including packages."""
     texts = {path.stem: path.read_text(encoding="utf-8") for path in proof.sources()}
     found: set[str] = set()
@@ -34,7 +34,7 @@ def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
     """Return the proofs of the block itself, and those of blocks that contain it (not replaced by a stub)."""
     name = Path(file).stem
     quick = (one for one in proofs() if not one.night)
-    found = [one for one in quick if ROOT / file in one.sources() and name in _held(one)]
+    found = [one for one in quick if ROOT / file in one.sources() and name in _block_files(one)]
     own = [one for one in found if one.block == name]
     return own, [one for one in found if one not in own]
 

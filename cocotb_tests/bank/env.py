@@ -1,0 +1,282 @@
+"""`Env`: a bank on the test bench with its host and its axes.
+
+@directed("BANK-MOT-01", builds=(B8, F100))
+async def bank_mot_01_exact(dut):
+    "The intervals of a move are exact to the cycle (BANK-MOT-01)."
+    env = await Env.start(dut)
+    axis = await env.ready(3)
+    await axis.move(0x43, 14)
+    axis.check_train("BANK-MOT-01", rates(INIT_A[1:], indices(14, 4)))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from cocotb_tests.harness import IBF, AxisDriver, Config, DutBench, HostBus, start_bench
+
+from .bench import BANK, axes_of, round_of
+
+Init = tuple[int, int, int, int]
+INIT_A: Init = (0x0A, 9, 4, 4)
+"""Four-phase motor, positive logic, 2-phase excitation; its table is built quickly."""
+
+DATA, STATUS, CONFIG, POSITION, MASK, MAP, GO, STOP, INFO = 0, 1, 2, 4, 8, 9, 10, 11, 12
+WORDS = {
+    DATA: ("read", "data"),
+    STATUS: ("status", "command"),
+    CONFIG: ("CONFIG", "CONFIG :="),
+    **{POSITION + n: (f"position {n}", f"position {n} :=") for n in range(4)},
+    MASK: ("MASK", "MASK :="),
+    MAP: ("map", "map :="),
+    GO: ("GO", "GO"),
+    STOP: ("STOP", "STOP"),
+    INFO: ("INFO", "INFO :="),
+}
+NAMES = {
+    (kind, axis << 4 | register): f"axis {axis} {words[place]}" + (" read" if kind == "read" else "")
+    for place, kind in enumerate(("read", "write"))
+    for register, words in WORDS.items()
+    for axis in range(64)
+}
+"""Names of the registers in reports: for a read, for a write."""
+WRITE_EVENT = 2
+"""Edges from edge 0 of a write to its write event (BANK-WIN-06)."""
+SNAPSHOT = 2
+"""Edges from edge 0 of a read to the edge whose state it returns (BANK-WIN-05)."""
+SYNC = 2
+"""Edges from the first edge that samples a pin to the edge on which its level acts (BANK-MOT-02)."""
+
+
+class WindowBus(HostBus):
+    """Host at the window; with `axis`, registers 0 and 1 are those of this axis.
+
+    Strobes and pauses have the minimum lengths of BANK-WIN-04.
+    """
+
+    names = NAMES
+
+    def __init__(self, bench: DutBench, axis: int = 0, pause: Callable[[], int] | None = None) -> None:
+        super().__init__(bench, 2, 6, 3, pause=pause, lead=1, base=axis << 4)
+
+
+class Axis(AxisDriver):
+    """Axis n with its codes, pins and status. `released` and R determine its visits."""
+
+    def __init__(self, bench: DutBench, n: int) -> None:
+        super().__init__(bench, WindowBus(bench, n), f"pout_n[{n}]")
+        self.n = n
+        self.round = round_of(bench.config)
+        self.released = 0
+
+    # ---------------------------------------------------------------- pins
+
+    def pin(self, name: str) -> str:
+        """Return the name of the bit of a port that belongs to this axis."""
+        return f"{name}[{self.n}]"
+
+    def set(self, **levels: int) -> int:
+        """Drive input pins of this axis and return the stamp."""
+        return self.bench.set(**{self.pin(name): level for name, level in levels.items()})
+
+    def at(self, edge: int, **levels: int) -> Any:
+        """Schedule levels of input pins of this axis for an edge."""
+        return self.bench.at(edge, **{self.pin(name): level for name, level in levels.items()})
+
+    def level(self, name: str) -> int:
+        """Return the present level of pout_n, dir or hold."""
+        return self.bench.level(self.pin(name))
+
+    def edges(self, name: str, since: int | None = None) -> list[tuple[int, int]]:
+        """Return the edges of pout_n, dir or hold since the last `go`, or since an edge."""
+        return self.bench.edges(self.pin(name), self.since if since is None else since)
+
+    def patterns(self, since: int | None = None) -> list[tuple[int, int]]:
+        """Return the changes (edge, S5..S1) of the phases of this axis."""
+        place, start = 5 * self.n, self.since if since is None else since
+        level, found = self.bench.initial["s"] >> place & 31, []
+        for t, value in self.bench.edges("s"):
+            if value >> place & 31 != level:
+                level = value >> place & 31
+                found.append((t, level))
+        return [(t, value) for t, value in found if t >= start]
+
+    def stretches(self, since: int) -> list[tuple[int, int]]:
+        """Return (S5..S1, duration in cycles) of each phase pattern, as the base class does."""
+        edges = self.patterns(since)
+        return [(value, b - a) for (a, value), (b, _) in zip(edges, edges[1:], strict=False)]
+
+    @property
+    def phases_now(self) -> int:
+        """Present levels of S5..S1."""
+        return self.bench.level("s") >> 5 * self.n & 31
+
+    # ---------------------------------------------------------------- visits
+
+    def visit(self, edge: int) -> int:
+        """Return the first visit at or after an edge (BANK-GEN-01)."""
+        start = self.released + self.n + 8 + self.round
+        return start + max(0, -(-(edge - start) // self.round)) * self.round
+
+    def accepting_visit(self, edge0: int) -> int:
+        """Return the visit that accepts a byte whose write has this edge 0, provided that it accepts
+        bytes (BANK-HSK-01).
+        """
+        return self.visit(edge0 + WRITE_EVENT + 7)
+
+    # ---------------------------------------------------------------- instructions and registers
+
+    async def init(self, code: int, rl: int, rh: int, pa: int, opened: bool = True) -> None:
+        """Initialise the axis; with `opened`, wait for the end of the table build."""
+        await self.host.init(code, rl, rh, pa)
+        if opened:
+            await self.opened()
+
+    async def opened(self) -> None:
+        """Wait until the axis accepts bytes: until it has executed a read command.
+
+        The answer is discarded.
+        """
+        await self.host.command(0x81)
+        await self.host.read(DATA)
+
+    async def position(self) -> int:
+        """Return the position register (BANK-WIN-07)."""
+        data = [await self.host.read(POSITION + n) for n in range(4)]
+        return int.from_bytes(bytes(data), "little", signed=True)
+
+    async def set_config(self, csel: int, vsel: int) -> int:
+        """Write CONFIG and return edge 0 of the write."""
+        return await self.host.write(CONFIG, csel | vsel << 1)
+
+    async def halt(self) -> None:
+        """Send an Immediate Stop, wait for the end of the motion and clear its interrupt."""
+        await self.command(0x40)
+        await self.idle()
+        await self.finish()
+
+    async def status(self) -> int:
+        """Return the status register."""
+        return await self.host.status()
+
+    async def refused(self, rule: str, what: str, error: int, code: int, *data: int) -> None:
+        """Send an instruction and check that it sets ERR with this error number (-1: no error)."""
+        status = await self.host.send(code, data)
+        got = status >> 4 & 7 if status & 0x80 else -1
+        self.check(rule, f"error of {what}", got, error)
+
+    async def outcome(
+        self,
+        rule: str,
+        pulses: int,
+        finish: int,
+        remaining: int | None = None,
+        rates: Sequence[int] | None = None,
+    ) -> None:
+        """Check the end of a motion with `result`, and the pulse train."""
+        await self.result(rule, pulses, finish, remaining)
+        if rates is not None:
+            self.check_train(rule, rates)
+
+
+class Env:
+    """Test bench, window and axes of a bank; created with `await Env.start(dut)`."""
+
+    def __init__(self, bench: DutBench) -> None:
+        self.bench = bench
+        self.cfg: Config = bench.config
+        self.axes = [Axis(bench, n) for n in range(axes_of(bench.config))]
+        self.host = WindowBus(bench)
+        self.round = round_of(bench.config)
+        self.size = len(self.axes)
+        self.check = bench.check
+
+    @classmethod
+    async def start(cls, dut: Any, **pins: int) -> Env:
+        """Reset the bank with the input levels `pins` and wait until it is ready (BANK-GEN-05)."""
+        bench = await start_bench(dut, BANK, settle=0, **pins)
+        await bench.until(round_of(bench.config) + 8)
+        return cls(bench)
+
+    async def ready(self, n: int, init: Init = INIT_A) -> Axis:
+        """Initialise axis n and return it."""
+        axis = self.axes[n]
+        await axis.init(*init)
+        return axis
+
+    async def all_ready(self, *numbers: int, init: Init = INIT_A) -> list[Axis]:
+        """Initialise some axes, or all, one after the other, and return them.
+
+        A table is built while the bytes of the next axis are written.
+        """
+        chosen = [self.axes[n] for n in numbers or range(self.size)]
+        for axis in chosen:
+            await axis.init(*init, opened=False)
+        for axis in chosen:
+            await axis.opened()
+        return chosen
+
+    async def reset(self, clocks: int = 4) -> int:
+        """Reset the bank, wait until it is ready, and return the stamp of the release."""
+        released = await self.bench.reset(clocks, settle=self.round + 8)
+        for axis in self.axes:
+            axis.released = released
+        return released
+
+    # ---------------------------------------------------------------- registers of the bank
+
+    async def mask(self, *numbers: int) -> None:
+        """Set exactly the MASK bits of these axes."""
+        bits = sum(1 << n for n in numbers)
+        for k in range(max(1, self.size // 8)):
+            await self.host.write(k << 4 | MASK, bits >> 8 * k & 0xFF)
+
+    async def map(self) -> int:
+        """Return the interrupt map of all axes."""
+        bytes_ = [await self.host.read(k << 4 | MAP) for k in range(max(1, self.size // 8))]
+        return int.from_bytes(bytes(bytes_), "little")
+
+    async def go(self) -> int:
+        """Write GO and return its write event g."""
+        return await self.host.write(GO, 0) + WRITE_EVENT
+
+    async def stop(self) -> int:
+        """Write STOP and return its write event g."""
+        return await self.host.write(STOP, 0) + WRITE_EVENT
+
+    # ---------------------------------------------------------------- exact to the cycle
+
+    def at_event(self, edge: int, address: int, byte: int) -> Any:
+        """Schedule a write with its write event on that edge, in parallel with the test.
+
+        The host must be idle then.
+        """
+        edge0 = edge - WRITE_EVENT
+        return self.bench.drive(
+            [
+                (edge0 - 3, {"a": address}),
+                (edge0 - 2, {"cs_n": 0, "wr_n": 0, "d_i": byte}),
+                (edge0, {"cs_n": 1, "wr_n": 1}),
+            ]
+        )
+
+    async def write_at(self, edge: int, address: int, byte: int) -> None:
+        """Write a byte with its write event on that edge; return when the next access may begin."""
+        await self.bench.until(edge - WRITE_EVENT - 3)
+        await self.host.write(address, byte)
+
+    async def as_of(self, edge: int, address: int) -> int:
+        """Read the value that a register has after that edge (BANK-WIN-05)."""
+        await self.bench.until(edge - SNAPSHOT - 1)
+        return await self.host.read(address)
+
+    async def quiet(self, axes: Iterable[Axis]) -> None:
+        """Stop all running motions, wait for their ends and clear the interrupts."""
+        for axis in axes:
+            if await axis.status() & 4:
+                await axis.command(0x40)
+        for axis in axes:
+            await axis.idle()
+            await axis.finish()
+            await axis.host.poll(IBF, 0)

@@ -1,0 +1,29 @@
+"""Pin changes of two sources: changes already passed to a following golden model keep their place."""
+
+from __future__ import annotations
+
+from cocotb_tests.harness.dut_bench import StimulusLog
+from openppmc.check.records import Change
+
+
+def test_later_changes_follow_earlier_ones() -> None:
+    """A change driven by a test is added after those already in the list, even at the same edge.
+
+    Otherwise a model that counts the changes it has received would miss one.
+    """
+    log, driven = StimulusLog(), [Change(3, "rxd", 0)]
+    made = {"sda_i": [(4, 0), (7, 1)], "scl_i": [(6, 0)]}
+    fed = list(log.add(driven, made))
+    assert fed == [Change(3, "rxd", 0), Change(5, "sda_i", 0), Change(7, "scl_i", 0), Change(8, "sda_i", 1)]
+    driven.append(Change(8, "rxd", 1))
+    made["scl_i"].append((9, 1))
+    assert log.add(driven, made) == [*fed, Change(8, "rxd", 1), Change(10, "scl_i", 1)]
+    assert log.add(driven, made) == log.changes and len(log.changes) == 6
+
+
+def test_a_level_that_has_changed_within_its_edge() -> None:
+    """If the last level of a pin changes again within its edge, the new level is added after it."""
+    log = StimulusLog()
+    log.add([], {"sda_i": [(4, 0)]})
+    assert log.add([], {"sda_i": [(4, 1)]}) == [Change(5, "sda_i", 0), Change(5, "sda_i", 1)]
+    assert log.add([], {"sda_i": [(4, 1), (6, 0)]})[2:] == [Change(7, "sda_i", 0)]
