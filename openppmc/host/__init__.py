@@ -26,25 +26,24 @@ if TYPE_CHECKING:
     from .ending import (
         AlarmStop,
         Cause,
-        End,
         EndUnknown,
         LimitReached,
         MotionError,
+        MotionResult,
         OriginNotFound,
-        StoppedEarly,
+        StoppedByCommand,
     )
     from .errors import (
         AlreadyDecelerating,
-        BadRamp,
+        AxisBusy,
         CommandRefused,
         Disconnected,
+        InvalidRamp,
         LinkError,
-        Misused,
         NoAnswer,
-        NoSuchName,
+        NotCalledError,
         NothingToStop,
         NotInitialised,
-        NotWhileBusy,
         OutOfRange,
         PortError,
         PpmcError,
@@ -54,7 +53,8 @@ if TYPE_CHECKING:
         Timeout,
         UnexpectedData,
         UnexpectedDataBusy,
-        UnknownCode,
+        UnknownAttributeError,
+        UnknownCommand,
         WrongDevice,
     )
     from .link import Link
@@ -71,7 +71,7 @@ if TYPE_CHECKING:
     from .ppmc312.part import Ppmc312
     from .ppmc2104.axis import Axis2104
     from .ppmc2104.part import Ppmc2104
-    from .ppmc2104.words import BadSwitching, CutCommand, TooFast
+    from .ppmc2104.words import IncompleteCommand, InvalidChopperTimes, RateLimitExceeded
     from .stmc import BOARD_CLOCK, Stmc
     from .stopping import Signalled, stop_on_signals
 else:
@@ -79,14 +79,16 @@ else:
         __name__,
         """
         . units
-        .axis CCW CW Axis
+        .axis Axis CCW CW
         .bank.axis BankAxis
         .bank.part PpmcBank
         .bank.words GroupRefused
-        .ending AlarmStop Cause End EndUnknown LimitReached MotionError OriginNotFound StoppedEarly
-        .errors AlreadyDecelerating BadRamp CommandRefused Disconnected LinkError Misused NoAnswer NoSuchName
-        .errors NothingToStop NotInitialised NotWhileBusy OutOfRange PortError PpmcError ProtocolError
-        .errors RampTooLong StartRefused Timeout UnexpectedData UnexpectedDataBusy UnknownCode WrongDevice
+        .ending AlarmStop Cause EndUnknown LimitReached MotionError MotionResult OriginNotFound
+        .ending StoppedByCommand
+        .errors AlreadyDecelerating AxisBusy CommandRefused Disconnected InvalidRamp LinkError NoAnswer
+        .errors NotCalledError NothingToStop NotInitialised OutOfRange PortError PpmcError ProtocolError
+        .errors RampTooLong StartRefused Timeout UnexpectedData UnexpectedDataBusy UnknownAttributeError
+        .errors UnknownCommand WrongDevice
         .link Link
         .motion Motion Progress
         .part AnyPart=Part open_part
@@ -100,10 +102,22 @@ else:
         .ppmc312.part Ppmc312
         .ppmc2104.axis Axis2104
         .ppmc2104.part Ppmc2104
-        .ppmc2104.words BadSwitching CutCommand TooFast
+        .ppmc2104.words IncompleteCommand InvalidChopperTimes RateLimitExceeded
         .stmc BOARD_CLOCK Stmc
         .stopping Signalled stop_on_signals
         """,
+        {
+            "BadRamp": "InvalidRamp",
+            "BadSwitching": "InvalidChopperTimes",
+            "CutCommand": "IncompleteCommand",
+            "End": "MotionResult",
+            "Misused": "NotCalledError",
+            "NoSuchName": "UnknownAttributeError",
+            "NotWhileBusy": "AxisBusy",
+            "StoppedEarly": "StoppedByCommand",
+            "TooFast": "RateLimitExceeded",
+            "UnknownCode": "UnknownCommand",
+        },
     )
 
 __all__ = [
@@ -119,26 +133,26 @@ __all__ = [
     "Axis",
     "Axis2104",
     "BankAxis",
-    "BadRamp",
-    "BadSwitching",
+    "InvalidRamp",
+    "InvalidChopperTimes",
     "Cause",
     "CommandRefused",
-    "CutCommand",
+    "IncompleteCommand",
     "Disconnected",
-    "End",
+    "MotionResult",
     "EndUnknown",
     "FORWARD",
     "GroupRefused",
     "LimitReached",
     "Link",
     "LinkError",
-    "Misused",
+    "NotCalledError",
     "Motion",
     "MotionError",
     "NoAnswer",
-    "NoSuchName",
+    "UnknownAttributeError",
     "NotInitialised",
-    "NotWhileBusy",
+    "AxisBusy",
     "NothingToStop",
     "OriginNotFound",
     "OutOfRange",
@@ -158,12 +172,12 @@ __all__ = [
     "Station312",
     "Stmc",
     "SumMode",
-    "StoppedEarly",
+    "StoppedByCommand",
     "Timeout",
-    "TooFast",
+    "RateLimitExceeded",
     "UnexpectedData",
     "UnexpectedDataBusy",
-    "UnknownCode",
+    "UnknownCommand",
     "WrongDevice",
     "open_part",
     "open_port",

@@ -128,16 +128,16 @@ class Counters:
 
 
 @dataclass(frozen=True)
-class Miss:
+class MissingReply:
     """Missing reply.
 
     Attributes:
         fault: reason why there is no reply, `None` after silence.
-        heard: bytes received instead of the reply.
+        received: bytes received instead of the reply.
     """
 
     fault: Fault | None
-    heard: bytes
+    received: bytes
 
 
 SIM_PATIENCE = 0.25

@@ -10,7 +10,7 @@ from ..model.stmc.codes import BOARD_CLOCK_HZ, TICK_XT
 from ..parts import part
 from . import speeds
 from .errors import BY_NUMBER, CommandRefused, OutOfRange
-from .kind import POSITIVE, Kind, RateKind, Wanted
+from .kind import POSITIVE, Capabilities, RateCapabilities, SetupRequest
 from .link import Link
 from .part import OneAxis
 from .registers import FAMILY, ReadCodes, Switches
@@ -85,7 +85,7 @@ BOARD_CLOCK = BOARD_CLOCK_HZ
 """Second step clock of the J105 board: 48 675 Hz."""
 
 
-class StmcKind(RateKind):
+class StmcCapabilities(RateCapabilities):
     """Capabilities of an STMC.
 
     A speed is step clock / divisor, and the initialisation selects the clock.
@@ -94,25 +94,25 @@ class StmcKind(RateKind):
     def constant_clock(
         self, xtal_hz: int, ramp: speeds.BaseClock | None, pps: speeds.Number
     ) -> speeds.BaseClock:
-        return Kind.constant_clock(self, xtal_hz, ramp, pps)
+        return Capabilities.constant_clock(self, xtal_hz, ramp, pps)
 
-    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> speeds.BaseClock:
-        if wanted.external_clock is not None:
-            return divided(wanted.external_clock)
+    def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> speeds.BaseClock:
+        if request.external_clock is not None:
+            return divided(request.external_clock)
         internal = divided(Fraction(xtal_hz, TICK_XT), external=False)
         board = divided(BOARD_CLOCK)
-        if wanted.base_clock is None:
-            return board if board.slowest <= speeds.exact(wanted.start_pps, "start speed") else internal
+        if request.base_clock is None:
+            return board if board.slowest <= speeds.exact(request.start_pps, "start speed") else internal
         for clock in (internal, board):
-            if clock.hertz == speeds.exact(wanted.base_clock, "base clock"):
+            if clock.hertz == speeds.exact(request.base_clock, "base clock"):
                 return clock
         raise OutOfRange(
-            f"base clock {speeds.nearby(wanted.base_clock)} Hz: this board has "
+            f"base clock {speeds.nearby(request.base_clock)} Hz: this board has "
             f"{speeds.nearby(internal.hertz)} and {BOARD_CLOCK} Hz"
         )
 
 
-KIND = StmcKind(
+CAPABILITIES = StmcCapabilities(
     part("stmc"),
     has=frozenset((POSITIVE,)),
     outputs=0,
@@ -142,7 +142,7 @@ class Stmc(OneAxis):
     A search (command 7) also ends at the deceleration limit of its direction (ruling R-19).
     """
 
-    kind = KIND
+    kind = CAPABILITIES
 
     def __init__(self, link: Link) -> None:
         super().__init__(link)
@@ -162,13 +162,13 @@ class Stmc(OneAxis):
             if answer.result is Result.REFUSED:
                 self._read_map = "FAMILY" if answer.last >> 4 & 7 else "SHEET"
             else:
-                self.link.judge(answer)
+                self.link.check_answer(answer)
                 self._read_map = "FAMILY"
         return self._read_map
 
     @property
-    def codes(self) -> ReadCodes:
+    def _read_codes(self) -> ReadCodes:
         return READ_MAPS[self.read_map]
 
     def inputs(self) -> Inputs:
-        return Inputs.of_pins(self.pins())
+        return Inputs.of_pins(self._pins())

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, overload
 from ...check.replay import new_model
 from .decoding import Decoded
 from .errors import CaptureError
-from .kind import DecodeKind, Train
+from .kind import PartDecoder, PulseTrain
 from .pulses import moves, unchopped
 from .signals import BLOCK, SECOND, US, Bits, Channel, joined, level_at, level_code, level_type, merged, numpy
 
@@ -159,9 +159,9 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
     begin, starts, reset = _begin(decoded)
     first = _run(decoded, begin, 1.0)
     ratio = _ratio(decoded, first, begin)
-    result = _judge(decoded, first, begin, starts, reset, tolerance)
+    result = _check(decoded, first, begin, starts, reset, tolerance)
     if ratio != 1.0:
-        learned = _judge(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
+        learned = _check(decoded, _run(decoded, begin, ratio), begin, starts, reset, tolerance)
         if len(learned.differences) <= len(result.differences):
             result = learned
             result.ppm = (ratio - 1) * 1e6
@@ -199,7 +199,7 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
     for line in decoded.lines:
         if line.initialises:
             first.setdefault(line.axis, line.end)
-    if not decoded.kind.initialised:
+    if not decoded.decoder.initialised:
         return 0, {0: 0}, False
     if not first:
         raise CaptureError(
@@ -211,19 +211,19 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
 
 
 @dataclass
-class _Played:
+class _ModelEdges:
     """Outputs of the model in ps of the capture."""
 
     outputs: dict[str, Channel]
 
 
-def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
+def _run(decoded: Decoded, begin: int, ratio: float) -> _ModelEdges:
     """Drive a new model with the inputs.
 
     Args:
         ratio: time of the model divided by time of the capture.
     """
-    kind, wires = decoded.kind, decoded.wires
+    kind, wires = decoded.decoder, decoded.wires
     straps = kind.straps(wires)
     clk_hz = _clk_hz(decoded)
     params = {**kind.parameters(wires), **wires.params}
@@ -252,7 +252,7 @@ def _run(decoded: Decoded, begin: int, ratio: float) -> _Played:
         seen.run(t - 1)
         model.pins(t, **{pin: level for _, levels in group for pin, level in levels.items()})
     seen.run(edge(wires.end))
-    return _Played(seen.channels())
+    return _ModelEdges(seen.channels())
 
 
 def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]]]:
@@ -268,7 +268,7 @@ def _events(inputs: Mapping[str, Channel]) -> Iterator[tuple[int, dict[str, int]
 class _Outputs:
     """Outputs of a model in columns; the list of the model is cleared when they are fetched."""
 
-    def __init__(self, model: Any, kind: DecodeKind, lead: int, stamp: Callable[[int], int]) -> None:
+    def __init__(self, model: Any, kind: PartDecoder, lead: int, stamp: Callable[[int], int]) -> None:
         self.model, self.kind, self.lead, self.stamp = model, kind, lead, stamp
         self.initial = dict(model.log.initial)
         self.times = {name: array("q") for name in kind.outputs}
@@ -335,7 +335,7 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
     Bits that were not captured are inactive.
     """
     found: dict[str, Channel] = {}
-    kind = decoded.kind
+    kind = decoded.decoder
     for port, places in decoded.wires.bits.items():
         if port not in kind.inputs or port in kind.host_pins:
             continue
@@ -347,14 +347,14 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
     return found
 
 
-def _ratio(decoded: Decoded, played: _Played, begin: int) -> float:
+def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
     """Return the time of the model divided by the time of the capture.
 
     The ratio is measured in long moves that both have in common; without such moves it is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
-    theirs = decoded.kind.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
+    theirs = decoded.decoder.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
     # Both ends of a move may be a sample off, so a smaller difference has no meaning.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
@@ -396,18 +396,20 @@ def _bits(channel: Channel) -> Mapping[int, Channel]:
     return Bits(channel)
 
 
-def _since(trains: Iterable[Train], begin: int) -> list[Train]:
+def _since(trains: Iterable[PulseTrain], begin: int) -> list[PulseTrain]:
     found = []
     for one in trains:
         at = int(one.times.searchsorted(begin))
-        found.append(Train(one.axis, one.times[at:], None if one.ways is None else one.ways[at:]))
+        found.append(
+            PulseTrain(one.axis, one.times[at:], None if one.directions is None else one.directions[at:])
+        )
     return found
 
 
-def _judge(
-    decoded: Decoded, played: _Played, begin: int, starts: dict[int, int], reset: bool, tolerance: int
+def _check(
+    decoded: Decoded, played: _ModelEdges, begin: int, starts: dict[int, int], reset: bool, tolerance: int
 ) -> Result:
-    kind, wires = decoded.kind, decoded.wires
+    kind, wires = decoded.decoder, decoded.wires
     result = Result(begin=starts[0])
     for port in kind.outputs:
         places = wires.bits.get(port)
@@ -435,7 +437,7 @@ def _judge(
             result.pins.append(name)
     if not result.pins:
         raise CaptureError(
-            f"{decoded.capture}: no output of {kind.called} is in the map: there is nothing to compare"
+            f"{decoded.capture}: no output of {kind.title} is in the map: there is nothing to compare"
         )
     if not result.compared and not result.differences:
         raise CaptureError(
@@ -446,7 +448,7 @@ def _judge(
 
 
 def _same_place(
-    port: str, places: Mapping[int, Channel], played: _Played, starts: dict[int, int], kind: DecodeKind
+    port: str, places: Mapping[int, Channel], played: _ModelEdges, starts: dict[int, int], kind: PartDecoder
 ) -> bool:
     """Return True if chip and model have the same phases at the beginning of the comparison."""
     start = starts.get(kind.axis_of(port, 0), starts[0]) + SETTLED

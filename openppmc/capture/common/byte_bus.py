@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 
 from ...model.motion.codes import Command, Kind
 from .bus import Strobe, accesses
-from .kind import Access, Accesses, DecodeKind, Line, Needs, Train, Wires
+from .kind import Access, Accesses, Line, Needs, PartDecoder, PulseTrain, Wires
 from .pinmap import Pins
-from .registers import Judged, cycle, spoken_bytes
-from .words import Exchange, Words
+from .registers import DecodedAccess, cycle, decoded_byte_lines
+from .words import CommandDecoder, Exchange
 
 SHORTEST = 250_000
 """Shortest strobe of an old host, which an analyser must sample, ps."""
@@ -22,17 +22,17 @@ def byte_part(
     model: tuple[Mapping[str, int], Mapping[str, int], Mapping[str, int]],
     strobe_pins: tuple[str, ...],
     strobes: Strobe,
-    words: Words | Callable[[Wires], Words],
+    words: CommandDecoder | Callable[[Wires], CommandDecoder],
     code: Callable[[int, Wires], Command],
     levels: Callable[[Access, Wires], dict[str, int]],
-    trains: Callable[[Wires], list[Train]],
+    trains: Callable[[Wires], list[PulseTrain]],
     lowest: Mapping[str, int],
     phases: tuple[str, ...],
     axis_of: Callable[[str, int], int] = lambda port, bit: 0,
     address: str = "a0",
     bus: str = "d",
     aliases: Mapping[str, str] | None = None,
-) -> DecodeKind:
+) -> PartDecoder:
     """Return the capture functions of a part on a byte bus.
 
     Args:
@@ -53,15 +53,15 @@ def byte_part(
         return found
 
     def lines(wires: Wires) -> list[Line]:
-        def judge(row: Exchange) -> Judged:
+        def judge(row: Exchange) -> DecodedAccess:
             if not row.sent:
-                return Judged(bool(row.answer))
+                return DecodedAccess(bool(row.answer))
             command = code(row.sent[0], wires)
             whole = len(row.sent) - 1 == command.parameters
             first = whole and command.kind is Kind.INITIALISE
-            return Judged(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
+            return DecodedAccess(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
 
-        return spoken_bytes(seen(wires), words(wires) if callable(words) else words, judge)
+        return decoded_byte_lines(seen(wires), words(wires) if callable(words) else words, judge)
 
     def stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
         for access in seen(wires):
@@ -72,7 +72,7 @@ def byte_part(
         return Needs((*(pin for pin in strobe_pins if pin not in STEADY), address, data), SHORTEST)
 
     names = {name: widths.get(name, 1) for name in (*inputs, *outputs)} | {bus: 8, "clk": 1}
-    return DecodeKind(
+    return PartDecoder(
         called,
         Pins(names, lowest, aliases or {}),
         inputs,

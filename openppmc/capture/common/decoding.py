@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ... import parts
 from .errors import CaptureError
-from .kind import DecodeKind, Line, Train, Wires
+from .kind import Line, PartDecoder, PulseTrain, Wires
 from .pinmap import PinMap, wired
 from .pulses import Move, moves
 from .signals import US, Bits, Capture, Channel, joined, without_glitches
@@ -31,10 +31,10 @@ class Decoded:
     """
 
     part: str
-    kind: DecodeKind
+    decoder: PartDecoder
     wires: Wires
     lines: list[Line]
-    trains: list[Train]
+    trains: list[PulseTrain]
     moves: list[Move]
     glitches: Mapping[str, int]
     missing: tuple[str, ...]
@@ -46,18 +46,18 @@ class Decoded:
     @property
     def pause(self) -> int:
         """Shortest time between two moves in ps."""
-        return self.kind.pause * 16_000_000 // self.crystal
+        return self.decoder.pause * 16_000_000 // self.crystal
 
     @property
-    def strange(self) -> int:
+    def invalid_lines(self) -> int:
         """Number of lines that are invalid for this part."""
-        return sum(line.strange for line in self.lines)
+        return sum(line.invalid for line in self.lines)
 
     @property
     def complaint(self) -> str:
         """Message if this cannot be a capture of this part; otherwise empty."""
-        spoken = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
-        if len(spoken) < 3 or 2 * self.strange <= len(spoken):
+        decoded_lines = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
+        if len(decoded_lines) < 3 or 2 * self.invalid_lines <= len(decoded_lines):
             return ""
         wires = (
             "are rxd and txd mixed up"
@@ -65,14 +65,15 @@ class Decoded:
             else "are lines of d mixed up, is a0 (rs) right"
         )
         return (
-            f"{self.strange} of {len(spoken)} {self.kind.unnamed} are none of {self.kind.called}: is the "
+            f"{self.invalid_lines} of {len(decoded_lines)} {self.decoder.unnamed} are none of "
+            f"{self.decoder.title}: is the "
             f"capture of another part, {wires}?"
         )
 
 
-def decoder(part: str) -> DecodeKind:
+def decoder(part: str) -> PartDecoder:
     """Return the capture functions of a part (`decode.py`). Raises UnknownPartError."""
-    kind: DecodeKind = parts.part(part).load("decode")
+    kind: PartDecoder = parts.part(part).load("decode")
     return kind
 
 
@@ -151,12 +152,12 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     lines = kind.lines(wires)
     if not lines:
         raise CaptureError(
-            f"{capture.name}: the host never says anything to {kind.called}: is the pin map right "
+            f"{capture.name}: the host never says anything to {kind.title}: is the pin map right "
             f"({', '.join(kind.needs(wires).pins)}), was the program running?"
         )
     if not any(line.data[:2] not in ("st", "CS", "→ ", " →") for line in lines):
         raise CaptureError(
-            f"{capture.name}: the host only reads and never writes to {kind.called}: is the write strobe the "
+            f"{capture.name}: the host only reads and never writes to {kind.title}: is the write strobe the "
             f"right channel ({', '.join(kind.needs(wires).pins)})?"
         )
     trains = kind.trains(wires)
@@ -187,7 +188,7 @@ def _remarks(doubtful: Sequence[str], blank: Sequence[str]) -> list[str]:
 
 
 def _clean(
-    bits: Mapping[str, Mapping[int, Channel]], kind: DecodeKind, glitch: int
+    bits: Mapping[str, Mapping[int, Channel]], kind: PartDecoder, glitch: int
 ) -> tuple[dict[str, Mapping[int, Channel]], dict[str, int], list[str], list[str]]:
     """Return cleaned wires.
 
@@ -228,7 +229,7 @@ def _clean(
     return clean, glitches, doubtful, blank
 
 
-def _check(kind: DecodeKind, wires: Wires, capture: Capture, blank: Sequence[str]) -> None:
+def _check(kind: PartDecoder, wires: Wires, capture: Capture, blank: Sequence[str]) -> None:
     """Raise CaptureError if a required pin is missing or was sampled too slowly."""
     needs = kind.needs(wires)
     for pin in needs.pins:

@@ -68,7 +68,7 @@ class Line(NamedTuple):
     t: int
     data: str
     text: str
-    strange: bool = False
+    invalid: bool = False
     initialises: bool = False
     end: int = 0
     axis: int = 0
@@ -91,7 +91,7 @@ class Wires:
     params: dict[str, object] = field(default_factory=dict)
 
 
-class Train(NamedTuple):
+class PulseTrain(NamedTuple):
     """Pulses of an axis.
 
     Attributes:
@@ -101,7 +101,7 @@ class Train(NamedTuple):
 
     axis: int
     times: Column
-    ways: Column | None
+    directions: Column | None
 
 
 class Needs(NamedTuple):
@@ -112,7 +112,7 @@ class Needs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class DecodeKind:
+class PartDecoder:
     """Capture functions of a part.
 
     Attributes:
@@ -136,13 +136,13 @@ class DecodeKind:
             a byte makes 2.05 ms.
     """
 
-    called: str
+    title: str
     pins: Pins
     inputs: Mapping[str, int]
     needs: Callable[[Wires], Needs]
     lines: Callable[[Wires], list[Line]]
     stimulus: Callable[[Wires], Iterable[tuple[int, dict[str, int]]]]
-    trains: Callable[[Wires], list[Train]]
+    trains: Callable[[Wires], list[PulseTrain]]
     host_pins: frozenset[str]
     outputs: tuple[str, ...]
     phases: tuple[str, ...] = ()

@@ -1,4 +1,4 @@
-"""Accesses to registers as text: rows of `Words` with their times and a check."""
+"""Accesses to registers as text: rows of `CommandDecoder` with their times and a check."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from typing import Any, NamedTuple
 
 from .kind import Access, Accesses, Line
 from .signals import numpy
-from .words import END_STATUS, Exchange, Words
+from .words import END_STATUS, CommandDecoder, Exchange
 
 KNOWN = 1000
 """Number of rows whose texts are cached."""
 
 
-class Said(NamedTuple):
-    """Access in the form that `Words` accepts."""
+class BusAccess(NamedTuple):
+    """Access in the form that `CommandDecoder` accepts."""
 
     t: int
     kind: str
@@ -22,23 +22,23 @@ class Said(NamedTuple):
     byte: int
 
 
-class Judged(NamedTuple):
+class DecodedAccess(NamedTuple):
     """Result of the check of a row.
 
     Attributes:
         strange: True if the row is invalid for this part.
     """
 
-    strange: bool = False
+    invalid: bool = False
     initialises: bool = False
     axis: int = 0
 
 
-def spoken(
+def decoded_lines(
     accesses: Accesses,
-    words: Words,
-    said: Callable[[Access], Said],
-    judge: Callable[[Any], Judged],
+    words: CommandDecoder,
+    said: Callable[[Access], BusAccess],
+    judge: Callable[[Any], DecodedAccess],
 ) -> list[Line]:
     """Return all accesses as text, one row per command with its response.
 
@@ -57,7 +57,9 @@ def spoken(
     return found
 
 
-def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged]) -> list[Line]:
+def decoded_byte_lines(
+    accesses: Accesses, words: CommandDecoder, judge: Callable[[Any], DecodedAccess]
+) -> list[Line]:
     """Return all accesses as text, from columns.
 
     The function is for parts with commands and status in register 1 and data in register 0.
@@ -98,7 +100,7 @@ def spoken_bytes(accesses: Accesses, words: Words, judge: Callable[[Any], Judged
     return found
 
 
-def _line(row: Any, end: int, judge: Callable[[Any], Judged]) -> Line:
+def _line(row: Any, end: int, judge: Callable[[Any], DecodedAccess]) -> Line:
     data = _hex(row.sent) if row.sent else ""
     data += f" → {_hex(row.answer)}" if row.answer else ""
     if not data:

@@ -19,7 +19,7 @@ CAUSES = ((0x40, "a stop command"), (0x20, "ALM"), (0x10, "the limit"), (0x08, "
 END_STATUS, INPUTS, OUTPUTS, REMAINING = 0x80, 0x81, 0x82, 0x83
 
 
-class Words:
+class CommandDecoder:
     """Meaning of the bytes of a part.
 
     Subclasses define status, setting, the other codes, and pins.
@@ -124,7 +124,7 @@ class Words:
         return ""
 
 
-class OneAxisWords(Words):
+class OneAxisDecoder(CommandDecoder):
     """Words of a part with one axis.
 
     Its status register has an error number, or a number of expected bytes.
@@ -164,7 +164,7 @@ class Exchange:
         t: time of the command in cycles.
     """
 
-    words: Words
+    words: CommandDecoder
     t: int
     sent: list[int] = field(default_factory=list)
     answer: list[int] = field(default_factory=list)
@@ -198,7 +198,7 @@ class Exchange:
         return [byte for index, byte in enumerate(taken) if index == 0 or byte != taken[index - 1]]
 
 
-def exchanges(words: Words, accesses: Iterable[Any]) -> list[Exchange]:
+def exchanges(words: CommandDecoder, accesses: Iterable[Any]) -> list[Exchange]:
     """Group the accesses of a host (t, kind, reg, byte) into exchanges.
 
     Each exchange begins with a command byte.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..common.words import OneAxisWords
+from ..common.words import OneAxisDecoder
 
 ERRORS = (
     "undefined command, or a stop at rest",
@@ -16,7 +16,7 @@ ERRORS = (
 )
 
 
-class Words104(OneAxisWords):
+class Ppmc104Decoder(OneAxisDecoder):
     """Words of a PPMC-104: one axis, error numbers in the status register."""
 
     errors = ERRORS

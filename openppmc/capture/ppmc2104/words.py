@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..common.words import Words
+from ..common.words import CommandDecoder
 
 FLAGS = (
     (0x20, "CMND2"),
@@ -16,7 +16,7 @@ FLAGS = (
 )
 
 
-class Words2104(Words):
+class Ppmc2104Decoder(CommandDecoder):
     """Words of a PPMC-2104: two axes, error numbers in a separate register."""
 
     reads = {

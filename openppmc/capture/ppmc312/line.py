@@ -10,7 +10,7 @@ from ...model.ppmc312.front import serial
 from ...model.ppmc312.front.serial import FORMS, LENGTHS, Local, Note, block_of
 from ..common.characters import Character, characters, rate_of
 from ..common.errors import CaptureError
-from ..common.kind import DecodeKind, Line, Needs, Wires
+from ..common.kind import Line, Needs, PartDecoder, Wires
 from ..common.pinmap import Pins
 from .decode import NAMES, trains
 from .words import block_words
@@ -125,7 +125,7 @@ def _stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
     return ((t, {"rxd": level}) for t, level in wires.ports["rxd"])
 
 
-DECODER = DecodeKind(
+DECODER = PartDecoder(
     "a PPMC-312 in serial mode",
     Pins(NAMES),
     INPUTS,

@@ -49,7 +49,7 @@ def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> 
     values = setup_values(typed, axis)
     with opened() as session:
         (setup,) = initialise(session, {axis: values})
-        view = session.view
+        view = session.presenter
     remember(BOARD.port, values.table(), axis)
     if as_json:
         output.print_json(view.setup_values(setup))

@@ -91,7 +91,7 @@ def decode_capture(
 
 
 def _show(found: Decoded) -> None:
-    output.say(f"{found.capture}: {found.kind.called}, {found.wires.end / SECOND:.6f} s")
+    output.say(f"{found.capture}: {found.decoder.title}, {found.wires.end / SECOND:.6f} s")
     for pin, count in sorted(found.glitches.items()):
         output.note(f"{pin}: {count} pulse{'s' if count > 1 else ''} ignored, shorter than --glitch")
     if found.missing:
@@ -99,7 +99,7 @@ def _show(found: Decoded) -> None:
     for note in found.notes:
         output.note(note)
     for line in found.lines:
-        mark = " !" if line.strange else "  "
+        mark = " !" if line.invalid else "  "
         output.say(f"{line.t / SECOND:12.6f}{mark} {line.data:<24}  {line.text}")
     if found.moves:
         output.console.print(_table(found))
@@ -140,7 +140,7 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
         f"{f' ({result.worst_pin})' if result.worst_pin else ''}, {result.mean / US:.3f} µs on average, "
         f"tolerance {tolerance:g} µs"
     )
-    blind = [pin for pin in found.missing if pin in found.kind.inputs and pin != "rst_n"]
+    blind = [pin for pin in found.missing if pin in found.decoder.inputs and pin != "rst_n"]
     if result.differences and blind:
         output.note(
             f"inputs not captured: {', '.join(blind)}; without the signal of a switch, the model continues "
@@ -162,7 +162,7 @@ def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
         "glitches": dict(found.glitches),
         "notes": list(found.notes),
         "lines": [
-            {"t": line.t / SECOND, "data": line.data, "text": line.text, "strange": line.strange}
+            {"t": line.t / SECOND, "data": line.data, "text": line.text, "strange": line.invalid}
             for line in found.lines
         ],
         "moves": [
@@ -194,7 +194,7 @@ def _plot(found: Decoded, path: Path) -> None:
         raise CaptureError(f"{found.capture}: no pulses, so no speed to plot")
     drawn = [(one.axis, [run.tolist() for run, _ in runs(one, found.pause)]) for one in found.trains]
     try:
-        draw_capture(drawn, f"{found.kind.called}: {found.capture}", path)
+        draw_capture(drawn, f"{found.decoder.title}: {found.capture}", path)
     except OSError as error:
         raise PpmcError(f"{path}: cannot be written ({error.strerror})") from error
     output.say(f"speed over time: {path}")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def _looks(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
     """Return the values of each axis, by the prefix of its rows."""
-    seen = session.view.status_of(session.part, session.chosen(axis))
+    seen = session.presenter.status_of(session.part, session.selected_axes(axis))
     return {f"axis {number} " if len(seen) > 1 else "": values for number, values in seen.items()}
 
 
@@ -29,15 +29,15 @@ def _rows(session: Session, looks: dict[str, dict[str, Any]]) -> dict[str, str]:
     return {
         prefix + name: text
         for prefix, values in looks.items()
-        for name, text in session.view.status_rows(values).items()
+        for name, text in session.presenter.status_rows(values).items()
     }
 
 
 def _table(session: Session, looks: dict[str, dict[str, Any]]) -> Table:
     """Return the values as a table."""
-    if not session.view.wide or len(looks) == 1:
+    if not session.presenter.wide or len(looks) == 1:
         return output.table(_rows(session, looks))
-    return output.grid({prefix.strip(): session.view.status_rows(one) for prefix, one in looks.items()})
+    return output.grid({prefix.strip(): session.presenter.status_rows(one) for prefix, one in looks.items()})
 
 
 def status(axis: AxisOrAll = None, as_json: Json = False) -> None:
@@ -75,7 +75,7 @@ def table(
 ) -> None:
     """Read the ramps of a PPMC-312 as a CSV file for --curve."""
     with ready(typed, (1,)) as session:
-        lines = session.view.table_lines(session.part)
+        lines = session.presenter.table_lines(session.part)
     if out is None:
         output.say("\n".join(lines))
         return

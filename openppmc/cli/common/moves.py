@@ -13,7 +13,7 @@ from .board import BOARD
 from .boards import AxisNumber
 from .options import MOST_AXES, Json, Side, check_seconds, with_setup
 from .session import opened, ready, setup_values, stop_all
-from .view import Override, parse_override, plot_move, view_of
+from .view import Override, parse_override, plot_move, presenter_of
 
 AxisOrAll = Annotated[
     int | None,
@@ -96,13 +96,13 @@ def move(
     wanted = override_values(overrides)
     numbers = numbers_of(axes, len(pulses)) if axis is None else (axis,)
     with ready(typed, numbers) as session:
-        guard, part, view = session.guard, session.part, session.view
+        guard, part, view = session.guard, session.part, session.presenter
         chosen = [session.axis(number) for number in numbers]
         away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
         view.prepare(part, wanted, encoder)
         if len(numbers) > 1:
             table = dict(zip(numbers, away, strict=True))
-            ends = list(view.together(part, table, speed, guard.progress, pulse_only))
+            ends = list(view.move_together(part, table, speed, guard.progress, pulse_only))
         elif speed is None or away[0] == 0:
             ends = [chosen[0].move(away[0], guard.progress, pulse_only)]
         else:
@@ -141,7 +141,7 @@ def jog(
         end = motion.wait(progress=look)
         guard.bar_off()
         output.say(show.end_line(end))
-        session.view.reports(session.part, output.say)
+        session.presenter.reports(session.part, output.say)
 
 
 @with_setup
@@ -161,7 +161,7 @@ def home(
     """Find the origin switch and set the position to 0 there."""
     with ready(typed, (axis,)) as session:
         motor = session.axis(axis)
-        session.view.home(
+        session.presenter.home(
             session.part,
             motor,
             direction.code,
@@ -172,7 +172,7 @@ def home(
             session.guard.progress,
         )
         session.guard.bar_off()
-        output.say(f"{motor.who}position {motor.position}: origin found")
+        output.say(f"{show.prefix(motor)}position {motor.position}: origin found")
 
 
 def stop(
@@ -181,8 +181,8 @@ def stop(
 ) -> None:
     """Stop a motion that is still running."""
     with opened() as session:
-        ends = session.view.halt_all(session.part) if now and axis is None else None
-        for end in stop_all(session.chosen(axis), now) if ends is None else ends:
+        ends = session.presenter.halt_all(session.part) if now and axis is None else None
+        for end in stop_all(session.selected_axes(axis), now) if ends is None else ends:
             output.say(show.end_line(end))
 
 
@@ -202,7 +202,7 @@ def plan(
 ) -> None:
     """Predict a move; no board is needed."""
     kind = BOARD.planned
-    view = view_of(kind)
+    view = presenter_of(kind)
     setup = setup_values(typed).plan(xtal, kind)
     constant = None
     if speed is not None:
@@ -210,7 +210,7 @@ def plan(
     figures = view.figures(setup, pulses, constant)
     if plot is not None:
         try:
-            plot_move(lambda n: view.course(setup, n, constant), pulses, plot)
+            plot_move(lambda n: view.trajectory(setup, n, constant), pulses, plot)
         except OSError as error:
             raise PpmcError(f"{plot}: the plot cannot be written ({error.strerror})") from error
     if as_json:

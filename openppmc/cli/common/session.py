@@ -22,19 +22,19 @@ import typer
 
 from ... import __version__, parts
 from ...errors import PpmcError
-from ...host import End, NothingToStop, open_part
-from ...host.kind import Kind
+from ...host import MotionResult, NothingToStop, open_part
+from ...host.kind import Capabilities
 from ...host.link import DEFAULT_BAUD
 from ...host.motion import Progress
 from ...host.part import AnyAxis, Device, Part
 from ...host.port import MODEL, SIM
 from ...host.script import Build
-from ...host.stopping import NO_MOTION, arrived, bring_to_rest, handled, name_of, say
+from ...host.stopping import NO_MOTION, arrived, handled, name_of, say, stop_motors
 from ...streams import StdoutLost
 from . import output
 from .board import BOARD
 from .options import SetupValues
-from .view import AnyView, view_of
+from .view import AnyPresenter, presenter_of
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bars
@@ -148,7 +148,7 @@ class Guard:
         end = link.clock() + seconds
         while (left := end - link.clock()) > 0:
             self.check()
-            part.attend(min(left, 0.1))
+            part.process_reports(min(left, 0.1))
         self.check()
 
     # ------------------------------------------------------------------ bar
@@ -157,7 +157,7 @@ class Guard:
         """Show or update the bar of the running motion; only on a terminal."""
         if not sys.stderr.isatty() or now.seconds < BAR_AFTER:
             return
-        self._draw("moving", "position {task.fields[at]}", now.asked, now.made, at=now.position)
+        self._draw("moving", "position {task.fields[at]}", now.requested, now.done, at=now.position)
 
     def count_bar(self, what: str, done: int, of: int) -> None:
         """Show or update a bar with a count; only on a terminal."""
@@ -185,18 +185,18 @@ class Guard:
     # ------------------------------------------------------------------ signals and a lost stdout
 
     @contextmanager
-    def resting(self, part: Device) -> Iterator[None]:
+    def stop_motors_on_exit(self, part: Device) -> Iterator[None]:
         """Stop the motors if the block ends by a signal or because stdout is lost."""
         try:
             self.check()
             yield
             sys.stdout.flush()
         except Interrupted:
-            say(self.bring_to_rest(part))
+            say(self.stop_motors(part))
             raise typer.Exit(self.status) from None
         except StdoutLost as lost:
             self.bar_off()
-            motors = bring_to_rest([part], hurry=lambda: self.count > 0)
+            motors = stop_motors([part], hurry=lambda: self.count > 0)
             lost.motors = "" if motors.startswith(NO_MOTION) else motors
             raise
 
@@ -205,16 +205,16 @@ class Guard:
         """Exit status after a signal."""
         return 128 + self.number
 
-    def bring_to_rest(self, part: Device) -> str:
+    def stop_motors(self, part: Device) -> str:
         """Decelerate all axes and wait; the next signal stops them immediately.
 
         Returns one line for the user.
         """
         self.bar_off()
-        return f"{name_of(self.number)}: {bring_to_rest([part], hurry=lambda: self.count > 1)}"
+        return f"{name_of(self.number)}: {stop_motors([part], hurry=lambda: self.count > 1)}"
 
 
-def misfit(build: Build | None, number: int) -> str:
+def mismatch(build: Build | None, number: int) -> str:
     """Return one line if bitstream and package do not match: the difference, and what to do.
 
     The line is empty if they match or if this cannot be checked.
@@ -257,14 +257,14 @@ class Session:
     guard: Guard
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> Capabilities:
         """Capabilities of the part."""
         return self.part.kind
 
     @property
-    def view(self) -> AnyView:
+    def presenter(self) -> AnyPresenter:
         """Output of the part, and its additional functions."""
-        return view_of(self.kind)
+        return presenter_of(self.kind)
 
     @property
     def xtal_hz(self) -> int:
@@ -275,7 +275,7 @@ class Session:
         """Return an axis. Raise OutOfRange if the part does not have it."""
         return self.part.axes[self.kind.check_axis(number) - 1]
 
-    def chosen(self, number: int | None) -> Sequence[AnyAxis]:
+    def selected_axes(self, number: int | None) -> Sequence[AnyAxis]:
         """Return the axis with this number; for None all axes."""
         return self.part.axes if number is None else (self.axis(number),)
 
@@ -298,9 +298,9 @@ def opened() -> Iterator[Session]:
     with (
         open_part(BOARD.spec, BOARD.baud or DEFAULT_BAUD, number) as part,
         Guard() as guard,
-        guard.resting(part),
+        guard.stop_motors_on_exit(part),
     ):
-        if line := misfit(part.link.build(), part.link.identity.part):
+        if line := mismatch(part.link.build(), part.link.identity.part):
             output.note(f"note: {line}")
         yield Session(part, guard)
 
@@ -322,7 +322,7 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
     return [session.part.axes[axis - 1].apply(plan) for axis, plan in plans.items()]
 
 
-def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[End]:
+def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[MotionResult]:
     """Stop motions, including those of other programs, and wait for their ends.
 
     All axes are stopped before an error is raised. An axis that is already at standstill is an error only if

@@ -13,7 +13,7 @@ from typing import Any
 from ...host import Ppmc312, speeds
 from ...host.axis import OnProgress
 from ...host.errors import OutOfRange
-from ...host.kind import Kind
+from ...host.kind import Capabilities
 from ...host.part import AnyAxis
 from ...host.ppmc312 import blocks
 from ...host.ppmc312.answers import (
@@ -30,13 +30,13 @@ from ...host.ppmc312.answers import (
 from ...host.ppmc312.core import TableRead
 from ...host.ppmc312.motion import SHAPES
 from ...host.ppmc312.part import Axis
-from ...host.ppmc312.profile import KIND, Setup
+from ...host.ppmc312.profile import CAPABILITIES, Setup
 from ...model.ppmc312.codes import Code, Source
 from ...model.ppmc312.stages import Plan, constant, ramped
 from ..common import show
 from ..common.options import Side
-from ..common.reading import OwnWord, Values
-from ..common.view import Course, Override, View, parse_override
+from ..common.reading import PartCommand, Values
+from ..common.view import Override, Presenter, Trajectory, parse_override
 
 LONGEST_MOVE = (1 << 32) - 1
 
@@ -46,7 +46,7 @@ def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
         raise OutOfRange(f"{pulses} pulses: a move has 1 to {LONGEST_MOVE} pulses either way")
     if speed is None:
         return ramped(setup.table, setup.table.high, pulses)
-    return constant(setup.table, setup.rate_of(speed.asked), pulses)
+    return constant(setup.table, setup.rate_of(speed.requested), pulses)
 
 
 def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
@@ -80,7 +80,7 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
     return values
 
 
-def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
+def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
     """Compute the course, with the ramps of the table or at `speed`.
 
     Args:
@@ -89,7 +89,7 @@ def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
     rates = [step.rate for step in _plan(setup, pulses, speed).steps()[:-1]]
     period = float(setup.clock.period)
     seconds = [ticks * period for ticks in accumulate(rates, initial=0)]
-    return Course(seconds, [1 / (rate * period) for rate in rates])
+    return Trajectory(seconds, [1 / (rate * period) for rate in rates])
 
 
 MOST = 8
@@ -263,9 +263,9 @@ def _count(words: list[str], wanted: int) -> None:
         raise ValueError(f"{wanted} word{'s' if wanted != 1 else ''} expected here, not {len(words)}")
 
 
-def _lacks(kind: Kind, values: Values) -> str:
+def _lacks(kind: Capabilities, values: Values) -> str:
     """Return why another part does not support the word; empty for a PPMC-312."""
-    return "" if kind is KIND else f"a {kind} has neither overrides nor events"
+    return "" if kind is CAPABILITIES else f"a {kind} has neither overrides nor events"
 
 
 def _do_at(part: Ppmc312, values: Values) -> None:
@@ -298,15 +298,15 @@ def _block(part: Ppmc312, what: str, value: int) -> bytes:
     return blocks.immediate_stop() if what == "halt" else blocks.slow_stop()
 
 
-WORDS = {
-    "at": OwnWord(read_at, _lacks, _do_at),
-    "event": OwnWord(read_event, _lacks, _do_event),
-    "pulse": OwnWord(read_pulse, _lacks, _do_pulse),
-    "watch": OwnWord(read_watch, _lacks, _do_watch),
+SCRIPT_COMMANDS = {
+    "at": PartCommand(read_at, _lacks, _do_at),
+    "event": PartCommand(read_event, _lacks, _do_event),
+    "pulse": PartCommand(read_pulse, _lacks, _do_pulse),
+    "watch": PartCommand(read_watch, _lacks, _do_watch),
 }
 
 
-class PartView(View[Ppmc312, Setup]):
+class PartPresenter(Presenter[Ppmc312, Setup]):
     """View of a part with ramp tables, an encoder, overrides and unsolicited reports."""
 
     def status_values(self, part: Ppmc312, axis: AnyAxis) -> dict[str, Any]:
@@ -336,7 +336,7 @@ class PartView(View[Ppmc312, Setup]):
     def figures(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
         return figures(setup, pulses, speed)
 
-    def course(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Course:
+    def trajectory(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
         return course(setup, pulses, speed)
 
     def prepare(self, part: Ppmc312, overrides: Sequence[Override], encoder: int | None) -> None:
@@ -361,4 +361,4 @@ class PartView(View[Ppmc312, Setup]):
         return table_lines(part.read_table(), part.known_setup())
 
 
-VIEW = PartView()
+PRESENTER = PartPresenter()

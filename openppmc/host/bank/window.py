@@ -62,20 +62,20 @@ class AxisLink:
 
     def execute(self, script: Script) -> Answer:
         """Execute a script completely at this axis."""
-        return self.judge(self.attempt(script))
+        return self.check_answer(self.attempt(script))
 
     def attempt(self, script: Script) -> Answer:
         """Execute a script at this axis and return its answer, regardless of its result."""
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
-    def judge(self, answer: Answer) -> Answer:
+    def check_answer(self, answer: Answer) -> Answer:
         """Return the answer if all operations were done, otherwise raise its error.
 
         The error names the axis.
         """
         if answer.result is Result.REFUSED:
             raise refused(answer.last, self._number)
-        return self._link.judge(answer)
+        return self._link.check_answer(answer)
 
 
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
@@ -120,7 +120,7 @@ def _run(link: Link, frame: Sequence[Piece]) -> list[tuple[bytes, ...]]:
     if answer.result is Result.REFUSED:
         place = next(place for place, op in enumerate(whole.ops) if op is answer.failed)
         raise refused(answer.last, owners[place])
-    values = iter(link.judge(answer).values)
+    values = iter(link.check_answer(answer).values)
     return [tuple(next(values) for op in piece.ops if op.gives) for _, piece in frame]
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ...parts import part
 from .. import speeds
 from ..errors import BY_NUMBER, CommandRefused, NothingToStop, PpmcError
-from ..kind import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateKind, Wanted
+from ..kind import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities, SetupRequest
 from ..registers import Inputs, Status
 
 # Errors of an axis of a bank.
@@ -80,7 +80,7 @@ class Config(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Look:
+class AxisSnapshot:
     """State of an axis at one time.
 
     Attributes:
@@ -137,16 +137,16 @@ SIZES = (4, 8, 16, 32, 64)
 """Supported numbers of axes (BANK-GEN-01)."""
 
 
-class BankKind(RateKind):
+class BankCapabilities(RateCapabilities):
     """Capabilities of a PPMC-104 without those that BANK-GEN-03 excludes."""
 
-    def ramp_clock(self, xtal_hz: int, wanted: Wanted) -> speeds.BaseClock:
-        if wanted.external_clock is not None:
+    def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> speeds.BaseClock:
+        if request.external_clock is not None:
             self.need("external clock")
-        return super().ramp_clock(xtal_hz, wanted)
+        return super().ramp_clock(xtal_hz, request)
 
 
-KIND = BankKind(
+CAPABILITIES = BankCapabilities(
     part("bank"),
     axes=SIZES[-1],
     has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER)),

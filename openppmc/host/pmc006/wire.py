@@ -13,12 +13,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from ...lazy import renamed
 from ...parts import part
 from ..check import whole
 from ..errors import CommandRefused, OutOfRange
-from ..kind import Kind
+from ..kind import Capabilities
 from ..line_port import Fault
 
 
@@ -181,11 +182,11 @@ class SettingRefused(CommandRefused):
     """The part rejected a value of a setting; `status` is the active value, which is unchanged."""
 
 
-class LockedByExt(CommandRefused):
+class ExtStopActive(CommandRefused):
     """An EXT stop has occurred; starts are rejected until its flag is cleared."""
 
 
-class MotorFree(CommandRefused):
+class MotorDisabled(CommandRefused):
     """The motor is switched off (FREE)."""
 
     text = "the motor is off-line (free): switch it on first (free = 0)"
@@ -213,11 +214,11 @@ class ProgramRuns(CommandRefused):
     text = "a user program runs: halt it first"
 
 
-class ProgramDiffers(CommandRefused):
+class ProgramVerifyFailed(CommandRefused):
     """The program that was read back differs from the one that was written."""
 
 
-def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
+def locked(numbers: tuple[int, ...], prefix: str = "") -> ExtStopActive:
     """Return the exception for these EXT flags.
 
     >>> str(locked((1,)))
@@ -225,9 +226,9 @@ def locked(numbers: tuple[int, ...], who: str = "") -> LockedByExt:
     """
     names, flags = " and ".join(f"EXT{number}" for number in numbers), "flags" if len(numbers) > 1 else "flag"
     have = "have" if len(numbers) > 1 else "has"
-    return LockedByExt(
+    return ExtStopActive(
         sum(1 << number for number in numbers),
-        f"{who}{names} {have} stopped it: clear the {flags} (clear_stops, reset-flags), then move off the "
+        f"{prefix}{names} {have} stopped it: clear the {flags} (clear_stops, reset-flags), then move off the "
         "switch",
     )
 
@@ -276,7 +277,7 @@ def _sealed(body: bytes) -> bytes:
 
 
 class Receiver:
-    """Receiver for the bytes after a frame to `address`; see `host.line.Listener`.
+    """Receiver for the bytes after a frame to `address`; see `host.line.ReplyReceiver`.
 
     Replies of other controllers and damaged replies are skipped, because the expected one may follow; `fault`
     reports them.
@@ -340,4 +341,15 @@ def _begins(data: bytes) -> bool:
 
 # Capabilities of a PMC006B4.
 
-KIND = Kind(part("pmc006"), outputs=31)
+CAPABILITIES = Capabilities(part("pmc006"), outputs=31)
+
+
+if not TYPE_CHECKING:
+    __getattr__ = renamed(
+        __name__,
+        {
+            "LockedByExt": "ExtStopActive",
+            "MotorFree": "MotorDisabled",
+            "ProgramDiffers": "ProgramVerifyFailed",
+        },
+    )

@@ -36,7 +36,7 @@ class Window:
 
     def __init__(self, link: Link, arrived: Callable[[Response], None]) -> None:
         self._link = link
-        self._arrived = arrived
+        self._on_response = arrived
         self._bytes = bytearray()
         self._left = 0
         self._unsure = True
@@ -60,7 +60,7 @@ class Window:
 
     # ------------------------------------------------------------------ instructions
 
-    def ask(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
+    def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
         """Execute an instruction; return its response, or the first block of it.
 
         Args:
@@ -82,7 +82,7 @@ class Window:
             raise error
         return found
 
-    def more(self) -> Response:
+    def next_block(self) -> Response:
         """Return the next block of a response of several blocks."""
         return self._await(ANSWER_MS)
 
@@ -137,18 +137,18 @@ class Window:
 
     def _take(self, script: Script, answer: Answer, patient: bool) -> Response | None:
         """Assemble responses from the values of a script."""
-        found, left, heard = None, None, False
+        found, left, received = None, None, False
         giving = [op for op in script.ops if op.gives]
         for op, value in zip(giving, answer.values, strict=False):
             if op.name == "WAIT" and op.code[0] & 15 == ADDRESS:
                 left = EMPTY - value[0]
             elif op.name != "WAIT" and left is not None:
-                found, heard = self._feed(left, value) or found, True
-        if answer.result is Result.TIMED_OUT and (heard or not patient):
+                found, received = self._feed(left, value) or found, True
+        if answer.result is Result.TIMED_OUT and (received or not patient):
             return found
         if answer.result is Result.TIMED_OUT and answer.failed is not None:
             raise Timeout(f"{self._link.name}: {self._silence(answer)}")
-        self._link.judge(answer)
+        self._link.check_answer(answer)
         return found
 
     @staticmethod
@@ -181,5 +181,5 @@ class Window:
                     found = response
                     self.answers += 1
                 else:
-                    self._arrived(response)
+                    self._on_response(response)
         return found

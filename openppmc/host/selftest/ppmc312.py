@@ -10,7 +10,7 @@ from ..ppmc312 import blocks
 from ..ppmc312.blocks import CCW, CW, WINDOW, block, bus_order, start_address
 from ..ppmc312.window import ADDRESS, CONTROL, CSR, EMPTY, INTERRUPT_ON_RESPONSE, READ, WRITE
 from ..script import Identity, Script
-from .plan import COMMANDS, MOVES, REGISTERS, SWITCHES, Section, Talk, Wire, timed
+from .plan import COMMANDS, MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, timed
 
 LAYOUT = (
     *(("rst_n", 1), ("rs", 3), ("cs_n", 1), ("oe_n", 1), ("we_n", 1), ("d_i", 8)),
@@ -30,39 +30,39 @@ MOST_RESPONSES = 4
 CODES_A_SECTION = 32
 
 
-def ask(talk: Talk, instruction: bytes, seconds: float = 0.05) -> None:
+def ask(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> None:
     """Write an instruction and read all responses that arrive within this time."""
-    talk.link.forget_events()
-    talk.write(CONTROL, [WINDOW])
-    talk.write(ADDRESS, [start_address(instruction)])
-    talk.write(WRITE, bus_order(instruction))
-    answers(talk, seconds)
+    access.link.forget_events()
+    access.write(CONTROL, [WINDOW])
+    access.write(ADDRESS, [start_address(instruction)])
+    access.write(WRITE, bus_order(instruction))
+    answers(access, seconds)
 
 
-def answers(talk: Talk, seconds: float) -> None:
+def answers(access: PartAccess, seconds: float) -> None:
     """Wait for a response, read it and the following ones."""
-    talk.until_interrupt(seconds)
+    access.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
-        talk.read(CSR)
-        left = EMPTY - talk.read(ADDRESS)[0]
+        access.read(CSR)
+        left = EMPTY - access.read(ADDRESS)[0]
         if not 0 < left <= WINDOW:
             return
-        talk.link.forget_events()  # discard the event of this response; the next response has its own
-        talk.read(READ, left)
-        talk.pause(0.001)
+        access.link.forget_events()  # discard the event of this response; the next response has its own
+        access.read(READ, left)
+        access.pause(0.001)
 
 
-def ready(talk: Talk, setting: Sequence[bytes] = SETTING) -> None:
+def ready(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
     """Switch the interrupt on responses on, and load the ramps."""
-    talk.pause(0.005)
-    talk.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
+    access.pause(0.005)
+    access.run(Script().write(CSR, INTERRUPT_ON_RESPONSE))
     for instruction in setting:
-        ask(talk, instruction, 0.3)
+        ask(access, instruction, 0.3)
 
 
 def played(
     *instructions: bytes, stop: bytes = b"", after: float = 0.02, setting: Sequence[bytes] = SETTING
-) -> Callable[[Talk], None]:
+) -> Callable[[PartAccess], None]:
     """Return a function that plays each of these motions to its end.
 
     Args:
@@ -70,26 +70,26 @@ def played(
         after: seconds from the start to the stop.
     """
 
-    def play(talk: Talk) -> None:
-        ready(talk, setting)
+    def play(access: PartAccess) -> None:
+        ready(access, setting)
         for instruction in instructions:
-            ask(talk, instruction, 0.01)
+            ask(access, instruction, 0.01)
             if stop:
-                talk.pause(after)
-                ask(talk, stop, 0.01)
-            answers(talk, END_S)
+                access.pause(after)
+                ask(access, stop, 0.01)
+            answers(access, END_S)
 
     return play
 
 
-def registers(talk: Talk) -> None:
+def registers(access: PartAccess) -> None:
     """Read every register of the bus, before and after an instruction."""
     for _ in range(2):
         for register in range(8):
-            talk.read(register)
-        ready(talk)
+            access.read(register)
+        ready(access)
     for code in (Code.VERSION, Code.POSITION_READ, Code.RUN_MONITOR, Code.STATUS):
-        ask(talk, blocks.read_position() if code is Code.POSITION_READ else block(code))
+        ask(access, blocks.read_position() if code is Code.POSITION_READ else block(code))
 
 
 SETTINGS = (
@@ -116,22 +116,22 @@ SETTINGS = (
 )
 
 
-def settings(talk: Talk) -> None:
+def settings(access: PartAccess) -> None:
     """Execute valid instructions that start no motion."""
-    ready(talk)
+    ready(access)
     for instruction in SETTINGS:
-        ask(talk, instruction)
+        ask(access, instruction)
 
 
-def codes(first: int) -> Callable[[Talk], None]:
+def codes(first: int) -> Callable[[PartAccess], None]:
     """Return a function that writes codes without parameters; most of them are rejected."""
 
-    def play(talk: Talk) -> None:
-        ready(talk)
+    def play(access: PartAccess) -> None:
+        ready(access)
         for code in range(first, first + CODES_A_SECTION):
-            ask(talk, block(code), 0.02)
+            ask(access, block(code), 0.02)
             if code in (Code.RESET, Code.STOP, Code.SLOW_STOP):
-                talk.pause(0.01)
+                access.pause(0.01)
 
     return play
 
@@ -177,13 +177,13 @@ class Plan312:
         ]
 
     def switches(self, identity: Identity, width: int) -> list[Section]:
-        def by_output(bit: int, motion: bytes) -> Callable[[Talk], None]:
-            def play(talk: Talk) -> None:
-                ready(talk)
-                ask(talk, blocks.outputs(0))
-                ask(talk, motion, 0.01)
-                ask(talk, blocks.outputs(bit))
-                answers(talk, END_S)
+        def by_output(bit: int, motion: bytes) -> Callable[[PartAccess], None]:
+            def play(access: PartAccess) -> None:
+                ready(access)
+                ask(access, blocks.outputs(0))
+                ask(access, motion, 0.01)
+                ask(access, blocks.outputs(bit))
+                answers(access, END_S)
 
             return play
 

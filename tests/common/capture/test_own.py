@@ -13,7 +13,7 @@ from openppmc.capture.common.files import read_capture
 from openppmc.capture.common.pinmap import PinMap
 from openppmc.capture.common.signals import US
 from openppmc.capture.common.vcd_file import core_comment
-from openppmc.capture.stmc.words import WordsStmc
+from openppmc.capture.stmc.words import StmcDecoder
 
 from ..cli.command_line import Run
 from .analyser import Seen, probe, write_vcd
@@ -131,7 +131,7 @@ def test_what_a_switch_ended_tells_no_crystal() -> None:
 @pytest.mark.parametrize("read_map", ["FAMILY", "SHEET"])
 def test_words_of_an_stmc_follow_its_read_map(read_map: str) -> None:
     """The decoder names the reads of an STMC by its READ_MAP (R-01)."""
-    words = WordsStmc(read_map)
+    words = StmcDecoder(read_map)
     names = [words.command(code, ()) for code in (0x80, 0x81, 0x82, 0x83, 0x84)]
     reads = ["read finish status", "read inputs", "read outputs", "read remaining steps"]
     assert names == ([*reads, "command 84"] if read_map == "FAMILY" else [reads[0], "command 81", *reads[1:]])

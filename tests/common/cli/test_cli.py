@@ -345,7 +345,7 @@ def test_the_second_ctrl_c_is_not_patient(
             guard.count += again
 
         monkeypatch.setattr(axis, "stop", stop_and_ctrl_c)
-        text = guard.bring_to_rest(axis)
+        text = guard.stop_motors(axis)
         assert ("stopped at once" in text) == again
         assert text.endswith(f"position {axis.position}")
         assert least <= axis.position - before <= most

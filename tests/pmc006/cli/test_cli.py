@@ -259,7 +259,7 @@ def test_commands_of_a_line_belong_to_it(run: Run) -> None:
 @pytest.mark.parametrize("words", [("jog", "forward"), ("move", "-3000")])
 def test_ctrl_c_stops_all_motors(run: Run, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]) -> None:
     """The first Ctrl-C decelerates all motors."""
-    look, looks = Motion.look, iter(range(1000))
+    look, looks = Motion._update, iter(range(1000))
 
     def interrupt(motion: Motion) -> None:
         if next(looks) == 10:

@@ -196,7 +196,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
     with Ppmc2104.open(TWO) as part:
         for axis in (part.x, part.y):
             axis.initialise(start_pps=1000, high_pps=1200, ramp_pulses=11_000)
-        part.start_together(30_000, 30_000)
+        part.start_moves(30_000, 30_000)
         part.link.pause(2)
         before = [part.x.position, part.y.position]
         guard = Guard()
@@ -208,7 +208,7 @@ def test_ctrl_c_brings_both_to_rest(monkeypatch: pytest.MonkeyPatch, again: bool
             guard.count += again
 
         monkeypatch.setattr(part.x, "stop", stop_and_ctrl_c)
-        text = guard.bring_to_rest(part)
+        text = guard.stop_motors(part)
         assert ("stopped at once" in text) == again
         after = [part.x.position, part.y.position]
         assert text.endswith(f", axis 1: position {after[0]}, axis 2: position {after[1]}")

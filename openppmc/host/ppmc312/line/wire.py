@@ -112,7 +112,7 @@ class Receiver:
         self._digits = bytearray()
 
     def take(self, byte: int) -> Reply | Fault | None:
-        """Process a byte; see `host.line.Listener`."""
+        """Process a byte; see `host.line.ReplyReceiver`."""
         if byte & 0x80:
             # A control code always starts a new frame, as in the station.
             broken = self._control is not None
