@@ -21,9 +21,9 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from .errors import needs
-from .host.ending import StoppedByCommand
 from .host.errors import AxisBusy, LinkError, NothingToStop, OutOfRange, PpmcError
 from .host.motion import AnyMotion
+from .host.motion_result import StoppedByCommand
 from .host.part import Device
 
 needs("ophyd", "openppmc.ophyd", "ophyd")

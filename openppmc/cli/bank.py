@@ -8,7 +8,7 @@ from typing import Any
 from ..host import MotionResult, NothingToStop, PpmcBank
 from ..host.axis import OnProgress
 from ..host.part import AnyAxis
-from .common.view import RampPresenter
+from .common.presenter import RampPresenter
 
 
 class BankPresenter(RampPresenter[PpmcBank]):

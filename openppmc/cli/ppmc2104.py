@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from ..host import MotionResult, Ppmc2104
 from ..host.axis import OnProgress
-from ..host.ppmc2104.words import Status
-from .common.view import RampPresenter
+from ..host.ppmc2104.registers import Status
+from .common.presenter import RampPresenter
 
 
 class PartPresenter(RampPresenter[Ppmc2104]):

@@ -8,12 +8,12 @@ from fractions import Fraction
 
 from ..model.motion.codes import ACC_DEC, CONSTANT, CONTINUOUS, ENDLESS, HIGH_SPEED, ORIGIN, SINGLE_STEP
 from . import speeds
+from .capabilities import CHOPPER, COILS_OFF, PULSE_ONLY, RateCapabilities, SetupRequest
 from .check import Checked
-from .ending import Cause, MotionResult
 from .errors import AlreadyDecelerating, AxisBusy, NothingToStop, OutOfRange, ProtocolError
-from .kind import CHOPPER, COILS_OFF, PULSE_ONLY, RateCapabilities, SetupRequest
 from .link import LinkProtocol
 from .motion import READ_FINISH, Homing, Motion, MotionRequest, Progress
+from .motion_result import Cause, MotionResult
 from .registers import FAMILY, Outputs, ReadCodes, Switches
 from .script import Script
 from .speeds import Number, exact, nearby

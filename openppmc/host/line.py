@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from ..lazy import renamed
 from .check import exact
-from .ending import EndUnknown, MotionResult
 from .errors import (
     Disconnected,
     LinkError,
@@ -26,6 +25,7 @@ from .errors import (
 )
 from .line_port import Counters, Fault, MissingReply
 from .motion import PROGRESS_POLL, AnyMotion, Progress
+from .motion_result import EndUnknown, MotionResult
 from .part import Device, Stoppable
 from .port import Port
 

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from types import TracebackType
 from typing import Protocol
 
+from .capabilities import name_of
 from .errors import Disconnected, LinkError, NoAnswer, PortError, ProtocolError, Timeout, WrongDevice, refused
 from .frames import WAKE_UP, Nak, RetriesExhausted, Session
-from .kind import name_of
 from .port import BASE_BAUD, Port, open_port
 from .script import PROTOCOL_VERSION, RATES, Answer, BadAnswer, Build, Identity, Result, Script, parse_answer
 

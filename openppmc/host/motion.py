@@ -9,11 +9,11 @@ from typing import Protocol
 from ..lazy import Renamed
 from ..model.motion.codes import ENDLESS, RAMP_OPERATIONS
 from . import speeds
+from .capabilities import Capabilities
 from .check import Checked, side, within
-from .ending import COUNTS, Cause, EndUnknown, MotionResult, OriginNotFound, decode_end
 from .errors import AxisBusy, ProtocolError, Timeout
-from .kind import Capabilities
 from .link import LinkProtocol
+from .motion_result import COUNTS, Cause, EndUnknown, MotionResult, OriginNotFound, decode_end
 from .registers import ReadCodes
 from .script import Script
 from .speeds import Number

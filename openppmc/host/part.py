@@ -12,12 +12,12 @@ from ..lazy import Renamed
 from ..parts import by_number, having
 from . import speeds
 from .axis import Axis, OnProgress
+from .capabilities import AnySetup, Capabilities, RateCapabilities, name_of
 from .check import Checked
-from .ending import MotionResult
 from .errors import Disconnected, PpmcError, WrongDevice
-from .kind import AnySetup, Capabilities, RateCapabilities, name_of
 from .link import DEFAULT_BAUD, Link, LinkProtocol
 from .motion import AnyMotion
+from .motion_result import MotionResult
 from .port import Port
 from .registers import Status
 from .script import Script

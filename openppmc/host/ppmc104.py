@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ..parts import part
 from . import speeds
+from .capabilities import AUX, CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities
 from .errors import AxisBusy, OutOfRange
-from .kind import AUX, CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities
 from .part import OneAxis
 from .registers import Inputs
 from .script import Result, Script

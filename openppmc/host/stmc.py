@@ -9,8 +9,8 @@ from ..model.single.codes import Error
 from ..model.stmc.codes import BOARD_CLOCK_HZ, TICK_XT
 from ..parts import part
 from . import speeds
+from .capabilities import POSITIVE, Capabilities, RateCapabilities, SetupRequest
 from .errors import BY_NUMBER, CommandRefused, OutOfRange
-from .kind import POSITIVE, Capabilities, RateCapabilities, SetupRequest
 from .link import Link
 from .part import OneAxis
 from .registers import FAMILY, ReadCodes, Switches

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from cocotb_tests.harness.config import F16, Config
-from openppmc.capture.common.words import CommandDecoder
+from openppmc.capture.common.mnemonics import CommandDecoder
 from openppmc.plot.motion import draw
 from openppmc.plot.signals import Run
 from scripts.demo.scenes import Changes, access_text, falls

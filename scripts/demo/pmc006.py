@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
 from cocotb_tests.pmc006.story import BUILD, FINE, LEAD, MOTOR, MOVES, WAY
-from openppmc.capture.pmc006.words import Pmc006Decoder
+from openppmc.capture.pmc006.mnemonics import Pmc006Decoder
 from openppmc.model.pmc006.bench.motor import BRIDGES, Winding
 from openppmc.plot.motion import GREY, INK, PALE, bare
 from scripts.demo.demos import Demo, View

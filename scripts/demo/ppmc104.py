@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from openppmc.capture.ppmc104.words import Ppmc104Decoder
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.plot.motion import SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace
 from scripts.demo.demos import Demo, View

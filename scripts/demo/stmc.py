@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from openppmc.capture.stmc.words import StmcDecoder
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 from openppmc.check.records import steps
 from openppmc.plot.motion import COLOURS, SPEED
 from openppmc.plot.signals import Run, Section, Speed, Trace

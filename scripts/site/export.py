@@ -15,7 +15,7 @@ from typing import Any
 
 from cocotb_tests.harness.part import BusStyle
 from cocotb_tests.harness.project import ProjectError, run
-from openppmc.capture.common.words import CommandDecoder
+from openppmc.capture.common.mnemonics import CommandDecoder
 from openppmc.parts import PARTS
 from openppmc.sim.common.build import SimError
 from scripts.site import wasm

@@ -9,10 +9,10 @@ from typing import Any
 from cocotb_tests.bank.lab import WORDS as BANK_REGISTERS
 from cocotb_tests.harness.bus import MREF, MWEF
 from cocotb_tests.harness.bus import NAMES as NAMES312
-from openppmc.capture.common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, CommandDecoder
-from openppmc.capture.pmc006 import words as line
-from openppmc.capture.ppmc104.words import Ppmc104Decoder
-from openppmc.capture.ppmc312 import words as block
+from openppmc.capture.common.mnemonics import END_STATUS, INPUTS, OUTPUTS, REMAINING, CommandDecoder
+from openppmc.capture.pmc006 import mnemonics as line
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
+from openppmc.capture.ppmc312 import mnemonics as block
 from openppmc.model.motion.codes import Command, Kind
 from openppmc.model.ppmc312.codes import Code as Code312
 

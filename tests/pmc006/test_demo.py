@@ -7,7 +7,7 @@ from math import isnan
 import pytest
 
 from cocotb_tests.pmc006.story import FINE, MOVES, PROGRAM
-from openppmc.capture.pmc006.words import Pmc006Decoder
+from openppmc.capture.pmc006.mnemonics import Pmc006Decoder
 from openppmc.check.records import Access
 from openppmc.model.pmc006.line import command, reply
 from openppmc.model.pmc006.program import assemble

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping
 
 from ...model.motion.codes import Command, Kind
 from .bus import Strobe, accesses
-from .kind import Access, Accesses, Line, Needs, PartDecoder, PulseTrain, Wires
+from .mnemonics import CommandDecoder, Exchange
+from .part_decoder import Access, Accesses, Line, Needs, PartDecoder, PulseTrain, Wires
 from .pinmap import Pins
 from .registers import DecodedAccess, cycle, decoded_byte_lines
-from .words import CommandDecoder, Exchange
 
 SHORTEST = 250_000
 """Shortest strobe of an old host, which an analyser must sample, ps."""

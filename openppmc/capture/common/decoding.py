@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ... import parts
 from .errors import CaptureError
-from .kind import Line, PartDecoder, PulseTrain, Wires
+from .part_decoder import Line, PartDecoder, PulseTrain, Wires
 from .pinmap import PinMap, wired
 from .pulses import Move, moves
 from .signals import US, Bits, Capture, Channel, joined, without_glitches

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
-from .kind import PulseTrain, Wires
+from .part_decoder import PulseTrain, Wires
 from .signals import SECOND, Bits, Channel, joined, level_code, level_type, numpy
 
 if TYPE_CHECKING:

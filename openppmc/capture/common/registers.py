@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from .kind import Access, Accesses, Line
+from .mnemonics import END_STATUS, CommandDecoder, Exchange
+from .part_decoder import Access, Accesses, Line
 from .signals import numpy
-from .words import END_STATUS, CommandDecoder, Exchange
 
 KNOWN = 1000
 """Number of rows whose texts are cached."""

@@ -13,9 +13,9 @@ from ...model.pmc006.line import ANSWER, HEAD, SIZE, command
 from ...model.pmc006.part import Pmc006
 from ...model.pmc006.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.characters import Character, characters, rate_of
-from ..common.kind import Line, Needs, PartDecoder, PulseTrain, Wires
+from ..common.part_decoder import Line, Needs, PartDecoder, PulseTrain, Wires
 from ..common.pinmap import Pins
-from .words import MEANINGS
+from .mnemonics import MEANINGS
 
 RATES = (9600.0, 19_200.0, 38_400.0, 57_600.0, 115_200.0, 4800.0, 2400.0, 1200.0)
 SHORTEST = 8_600_000

@@ -6,9 +6,9 @@ from ...model.ppmc104 import INPUTS, OUTPUTS, WIDTHS
 from ...model.single.codes import decode
 from ...model.single.hostport import strobes
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, PulseTrain, Wires
+from ..common.part_decoder import Access, PulseTrain, Wires
 from ..common.pulses import train
-from .words import Ppmc104Decoder
+from .mnemonics import Ppmc104Decoder
 
 
 def _levels(access: Access, wires: Wires) -> dict[str, int]:

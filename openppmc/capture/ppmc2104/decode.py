@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from ...model.ppmc2104.codes import AXIS_INPUTS, AXIS_OUTPUTS, INPUTS, OUTPUTS, WIDTHS, decode, strobes
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, PulseTrain, Wires
+from ..common.part_decoder import Access, PulseTrain, Wires
 from ..common.pulses import train
-from .words import Ppmc2104Decoder
+from .mnemonics import Ppmc2104Decoder
 
 
 def _levels(access: Access, wires: Wires) -> dict[str, int]:

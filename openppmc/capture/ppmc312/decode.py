@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping
 from ...model.ppmc312.codes import INPUTS, OUTPUTS, WIDTHS, Code
 from ...model.ppmc312.front.mailbox import ADDRESS, CSR, READ, WRITE
 from ..common.bus import accesses
-from ..common.kind import Access, Accesses, Line, Needs, PartDecoder, PulseTrain, Wires
+from ..common.part_decoder import Access, Accesses, Line, Needs, PartDecoder, PulseTrain, Wires
 from ..common.pinmap import Pins
 from ..common.pulses import train
 from ..common.registers import BusAccess, DecodedAccess, cycle, decoded_lines
-from .words import CUT, Ppmc312Decoder, Row
+from .mnemonics import CUT, Ppmc312Decoder, Row
 
 SHORTEST = 200_000
 STROBES = ("cs_n", "we_n", "oe_n")

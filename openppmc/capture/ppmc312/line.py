@@ -10,10 +10,10 @@ from ...model.ppmc312.front import serial
 from ...model.ppmc312.front.serial import FORMS, LENGTHS, Local, Note, block_of
 from ..common.characters import Character, characters, rate_of
 from ..common.errors import CaptureError
-from ..common.kind import Line, Needs, PartDecoder, Wires
+from ..common.part_decoder import Line, Needs, PartDecoder, Wires
 from ..common.pinmap import Pins
 from .decode import NAMES, trains
-from .words import block_words
+from .mnemonics import block_words
 
 SPEEDS = {19_200.0: 5, 38_400.0: 6, 16e6 / 192: 7}
 SHORTEST = 12_000_000

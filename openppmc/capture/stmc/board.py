@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from ...model.stmc.codes import decode
 from ...model.stmc.pc104_board import INPUTS, OUTPUTS, WIDTHS
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, Wires
+from ..common.part_decoder import Access, Wires
 from .decode import read_map, trains
-from .words import StmcDecoder
+from .mnemonics import StmcDecoder
 
 BASE = 0x3B0
 """Address of the data register.

@@ -6,9 +6,9 @@ from ...model.single.hostport import strobes
 from ...model.stmc.codes import decode
 from ...model.stmc.pins import INPUTS, OUTPUTS, WIDTHS
 from ..common.byte_bus import byte_part
-from ..common.kind import Access, PulseTrain, Wires
+from ..common.part_decoder import Access, PulseTrain, Wires
 from ..common.pulses import phase_train
-from .words import StmcDecoder
+from .mnemonics import StmcDecoder
 
 
 def _levels(access: Access, wires: Wires) -> dict[str, int]:

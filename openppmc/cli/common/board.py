@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ... import parts
 
 if TYPE_CHECKING:
-    from ...host.kind import Capabilities
+    from ...host.capabilities import Capabilities
 
 USUAL = "ppmc104"
 """Part of plans and of virtual boards if the user names no part."""
@@ -63,7 +63,7 @@ class Board:
     @property
     def planned(self) -> Capabilities:
         """Part of a plan, which opens no board: from --part, else from a virtual port, else USUAL."""
-        from ...host.kind import capabilities_of
+        from ...host.capabilities import capabilities_of
 
         if self.part is not None:
             return capabilities_of(self.part)

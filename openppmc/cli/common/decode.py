@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ... import parts
-from ...capture.common.beside import Result, compare, other_timing
+from ...capture.common.compare import Result, compare, other_timing
 from ...capture.common.decoding import Decoded, decode
 from ...capture.common.errors import CaptureError
 from ...capture.common.files import read_capture

@@ -12,8 +12,8 @@ from . import output, show
 from .board import BOARD
 from .boards import AxisNumber
 from .options import MOST_AXES, Json, Side, check_seconds, with_setup
+from .presenter import Override, parse_override, plot_move, presenter_of
 from .session import opened, ready, setup_values, stop_all
-from .view import Override, parse_override, plot_move, presenter_of
 
 AxisOrAll = Annotated[
     int | None,

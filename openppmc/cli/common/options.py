@@ -14,7 +14,7 @@ import typer
 
 from ... import parts
 from ...errors import PpmcError
-from ...host.kind import AnySetup, Capabilities, SetupRequest
+from ...host.capabilities import AnySetup, Capabilities, SetupRequest
 
 MOST_AXES = max(row.axes for row in parts.having("number", "capabilities"))
 """Highest number that --axis accepts; the connected part may have fewer axes."""

@@ -10,12 +10,12 @@ from typing import Annotated, Any, Protocol
 import typer
 
 from ...host import PpmcError
-from ...host.kind import COILS_OFF, Capabilities
+from ...host.capabilities import COILS_OFF, Capabilities
 from ...host.part import AnyAxis
 from ...textfile import NotTextError, read_text
 from . import output
 from .options import SetupValues, with_setup
-from .reading import (
+from .script_parser import (
     AXES,
     READERS,
     Numbered,

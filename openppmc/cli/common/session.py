@@ -23,7 +23,7 @@ import typer
 from ... import __version__, parts
 from ...errors import PpmcError
 from ...host import MotionResult, NothingToStop, open_part
-from ...host.kind import Capabilities
+from ...host.capabilities import Capabilities
 from ...host.link import DEFAULT_BAUD
 from ...host.motion import Progress
 from ...host.part import AnyAxis, Device, Part
@@ -34,7 +34,7 @@ from ...streams import StdoutLost
 from . import output
 from .board import BOARD
 from .options import SetupValues
-from .view import AnyPresenter, presenter_of
+from .presenter import AnyPresenter, presenter_of
 
 if TYPE_CHECKING:
     from rich.progress import Progress as Bars

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ...host import MotionResult, speeds
-from ...host.kind import name_of
+from ...host.capabilities import name_of
 from ...host.link import Link
 from ...host.part import AnyAxis
 from ...host.script import RATES

@@ -14,8 +14,17 @@ from ...host.pmc006.settings import setting
 from ...model.pmc006.program import BadImage, Program, assemble, disassemble
 from ...textfile import NotTextError, read_text
 from ..common import output
-from ..common.reading import Numbered, Reader, Values, check_no_more_words, first, number, read_speed, whole
 from ..common.script import Step, execute_steps, read_file, read_program
+from ..common.script_parser import (
+    Numbered,
+    Reader,
+    Values,
+    check_no_more_words,
+    first,
+    number,
+    read_speed,
+    whole,
+)
 from .moves import Direction
 from .session import Address, Session, end_line, opened, prefix
 

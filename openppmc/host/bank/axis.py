@@ -8,16 +8,16 @@ from typing import Protocol
 from ...model.motion.codes import CONTINUOUS
 from .. import speeds
 from ..axis import CW, Axis
+from ..capabilities import RateCapabilities
 from ..check import within
-from ..ending import MotionResult
 from ..errors import NotCalledError, ProtocolError
-from ..kind import RateCapabilities
 from ..link import Link
 from ..motion import Motion, MotionRequest, Progress
+from ..motion_result import MotionResult
 from ..registers import Inputs, Status
 from ..script import Script
+from .registers import CONFIG, POSITION, POSITION_BYTES, STATUS, Config
 from .window import AxisLink
-from .words import CONFIG, POSITION, POSITION_BYTES, STATUS, Config
 
 _HALF = 1 << 31
 

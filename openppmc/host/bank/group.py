@@ -7,15 +7,15 @@ from types import TracebackType
 from typing import Protocol
 
 from ..axis import STOP_NOW
+from ..capabilities import RateCapabilities
 from ..check import Checked, whole
 from ..errors import AxisBusy, CommandRefused, OutOfRange, PpmcError
-from ..kind import RateCapabilities
 from ..link import Link
 from ..motion import READ_FINISH
 from ..script import Script
 from .axis import BankAxis
+from .registers import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 from .window import visit
-from .words import GO, MASK, STATUS, GroupRefused, bit_bytes, go_refused
 
 BUSY, ERR = 0x04, 0x80
 _GO_READS = 8

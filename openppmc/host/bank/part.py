@@ -9,19 +9,18 @@ from typing import Any
 from ...lazy import Renamed
 from .. import speeds
 from ..axis import OnProgress
+from ..capabilities import PULSE_ONLY
 from ..check import whole
-from ..ending import MotionResult
 from ..errors import CommandRefused, OutOfRange
-from ..kind import PULSE_ONLY
 from ..link import Link
 from ..motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, MotionRequest
+from ..motion_result import MotionResult
 from ..part import Part
 from ..registers import Inputs, Status
 from ..script import Script
 from .axis import BankAxis
 from .group import Group, numbers_of, write_mask
-from .window import read_info, visit
-from .words import (
+from .registers import (
     CAPABILITIES,
     PENDING,
     POSITION,
@@ -35,6 +34,7 @@ from .words import (
     Info,
     members,
 )
+from .window import read_info, visit
 
 
 class Axes(dict[int, BankAxis]):

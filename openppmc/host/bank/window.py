@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from ..errors import WrongDevice
 from ..link import Link
 from ..script import LONGEST_SCRIPT, MOST_DATA, Answer, Identity, Result, Script
-from .words import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
+from .registers import INFO, MARK, SELECT, SIZES, VERSION, Info, refused
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable
 
 from ..axis import OnProgress
 from ..check import whole, within
-from ..ending import Cause, OriginNotFound
 from ..errors import AxisBusy, CommandRefused, NoAnswer, NothingToStop, OutOfRange, StartRefused
 from ..motion import Progress
+from ..motion_result import Cause, OriginNotFound
 from .motion import Motion, MotionResult
 from .settings import Settings, mean_acceleration
 from .wire import Code, Flags, MotorDisabled, SpeedRefused, locked

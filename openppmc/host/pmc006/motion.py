@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from .. import ending
-from ..ending import AlarmStop, Cause, EndUnknown, LimitReached, MotionError, StoppedByCommand
+from .. import motion_result
 from ..line import wait_all
 from ..motion import Handle, Progress
+from ..motion_result import AlarmStop, Cause, EndUnknown, LimitReached, MotionError, StoppedByCommand
 from .settings import Settings
-from .talk import Line
+from .station_link import Line
 from .wire import Code, Flags
 
 
-class MotionResult(ending.MotionResult):
+class MotionResult(motion_result.MotionResult):
     """End of a motion. LIMIT means EXT1 or EXT2, ALARM means a stall.
 
     `finish` is status 1 at the end.

@@ -30,7 +30,7 @@ from ..port import Port
 from .axis import BACKWARD, Homing
 from .memory import Memory
 from .motion import MotionResult
-from .talk import ATTEMPTS, BAUD, Line, StationLink
+from .station_link import ATTEMPTS, BAUD, Line, StationLink
 from .wire import ADDRESSES, CAPABILITIES, LAST, Code
 
 if TYPE_CHECKING:

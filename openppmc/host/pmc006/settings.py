@@ -12,7 +12,7 @@ from typing import overload
 
 from ..check import whole
 from ..errors import OutOfRange
-from .talk import StationLink
+from .station_link import StationLink
 from .wire import STATUS_1_BITS, STATUS_2_BITS, Code, SettingRefused
 
 MICROSTEPS = (1, 2, 4, 8, 16, 32, 64, 128)

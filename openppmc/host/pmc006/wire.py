@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...lazy import renamed
 from ...parts import part
+from ..capabilities import Capabilities
 from ..check import whole
 from ..errors import CommandRefused, OutOfRange
-from ..kind import Capabilities
 from ..line_port import Fault
 
 

@@ -9,15 +9,15 @@ from ...model.motion.codes import ORIGIN
 from ...model.ppmc2104.codes import BUSY, CMND
 from .. import speeds
 from ..axis import CCW, Axis
-from ..ending import Cause, MotionResult
+from ..capabilities import AXIS_BIT
 from ..errors import AlreadyDecelerating, NothingToStop, NotInitialised, StartRefused, Timeout
-from ..kind import AXIS_BIT
 from ..link import Link
 from ..motion import Motion, MotionRequest
+from ..motion_result import Cause, MotionResult
 from ..registers import Inputs
 from ..script import Script
-from . import words
-from .words import CAPABILITIES, IncompleteCommand, Status
+from . import registers
+from .registers import CAPABILITIES, IncompleteCommand, Status
 
 SWITCHING, HOLD_DELAY = 0x84, 0x85
 _SETUP_SECONDS = 10.0
@@ -170,8 +170,8 @@ class Axis2104(Axis):
 
         The call is not allowed during a motion.
         """
-        on = words.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
-        off = words.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
+        on = registers.half_us_byte(self.link.identity.xtal_hz, on_us, "on")
+        off = registers.half_us_byte(self.link.identity.xtal_hz, off_us, "off")
         self.link.execute(Script().call(SWITCHING | self._code_bits, on[0], off[0]))
         return on[1], off[1]
 
@@ -182,6 +182,6 @@ class Axis2104(Axis):
 
         The call is not allowed during a motion.
         """
-        byte, reached = words.hold_byte(self.link.identity.xtal_hz, microseconds)
+        byte, reached = registers.hold_byte(self.link.identity.xtal_hz, microseconds)
         self.link.execute(Script().call(HOLD_DELAY | self._code_bits, byte))
         return reached

@@ -8,16 +8,16 @@ from ...lazy import Renamed
 from ...model.ppmc2104.codes import CMND
 from .. import speeds
 from ..axis import Axis, OnProgress
+from ..capabilities import AXIS_BIT
 from ..check import whole, within
-from ..ending import EndUnknown, MotionResult
 from ..errors import AlreadyDecelerating, CommandRefused, PpmcError, ProtocolError
-from ..kind import AXIS_BIT
 from ..link import Link
 from ..motion import PROGRESS_POLL, READ_FINISH, SAFETY_POLL, Motion, Progress
+from ..motion_result import EndUnknown, MotionResult
 from ..part import Part
 from ..script import Answer, Script
 from .axis import Axis2104
-from .words import BY_NUMBER, CAPABILITIES, Status, refused
+from .registers import BY_NUMBER, CAPABILITIES, Status, refused
 
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 IBF = 0x02

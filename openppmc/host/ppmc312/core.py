@@ -11,10 +11,10 @@ from typing import Generic, Protocol, TypeVar
 from ...lazy import Renamed
 from ...model.ppmc312.codes import Code
 from .. import speeds
+from ..capabilities import SetupRequest
 from ..check import Checked
-from ..ending import MotionResult
 from ..errors import OutOfRange, ProtocolError
-from ..kind import SetupRequest
+from ..motion_result import MotionResult
 from . import blocks
 from .answers import BadResponse, Executed, Inputs, Report, Response, Status, Stopped, signed
 from .motion import Motion, Transport

@@ -8,9 +8,9 @@ from typing import Protocol
 from ...model.ppmc312.codes import Cause as Bit
 from .. import motion as homing
 from .. import part as device
-from ..ending import COUNTS, Cause, EndUnknown, MotionResult, OriginNotFound
 from ..errors import Timeout
 from ..motion import PROGRESS_POLL, SAFETY_POLL, AnyMotion, Handle, Progress
+from ..motion_result import COUNTS, Cause, EndUnknown, MotionResult, OriginNotFound
 from ..script import Identity
 from ..speeds import Number
 from .answers import Status, Stopped, signed

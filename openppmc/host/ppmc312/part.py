@@ -5,10 +5,10 @@ from __future__ import annotations
 from ...model.ppmc312.codes import Answer
 from .. import speeds
 from ..axis import CCW, CW, OnProgress
-from ..ending import Cause, MotionResult
+from ..capabilities import PULSE_ONLY
 from ..errors import NothingToStop, OutOfRange, ProtocolError
-from ..kind import PULSE_ONLY
 from ..link import Link
+from ..motion_result import Cause, MotionResult
 from ..part import Part
 from ..script import Script
 from . import blocks

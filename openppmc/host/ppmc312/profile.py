@@ -21,8 +21,8 @@ from ...model.ppmc312.stages import DIVIDERS, LEAST_PULSES, STAGES, SettingError
 from ...parts import part
 from ...textfile import NotTextError, read_text
 from .. import speeds as units
+from ..capabilities import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Capabilities, SetupRequest
 from ..errors import OutOfRange
-from ..kind import COILS_OFF, CURVES, FREE_CURVES, LONG, OWN_STOP, PHASES, Capabilities, SetupRequest
 from . import blocks
 from .errors import refused
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.single.codes import decode
-from ..bank.words import CONFIG, GO, INFO, MASK, PENDING, POSITION, POSITION_BYTES, SELECT, STOP
+from ..bank.registers import CONFIG, GO, INFO, MASK, PENDING, POSITION, POSITION_BYTES, SELECT, STOP
 from ..script import Identity, Script
 from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire

@@ -10,7 +10,7 @@ from typing import Any
 
 from ... import __version__
 from ...parts import by_number
-from ..kind import name_of
+from ..capabilities import name_of
 from ..link import Link
 from ..script import Build
 from .run import SectionResult, SelfTestResult

@@ -10,7 +10,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 
-from openppmc.capture.ppmc312.words import Ppmc312Decoder
+from openppmc.capture.ppmc312.mnemonics import Ppmc312Decoder
 from openppmc.plot.motion import GREY, INK, PALE, SPEED, bare, close_up, draw_speed
 from openppmc.plot.signals import Run, Section, Speed, Trace, speeds
 from scripts.demo.demos import Demo, View

@@ -18,7 +18,7 @@ from openppmc.host import (
     WrongDevice,
     open_part,
 )
-from openppmc.host.bank.words import Config, bit_bytes, members
+from openppmc.host.bank.registers import Config, bit_bytes, members
 from openppmc.host.model_port import ModelPort
 from openppmc.host.script import Script
 from tests.bank.host.bench import SETUP, SPEC, at, frames, model, opened

@@ -6,13 +6,13 @@ import random
 
 import pytest
 
-from openppmc.capture.common.kind import Access, Accesses
+from openppmc.capture.common.mnemonics import CommandDecoder, Exchange
+from openppmc.capture.common.part_decoder import Access, Accesses
 from openppmc.capture.common.registers import BusAccess, DecodedAccess, decoded_byte_lines, decoded_lines
 from openppmc.capture.common.signals import numpy
-from openppmc.capture.common.words import CommandDecoder, Exchange
-from openppmc.capture.ppmc104.words import Ppmc104Decoder
-from openppmc.capture.ppmc2104.words import Ppmc2104Decoder
-from openppmc.capture.stmc.words import StmcDecoder
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
+from openppmc.capture.ppmc2104.mnemonics import Ppmc2104Decoder
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 
 CODES = (0x2A, 0x43, 0x63, 0x4D, 0x42, 0x80, 0xA0, 0x83, 0xA3, 0xC3, 0x81, 0x40, 0x00, 0xFF)
 

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from openppmc.capture.common.beside import compare, learned
+from openppmc.capture.common.compare import compare, learned
 from openppmc.capture.common.decoding import decode
 from openppmc.capture.common.errors import CaptureError
 from openppmc.capture.common.files import read_capture
 from openppmc.capture.common.pinmap import PinMap
 from openppmc.capture.common.signals import US
 from openppmc.capture.common.vcd_file import core_comment
-from openppmc.capture.stmc.words import StmcDecoder
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 
 from ..cli.command_line import Run
 from .analyser import Seen, probe, write_vcd

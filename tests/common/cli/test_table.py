@@ -15,7 +15,7 @@ from cocotb_tests.harness.paths import ROOT
 from openppmc import parts
 from openppmc.cli.app import Commands, app
 from openppmc.cli.common.group import BRIDGE, Command
-from openppmc.host.kind import capabilities_of
+from openppmc.host.capabilities import capabilities_of
 from openppmc.host.link import DEFAULT_BAUD
 
 ROWS = [pytest.param(row, id=f"{row.name}-{row.parts[0] or 'bridge'}") for row in Commands.rows]

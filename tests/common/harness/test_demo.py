@@ -8,11 +8,11 @@ from cocotb_tests.harness import PARTS
 from cocotb_tests.harness.compare import compare_recording, replay
 from cocotb_tests.harness.project import ProjectError
 from cocotb_tests.harness.side import new_model
-from openppmc.capture.common.words import exchanges
-from openppmc.capture.ppmc104.words import Ppmc104Decoder
-from openppmc.capture.ppmc312.words import Ppmc312Decoder
-from openppmc.capture.ppmc2104.words import Ppmc2104Decoder
-from openppmc.capture.stmc.words import StmcDecoder
+from openppmc.capture.common.mnemonics import exchanges
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
+from openppmc.capture.ppmc312.mnemonics import Ppmc312Decoder
+from openppmc.capture.ppmc2104.mnemonics import Ppmc2104Decoder
+from openppmc.capture.stmc.mnemonics import StmcDecoder
 from openppmc.check.records import Access, Change, Recording, steps
 from openppmc.parts import having
 from scripts.demo import waves

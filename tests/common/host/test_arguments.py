@@ -313,7 +313,9 @@ def test_a_method_is_true_and_comparable_as_those_of_python(axis: Any) -> None:
     """A method that is not called is true, hashable and equal only to itself, like a method of Python."""
     motion = axis.start_move(40)
     for thing in (axis, motion):
-        names = [name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), check.CheckedMethod)]
+        names = [
+            name for name in dir(type(thing)) if isinstance(getattr(type(thing), name), check.CheckedMethod)
+        ]
         assert names
         for name in names:
             method = getattr(thing, name)

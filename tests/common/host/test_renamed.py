@@ -10,13 +10,13 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from openppmc.host.ending import Cause, EndUnknown, MotionError, MotionResult
 
 from cocotb_tests.harness.paths import ROOT
 from openppmc import host
 from openppmc.host.bank.part import PpmcBank
 from openppmc.host.line_port import Counters
 from openppmc.host.motion import Handle, Progress
+from openppmc.host.motion_result import Cause, EndUnknown, MotionError, MotionResult
 from openppmc.host.part import Device
 from openppmc.host.pmc006.part import ScanResult as ScanResult006
 from openppmc.host.ppmc312.core import Core
@@ -40,8 +40,8 @@ CLASSES = {
 """Names of `openppmc.host`: old and new."""
 IN_MODULES = {
     "errors": ("NoSuchName", "Misused", "NotWhileBusy", "BadRamp", "UnknownCode"),
-    "ending": ("End", "StoppedEarly"),
-    "ppmc2104.words": ("CutCommand", "BadSwitching", "TooFast"),
+    "motion_result": ("End", "StoppedEarly"),
+    "ppmc2104.registers": ("CutCommand", "BadSwitching", "TooFast"),
 }
 OTHERS = {
     ("line", "StationSilent"): "StationNotResponding",

@@ -32,8 +32,8 @@ from openppmc.host import (
     ProtocolError,
     Stmc,
 )
-from openppmc.host.ending import decode_end
 from openppmc.host.model_port import ModelPort
+from openppmc.host.motion_result import decode_end
 from openppmc.host.script import Script
 from tests.common.host.line_ports import Spoiled
 

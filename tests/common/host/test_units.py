@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from openppmc.cli.common.view import Trajectory, key_figures
+from openppmc.cli.common.presenter import Trajectory, key_figures
 from openppmc.host import units
 from openppmc.host.axis import chop_byte
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import OutOfRange, PpmcError
-from openppmc.host.kind import SetupRequest
 from openppmc.host.ppmc104 import CAPABILITIES as PPMC104
-from openppmc.host.ppmc2104.words import CAPABILITIES as PPMC2104
-from openppmc.host.ppmc2104.words import half_us_byte, hold_byte
+from openppmc.host.ppmc2104.registers import CAPABILITIES as PPMC2104
+from openppmc.host.ppmc2104.registers import half_us_byte, hold_byte
 from openppmc.host.stmc import CAPABILITIES as STMC
 from openppmc.model.single.predict import predict_move
 

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from cocotb_tests.harness.paths import ROOT
-from openppmc.capture.ppmc104.words import Ppmc104Decoder
+from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.model.single.codes import decode
 from scripts.site.hooks import PARTS, run_links
 from scripts.site.sessions import sessions

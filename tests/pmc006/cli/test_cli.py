@@ -95,7 +95,7 @@ def test_motions(run: Run) -> None:
 def test_a_running_motor_takes_other_speeds(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """A running motor accepts other speeds and directions; as with a real line, all commands share it."""
     from openppmc.host import Pmc006Bus, line_port
-    from openppmc.host.pmc006.talk import Line
+    from openppmc.host.pmc006.station_link import Line
 
     port = line_port.ModelLine("speed=max,address=1", 9600, "pmc006")
     port.close = lambda: None  # type: ignore[method-assign]

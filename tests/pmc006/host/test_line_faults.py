@@ -12,7 +12,7 @@ import pytest
 
 from openppmc.host import BACKWARD, FORWARD, Cause, Disconnected, NoAnswer, Pmc006, Pmc006Bus, PpmcError
 from openppmc.host.line import CorruptReply, LostReply, StationNotResponding
-from openppmc.host.pmc006.talk import Line
+from openppmc.host.pmc006.station_link import Line
 from openppmc.host.pmc006.wire import (
     ExtStopActive,
     Flags,

@@ -38,7 +38,7 @@ from openppmc.host import (
 )
 from openppmc.host.errors import CommandRefused
 from openppmc.host.model_port import ModelPort
-from openppmc.host.ppmc2104.words import BY_NUMBER as BY_NUMBER_2104
+from openppmc.host.ppmc2104.registers import BY_NUMBER as BY_NUMBER_2104
 from openppmc.host.script import Script
 from openppmc.model.ppmc2104.carrier import Carrier
 

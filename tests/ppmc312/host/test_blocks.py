@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from openppmc.host import CCW, CW, OutOfRange
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import AxisBusy, CommandRefused, NotInitialised, StartRefused, UnknownCommand
-from openppmc.host.kind import SetupRequest
 from openppmc.host.ppmc312 import answers, errors, profile
 from openppmc.host.ppmc312 import answers as registers
 from openppmc.host.ppmc312 import blocks as blocks312

@@ -24,8 +24,8 @@ from openppmc.host import (
     StoppedByCommand,
     Timeout,
 )
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import StartRefused
-from openppmc.host.kind import SetupRequest
 from openppmc.host.ppmc312 import blocks
 from openppmc.host.ppmc312.answers import (
     Alarm,

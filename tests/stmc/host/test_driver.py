@@ -35,8 +35,8 @@ from openppmc.host import (
     speeds,
     stmc,
 )
+from openppmc.host.capabilities import SetupRequest
 from openppmc.host.errors import CommandRefused
-from openppmc.host.kind import SetupRequest
 from openppmc.host.model_port import ModelPort
 from openppmc.host.script import Script
 from openppmc.host.stmc import CAPABILITIES as STMC

@@ -12,7 +12,7 @@ from ...common.board import BOARD
 from ...common.line_session import ending_after
 from ...common.options import Json, Side, check_seconds, with_setup
 from ...common.session import lasting, remember, setup_values
-from ..view import PRESENTER
+from ..presenter import PRESENTER
 from . import show as show_line
 from .session import Session, opened
 

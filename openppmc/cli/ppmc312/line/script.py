@@ -12,7 +12,6 @@ from ....host import Ppmc312Bus, Station312
 from ....host.ppmc312.line.line import CAPABILITIES
 from ...common import output
 from ...common.options import with_setup
-from ...common.reading import Numbered, part_commands
 from ...common.script import (
     OF_ALL_AXES,
     OF_AXES,
@@ -25,6 +24,7 @@ from ...common.script import (
     read_file,
     read_program,
 )
+from ...common.script_parser import Numbered, part_commands
 from ...common.session import Guard, setup_values
 from . import show
 from .session import Session, opened

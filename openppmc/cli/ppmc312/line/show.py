@@ -10,7 +10,7 @@ from ....host import PpmcError, Station312
 from ....host.ppmc312.answers import Alarm, Failed, Report
 from ....host.ppmc312.line.bus import ScanResult
 from ...common import output
-from ..view import axis_values, report_text
+from ..presenter import axis_values, report_text
 
 if TYPE_CHECKING:
     from rich.table import Table

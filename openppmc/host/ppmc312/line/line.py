@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from ....model.ppmc312.codes import Code, Source, State
 from ....parts import part
+from ...capabilities import COILS_OFF, CURVES
 from ...errors import AxisBusy, CommandRefused, OutOfRange, PortError, StartRefused, UnknownCommand
-from ...kind import COILS_OFF, CURVES
 from ...line import PATIENCE, LineEcho, Master
 from ...line_port import Counters, MissingReply, open_line
 from ...port import Port

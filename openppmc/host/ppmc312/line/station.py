@@ -6,15 +6,15 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from ....model.ppmc312.codes import Cause, Code, Source, State
-from ...ending import MotionResult
 from ...line import POLL_EVERY, StationNotResponding, wait_all
 from ...line_port import Counters
 from ...motion import Progress
+from ...motion_result import MotionResult
 from ..answers import Executed, Report, Status, Stopped, signed
 from ..motion import Motion
 from ..part import Axis
 from .line import CAPABILITIES, Line
-from .talk import ATTEMPTS, StationLink
+from .station_link import ATTEMPTS, StationLink
 from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 
 _MOST_PPS = 4_000_000

@@ -12,8 +12,8 @@ from typing import Any
 
 from ...host import Ppmc312, speeds
 from ...host.axis import OnProgress
+from ...host.capabilities import Capabilities
 from ...host.errors import OutOfRange
-from ...host.kind import Capabilities
 from ...host.part import AnyAxis
 from ...host.ppmc312 import blocks
 from ...host.ppmc312.answers import (
@@ -35,8 +35,8 @@ from ...model.ppmc312.codes import Code, Source
 from ...model.ppmc312.stages import Plan, constant, ramped
 from ..common import show
 from ..common.options import Side
-from ..common.reading import PartCommand, Values
-from ..common.view import Override, Presenter, Trajectory, parse_override
+from ..common.presenter import Override, Presenter, Trajectory, parse_override
+from ..common.script_parser import PartCommand, Values
 
 LONGEST_MOVE = (1 << 32) - 1
 

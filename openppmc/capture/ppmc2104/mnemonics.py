@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..common.words import CommandDecoder
+from ..common.mnemonics import CommandDecoder
 
 FLAGS = (
     (0x20, "CMND2"),

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, NamedTuple, Protocol
 
 from ... import parts
-from ...host.kind import AUX, Capabilities
+from ...host.capabilities import AUX, Capabilities
 from .options import MOST_AXES, Logic, SetupValues, Side
 
 

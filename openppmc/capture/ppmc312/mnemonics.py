@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..common.words import CommandDecoder
+from ..common.mnemonics import CommandDecoder
 
 OV, DIR, IDX, LE, FO = 0x04, 0x40, 0x10, 0x10, 0x08
 CLOCKS = ("8 MHz", "1 MHz", "500 kHz", "250 kHz", "62.5 kHz", "15.6 kHz", "EXTCK", "EXTCK falling")

@@ -13,8 +13,8 @@ from typing import Protocol, cast
 from ..model.motion.codes import PA_MAX, PA_MIN
 from ..parts import Row, by_number, part
 from . import speeds as units
-from .ending import ALARM_INPUT
 from .errors import OutOfRange
+from .motion_result import ALARM_INPUT
 
 POSITIVE = "positive logic"
 LONG = "long intervals"

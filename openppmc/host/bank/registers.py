@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from ...parts import part
 from .. import speeds
+from ..capabilities import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities, SetupRequest
 from ..errors import BY_NUMBER, CommandRefused, NothingToStop, PpmcError
-from ..kind import CHOPPER, COILS_OFF, LONG, POSITIVE, PULSE_ONLY, RateCapabilities, SetupRequest
 from ..registers import Inputs, Status
 
 # Errors of an axis of a bank.

@@ -18,6 +18,7 @@ from ...lazy import renamed
 from ...model.motion.codes import IBF, OBF
 from ...model.ppmc2104.codes import BUSY, CMND, ERROR, Error
 from ...parts import part
+from ..capabilities import COILS_OFF, PULSE_ONLY, RateCapabilities
 from ..errors import (
     AlreadyDecelerating,
     AxisBusy,
@@ -31,7 +32,6 @@ from ..errors import (
     UnexpectedData,
     UnknownCommand,
 )
-from ..kind import COILS_OFF, PULSE_ONLY, RateCapabilities
 from ..speeds import Number, exact, nearby
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from openppmc.model.pmc006.line import command, reply
 
-from ..common.words import CommandDecoder
+from ..common.mnemonics import CommandDecoder
 
 MEANINGS = {
     "A": "program pointer {}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..common.words import OneAxisDecoder
+from ..common.mnemonics import OneAxisDecoder
 
 ERRORS = (
     "undefined command, or a stop at rest",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...model.stmc import codes
-from ..common.words import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisDecoder
+from ..common.mnemonics import END_STATUS, INPUTS, OUTPUTS, REMAINING, OneAxisDecoder
 
 ERRORS = (
     "undefined command, or a stop at rest",

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, overload
 from ...check.replay import new_model
 from .decoding import Decoded
 from .errors import CaptureError
-from .kind import PartDecoder, PulseTrain
+from .part_decoder import PartDecoder, PulseTrain
 from .pulses import moves, unchopped
 from .signals import BLOCK, SECOND, US, Bits, Channel, joined, level_at, level_code, level_type, merged, numpy
 

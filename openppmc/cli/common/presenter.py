@@ -19,8 +19,8 @@ from ...errors import needs
 from ...host import MotionResult, speeds
 from ...host import speeds as units
 from ...host.axis import OnProgress
+from ...host.capabilities import Capabilities
 from ...host.errors import OutOfRange
-from ...host.kind import Capabilities
 from ...host.link import Link
 from ...host.part import AnyAxis
 from ...model.motion.codes import ENDLESS
