@@ -4,10 +4,10 @@ Exit status: 0 success, 1 error, 2 wrong usage, 128 + n after signal n, 141 if t
 
 `app` has the table of commands; a command is imported when it is called. `common` has the commands that the
 parts share, and depends on no part. The folder of a part has the commands of a part on a serial line, and
-the objects that two columns of `openppmc.parts` name. `view` defines the output, the forecasts and the
-additional functions of a part; a part without a view uses that of the PPMC-104. `words` are the additional
-words of a part in script files. A part that is accessed through the UART bridge and has the ramp and the
-registers of the PPMC-104 needs no code here.
+the objects that two columns of `openppmc.parts` name. `presenter` defines the output, the forecasts and the
+additional functions of a part; a part without a presenter uses that of the PPMC-104. `script_commands` are
+the additional commands of a part in script files. A part that is accessed through the UART bridge and
+has the ramp and the registers of the PPMC-104 needs no code here.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ class Axis(Checked):
         return f"axis {self.number}: " if self.kind.axes > 1 else ""
 
     def _annotate(self, end: MotionResult) -> MotionResult:
-        """Return the End with the message prefix and the alarm name of this axis."""
+        """Return the result with the message prefix and the alarm name of this axis."""
         return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ initialisation
@@ -362,7 +362,7 @@ class Axis(Checked):
         return Homing(self, direction, search_pps, back_off, progress).run(fast, to_limit)
 
     def stop(self, wait: bool = True) -> MotionResult | None:
-        """Stop with a ramp (constant speeds: immediately); return the End, or `None` if wait is False.
+        """Stop with a ramp (constant speeds: immediately); return the result, or `None` if wait is False.
 
         The call is no error if the motor is already decelerating or has just stopped.
 
@@ -413,7 +413,7 @@ class Axis(Checked):
     def _move_request(
         self, pulses: int, pps: speeds.Number | None = None, pulse_only: bool = False
     ) -> MotionRequest:
-        """Return the order of a move with ramps, or at constant speed if pps is not `None`.
+        """Return the request of a move with ramps, or at constant speed if pps is not `None`.
 
         Raises:
             OutOfRange: the part does not support these values.
@@ -427,37 +427,37 @@ class Axis(Checked):
         clock, rate = self._rate(pps)
         return MotionRequest(CONSTANT, direction, bytes([rate]) + data, abs(pulses), clock)
 
-    def _start_motion(self, order: MotionRequest) -> Motion:
+    def _start_motion(self, request: MotionRequest) -> Motion:
         """Start a motion with one frame.
 
         The frame clears a pending interrupt, sets the straps, reads the counter and sends the command.
         """
-        if order.pulse_only:
+        if request.pulse_only:
             self.kind.need(PULSE_ONLY)
-        code = order.code | self._code_bits
+        code = request.code | self._code_bits
         script = Script().call(READ_FINISH | self._code_bits).get(1)
-        self._add_position_read(script.extend(self._strap_script(self._clock_for(order)))).call(
-            code, *order.data
+        self._add_position_read(script.extend(self._strap_script(self._clock_for(request)))).call(
+            code, *request.data
         )
         self.link.forget_events()
         answer = self.link.execute(script)
-        return self._motion_started(order, answer.number(2, signed=True))
+        return self._motion_started(request, answer.number(2, signed=True))
 
-    def _motion_started(self, order: MotionRequest, begin: int) -> Motion:
+    def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
         """Store the motion that the part has started.
 
         Args:
             begin: pulse counter before the motion.
         """
-        self._motion = Motion(self, order, begin)
+        self._motion = Motion(self, request, begin)
         return self._motion
 
-    def _clock_for(self, order: MotionRequest) -> speeds.BaseClock | None:
-        """Return the base clock of an order, `None` if it is unknown."""
-        if order.clock is not None:
-            return order.clock
+    def _clock_for(self, request: MotionRequest) -> speeds.BaseClock | None:
+        """Return the base clock of a request, `None` if it is unknown."""
+        if request.clock is not None:
+            return request.clock
         return None if self.setup is None else self.setup.clock
 
     def _empty_move_result(self) -> MotionResult:
-        """Return the End of a move of 0 pulses."""
+        """Return the result of a move of 0 pulses."""
         return self._annotate(MotionResult(Cause.COMPLETE, 0, 0, self._position_of(self._count()), 0))

@@ -2,7 +2,7 @@
 
 This module has the members that all parts share.
 
-The capabilities of each part are `CAPABILITIES` in its folder (`openppmc.parts`, column `kind`).
+The capabilities of each part are `CAPABILITIES` in its folder (`openppmc.parts`, column `capabilities`).
 """
 
 from __future__ import annotations

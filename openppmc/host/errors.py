@@ -1,4 +1,4 @@
-"""Exceptions for ports, lines and rejected commands. Ends of motions are in `ending`.
+"""Exceptions for ports, lines and rejected commands. Ends of motions are in `motion_result`.
 
 Each message states what is wrong and what to do. The name of an exception is the event itself, as in `except
 LimitReached`; only the common base class ends in Error. An exception of one part only is in the module or

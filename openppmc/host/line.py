@@ -99,7 +99,7 @@ class LineMotion(AnyMotion, Protocol):
         """Number of the station."""
 
     def _update(self) -> None:
-        """Poll the station; set `end` or `unknown` if the motion is over."""
+        """Poll the station; set `result` or `result_error` if the motion is over."""
 
     def _current_progress(self) -> Progress:
         """Return the progress now, or at the end of the motion."""

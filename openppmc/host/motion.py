@@ -137,7 +137,7 @@ class Handle(Checked):
 
 
 class Motion(Handle):
-    """Handle of a motion that was started; `end` is its End when it is known.
+    """Handle of a motion that was started; `result` is its result when it is known.
 
     Attributes:
         requested: pulses, `None` for endless motions.
@@ -153,19 +153,19 @@ class Motion(Handle):
     operation: int
     begin: int
 
-    def __init__(self, axis: MotionAxis, order: MotionRequest, begin: int, ours: bool = True) -> None:
+    def __init__(self, axis: MotionAxis, request: MotionRequest, begin: int, ours: bool = True) -> None:
         self._axis = axis
         self._link = axis.link
         self._ours = ours
-        self.requested = order.requested
-        self.direction = order.direction
-        self.ramped = order.ramped
-        self.operation = order.operation
+        self.requested = request.requested
+        self.direction = request.direction
+        self.ramped = request.ramped
+        self.operation = request.operation
         self.begin = begin
         self._started = self._link.clock()
 
     def poll(self) -> Progress | None:
-        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+        """Return the current progress; `None` if the motor has stopped (then `result` is set).
 
         Raises:
             EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
@@ -345,7 +345,7 @@ class Homing:
 
     @staticmethod
     def _check_found(end: MotionResult) -> MotionResult:
-        """Return the end of a search if the origin switch ended it.
+        """Return the result of a search if the origin switch ended it.
 
         Raises:
             OriginNotFound: the search output all its pulses.

@@ -1,4 +1,4 @@
-"""End of a motion, decoded from finish status and remaining pulses, and its exceptions. Pure."""
+"""Result of a motion, decoded from finish status and remaining pulses, and its exceptions. Pure."""
 
 # ruff: noqa: N818
 
@@ -130,7 +130,7 @@ _CAUSE_BITS = FINISH_STOP | FINISH_ALARM | FINISH_LIMIT | FINISH_SLOW
 
 @dataclass(frozen=True)
 class MotionResult:
-    """End of a motion.
+    """Result of a motion.
 
     Attributes:
         pulses: pulses output, CW positive; `None` for a motion that another program started.

@@ -22,7 +22,7 @@ def byte_part(
     model: tuple[Mapping[str, int], Mapping[str, int], Mapping[str, int]],
     strobe_pins: tuple[str, ...],
     strobes: Strobe,
-    words: CommandDecoder | Callable[[Wires], CommandDecoder],
+    decoder: CommandDecoder | Callable[[Wires], CommandDecoder],
     code: Callable[[int, Wires], Command],
     levels: Callable[[Access, Wires], dict[str, int]],
     trains: Callable[[Wires], list[PulseTrain]],
@@ -38,7 +38,7 @@ def byte_part(
     Args:
         model: inputs, outputs, widths of the golden model.
         strobe_pins: pins that make a strobe.
-        words: meaning of bytes; a function returns it for a capture.
+        decoder: meaning of bytes; a function returns it for a capture.
         code: decodes a command byte.
         levels: returns the levels of these pins and the address during an access.
         address: port whose bit 0 selects the register.
@@ -61,7 +61,7 @@ def byte_part(
             first = whole and command.kind is Kind.INITIALISE
             return DecodedAccess(not whole or command.kind is Kind.UNDEFINED, first, command.axis)
 
-        return decoded_byte_lines(seen(wires), words(wires) if callable(words) else words, judge)
+        return decoded_byte_lines(seen(wires), decoder(wires) if callable(decoder) else decoder, judge)
 
     def stimulus(wires: Wires) -> Iterator[tuple[int, dict[str, int]]]:
         for access in seen(wires):

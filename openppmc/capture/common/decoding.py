@@ -56,8 +56,8 @@ class Decoded:
     @property
     def complaint(self) -> str:
         """Message if this cannot be a capture of this part; otherwise empty."""
-        decoded_lines = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
-        if len(decoded_lines) < 3 or 2 * self.invalid_lines <= len(decoded_lines):
+        rows = [line for line in self.lines if line.data[:2] not in ("st", "CS")]
+        if len(rows) < 3 or 2 * self.invalid_lines <= len(rows):
             return ""
         wires = (
             "are rxd and txd mixed up"
@@ -65,7 +65,7 @@ class Decoded:
             else "are lines of d mixed up, is a0 (rs) right"
         )
         return (
-            f"{self.invalid_lines} of {len(decoded_lines)} {self.decoder.unnamed} are none of "
+            f"{self.invalid_lines} of {len(rows)} {self.decoder.unnamed} are none of "
             f"{self.decoder.title}: is the "
             f"capture of another part, {wires}?"
         )

@@ -60,7 +60,7 @@ class Line(NamedTuple):
     Attributes:
         t: ps of its beginning.
         data: bytes as they were on the bus or line.
-        strange: True if the line is invalid for the part.
+        invalid: True if the line is invalid for the part.
         initialises: True if the state of the part, or of this axis, is known from the end of the line on.
         end: ps at which the last of its bytes was over.
     """
@@ -96,7 +96,7 @@ class PulseTrain(NamedTuple):
 
     Attributes:
         times: in ps.
-        ways: direction of each pulse (1 = CCW), `None` if it is unknown.
+        directions: direction of each pulse (1 = CCW), `None` if it is unknown.
     """
 
     axis: int
@@ -116,7 +116,7 @@ class PartDecoder:
     """Capture functions of a part.
 
     Attributes:
-        called: name of the part in messages.
+        title: name of the part in messages.
         pins: names for the map; the data bus is `d` if it is one bus.
         inputs: inputs of the model with their idle levels.
         needs: returns the required pins.

@@ -26,7 +26,7 @@ class DecodedAccess(NamedTuple):
     """Result of the check of a row.
 
     Attributes:
-        strange: True if the row is invalid for this part.
+        invalid: True if the row is invalid for this part.
     """
 
     invalid: bool = False
@@ -36,15 +36,15 @@ class DecodedAccess(NamedTuple):
 
 def decoded_lines(
     accesses: Accesses,
-    words: CommandDecoder,
+    decoder: CommandDecoder,
     said: Callable[[Access], BusAccess],
     judge: Callable[[Any], DecodedAccess],
 ) -> list[Line]:
     """Return all accesses as text, one row per command with its response.
 
-    A row that the part's words cannot describe is strange.
+    A row that the part's decoder cannot describe is invalid.
     """
-    rows = words.exchanges(map(said, accesses))
+    rows = decoder.exchanges(map(said, accesses))
     begin, end = accesses.begin[accesses.write], accesses.end[accesses.write]
     found = []
     place = 0
@@ -58,7 +58,7 @@ def decoded_lines(
 
 
 def decoded_byte_lines(
-    accesses: Accesses, words: CommandDecoder, judge: Callable[[Any], DecodedAccess]
+    accesses: Accesses, decoder: CommandDecoder, judge: Callable[[Any], DecodedAccess]
 ) -> list[Line]:
     """Return all accesses as text, from columns.
 
@@ -86,11 +86,11 @@ def decoded_byte_lines(
         sent, polls, answer = (
             content[bounds[place] : bounds[place + 1]] for place in range(3 * number, 3 * number + 3)
         )
-        axis = words.axis(sent[0]) if sent else 0
+        axis = decoder.axis(sent[0]) if sent else 0
         key = (sent, polls, answer, stopped.get(axis, False))
         line = known.get(key)
         if line is None:
-            one = Exchange(words, t, list(sent), list(answer), list(polls), key[3])
+            one = Exchange(decoder, t, list(sent), list(answer), list(polls), key[3])
             line = _line(one, over, judge)
             if len(known) < KNOWN:
                 known[key] = line

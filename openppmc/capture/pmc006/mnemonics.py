@@ -109,7 +109,7 @@ class Exchange006:
 
 
 class Pmc006Decoder(CommandDecoder):
-    """Words of a PMC006B4, with steps and pps."""
+    """Decoder for the bytes of a PMC006B4, with steps and pps."""
 
     unit, speed, rate = "step", "thousand pps", "pps"
 

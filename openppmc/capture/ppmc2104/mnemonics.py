@@ -17,7 +17,7 @@ FLAGS = (
 
 
 class Ppmc2104Decoder(CommandDecoder):
-    """Words of a PPMC-2104: two axes, error numbers in a separate register."""
+    """Decoder for the bytes of a PPMC-2104: two axes, error numbers in a separate register."""
 
     reads = {
         0x80: ("read end status", 1),

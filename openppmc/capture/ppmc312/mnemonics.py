@@ -182,7 +182,7 @@ class Row:
 
 
 class Ppmc312Decoder(CommandDecoder):
-    """Words of a PPMC-312: blocks instead of single bytes."""
+    """Decoder for the bytes of a PPMC-312: blocks instead of single bytes."""
 
     def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
         """Group register accesses into instructions and reports."""

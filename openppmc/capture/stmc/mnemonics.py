@@ -20,7 +20,7 @@ ERRORS = (
 
 
 class StmcDecoder(OneAxisDecoder):
-    """Words of a J105 STMC: one axis with divisors, error numbers in the status register.
+    """Decoder for the bytes of a J105 STMC: one axis with divisors, error numbers in the status register.
 
     Args:
         read_map: name of the set of read codes.

@@ -49,11 +49,11 @@ def init(typed: dict[str, Any], axis: AxisNumber = 1, as_json: Json = False) -> 
     values = setup_values(typed, axis)
     with opened() as session:
         (setup,) = initialise(session, {axis: values})
-        view = session.presenter
+        presenter = session.presenter
     remember(BOARD.port, values.table(), axis)
     if as_json:
-        output.print_json(view.setup_values(setup))
+        output.print_json(presenter.setup_values(setup))
         return
-    output.console.print(output.table(view.setup_rows(setup)))
+    output.console.print(output.table(presenter.setup_rows(setup)))
     if not lasting(BOARD.port):
         output.note("(a virtual board is new each time; the set-up is not stored)")

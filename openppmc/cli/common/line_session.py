@@ -88,7 +88,7 @@ def ending_after(
     clock = bus.line.clock
     end_at = None if seconds is None else clock() + seconds
 
-    def look(now: Progress) -> None:
+    def check(now: Progress) -> None:
         nonlocal end_at
         guard.progress(now)
         if end_at is not None and clock() >= end_at:
@@ -97,7 +97,7 @@ def ending_after(
                 if station.motion is not None and not station.motion.over:
                     station.stop(wait=False)
 
-    return look
+    return check
 
 
 @contextmanager

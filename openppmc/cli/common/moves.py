@@ -93,16 +93,16 @@ def move(
         raise typer.BadParameter("--pulse-only: only for moves with a ramp; omit --speed")
     if axis is not None and (len(pulses) > 1 or axes is not None):
         raise typer.BadParameter(f"--axis {axis}: only for one value and without --axes; omit it")
-    wanted = override_values(overrides)
+    chosen_overrides = override_values(overrides)
     numbers = numbers_of(axes, len(pulses)) if axis is None else (axis,)
     with ready(typed, numbers) as session:
-        guard, part, view = session.guard, session.part, session.presenter
+        guard, part, presenter = session.guard, session.part, session.presenter
         chosen = [session.axis(number) for number in numbers]
         away = [n - at.position if to else n for n, at in zip(pulses, chosen, strict=True)]
-        view.prepare(part, wanted, encoder)
+        presenter.prepare(part, chosen_overrides, encoder)
         if len(numbers) > 1:
             table = dict(zip(numbers, away, strict=True))
-            ends = list(view.move_together(part, table, speed, guard.progress, pulse_only))
+            ends = list(presenter.move_together(part, table, speed, guard.progress, pulse_only))
         elif speed is None or away[0] == 0:
             ends = [chosen[0].move(away[0], guard.progress, pulse_only)]
         else:
@@ -110,7 +110,7 @@ def move(
         guard.bar_off()
         for end in ends:
             output.say(show.end_line(end))
-        view.reports(part, output.say)
+        presenter.reports(part, output.say)
 
 
 @with_setup
@@ -202,21 +202,21 @@ def plan(
 ) -> None:
     """Predict a move; no board is needed."""
     kind = BOARD.planned
-    view = presenter_of(kind)
+    presenter = presenter_of(kind)
     setup = setup_values(typed).plan(xtal, kind)
     constant = None
     if speed is not None:
         constant = kind.constant_clock(xtal, setup.clock, speed).choose(speed)
-    figures = view.figures(setup, pulses, constant)
+    figures = presenter.figures(setup, pulses, constant)
     if plot is not None:
         try:
-            plot_move(lambda n: view.trajectory(setup, n, constant), pulses, plot)
+            plot_move(lambda n: presenter.trajectory(setup, n, constant), pulses, plot)
         except OSError as error:
             raise PpmcError(f"{plot}: the plot cannot be written ({error.strerror})") from error
     if as_json:
-        output.print_json({"setup": view.setup_values(setup), "move": figures})
+        output.print_json({"setup": presenter.setup_values(setup), "move": figures})
         return
-    rows = view.setup_rows(setup) if constant is None else {"speed": str(constant)}
+    rows = presenter.setup_rows(setup) if constant is None else {"speed": str(constant)}
     rows["move"] = f"{pulses} pulses, {figures['profile']}"
     rows["top speed"] = f"{speeds.nearby(figures['top_pps'])} pps"
     if "plateau_intervals" in figures:

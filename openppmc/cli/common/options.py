@@ -81,7 +81,7 @@ class SetupValues:
 
     def plan(self, xtal_hz: int, kind: Capabilities, axis: int = 1) -> AnySetup:
         """Return the plan of an axis with this crystal. Raise OutOfRange for unsupported values."""
-        wanted = SetupRequest(
+        request = SetupRequest(
             self.start,
             self.high,
             self.ramp,
@@ -98,7 +98,7 @@ class SetupValues:
             self.sigmoid,
             self.curve,
         )
-        return kind.plan(xtal_hz, wanted)
+        return kind.plan(xtal_hz, request)
 
 
 def _option(*names: str, text: str, metavar: str | None = None) -> Any:

@@ -107,7 +107,7 @@ class Trajectory:
 
     @classmethod
     def of(cls, setup: units.Setup, pulses: int, speed: units.Speed | None) -> Trajectory:
-        """Compute the course, with the ramp of the set-up or at `speed`.
+        """Compute the trajectory, with the ramp of the set-up or at `speed`.
 
         Args:
             pulses: 1 or more.
@@ -124,14 +124,14 @@ class Trajectory:
         return cls(seconds, [speeds[count] for count in counts])
 
 
-def plot_move(course: Callable[[int], Trajectory], pulses: int, path: Path) -> None:
+def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) -> None:
     """Write a plot of the speed over time as PNG, SVG or PDF.
 
     Raises OutOfRange for a move that is too long to draw and for a file suffix that the plotter does not
     support.
 
     Args:
-        course: computes the course of a number of pulses.
+        trajectory: computes the trajectory of a number of pulses.
     """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
@@ -140,7 +140,7 @@ def plot_move(course: Callable[[int], Trajectory], pulses: int, path: Path) -> N
         raise OutOfRange(f"a plot shows up to {LONGEST_PLOT} pulses; choose a shorter move")
     if path.suffix.lower() not in FORMATS:
         raise OutOfRange(f"{path}: unsupported suffix of a plot; use {', '.join(FORMATS)}")
-    draw_profile(course(abs(pulses)), f"{pulses} pulses", path)
+    draw_profile(trajectory(abs(pulses)), f"{pulses} pulses", path)
 
 
 class Status(Protocol):
@@ -202,8 +202,8 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         """Return the axes that are moving."""
         return tuple(axis for axis in axes if self.status_values(part, axis)["moving"])
 
-    def reports(self, part: PartT, tell: Callable[[str], None]) -> None:
-        """Pass each new report to `tell` as a line; then raise the first error among them."""
+    def reports(self, part: PartT, print_line: Callable[[str], None]) -> None:
+        """Pass each new report to `print_line` as a line; then raise the first error among them."""
 
     # ------------------------------------------------------------------ plans
 
@@ -288,7 +288,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
 
 
 class RampPresenter(Presenter[PartT, speeds.Setup]):
-    """View of the parts with the ramp of the PPMC family."""
+    """Presenter of the parts with the ramp of the PPMC family."""
 
     def status_values(self, part: PartT, axis: AnyAxis) -> dict[str, Any]:
         status: Any = part.status()
@@ -319,11 +319,11 @@ class RampPresenter(Presenter[PartT, speeds.Setup]):
 
 
 AnyPresenter = Presenter[Any, Any]
-"""View of a part of any type."""
+"""Presenter of a part of any type."""
 _USUAL: AnyPresenter = RampPresenter[WithStatus]()
 
 
 def presenter_of(kind: Capabilities) -> AnyPresenter:
-    """Return the view of the parts of this kind."""
+    """Return the presenter of the parts with these capabilities."""
     presenter: AnyPresenter = kind.row.load("presenter") if kind.row.presenter else _USUAL
     return presenter

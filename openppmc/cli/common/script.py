@@ -168,13 +168,13 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Capabilities) -> set[int]:
                 used.add(kind.check_axis(2))
         except PpmcError as error:
             raise ScriptError(f"{name}:{step.line}: {error}") from error
-        if lacks := _lacks(step, kind):
-            raise ScriptError(f"{name}:{step.line}: {lacks}")
+        if reason := _unsupported_reason(step, kind):
+            raise ScriptError(f"{name}:{step.line}: {reason}")
         used |= _axes_of(step.body, name, kind)
     return used
 
 
-def _lacks(step: Step, kind: Capabilities) -> str:
+def _unsupported_reason(step: Step, kind: Capabilities) -> str:
     """Return why the part does not support this step; empty if it does."""
     if own := part_commands().get(step.word):
         return own.unsupported_reason(kind, step.values)

@@ -14,11 +14,11 @@ from .options import MOST_AXES, Logic, SetupValues, Side
 
 @dataclass(frozen=True)
 class PartCommand:
-    """Word that only some parts support.
+    """Command of script files that only some parts support.
 
     Attributes:
-        lacks: returns why this kind of part does not support the word with these values; empty if it does.
-        do: executes the word; it is called only if `lacks` returns an empty text.
+        unsupported_reason: returns why a part does not support the word with these values; empty if it does.
+        execute: executes the command; it is called only if `unsupported_reason` returns an empty text.
     """
 
     parse: Reader
@@ -50,13 +50,13 @@ def _read_outputs(words: list[str]) -> Values:
     return {"value": value}
 
 
-def _lacks_aux(kind: Capabilities, values: Values) -> str:
+def _unsupported_aux(kind: Capabilities, values: Values) -> str:
     if AUX in kind.has:
         return ""
     return f"a {kind} has no output AUX" + ("; use auxo" if kind.outputs else "")
 
 
-def _lacks_outputs(kind: Capabilities, values: Values) -> str:
+def _unsupported_outputs(kind: Capabilities, values: Values) -> str:
     if not kind.outputs:
         return f"a {kind} has no auxiliary outputs"
     if values["value"] > kind.outputs:
@@ -64,17 +64,17 @@ def _lacks_outputs(kind: Capabilities, values: Values) -> str:
     return ""
 
 
-def _do_aux(part: _HasAux, values: Values) -> None:
+def _execute_aux(part: _HasAux, values: Values) -> None:
     part.aux(values["on"])
 
 
-def _do_outputs(part: _HasOutputs, values: Values) -> None:
+def _execute_outputs(part: _HasOutputs, values: Values) -> None:
     part.auxo(values["value"])
 
 
 _SOME = {
-    "aux": PartCommand(_read_aux, _lacks_aux, _do_aux),
-    "auxo": PartCommand(_read_outputs, _lacks_outputs, _do_outputs),
+    "aux": PartCommand(_read_aux, _unsupported_aux, _execute_aux),
+    "auxo": PartCommand(_read_outputs, _unsupported_outputs, _execute_outputs),
 }
 
 

@@ -337,7 +337,7 @@ def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[MotionResult]:
         except PpmcError as error:
             errors.append(error)
     ends = [axis.motion.wait() for axis in moving if axis.motion is not None]
-    for told in errors:
-        if len(errors) == len(axes) or not isinstance(told, NothingToStop):
-            raise told
+    for one in errors:
+        if len(errors) == len(axes) or not isinstance(one, NothingToStop):
+            raise one
     return ends

@@ -226,14 +226,14 @@ def set_values(
     address: Address = None,
 ) -> None:
     """Change or print settings: `set current=1500 microsteps=32`. `save` stores them."""
-    wanted = [_assignment(text) for text in values or ()]
+    assignments = [_assignment(text) for text in values or ()]
     with opened() as session:
         for part in session.selected_axes(address):
             session.guard.check()
-            for name, value in wanted:
+            for name, value in assignments:
                 if value is not None:
                     setattr(part, name, value)
-            names = [name for name, _ in wanted]
+            names = [name for name, _ in assignments]
             known = settings_values(part, names) if names else settings_values(part)
             if prefix(part):
                 output.say(prefix(part).rstrip(": "))

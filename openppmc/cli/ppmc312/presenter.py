@@ -50,7 +50,7 @@ def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
 
 
 def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
-    """Return the figures of an undisturbed move, as `view.key_figures` does.
+    """Return the figures of an undisturbed move, as `presenter.key_figures` does.
 
     The ramps are computed interval by interval, the plateau in closed form.
     """
@@ -80,8 +80,8 @@ def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, 
     return values
 
 
-def course(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
-    """Compute the course, with the ramps of the table or at `speed`.
+def trajectory(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
+    """Compute the trajectory, with the ramps of the table or at `speed`.
 
     Args:
         pulses: 1 or more.
@@ -258,21 +258,21 @@ def _whole(text: str) -> int:
         raise ValueError(f"{text!r} is not a whole number") from None
 
 
-def _count(words: list[str], wanted: int) -> None:
-    if len(words) != wanted:
-        raise ValueError(f"{wanted} word{'s' if wanted != 1 else ''} expected here, not {len(words)}")
+def _count(words: list[str], expected: int) -> None:
+    if len(words) != expected:
+        raise ValueError(f"{expected} word{'s' if expected != 1 else ''} expected here, not {len(words)}")
 
 
-def _lacks(kind: Capabilities, values: Values) -> str:
+def _unsupported_reason(kind: Capabilities, values: Values) -> str:
     """Return why another part does not support the word; empty for a PPMC-312."""
     return "" if kind is CAPABILITIES else f"a {kind} has neither overrides nor events"
 
 
-def _do_at(part: Ppmc312, values: Values) -> None:
+def _execute_at(part: Ppmc312, values: Values) -> None:
     register(part, [values["override"]])
 
 
-def _do_event(part: Ppmc312, values: Values) -> None:
+def _execute_event(part: Ppmc312, values: Values) -> None:
     if values["what"] == "delete":
         while part.event_delete(values["event"]):
             pass
@@ -280,11 +280,11 @@ def _do_event(part: Ppmc312, values: Values) -> None:
         part.event_add(values["event"], _block(part, values["what"], values.get("value", 0)))
 
 
-def _do_pulse(part: Ppmc312, values: Values) -> None:
+def _execute_pulse(part: Ppmc312, values: Values) -> None:
     part.pulse_event(values["event"])
 
 
-def _do_watch(part: Ppmc312, values: Values) -> None:
+def _execute_watch(part: Ppmc312, values: Values) -> None:
     part.watch_encoder(values["distance"])
 
 
@@ -299,15 +299,15 @@ def _block(part: Ppmc312, what: str, value: int) -> bytes:
 
 
 SCRIPT_COMMANDS = {
-    "at": PartCommand(read_at, _lacks, _do_at),
-    "event": PartCommand(read_event, _lacks, _do_event),
-    "pulse": PartCommand(read_pulse, _lacks, _do_pulse),
-    "watch": PartCommand(read_watch, _lacks, _do_watch),
+    "at": PartCommand(read_at, _unsupported_reason, _execute_at),
+    "event": PartCommand(read_event, _unsupported_reason, _execute_event),
+    "pulse": PartCommand(read_pulse, _unsupported_reason, _execute_pulse),
+    "watch": PartCommand(read_watch, _unsupported_reason, _execute_watch),
 }
 
 
 class PartPresenter(Presenter[Ppmc312, Setup]):
-    """View of a part with ramp tables, an encoder, overrides and unsolicited reports."""
+    """Presenter of a part with ramp tables, an encoder, overrides and unsolicited reports."""
 
     def status_values(self, part: Ppmc312, axis: AnyAxis) -> dict[str, Any]:
         return axis_values(part)
@@ -337,7 +337,7 @@ class PartPresenter(Presenter[Ppmc312, Setup]):
         return figures(setup, pulses, speed)
 
     def trajectory(self, setup: Setup, pulses: int, speed: speeds.Speed | None) -> Trajectory:
-        return course(setup, pulses, speed)
+        return trajectory(setup, pulses, speed)
 
     def prepare(self, part: Ppmc312, overrides: Sequence[Override], encoder: int | None) -> None:
         if encoder is not None:

@@ -37,8 +37,8 @@ class BankAccess(Protocol):
 class BankMotion(Motion):
     """Motion of an axis of a bank; see `Motion`."""
 
-    def __init__(self, axis: BankAxis, order: MotionRequest, begin: int) -> None:
-        super().__init__(axis, order, begin)
+    def __init__(self, axis: BankAxis, request: MotionRequest, begin: int) -> None:
+        super().__init__(axis, request, begin)
         self._bank_axis = axis
 
     def wait(
@@ -90,9 +90,9 @@ class BankAxis(Axis):
         script = Script()
         return script if clock is None else script.write(CONFIG, clock.vsel << 1 | clock.csel)
 
-    def _motion_started(self, order: MotionRequest, begin: int) -> Motion:
+    def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
         self._bank._axis_started(self.number)
-        self._motion = BankMotion(self, order, begin)
+        self._motion = BankMotion(self, request, begin)
         return self._motion
 
     def _foreign_result(self) -> MotionResult:

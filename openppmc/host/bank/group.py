@@ -74,7 +74,7 @@ class Group(Checked):
     Raises:
         AxisBusy: at the start of the block, an axis moves.
         GroupRefused: at the end of the block, axes did not start. A motion that a switch ended while it was
-            waiting does not count; its End holds the cause.
+            waiting does not count; its result holds the cause.
     """
 
     numbers: tuple[int, ...]

@@ -153,17 +153,19 @@ class PpmcBank(Part):
             GroupRefused: some axes did not start with the others.
             CommandRefused, OutOfRange: an axis rejected its move, or an argument is wrong; nothing moves.
         """
-        orders = self._requests(moves, pps, pulse_only)
-        with self.group(orders) as group:
+        requests = self._requests(moves, pps, pulse_only)
+        with self.group(requests) as group:
             pieces = []
-            for number, order in orders.items():
+            for number, request in requests.items():
                 axis = self.axis[number]
-                script = Script().call(READ_FINISH).get(1).extend(axis._strap_script(axis._clock_for(order)))
-                pieces.append((number, axis._add_position_read(script).call(order.code, *order.data)))
+                script = (
+                    Script().call(READ_FINISH).get(1).extend(axis._strap_script(axis._clock_for(request)))
+                )
+                pieces.append((number, axis._add_position_read(script).call(request.code, *request.data)))
             begins = [_signed(values[2]) for values in visit(self.link, pieces)]
             motions = {
-                number: self.axis[number]._motion_started(order, begin)
-                for (number, order), begin in zip(orders.items(), begins, strict=True)
+                number: self.axis[number]._motion_started(request, begin)
+                for (number, request), begin in zip(requests.items(), begins, strict=True)
             }
             assert group.started == set(motions)
         return motions
@@ -198,18 +200,18 @@ class PpmcBank(Part):
     def _requests(
         self, moves: Mapping[int, int], pps: speeds.Number | None, pulse_only: bool
     ) -> dict[int, MotionRequest]:
-        """Return the checked orders, sorted by axis."""
+        """Return the checked requests, sorted by axis."""
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         numbers = numbers_of(self.kind, _table(moves))
-        orders = {}
+        requests = {}
         for number in numbers:
             pulses = whole(moves[number], f"axis {number}: pulses")
             try:
-                orders[number] = self.axis[number]._move_request(pulses, pps, pulse_only)
+                requests[number] = self.axis[number]._move_request(pulses, pps, pulse_only)
             except OutOfRange as error:
                 raise OutOfRange(f"axis {number}: {error}") from None
-        return orders
+        return requests
 
     def _wait(self, motions: Mapping[int, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until all motions have ended; return the first one that ended early, if any.
@@ -289,7 +291,7 @@ class PpmcBank(Part):
         return self._group is not None and number in self._group.numbers
 
     def _axis_started(self, number: int) -> None:
-        """Record that this axis has accepted an order."""
+        """Record that this axis has accepted a motion."""
         if self._group is not None and number in self._group.numbers:
             self._group.started.add(number)
 

@@ -77,7 +77,7 @@ class Axis(Settings):
         self.max_speed = speed
 
     def stop(self, wait: bool = True) -> MotionResult | None:
-        """Stop with a ramp; return the End, or `None` if wait is False.
+        """Stop with a ramp; return the result, or `None` if wait is False.
 
         A free run receives a stop instruction. The part has no such instruction for moves. A move of 256
         steps or more first gets a low maximum speed; it is aborted when it has decelerated to it.
@@ -231,7 +231,7 @@ class Axis(Settings):
         self.execute(Code.RUN, 0, good=lambda value: value == 0)
 
     def _slow_move(self, motion: Motion) -> None:
-        """Decelerate a move to its stop speed; `Motion.look` ends it then."""
+        """Decelerate a move to its stop speed; `Motion._update` ends it then."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
             motion._abort_after(0, top)

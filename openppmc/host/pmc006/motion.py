@@ -15,7 +15,7 @@ from .wire import Code, Flags
 
 
 class MotionResult(motion_result.MotionResult):
-    """End of a motion. LIMIT means EXT1 or EXT2, ALARM means a stall.
+    """Result of a motion. LIMIT means EXT1 or EXT2, ALARM means a stall.
 
     `finish` is status 1 at the end.
     """
@@ -43,7 +43,7 @@ class MotionResult(motion_result.MotionResult):
 
 
 class Motion(Handle):
-    """Handle of a motion that was started; `end` is its End when it is known.
+    """Handle of a motion that was started; `result` is its result when it is known.
 
     Attributes:
         requested: steps, `None` for free runs.
@@ -82,7 +82,7 @@ class Motion(Handle):
         self._abort = self.line.clock() + seconds, top
 
     def _update(self) -> None:
-        """Poll the controller; set `end` or `unknown` if the motion is over."""
+        """Poll the controller; set `result` or `result_error` if the motion is over."""
         flags = self._part.flags()
         if flags.busy and self._abort is not None and self.line.clock() >= self._abort[0]:
             self._part.execute(Code.ABORT, good=lambda value: value == 0)
@@ -125,7 +125,7 @@ class Motion(Handle):
         return Progress(position, done, self.requested, self.line.clock() - self._started)
 
     def poll(self) -> Progress | None:
-        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+        """Return the current progress; `None` if the motor has stopped (then `result` is set).
 
         Raises:
             EndUnknown: the motor has stopped, but the controller does not confirm how the motion ended.

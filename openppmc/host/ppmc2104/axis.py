@@ -87,9 +87,9 @@ class Axis2104(Axis):
     def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
         return self.part._strap_script(self.number, clock)
 
-    def _motion_started(self, order: MotionRequest, begin: int) -> Motion:
+    def _motion_started(self, request: MotionRequest, begin: int) -> Motion:
         self.part._set_idle(self.number)
-        return super()._motion_started(order, begin)
+        return super()._motion_started(request, begin)
 
     def _on_status(self, status: int) -> None:
         # If the end of the other axis's motion stays unread, int_n stays low, and the end of this motion
@@ -103,14 +103,14 @@ class Axis2104(Axis):
         elif not status & self._busy_mask:
             self.part._resolve_foreign(self.number)
 
-    def _start_motion(self, order: MotionRequest) -> Motion:
+    def _start_motion(self, request: MotionRequest) -> Motion:
         """Start a motion; return a motion without pulses if the part rejects it because of a switch."""
         try:
-            return super()._start_motion(order)
+            return super()._start_motion(request)
         except StartRefused as refused:
-            return self._refused_start_motion(order, refused)
+            return self._refused_start_motion(request, refused)
 
-    def _refused_start_motion(self, order: MotionRequest, refused: StartRefused) -> Motion:
+    def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
         """Return a motion that ended where it began.
 
         Raises the rejection itself if no switch is active any more.
@@ -119,15 +119,15 @@ class Axis2104(Axis):
         cause = Cause.COMPLETE
         if inputs.alarm:
             cause |= Cause.ALARM
-        if inputs.limit_ccw if order.direction == CCW else inputs.limit_cw:
+        if inputs.limit_ccw if request.direction == CCW else inputs.limit_cw:
             cause |= Cause.LIMIT
-        if not cause and order.operation == ORIGIN and inputs.origin:
+        if not cause and request.operation == ORIGIN and inputs.origin:
             cause = Cause.ORIGIN
         if not cause:
             raise refused
         position = self._count()
-        motion = self._motion_started(order, position)
-        remaining = order.requested or speeds.LONGEST_MOVE
+        motion = self._motion_started(request, position)
+        remaining = request.requested or speeds.LONGEST_MOVE
         motion.result = self._annotate(MotionResult(cause, 0, remaining, self._position_of(position), 0))
         return motion
 

@@ -125,16 +125,16 @@ class Ppmc2104(Part):
         Raises:
             OutOfRange: a number of pulses is 0.
         """
-        orders = (self.x._move_request(x, x_pps, pulse_only), self.y._move_request(y, y_pps, pulse_only))
+        requests = (self.x._move_request(x, x_pps, pulse_only), self.y._move_request(y, y_pps, pulse_only))
         for number in self.axis:
             self._read_finish(number)  # rejected while an axis moves; its motion continues
         script = Script()
         waiting = self._levels & ~(RUN[0] | RUN[1])
-        for axis, order in zip(self.axis.values(), orders, strict=True):
-            waiting = _with_csel(waiting, axis.number, axis._clock_for(order))
+        for axis, request in zip(self.axis.values(), requests, strict=True):
+            waiting = _with_csel(waiting, axis.number, axis._clock_for(request))
         script.straps(waiting).count(1).count(2)
-        for axis, order in zip(self.axis.values(), orders, strict=True):
-            script.call(order.code | axis._code_bits, *order.data)
+        for axis, request in zip(self.axis.values(), requests, strict=True):
+            script.call(request.code | axis._code_bits, *request.data)
         # With DATASHEET timing RUN is not sampled before the processing windows have closed (P2104-DS-14).
         script.wait(1, CMND[0] | CMND[1], 0).straps(waiting | RUN[0] | RUN[1])
         self.link.forget_events()
@@ -145,7 +145,7 @@ class Ppmc2104(Part):
             raise
         self._levels = waiting | RUN[0] | RUN[1]
         begins = [answer.number(place, signed=True) for place in (0, 1)]
-        return self.x._motion_started(orders[0], begins[0]), self.y._motion_started(orders[1], begins[1])
+        return self.x._motion_started(requests[0], begins[0]), self.y._motion_started(requests[1], begins[1])
 
     def _cancel_start(self) -> None:
         """Cancel a coordinated start that failed: an axis that waits for RUN must not start any more.

@@ -28,7 +28,7 @@ MotionT = TypeVar("MotionT", bound=Motion)
 class Instructions(Protocol):
     """Transport of instructions to a part.
 
-    `window.Window` transports them through the bridge, `line.talk.LinkProtocol` through a line.
+    `window.Window` transports them through the bridge, `line.station_link.StationLink` through a line.
     """
 
     @property
@@ -60,7 +60,8 @@ class Core(Checked, Generic[MotionT]):
     Attributes:
         setup: last table of this object, `None` before it.
         reports: unsolicited reports of the part that the caller has not fetched yet, oldest first. Ends of
-            this object's own motions are in their `end` instead. Beyond 1000 reports the oldest are dropped.
+            this object's own motions are in their `result` instead. Beyond 1000 reports the oldest are
+            dropped.
     """
 
     kind: TableCapabilities
@@ -96,7 +97,7 @@ class Core(Checked, Generic[MotionT]):
         return self._motion
 
     def _annotate(self, end: MotionResult) -> MotionResult:
-        """Return the End with the message prefix and the alarm name of this part."""
+        """Return the result with the message prefix and the alarm name of this part."""
         return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ instructions

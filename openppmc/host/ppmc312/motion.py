@@ -59,7 +59,7 @@ class MotionAxis(Protocol):
 
 
 class Motion(Handle):
-    """Handle of a motion that was started; `end` is its End when it is known.
+    """Handle of a motion that was started; `result` is its result when it is known.
 
     Attributes:
         requested: pulses, `None` for endless motions.
@@ -97,7 +97,7 @@ class Motion(Handle):
     def _on_stop_report(self, report: Stopped) -> None:
         """Process the report that the pulses have ended.
 
-        The end is confirmed if the pulses are those of the order.
+        The end is confirmed if the pulses are those of the request.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
@@ -131,7 +131,7 @@ class Motion(Handle):
         self.result_error = EndUnknown(where, reason, finish, done, self.requested, position)
 
     def _update(self) -> None:
-        """Poll the part; set `end` or `unknown` if the motion is over."""
+        """Poll the part; set `result` or `result_error` if the motion is over."""
         if self.over:
             return
         busy = self._part.status().busy
@@ -141,7 +141,7 @@ class Motion(Handle):
                 self._not_confirmed("the part is at standstill and reported no end")
 
     def poll(self) -> Progress | None:
-        """Return the current progress; `None` if the motor has stopped (then `end` is set).
+        """Return the current progress; `None` if the motor has stopped (then `result` is set).
 
         Raises:
             EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.

@@ -171,7 +171,7 @@ class Axis(Overrides[MotionT]):
         return self._start(self.move_block(pulses, pps), _side(pulses), abs(pulses))
 
     def _empty_move_result(self) -> MotionResult:
-        """Return the End of a move of 0 pulses."""
+        """Return the result of a move of 0 pulses."""
         return self._annotate(MotionResult(Cause.COMPLETE, 0, 0, self.position, 0))
 
     def jog(
@@ -251,7 +251,7 @@ class Axis(Overrides[MotionT]):
         self.instruct(blocks.change(self.rate_of(pps), ramped))
 
     def stop(self, wait: bool = True) -> MotionResult | None:
-        """Stop with a ramp; return the End, or `None` if wait is False.
+        """Stop with a ramp; return the result, or `None` if wait is False.
 
         The call is no error if the motor has just stopped.
 

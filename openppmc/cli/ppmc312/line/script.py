@@ -31,7 +31,7 @@ from .session import Session, opened
 
 
 class LinePresenter:
-    """The methods of a view that a script needs, for stations."""
+    """The methods of a presenter that a script needs, for stations."""
 
     def busy(self, part: Ppmc312Bus, axes: Sequence[Station312]) -> tuple[Station312, ...]:
         """Return the stations that are moving."""

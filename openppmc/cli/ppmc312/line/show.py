@@ -104,13 +104,13 @@ def report_line(number: int, report: Report) -> str:
     return text if text.startswith(who) else who + text
 
 
-def reports(axes: Iterable[Station312], tell: Callable[[str], None] = output.say) -> None:
-    """Pass each new report to `tell` as a line; then raise the first error among them."""
-    trouble: PpmcError | None = None
+def reports(axes: Iterable[Station312], print_line: Callable[[str], None] = output.say) -> None:
+    """Pass each new report to `print_line` as a line; then raise the first error among them."""
+    first_error: PpmcError | None = None
     for axis in axes:
         for report in axis.poll():
-            tell(report_line(axis.number, report))
+            print_line(report_line(axis.number, report))
             if isinstance(report, (Failed, Alarm)):
-                trouble = trouble or report.error
-    if trouble is not None:
-        raise trouble
+                first_error = first_error or report.error
+    if first_error is not None:
+        raise first_error

@@ -53,9 +53,9 @@ class SerialMotion(Motion):
         return Progress(position, done, self.requested, self._link.clock() - self._started)
 
     def _on_stop_report(self, report: Stopped) -> None:
-        """Process the report of the end, and compare it with the order.
+        """Process the report of the end, and compare it with the request.
 
-        A damaged order or position may look valid. Therefore the position is read again if they do not agree.
+        A damaged request or position may look valid. Therefore the position is read again if they do not agree.
         """
         super()._on_stop_report(report)
         if self.result_error is not None:
@@ -63,7 +63,7 @@ class SerialMotion(Motion):
             super()._on_stop_report(Stopped(report.cause, self._part.position))
 
     def _update(self) -> None:
-        """Poll the station; set `end` or `unknown` if the motion is over."""
+        """Poll the station; set `result` or `result_error` if the motion is over."""
         window = self._part.window
         window.collect()
         if not self.over and not window.busy:
@@ -127,7 +127,7 @@ class Station312(Axis[SerialMotion]):
 
         Reports that were fetched before are not included.
 
-        Ends of motions that this object started are in their `end` instead.
+        Ends of motions that this object started are in their `result` instead.
         """
         self.window.collect()
         taken = list(self.reports)
